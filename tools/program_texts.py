@@ -36,7 +36,8 @@ CONSTANTS = (root.METHOD, reduction.SEARCHED, reduction.INTEGRATED, Accumulated.
              "Shown at {place}, in the middle of its smooth piece, over which it is constant.",
              "There is no {kinds}, or there are several: select one with {key}.")  # fmt: skip
 """Texts that the program holds outside of the calls that make phrases."""
-MAKING = dict.fromkeys(("Phrase", "phrase", "say", "refusal", "UnitError", "ConditionError", "Unresolved", "PictureFault", "StandardFault"),
+MAKING = dict.fromkeys(("Phrase", "phrase", "say", "refusal", "UnitError", "ConditionError", "Unresolved", "PictureFault", "StandardFault",
+                        "Undrawable"),
                        0) | {".problem": 1, ".absent": 1}  # fmt: skip
 """What takes the template of a message, with the place of that argument."""
 JOINING = ("joined", "named")

@@ -134,7 +134,7 @@ def advise(
         press = _read(config, folders, progress)
         found = mended(press, free=free, keep=keep, most=most)
     _give(as_json(data(found)) if form == "json" else _text(lines(found)), press, found.machine, target, quiet)
-    return CHECK_FAILED if found.before.checks("fail") and found.machine is None else PASSED
+    return CHECK_FAILED if found.before.failing and found.machine is None else PASSED
 
 
 def _share(_context: click.Context, _option: click.Parameter, percent: float) -> float:
@@ -217,7 +217,7 @@ def influence(
         found = tornados(loaded, names, share, sizes, defaults=defaults)
         progress(phrase("drawing machines within tolerances"))
         drawn = within_tolerances(loaded, sizes, distribution, count, seed) if sizes else None
-    told = {"text": lambda: _text(lines(found, drawn)), "json": lambda: as_json(data(found, drawn)),
+    told = {"text": lambda: _text(lines(found, drawn)), "json": lambda: as_json(data(found, drawn, sizes)),
             "html": lambda: page(found, drawn, Path(loaded.tree.name).name)}[form]()  # fmt: skip
     emit_or_write(told, target, config)
     if target is not None and not quiet:

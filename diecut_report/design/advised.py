@@ -1,79 +1,53 @@
-"""The advice of several failing checks put together, where it names keys and values."""
+"""The advice of several failing checks put together, and the search from there to the smallest changes with which none fails."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Container, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.design.inputs import (
-    DesignInput,
-    any_input,
-    design_input,
-    given_numbers,
-    is_form,
-    is_stepped,
-    options_of,
-)
-from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, VariedMachines, upstream, varied
+from diecut_report.design.inputs import DesignInput, given_numbers, is_form, named_input
+from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, Chosen, VariedMachines, upstream, varied
 from diecut_report.errors import PluginError, UserError
 from diecut_report.formulas import Array
-from diecut_report.mechanism.inputs import Quantity
 from diecut_report.quantities.formatting import with_unit
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.model import AdvisedChangeRecord, FollowedAdviceRecord, ResultsRecord
-from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 from diecut_report.text.phrases import Phrase
-
-Data = dict[str, Any]
 
 
 @dataclass
 class Advised:
-    """Hold what the failing checks advise: numbers by their inputs, texts and yes/no by theirs.
+    """Hold what the failing checks advise, by the paths of the inputs: numbers, and texts or yes/no.
 
     ``others`` are the numbers that they advise, in any of their ways.
     """
 
-    numbers: dict[str, tuple[DesignInput, float]]
-    choices: dict[str, tuple[Input, str]]
+    numbers: dict[str, tuple[DesignInput, float]] = field(default_factory=dict)
+    choices: dict[str, Chosen] = field(default_factory=dict)
     others: dict[str, DesignInput] = field(default_factory=dict)
 
-    def leave_out(self, is_out: Callable[[str], bool]) -> None:
-        """Forget what is advised of inputs with such a path."""
-        self.numbers = {path: each for path, each in self.numbers.items() if not is_out(path)}
-        self.choices = {path: each for path, each in self.choices.items() if not is_out(path)}
-        self.others = {path: each for path, each in self.others.items() if not is_out(path)}
-
-    @property
-    def asked(self) -> dict[str, Input]:
-        """Return all inputs that are advised, by their paths."""
-        numbers = {path: design.asked for path, design in self.others.items()}
-        return numbers | {path: asked for path, (asked, _) in self.choices.items()}
-
-    @property
-    def stepped(self) -> dict[Input, str]:
-        """Return the numbers that take some values alone, as they are typed."""
-        return {each.asked: each.typed(value) for each, value in self.numbers.values() if is_stepped(each)}
-
-    @property
-    def is_empty(self) -> bool:
-        return not self.numbers and not self.choices
+    def leave_out(self, is_out: Callable[[Input], bool]) -> None:
+        """Forget what is advised of such inputs."""
+        self.numbers = {path: each for path, each in self.numbers.items() if not is_out(each[0].asked)}
+        self.choices = {path: each for path, each in self.choices.items() if not is_out(each[0].asked)}
+        self.others = {path: each for path, each in self.others.items() if not is_out(each.asked)}
 
 
-def advised(config: Config, failing: Iterable[tuple[str, CheckRecord]]) -> Advised:
-    """Return what failing checks, each with its name, advise by their first way that can be taken; of several bounds of one input the furthest.
+def advised(config: Config, failing: Mapping[str, CheckRecord]) -> Advised:
+    """Return what failing checks, by their names, advise by their first way that can be taken; of several bounds of one input the furthest.
 
     The numbers of their other ways are ``others``.
     """
-    found = Advised({}, {})
-    for name, check in failing:
+    found = Advised()
+    for name, check in failing.items():
         home, is_taken = name.split(".")[0], False
         for way in check.advice:
-            known = Advised({}, {}) if is_taken else found
+            known = Advised() if is_taken else found
             taken = [_take(config, known, f"{MECHANISMS}.{home}.{change.key}", change) for change in way]
             is_taken = is_taken or any(taken)
             found.others |= {path: design for path, (design, _) in known.numbers.items()}
@@ -84,24 +58,22 @@ def _take(config: Config, found: Advised, path: str, change: KeyChangeRecord) ->
     """Note a change that can be made, of a number the value that is furthest from today's; return whether it can."""
     values = change.value if isinstance(change.value, list) else [change.value]
     try:
-        asked = find_input(config, path)
-        if not isinstance(asked.meta, Quantity):
+        design = named_input(config, path)
+        if design.asked.unit is None:
             texts = [str(each).lower() if isinstance(each, bool) else str(each) for each in values]
-            known = [text for text in texts if text in options_of(asked)]
+            known = [text for text in texts if text in design.options]
             if known:
-                found.choices.setdefault(path, (asked, known[0]))
+                found.choices.setdefault(path, (design, known[0]))
             return bool(known)
-        design = design_input(config, path)
         numbers = [design.read(with_unit(f"{each}", change.unit)) for each in values]
-    except (UnknownPath, UserError, ValueError):  # of another mechanism, calculated, or not a value of this key
+    except (UserError, ValueError):  # of another mechanism, calculated, or not a value of this key
         return False
     if not design.present:
         return False
     present = design.present
     value = min(numbers, key=lambda each: abs(each - present))
     other = found.numbers.get(design.asked.path, (design, present))[1]
-    furthest = max((value, other), key=lambda each: abs(each - present))
-    found.numbers[design.asked.path] = (design, furthest)
+    found.numbers[design.asked.path] = (design, max((value, other), key=lambda each: abs(each - present)))
     return True
 
 
@@ -113,24 +85,19 @@ def followed(config: Config, results: ResultsRecord) -> FollowedAdviceRecord | N
 
     ``error`` is why there is no such machine, None where there is one.
     """
-    failing = [
-        (f"{name}.{check.id}", check)
-        for name, data in results.mechanisms.items()
-        for check in data.checks
-        if check.status == "fail"
-    ]
-    advice = advised(config, failing)
-    if advice.is_empty:
+    checks = ((f"{name}.{check.id}", check) for name, data in results.mechanisms.items() for check in data.checks)
+    advice = advised(config, {name: check for name, check in checks if check.status == "fail"})
+    if not advice.numbers and not advice.choices:
         return None
     given: dict[Input, Any] = {design.asked: np.array([value]) for design, value in advice.numbers.values()}
     try:
-        made = varied(config, given | {asked: [text] for asked, text in advice.choices.values()}, 1)
+        made = varied(config, given | {design.asked: [text] for design, text in advice.choices.values()}, 1)
     except PluginError:  # told where the report is made; it says nothing of the advice
         return None
-    told = {design.asked.path: design.told(value) for design, value in advice.numbers.values()}
-    told |= {path: text for path, (_, text) in advice.choices.items()}
-    changes = [AdvisedChangeRecord(path=path.removeprefix(f"{MECHANISMS}."), value=text) for path, text in told.items()]
-    return FollowedAdviceRecord(changes=changes, failing=list(made.failing(0)), error=made.reasons[0])
+    told = [(design.name, design.told(value)) for design, value in advice.numbers.values()]
+    told += [(design.name, text) for design, text in advice.choices.values()]
+    changes = [AdvisedChangeRecord(path=name, value=text) for name, text in told]
+    return FollowedAdviceRecord(changes=changes, failing=made.failing(0), error=made.errors[0])
 
 
 # The smallest changes with which no check fails: sequential linear programming, every step calculated before it is taken.
@@ -151,13 +118,6 @@ SMALLEST = 1e-3  # share of the size of all changes by which a step must make it
 FEASIBLE = 1e-2  # the same, where it is only asked whether some checks can hold together
 UNFIT = 1e6  # of a machine that cannot be
 
-Run = Callable[[Array], VariedMachines]
-"""Of machines by the shares of their inputs that are changed, shape (machines, inputs)."""
-
-
-Planes = tuple[list[str], Array, Array]
-"""Checks, the slack of each, and its slope by each input, shape (checks, inputs)."""
-
 
 @dataclass
 class MendingPath:
@@ -166,14 +126,12 @@ class MendingPath:
     ``among``: only these checks are to hold, whatever the others do; None for all.
     """
 
-    run: Run
-    inputs: Sequence[DesignInput]
+    run: ChangedMachines
     share: Array
     among: Collection[str] | None = None
     made: VariedMachines = field(init=False)
     sizes: dict[str, float] = field(init=False)
     merit: float = field(init=False)
-    planes: Planes | None = None
     steps: int = 0
 
     def __post_init__(self) -> None:
@@ -193,12 +151,14 @@ class MendingPath:
     def _is_asked(self, name: str) -> bool:
         return self.among is None or name in self.among
 
-    def go(self, tell: Callable[[str], None], *, until_it_holds: bool = False) -> None:
+    def go(self, *, until_it_holds: bool = False) -> None:
         """Take steps as long as they make the machine better, or the changes smaller; or only until all holds."""
         scale, tries = 1.0, 0
         while self.steps < STEPS and tries < TRIES and not (until_it_holds and self.passes):
             before, had_passed = self.merit, self.passes
-            tell(Phrase("correcting: step {step}, failing checks: {n}", step=self.steps + 1, n=len(self.failing)))
+            self.run.tell(
+                Phrase("correcting: step {step}, failing checks: {n}", step=self.steps + 1, n=len(self.failing))
+            )
             self._step(scale)
             self.steps += 1
             least = SMALLEST if self.among is None else FEASIBLE
@@ -209,37 +169,44 @@ class MendingPath:
                 break
 
     def _step(self, scale: float) -> None:
-        self.planes = self._planes()
-        steps = [self._wanted(region * scale) for region in REGIONS]
+        slack, slope = self._planes()
+        wanted = [self._wanted(slack, slope, region * scale) for region in REGIONS]
         tried = np.array(
-            [self.share + part * (step - self.share) for step in steps if step is not None for part in PARTS]
+            [self.share + part * (end - self.share) for end in wanted if end is not None for part in PARTS]
         )
         if not len(tried):
             return
-        made = self.run(tried)
-        found = self.merits(made, tried)
+        found = self.merits(self.run(tried), tried)
         best = int(np.argmin(found))
         if found[best] < self.merit:
             self.share, self.merit = tried[best], float(found[best])
             self.made = self.run(self.share[None])
 
-    def _wanted(self, region: float) -> Array | None:
+    def _wanted(self, slack: Array, slope: Array, region: float) -> Array | None:
         """The least change whose planes hold, within the region; what does not hold is to be as little as can be."""
         from scipy.optimize import linprog
 
-        assert self.planes is not None
-        names, slack, slope = self.planes
-        count, checks = len(self.share), len(names)
-        eye, low, high = np.eye(count), *_ends(self.inputs, self.share, region)
+        count, checks = len(self.share), len(slack)
+        eye, none, low, high = np.eye(count), np.zeros((count, checks)), *self._ends(region)
         # unknown: what is added to today's shares, what is taken from them, what each check lacks
         cost = np.concatenate([np.ones(2 * count), np.full(checks, PENALTY)])
-        upper = np.hstack([-slope, slope, -np.eye(checks)])
-        limit = slack - ROOM - slope @ self.share
-        ends = np.vstack(
-            [np.hstack([eye, -eye, np.zeros((count, checks))]), np.hstack([-eye, eye, np.zeros((count, checks))])]
+        upper = np.vstack(
+            [np.hstack([-slope, slope, -np.eye(checks)]), np.hstack([eye, -eye, none]), np.hstack([-eye, eye, none])]
         )
-        found = linprog(cost, np.vstack([upper, ends]), np.concatenate([limit, high, -low]), method="highs")
+        limit = slack - ROOM - slope @ self.share
+        found = linprog(cost, upper, np.concatenate([limit, high, -low]), method="highs")
         return None if found.x is None else found.x[:count] - found.x[count : 2 * count]
+
+    def _ends(self, region: float) -> tuple[Array, Array]:
+        """The least and the greatest share that each input may be changed by: within the region, and its own bounds."""
+        share = self.share
+        present = np.array([each.present or 1.0 for each in self.run.inputs])
+        bounds = np.array([each.bounds for each in self.run.inputs])
+        ends = np.sort(bounds / present[:, None] - 1.0, axis=1)
+        inner = 1e-6 * np.maximum(1.0, np.abs(share))  # bounds may be open
+        low = np.maximum(share - region, ends[:, 0] + inner)
+        high = np.minimum(share + region, ends[:, 1] - inner)
+        return np.minimum(low, share), np.maximum(high, share)
 
     def merits(self, made: VariedMachines, shares: Array) -> Array:
         """Return of each machine the size of its changes, with what its failing checks are beyond their limits; the least is the best."""
@@ -251,39 +218,26 @@ class MendingPath:
 
     def _slack(self, made: VariedMachines, name: str) -> Array:
         """How far a check is from its limit, in shares of a size that stays the same on the whole way."""
-        margin = made.check(name, MARGIN).astype(float)
         size = self.sizes.get(name, np.nan)
         if not size > 0:  # it was not made at the start
             size = self.sizes[name] = float(np.nanmax(made.check(name, SIZE).astype(float), initial=1e-300))
-        return margin / size
+        return made.check(name, MARGIN).astype(float) / size
 
-    def _planes(self) -> Planes:
-        """Each check that can fail with its slack and its slope by the share of each input, from machines beside this one."""
+    def _planes(self) -> tuple[Array, Array]:
+        """Of each check that can fail its slack, and its slope by the share of each input (checks, inputs), from machines beside this one."""
         count = len(self.share)
         beside = np.concatenate([np.zeros((1, count)), NUDGE * np.eye(count), -NUDGE * np.eye(count)]) + self.share
         made = self.run(beside)
-        names, slacks, slopes = [], [], []
+        slacks, slopes = [], []
         for name in filter(self._is_asked, made.checks):
             own = self._slack(made, name)
             if not np.isfinite(own[0]) or (made.check(name) == "warn").any():
                 continue
             sides = np.array([own[1 : 1 + count] - own[0], own[0] - own[1 + count :]])
             known = np.isfinite(sides)
-            names.append(name)
             slacks.append(own[0])
             slopes.append(np.where(known, sides, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1) / NUDGE)
-        return names, np.array(slacks), np.reshape(slopes, (len(names), count))
-
-
-def _ends(inputs: Sequence[DesignInput], share: Array, region: float) -> tuple[Array, Array]:
-    """The least and the greatest share that each input may be changed by: within the region, and its own bounds."""
-    present = np.array([each.present or 1.0 for each in inputs])
-    bounds = np.array([each.bounds for each in inputs])
-    ends = np.sort(bounds / present[:, None] - 1.0, axis=1)
-    inner = 1e-6 * np.maximum(1.0, np.abs(share))  # bounds may be open
-    low = np.maximum(share - region, ends[:, 0] + inner)
-    high = np.minimum(share + region, ends[:, 1] - inner)
-    return np.minimum(low, share), np.maximum(high, share)
+        return np.array(slacks), np.reshape(slopes, (len(slacks), count))
 
 
 # Which checks conflict where no machine passes: a least set of them, found by leaving out, each step calculated.
@@ -310,58 +264,84 @@ class CheckConflict:
     is_least: bool = False
 
 
+@dataclass(frozen=True)
+class _WatchedMachines(ChangedMachines):
+    """Calculates machines, and keeps what fails in each of them: it may answer another question."""
+
+    seen: set[frozenset[str]] = field(default_factory=set)
+
+    def __call__(self, shares: Array) -> VariedMachines:
+        made = super().__call__(shares)
+        self.seen.update(frozenset(made.failing(int(row))) for row in np.flatnonzero(made.exists))
+        return made
+
+
 @dataclass
 class _ConflictSearch:
     """Looks for machines in which some checks hold, whatever the others do, from several beginnings."""
 
-    run: Run
-    inputs: Sequence[DesignInput]
-    reached: Sequence[Array]
-    scattered: Array
-    tell: Callable[[str], None]
+    path: MendingPath
     left: int = MOST_SEARCHES
     made: VariedMachines | None = None
-    seen: set[frozenset[str]] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        run = self.path.run
+        self.run = _WatchedMachines(run.config, run.inputs, run.choices, run.spent)
+        self.scattered = scattered(len(run.inputs))
 
     def failing_where_held(self, among: Collection[str]) -> list[str] | None:
         """Return the checks that fail in a machine in which these hold, as few as may be; None where none was found."""
-        if known := [failing for failing in self.seen if failing.isdisjoint(among)]:
+        if known := [failing for failing in self.run.seen if failing.isdisjoint(among)]:
             return min((sorted(failing) for failing in known), key=lambda names: (len(names), names))
-        self.tell(Phrase("looking for checks that conflict: {checks}", checks=", ".join(sorted(among))))
+        self.path.run.tell(Phrase("looking for checks that conflict: {checks}", checks=", ".join(sorted(among))))
         self.left -= 1
         for share in self._beginnings(among):
-            path = MendingPath(self._calculated, self.inputs, share, among)
-            path.go(lambda _: None, until_it_holds=True)
+            path = MendingPath(self.run, share, among)
+            path.go(until_it_holds=True)
             if path.passes:
                 return path.made.failing(0)
         return None
 
-    def _calculated(self, shares: Array) -> VariedMachines:
-        """These machines; what fails in each of them is kept, as it may answer another question."""
-        made = self.run(shares)
-        fails = {name: made.check(name) == "fail" for name in made.checks}
-        self.seen |= {frozenset(name for name in fails if fails[name][row]) for row in np.flatnonzero(made.exists)}
-        return made
-
     def _beginnings(self, among: Collection[str]) -> Iterator[Array]:
         """What was reached before and today's machine; then the best of many that are scattered."""
-        yield from self.reached
+        yield from (self.path.share, self.run.present)
         if self.made is None:
-            self.made = self._calculated(self.scattered)
-        path = MendingPath(self._calculated, self.inputs, self.reached[0], among)
+            self.made = self.run(self.scattered)
+        path = MendingPath(self.run, self.path.share, among)
         yield self.scattered[int(np.argmin(path.merits(self.made, self.scattered)))]
 
+    def grown(self, failing: Sequence[str]) -> list[str]:
+        """Return checks that that hold together in no machine found: those that fail, and what fails where they hold; none if that was not ended."""
+        among = dict.fromkeys(failing)
+        while self.left > 0:
+            more = self.failing_where_held(among)
+            if more is None:
+                return list(among)
+            among |= dict.fromkeys(more)
+        return []
 
-def conflict_of(path: MendingPath, tell: Callable[[str], None]) -> CheckConflict:
+    def least(self, among: Sequence[str]) -> CheckConflict:
+        """Return the same checks without those that are not needed for it."""
+        kept, shown = list(among), 0
+        for name in among:
+            if self.left <= 0:
+                break
+            others = [each for each in kept if each != name]
+            if others and self.failing_where_held(others) is None:
+                kept = others
+            else:
+                shown += 1
+        return CheckConflict(tuple(sorted(kept)), is_least=shown == len(kept))
+
+
+def conflict_of(path: MendingPath) -> CheckConflict:
     """Return why the search that this path has gone found no machine that passes."""
     failing = path.made.failing(0)
-    if not len(path.inputs):  # choices alone, each of whose values was tried
+    if not path.run.inputs:  # choices alone, each of whose values was tried
         return CheckConflict(tuple(failing))
-    search = _ConflictSearch(
-        path.run, path.inputs, (path.share, np.zeros(len(path.inputs))), scattered(len(path.inputs)), tell
-    )
-    grown = _grown(search, failing)
-    return CheckConflict(tuple(failing)) if grown is None else _least(search, grown)
+    search = _ConflictSearch(path)
+    grown = search.grown(failing)
+    return search.least(grown) if grown else CheckConflict(tuple(failing))
 
 
 def scattered(inputs: int) -> Array:
@@ -375,31 +355,6 @@ def follows_from_none(config: Config, check: str, free: Collection[str]) -> bool
     return upstream(config, [check.split(".")[0]]).isdisjoint(free)
 
 
-def _grown(search: _ConflictSearch, failing: Iterable[str]) -> list[str] | None:
-    """Checks of which no machine was found in which all hold: those that fail, and what fails where they hold; None where that was not ended."""
-    among = dict.fromkeys(failing)
-    while search.left > 0:
-        more = search.failing_where_held(among)
-        if more is None:
-            return list(among)
-        among |= dict.fromkeys(more)
-    return None
-
-
-def _least(search: _ConflictSearch, among: list[str]) -> CheckConflict:
-    """The same checks without those that are not needed for it."""
-    kept, shown = list(among), 0
-    for name in among:
-        if search.left <= 0:
-            break
-        others = [each for each in kept if each != name]
-        if others and search.failing_where_held(others) is None:
-            kept = others
-        else:
-            shown += 1
-    return CheckConflict(tuple(sorted(kept)), is_least=shown == len(kept))
-
-
 # Inputs that take one of some values (texts, yes/no, whole numbers, numbers of a list), tried where a change of sizes alone mends nothing.
 #
 # One after the other is given each of its values, with the sizes as they were reached and as they are today; the best is kept, and from
@@ -410,33 +365,24 @@ ROUNDS, BEGINNINGS = 3, 3  # choices that are changed at most; machines of a rou
 WHOLE_REACH = 10  # to each side of a whole number
 BETTER = 1e-9
 
-
-@dataclass(frozen=True)
-class ChangeableChoice:
-    """Hold an input that takes one of ``values``, as they are typed, the nearest to today's first; ``cost`` of each, 0 for a text."""
-
-    asked: Input
-    values: tuple[str, ...]
-    costs: tuple[float, ...]
+Choices = dict[str, tuple[DesignInput, dict[str, float]]]
+"""By their paths inputs that take one of some values, as they are typed, the nearest to today's first; what each costs, 0 for a text."""
 
 
-def changeable_choices(config: Config, free: Iterable[str], keep: Container[str]) -> list[ChangeableChoice]:
-    """Return what is named by ``free`` and takes one of some values, else the sizes that are numbers of a list; not those paths."""
-    named = [_named(config, name) for name in free]
-    if not named:
-        own = (each for each in given_numbers(config) if each.meta.listed and is_form(config, each))
-        named = [_of_number(each) for each in own]
-    return [each for each in named if each is not None and each.values and each.asked.path not in keep]
+def changeable_choices(config: Config, free: Sequence[DesignInput], keep: Container[str]) -> Choices:
+    """Return what of the ``free`` ones takes one of some values, else the sizes that are numbers of a list; not those paths."""
+    named = free or [each for each in given_numbers(config) if each.meta.listed and is_form(config, each)]
+    return {each.asked.path: (each, own) for each in named if each.asked.path not in keep and (own := _values(each))}
 
 
-def with_choices(path: MendingPath, choices: Sequence[ChangeableChoice], tell: Callable[[str], None]) -> MendingPath:
+def with_choices(path: MendingPath, choices: Choices) -> MendingPath:
     """Return the best path that was found by changing choices; the same where none is better."""
     for _ in range(ROUNDS):
-        found = sorted(_changed(path, choices, tell), key=lambda each: each[0])
+        found = sorted(_changed(path, choices), key=lambda each: each[0])
         best = path
         for _, other in found[:BEGINNINGS]:
-            if not other.passes and len(other.inputs):
-                other.go(tell)
+            if not other.passes and other.run.inputs:
+                other.go()
             best = other if other.passes or other.merit < best.merit - BETTER else best
             if best.passes:
                 return best
@@ -446,52 +392,27 @@ def with_choices(path: MendingPath, choices: Sequence[ChangeableChoice], tell: C
     return path
 
 
-def _changed(
-    path: MendingPath, choices: Iterable[ChangeableChoice], tell: Callable[[str], None]
-) -> Iterator[tuple[float, MendingPath]]:
+def _changed(path: MendingPath, choices: Choices) -> Iterator[tuple[float, MendingPath]]:
     """Each value of each choice, with the sizes that were reached and with today's, and how bad each of them is."""
-    machines = path.run
-    assert isinstance(machines, ChangedMachines)
-    places = {tuple(share): share for share in (path.share, np.zeros(len(path.share)))}.values()
-    for choice in choices:
-        tell(Phrase("trying the values of {input}", input=choice.asked.path))
-        for value, cost in zip(choice.values, choice.costs, strict=True):
-            run = machines.with_choice(choice.asked, value)
+    run = path.run
+    places = {tuple(share): share for share in (path.share, run.present)}.values()
+    for name, (design, values) in choices.items():
+        run.tell(Phrase("trying the values of {input}", input=name))
+        for text, cost in values.items():
+            chosen = run.with_choices({**run.choices, name: (design, text)})
             for share in places:
-                other = MendingPath(run, path.inputs, share)
+                other = MendingPath(chosen, share)
                 yield other.merit + cost, other
 
 
-def _named(config: Config, name: str) -> ChangeableChoice | None:
-    asked = any_input(config, name)
-    if asked.unit is None:
-        values = _texts(config, asked)
-        return ChangeableChoice(asked, values, (0.0,) * len(values))
-    return _of_number(design_input(config, name))
-
-
-def _texts(config: Config, asked: Input) -> tuple[str, ...]:
-    """The other texts that it may be."""
-    instance = config.instances[asked.instance]
-    assert instance is not None
-    present = config.tree.typed(instance.place.stands(asked.key)[1])
-    return tuple(text for text in options_of(asked) if text != present)
-
-
-def _of_number(design: DesignInput) -> ChangeableChoice | None:
-    if not is_stepped(design) or not design.present:
-        return None
-    values = [each for each in _steps(design) if each != design.present]
-    values.sort(key=lambda each: abs(each - (design.present or 0.0)))
-    costs = tuple(abs(each / design.present - 1.0) for each in values)
-    return ChangeableChoice(design.asked, tuple(map(design.typed, values)), costs)
-
-
-def _steps(design: DesignInput) -> Iterator[float]:
-    if design.meta.listed:
-        factor = design.meta.parsed_unit.factor
-        yield from (value * factor for value in design.meta.listed)
-        return
-    present = round(design.present or 0.0)
-    tried = np.arange(present - WHOLE_REACH, present + WHOLE_REACH + 1, dtype=float)
-    yield from tried[design.allows(tried)].tolist()
+def _values(design: DesignInput) -> dict[str, float]:
+    """The other values that an input may have, each with its cost; none of what may be any of a range."""
+    if design.asked.unit is None:
+        return {text: 0.0 for text in design.options if text != design.written}
+    present = design.present
+    if not present or not design.is_stepped:
+        return {}
+    around = np.arange(round(present) - WHOLE_REACH, round(present) + WHOLE_REACH + 1, dtype=float)
+    steps = design.listed if design.meta.listed else around[design.allows(around)]
+    others = sorted((each for each in steps.tolist() if each != present), key=lambda each: abs(each - present))
+    return {design.typed(each): abs(design.share(each)) for each in others}

@@ -33,4 +33,4 @@ def findings(config: Config, results: ResultsRecord, tell: Callable[[str], None]
     if not config.report.influence:
         return results.with_(summary=summary)
     tell(phrase("varying one input at a time"))
-    return results.with_(summary=summary, influence=influenced(config) or {})
+    return results.with_(summary=summary, influence=influenced(config))

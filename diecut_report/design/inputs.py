@@ -4,27 +4,27 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Container, Iterable, Iterator
+from collections.abc import Collection, Container, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal, get_args, get_origin
 
 import numpy as np
 
-from diecut_report.config.instances import Target, slots
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.yaml import KeyPath
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import POINTS, Quantity
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import SI, Text
+from diecut_report.mechanism.names import Text
 from diecut_report.mechanism.steps import Require
 from diecut_report.quantities.formatting import number_text, outward, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit, unit
-from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input, with_values
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 from diecut_report.text.phrases import Phrase, phrase
 
 MANY_STEPS = 20  # references that are followed to where a value stands; a loop is refused where a file is read
@@ -32,15 +32,15 @@ MANY_STEPS = 20  # references that are followed to where a value stands; a loop 
 
 @dataclass(frozen=True, eq=False)
 class DesignInput:
-    """Hold an input that may be changed. ``present`` is its value (SI), None where it has none; ``unit`` the one it is typed in.
+    """Hold an input that may be changed. ``present`` is its value (SI), None of a text or without one; ``unit`` the one it is typed in.
 
-    ``stands`` is its place in the file, whether it is there or not.
+    ``stands`` is its place in the file, whether it is there or not; ``written`` what is typed there, None where nothing is.
     """
 
     asked: Input
     present: float | None
     unit: str
-    is_given: bool
+    written: str | None
     stands: KeyPath
 
     @property
@@ -50,12 +50,29 @@ class DesignInput:
 
     @property
     def meta(self) -> Quantity:
+        """Return how a number is declared."""
         assert isinstance(self.asked.meta, Quantity)
         return self.asked.meta
 
     @property
     def is_whole(self) -> bool:
         return self.asked.is_integer
+
+    @property
+    def listed(self) -> np.ndarray:
+        """Return the only numbers (SI) that it may be, ascending; none where it may be any of a range."""
+        return np.sort([self.meta.parsed_unit.to_si(value) for value in self.meta.listed])
+
+    @property
+    def is_stepped(self) -> bool:
+        """Return whether a number takes some values alone, and so none between them."""
+        return self.is_whole or bool(self.meta.listed)
+
+    @property
+    def options(self) -> tuple[str, ...]:
+        """Return the values of a text or yes/no, as they are typed; none of a number, or where it may be any text."""
+        meta = self.asked.meta
+        return () if isinstance(meta, Quantity) else tuple(meta.options) or tuple(_options(self.asked.annotation))
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -68,6 +85,14 @@ class DesignInput:
     def allows(self, values: np.ndarray) -> np.ndarray:
         """Return which values (SI) the declaration allows."""
         return np.asarray(self.meta.holds(values))
+
+    def changed(self, share: Any) -> Any:
+        """Return today's value (SI) changed by a share of it, or by many."""
+        return (self.present or 0.0) * (1.0 + share)
+
+    def share(self, value: float) -> float:
+        """Return by which share of today's value another one (SI) differs."""
+        return value / (self.present or 1.0) - 1.0
 
     def told(self, value: float, digits: int = 6) -> str:
         """Return a value (SI) as one says it, in the unit that it is typed in."""
@@ -89,102 +114,99 @@ class DesignInput:
         """Return the value (SI) of what was typed; ValueError in words where it is not allowed."""
         return float(self.meta.validate(typed))
 
+    def read_allowed(self, typed: str) -> float:
+        """Return the value (SI) of what was typed; NaN where it was rounded beyond what the declaration allows."""
+        try:
+            return self.read(typed)
+        except ValueError:
+            return math.nan
+
 
 def design_input(config: Config, name: str) -> DesignInput:
-    """Return the input that a name stands for, also where it refers to it; UserError in words where it cannot be changed."""
-    return _followed(config, any_input(config, name), name)
+    """Return the number that a name stands for, also where it refers to it; UserError in words where it cannot be changed."""
+    asked = _asked(config, name)
+    for _ in range(MANY_STEPS):
+        target = config.links.get((asked.instance, *asked.key))
+        if target is None or target.is_default:
+            break
+        if target.expression or target.result is not None or target.is_broken:
+            words = (
+                "{name} follows from {what}, {told}, and is not changed by itself; "
+                "change an input that {origins} follows from, or write a number at {path} first."
+            )
+            what = phrase("an expression") if target.expression else phrase("an output")
+            origins = ", ".join(sorted({single.path for single in target.single}))
+            raise refusal(
+                words, config.tree.file, name=name, what=what, told=target.told, origins=origins, path=asked.path
+            )
+        asked = find_input(config, _path(target.instance, target.key))
+    if not isinstance(asked.meta, Quantity):
+        words = "{name} is a text, a choice or a yes/no; name an input that is a number."
+        raise refusal(words, config.tree.file, name=name)
+    if asked.meta is POINTS:
+        words = "{name} only sets how densely curves are listed; it does not affect the machine."
+        raise refusal(words, config.tree.file, name=name)
+    return _made(config, asked)
 
 
-def any_input(config: Config, name: str) -> Input:
+def named_input(config: Config, name: str) -> DesignInput:
     """Return the input of a name, be it a number, a text or a yes/no; UserError in words where there is none."""
+    asked = _asked(config, name)
+    return design_input(config, name) if isinstance(asked.meta, Quantity) else _made(config, asked)
+
+
+def _asked(config: Config, name: str) -> Input:
+    first = name.split(".")[0]
     try:
-        return find_input(config, _whole_path(config, name))
+        return find_input(config, f"{MECHANISMS}.{name}" if first in config.instances and first != PRESS else name)
     except UnknownPath as fault:
-        raise UserError(Problem(Phrase("{name} {fault}", name=name, fault=fault), config.tree.file)) from None
-
-
-def with_input(config: Config, design: DesignInput, value: float) -> Config:
-    """Return the configuration with a value of an input, which may bring quantities with it that it has not without."""
-    return with_values(config, {design.asked: SI(value, design.meta.parsed_unit.si, design.name)})[0]
+        raise refusal("{name} {fault}", config.tree.file, name=name, fault=fault) from None
 
 
 def given_numbers(config: Config) -> list[DesignInput]:
     """Return all inputs that stand in the file as a number of their own, in its order."""
-    found = (each for name in config.instances for each in _of_instance(config, name, given=True))
-    return [each for each in found if each.is_given and _stands_there(config, each)]
+    return [
+        each for each in _own(config, Quantity, given=True) if each.present is not None and _stands_there(config, each)
+    ]
 
 
 def numbers_at_default(config: Config) -> list[DesignInput]:
     """Return all inputs that are not given and stand at a number that their declaration has as default."""
-    return [each for name in config.instances for each in _of_instance(config, name, given=False)]
+    return [each for each in _own(config, Quantity, given=False) if each.present is not None]
 
 
-def _whole_path(config: Config, name: str) -> str:
-    first = name.split(".")[0]
-    return f"{MECHANISMS}.{name}" if first in config.instances and first != PRESS else name
+def given_choices(config: Config) -> list[DesignInput]:
+    """Return all texts and yes/no of the file that have a few allowed values, in its order."""
+    return [each for each in _own(config, Text, given=True) if each.options and _stands_there(config, each)]
 
 
-def _of_instance(config: Config, name: str, *, given: bool) -> Iterator[DesignInput]:
-    instance = config.instances[name]
-    for slot in instance.slots if instance else ():
-        is_number = isinstance(slot.meta, Quantity) and slot.is_given is given and slot.meta is not POINTS
-        if not is_number or (name, *slot.key) in config.links:
-            continue
-        prefix = "" if name == PRESS else f"{MECHANISMS}."
-        try:
-            found = _made(config, find_input(config, f"{prefix}{'.'.join(map(str, (name, *slot.key)))}"))
-        except UnknownPath:  # it stands for several, as in a list
-            continue
-        if found.present is not None:
-            yield found
+def _own(config: Config, kind: type, *, given: bool) -> Iterator[DesignInput]:
+    """The inputs that refer to nothing."""
+    for name, instance in config.instances.items():
+        for slot in instance.slots if instance else ():
+            is_meant = isinstance(slot.meta, kind) and slot.is_given is given and slot.meta is not POINTS
+            if is_meant and (name, *slot.key) not in config.links:
+                with suppress(UnknownPath):  # it stands for several, as in a list
+                    yield _made(config, find_input(config, _path(name, slot.key)))
 
 
 def _stands_there(config: Config, found: DesignInput) -> bool:
     """Whether it is typed in the configuration itself, and not in a table beside it or taken from a partner."""
     instance = config.instances[found.asked.instance]
     assert instance is not None
-    return instance.place.stands(found.asked.key)[0] is config.tree and config.tree.typed(found.stands) is not None
+    return instance.place.stands(found.asked.key)[0] is config.tree and found.written is not None
 
 
-def _followed(config: Config, asked: Input, name: str) -> DesignInput:
-    """The input itself or, where it refers to another one, that; UserError where it refers to what is calculated."""
-    for _ in range(MANY_STEPS):
-        target = config.links.get((asked.instance, *asked.key))
-        if target is None or target.is_default:
-            break
-        if target.expression or target.result is not None or target.is_broken:
-            raise UserError(Problem(_calculated(target, asked, name), config.tree.file))
-        asked = find_input(config, _path(target))
-    if not isinstance(asked.meta, Quantity):
-        words = "{name} is a text, a choice or a yes/no; name an input that is a number."
-        raise UserError(Problem(Phrase(words, name=name), config.tree.file))
-    if asked.meta is POINTS:
-        words = "{name} only sets how densely curves are listed; it does not affect the machine."
-        raise UserError(Problem(Phrase(words, name=name), config.tree.file))
-    return _made(config, asked)
-
-
-def _calculated(target: Target, asked: Input, name: str) -> Phrase:
-    words = (
-        "{name} follows from {what}, {told}, and is not changed by itself; "
-        "change an input that {origins} follows from, or write a number at {path} first."
-    )
-    what = phrase("an expression") if target.expression else phrase("an output")
-    origins = ", ".join(sorted({single.path for single in target.single}))
-    return Phrase(words, name=name, what=what, told=target.told, origins=origins, path=asked.path)
-
-
-def _path(target: Target) -> str:
-    prefix = "" if target.instance == PRESS else f"{MECHANISMS}."
-    return prefix + ".".join(map(str, (target.instance, *target.key)))
+def _path(instance: str, key: KeyPath) -> str:
+    return ".".join(map(str, (*(() if instance == PRESS else (MECHANISMS,)), instance, *key)))
 
 
 def _made(config: Config, asked: Input) -> DesignInput:
     instance = config.instances[asked.instance]
-    assert instance is not None and isinstance(asked.meta, Quantity)
+    assert instance is not None
     _, stands = instance.place.stands(asked.key)
-    typed = config.tree.typed(stands)
-    return DesignInput(asked, _present(config, asked), _typed_unit(typed, asked.meta), typed is not None, stands)
+    written = config.tree.typed(stands)
+    return DesignInput(asked, _present(config, asked), _typed_unit(written, asked.meta), written, stands)
 
 
 def _present(config: Config, asked: Input) -> float | None:
@@ -200,7 +222,9 @@ def _present(config: Config, asked: Input) -> float | None:
     return float(link.formula(value)) if link and link.formula else float(value)
 
 
-def _typed_unit(typed: str | None, meta: Quantity) -> str:
+def _typed_unit(typed: str | None, meta: Quantity | Text) -> str:
+    if isinstance(meta, Text):
+        return ""
     try:
         own = number_and_unit(typed)[1] if typed else ""
         return own if own and unit(own).kind == meta.parsed_unit.kind else meta.unit
@@ -208,73 +232,14 @@ def _typed_unit(typed: str | None, meta: Quantity) -> str:
         return meta.unit
 
 
-# The inputs of a configuration that take one of some values: texts, yes and no, and numbers of a list.
-
-
-YES_NO = ("true", "false")
-
-
-@dataclass(frozen=True, eq=False)
-class DesignChoice:
-    """Hold an input that takes one of ``options``, each as it is typed; ``typed`` is what stands in the file."""
-
-    asked: Input
-    options: tuple[str, ...]
-    typed: str
-    stands: KeyPath
-
-    @property
-    def name(self) -> str:
-        """Return what people call it: ``feeder.motion_law``."""
-        return self.asked.path.removeprefix(f"{MECHANISMS}.")
-
-
-def given_choices(config: Config) -> list[DesignChoice]:
-    """Return all texts and yes/no of the file that have a few allowed values, in its order."""
-    return [found for name in config.instances for found in _design_choices_of_instance(config, name)]
-
-
-def options_of(asked: Input) -> tuple[str, ...]:
-    """Return the values that an input may have, as they are typed; none where it may have any of a range, or any text."""
-    if isinstance(asked.meta, Quantity):
-        return tuple(_listed(asked.meta))
-    return _texts(asked.meta, asked.annotation)
-
-
-def _texts(meta: Any, annotation: Any) -> tuple[str, ...]:
-    return tuple(meta.options) or tuple(_options(annotation))
-
-
-def _listed(meta: Quantity) -> Iterator[str]:
-    own = "" if meta.unit == "1" else f" {meta.unit}"
-    yield from (f"{value:.12g}{own}" for value in meta.listed)
-
-
 def _options(annotation: Any) -> Iterator[str]:
     if annotation is bool:
-        yield from YES_NO
+        yield from ("true", "false")
     elif get_origin(annotation) is Literal:
         yield from (text for text in get_args(annotation) if isinstance(text, str))
     else:
         for part in get_args(annotation):
             yield from _options(part)
-
-
-def _design_choices_of_instance(config: Config, name: str) -> Iterator[DesignChoice]:
-    instance = config.instances[name]
-    for slot in slots(instance.model, instance.data) if instance else ():
-        if not isinstance(slot.meta, Text) or not slot.is_given or (name, *slot.key) in config.links:
-            continue
-        prefix = "" if name == PRESS else f"{MECHANISMS}."
-        try:
-            asked = find_input(config, f"{prefix}{'.'.join(map(str, (name, *slot.key)))}")
-        except UnknownPath:
-            continue
-        assert instance is not None
-        home, stands = instance.place.stands(asked.key)
-        typed, options = config.tree.typed(stands), options_of(asked)
-        if home is config.tree and typed is not None and options:
-            yield DesignChoice(asked, options, typed, stands)
 
 
 # What may be named by ``--free`` beside what is free by itself: for messages that say what to do.
@@ -285,25 +250,20 @@ NAMED = 12  # inputs that a message names
 
 def nothing_free(config: Config, left_out: Collection[str]) -> Phrase:
     """Return what is to be done where no input is free: the inputs that could be named, but for those paths."""
-    numbers = [each.name for each in given_numbers(config) if each.present and each.asked.path not in left_out]
-    found = [*(each.name for each in given_choices(config) if each.asked.path not in left_out), *numbers]
+    known = [*given_choices(config), *(each for each in given_numbers(config) if each.present)]
+    found = [each.name for each in known if each.asked.path not in left_out]
     if not found:
         return Phrase("nothing is free to be changed: keep fewer inputs by --keep.")
     words = "nothing is free to be changed: name inputs by --free, such as --free {first}, or keep fewer by --keep; the file has {names}"
-    return Phrase(words, first=found[0], names=_may_be_freed_listed(found))
+    return Phrase(words, first=found[0], names=", ".join(found[:NAMED]) + (" …" if len(found) > NAMED else "."))
 
 
 def untried(config: Config, instances: Collection[str], known: Collection[str]) -> tuple[str, ...]:
     """Return the texts, yes/no and numbers of parts of mechanisms that are tried only where they are named."""
-    choices = [(each.asked, each.name) for each in given_choices(config) if len(each.options) > 1]
-    whole = [(each.asked, each.name) for each in given_numbers(config) if each.is_whole and each.present]
-    own = [name for asked, name in (*choices, *whole) if asked.instance in instances and asked.path not in known]
-    return tuple(dict.fromkeys(own))
-
-
-def _may_be_freed_listed(names: Collection[str]) -> str:
-    shown = ", ".join(list(names)[:NAMED])
-    return f"{shown} …" if len(names) > NAMED else f"{shown}."
+    choices = [each for each in given_choices(config) if len(each.options) > 1]
+    whole = [each for each in given_numbers(config) if each.is_whole and each.present]
+    own = (each for each in (*choices, *whole) if each.asked.instance in instances and each.asked.path not in known)
+    return tuple(dict.fromkeys(each.name for each in own))
 
 
 # Which inputs are what a machine must do: those that a check holds against what is calculated, and from which nothing else follows.
@@ -315,14 +275,10 @@ def demanded(mechanism: Mechanism) -> frozenset[str]:
 
     A size of a part that is held against a bound, such as a width, is not one: other checks follow from it.
     """
-    own = {side for check in mechanism.checks for side in _sides(check)}
-    given = own - {step.id for _, step in mechanism.steps}
-    return frozenset(name for name in given if _is_demanded(mechanism, name))
-
-
-def _is_demanded(mechanism: Mechanism, name: str) -> bool:
-    reached = _reached(mechanism, name)
-    return all(name in _sides(check) for check in mechanism.checks if reached & _sides(check))
+    sides = [_sides(check) for check in mechanism.checks]
+    given = set().union(*sides) - {step.id for _, step in mechanism.steps}
+    reached = {name: _reached(mechanism, name) for name in given}
+    return frozenset(name for name in given if all(name in own for own in sides if reached[name] & own))
 
 
 def _sides(check: Check) -> set[str]:
@@ -350,47 +306,20 @@ FIXED_BASES = ("standard", "catalogue", "measured")
 
 
 def changeable(
-    config: Config, free: Iterable[str], keep: Container[str], advised: Iterable[str] = ()
+    config: Config, free: Sequence[DesignInput], keep: Container[str], advised: Iterable[DesignInput] = ()
 ) -> list[DesignInput]:
-    """Return the inputs that may be changed: numbers named by ``free``, else sizes, angles and ratios, and what is advised, but for those paths.
+    """Return the numbers that may be changed: the ``free`` ones, else sizes, angles and ratios, and what is advised, but for those paths.
 
     What the press is for, what checks demand, limits, loads, materials and numbers of parts stay as they are unless they are named.
     UserError where one of those that are named has no value.
     """
-    if free:
-        named = [design_input(config, name) for name in free]
-        _require_values(config, named)
-        named = [each for each in named if not is_stepped(each)]
-    else:
-        own = [each for each in given_numbers(config) if is_form(config, each) and not is_stepped(each)]
-        named = own + [design_input(config, name) for name in advised]
-    found = {each.asked.path: each for each in named if each.asked.path not in keep and each.present}
-    return list(found.values())
-
-
-def named_paths(config: Config, names: Iterable[str]) -> tuple[list[str], set[str]]:
-    """Return of names of inputs those that stand for a number, and the paths of all, also of texts and yes/no."""
-    numbers, paths = [], set()
-    for name in names:
-        asked = any_input(config, name)
-        if isinstance(asked.meta, Quantity):
-            numbers.append(name)
-            paths.add(design_input(config, name).asked.path)
-        else:
-            paths.add(asked.path)
-    return numbers, paths
-
-
-def _require_values(config: Config, named: Iterable[DesignInput]) -> None:
-    for each in named:
+    for each in free:
         if not each.present:
             words = "{input} has no value at present, or is zero, and cannot be varied by a percentage; give it a value first."
             raise UserError(Problem(Phrase(words, input=each.name), config.tree.file, path="--free"))
-
-
-def is_stepped(design: DesignInput) -> bool:
-    """Return whether a number takes some values alone, and so none between them."""
-    return design.is_whole or bool(design.meta.listed)
+    own = free or [*(each for each in given_numbers(config) if is_form(config, each)), *advised]
+    left = [each for each in own if not each.is_stepped and each.present and each.asked.path not in keep]
+    return list({each.asked.path: each for each in left}.values())
 
 
 def is_form(config: Config, design: DesignInput) -> bool:
@@ -399,9 +328,8 @@ def is_form(config: Config, design: DesignInput) -> bool:
     key = str(design.asked.key[-1])
     if instance is None or design.asked.instance == PRESS or design.is_whole or LIMIT.search(key):
         return False
-    if instance.mechanism and _id(design) in demanded(instance.mechanism):
-        return False
-    if is_fixed(config, design.asked):
+    id = ".".join(part for part in design.asked.key if isinstance(part, str))  # as its steps and checks call it
+    if (instance.mechanism and id in demanded(instance.mechanism)) or is_fixed(config, design.asked):
         return False
     own = design.meta.parsed_unit.si
     return own in FORM or (own == "1" and RATIO.search(key) is not None)
@@ -412,8 +340,3 @@ def is_fixed(config: Config, asked: Input) -> bool:
     instance = config.instances[asked.instance]
     basis = instance.bases.get(asked.key) if instance else None
     return basis is not None and basis.basis in FIXED_BASES
-
-
-def _id(design: DesignInput) -> str:
-    """What the steps and checks of its mechanism call it: without the number of a part."""
-    return ".".join(part for part in design.asked.key if isinstance(part, str))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.references import as_file
@@ -20,15 +19,14 @@ from diecut_report.design.inputs import DesignInput
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import write_all
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.press import Press
-from diecut_report.results.checks import check_results, checks_of, is_of_machine, is_sized, judged
-from diecut_report.results.conclusion import failed_self_tests, governing
-from diecut_report.results.mechanism import SelfTestFailed
+from diecut_report.results.checks import checks_of, is_of_machine, judged
+from diecut_report.results.conclusion import SELF_TEST
 from diecut_report.results.mechanism_record import CheckRecord
-from diecut_report.results.press_run import Run, Tell
+from diecut_report.results.press_run import Tell
+from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.press_batch import CalculatedVariants, untold
 from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows, columns_of, output_values
@@ -38,59 +36,43 @@ from diecut_report.text.phrases import Phrase
 CHECKS = ".checks."
 AT_LIMIT = 1e-9
 STATUS, UTILISATION, SLACK, MARGIN, SIZE = ".status", ".utilisation", ".slack", ".margin", ".size"
-NO_RESERVE = ".no_reserve"  # 1 where a check judges what was sized to its limit, or what is presumed
 
 
-@dataclass(frozen=True)
-class VariedMachines:
+@dataclass
+class VariedMachines(Rows):
     """Hold what came out of each machine, by name: ``drive.crank_torque_peak``, and by its path an input that was asked for.
 
-    ``status`` is pass, warn, fail or error, ``reasons`` why one cannot be calculated (None where it can).
+    ``status`` is pass, warn, fail or error, ``errors`` why one cannot be calculated (None where it can).
     """
-
-    rows: Rows
-
-    @property
-    def count(self) -> int:
-        return self.rows.count
-
-    @property
-    def status(self) -> Array:
-        return self.rows.status
-
-    @property
-    def reasons(self) -> Array:
-        return self.rows.errors
 
     @cached_property
     def exists(self) -> Array:
         """Return which machines can be calculated."""
-        return np.asarray(self.rows.status != "error")
+        return np.asarray(self.status != "error")
+
+    @cached_property
+    def passes(self) -> Array:
+        """Return which machines can be and have no check that fails."""
+        return np.isin(self.status.astype(str), ["pass", "warn"])
 
     @cached_property
     def checks(self) -> list[str]:
         """Return the checks that are made of any machine, as ``drive.crank_torque``."""
-        ends = (name for name in self.rows.columns if name.endswith(SLACK))
+        ends = (name for name in self.columns if name.endswith(SLACK))
         return [name.removesuffix(SLACK).replace(CHECKS, ".", 1) for name in ends]
 
     def values(self, name: str) -> Array:
         """Return a number of each machine (SI); NaN where it has none, also where the name is not known."""
-        found = self.rows.columns.get(name)
-        return np.full(self.count, np.nan) if found is None else found.astype(float)
+        return self.columns.get(name, np.full(self.count, np.nan)).astype(float)
 
     def check(self, name: str, what: str = STATUS) -> Array:
-        """Return of a check its status, utilisation, margin, size of the greater side, slack (margin by size), or whether it shows no reserve."""
-        home, _, own = name.partition(".")
-        found = self.rows.columns.get(f"{home}{CHECKS}{own}{what}")
-        return (
-            np.full(self.count, None if what == STATUS else np.nan, dtype=object if what == STATUS else float)
-            if found is None
-            else found
-        )
+        """Return of a check its status, utilisation, margin, size of the greater side, or slack (margin by size)."""
+        empty = np.full(self.count, None) if what == STATUS else np.full(self.count, np.nan)
+        return self.columns.get(name.replace(".", CHECKS, 1) + what, empty)
 
-    def failing(self, row: int, *, statuses: Sequence[str] = ("fail",)) -> list[str]:
-        """Return the checks of one machine that fail, or have one of other statuses."""
-        return [name for name in self.checks if self.check(name)[row] in statuses]
+    def failing(self, row: int) -> list[str]:
+        """Return the checks of one machine that fail."""
+        return [name for name in self.checks if self.check(name)[row] == "fail"]
 
     @cached_property
     def least_slack(self) -> Array:
@@ -98,9 +80,8 @@ class VariedMachines:
         slack = np.full(self.count, np.inf)
         for name in self.checks:
             fails, own = self.check(name) == "fail", self.check(name, SLACK)
-            holds = (self.check(name) == "pass") & (
-                own > AT_LIMIT
-            )  # a warning is neither, and what is at its limit was sized to it
+            # a warning is neither, and what is at its limit was sized to it
+            holds = (self.check(name) == "pass") & (own > AT_LIMIT)
             found = np.where(fails, np.minimum(own, -AT_LIMIT), own)
             slack = np.where((fails | holds) & np.isfinite(own), np.minimum(slack, found), slack)
         return np.where(self.exists, slack, np.nan)
@@ -117,19 +98,17 @@ def varied(
     asked = list(inputs)
 
     def further(made: CalculatedVariants) -> dict[str, Array]:
-        return _slack(made) | {
-            each.path: values for each in asked if (values := _input(config, made, each)) is not None
-        }
+        own = {each.path: _input(config, made, each) for each in asked}
+        return _slack(made) | {path: values for path, values in own.items() if values is not None}
 
-    rows = calculate_rows(config, given, count, further=further, tell=tell)
-    if rows.broken and all(rows.status == "error"):
-        kind, words = next(iter(rows.broken.items()))
+    made = VariedMachines(count)
+    vars(made).update(vars(calculate_rows(config, given, count, further=further, tell=tell)))
+    if made.broken and not made.exists.any():
+        kind, words = next(iter(made.broken.items()))
         raise PluginError(words, kind)
     wanted = {each.path for each in asked if each.unit}
-    rows.columns |= {
-        each.path: np.asarray(values, dtype=float) for each, values in given.items() if each.path in wanted
-    }
-    return VariedMachines(rows)
+    made.columns |= {each.path: np.asarray(own, dtype=float) for each, own in given.items() if each.path in wanted}
+    return made
 
 
 def impossible(config: Config, reason: str, told: str = "") -> UserError:
@@ -186,8 +165,7 @@ def _slack(made: CalculatedVariants) -> dict[str, Array]:
             size = np.maximum(np.abs(demand), np.abs(limit))
             with np.errstate(all="ignore"):
                 share = np.where(size > 0, (limit - demand) / size, 0.0)
-            shows_none = np.full(share.shape, float(is_sized(calc.given, check) or check.presumed))
-            for what, values in ((SLACK, share), (MARGIN, limit - demand), (SIZE, size), (NO_RESERVE, shows_none)):
+            for what, values in ((SLACK, share), (MARGIN, limit - demand), (SIZE, size)):
                 column = np.where(there, values, np.nan)
                 found[f"{name}{CHECKS}{check.id}{what}"] = np.broadcast_to(column, (made.count,))
     return found
@@ -206,15 +184,18 @@ def _input(config: Config, made: CalculatedVariants, asked: Input) -> Array | No
     if not isinstance(row, np.ndarray):
         return None
     index = next((part for part in asked.key if isinstance(part, int)), 0)
-    return (
-        np.broadcast_to(row[:, index], (made.count,)).astype(float) if row.ndim == 2 and index < row.shape[1] else None
-    )
+    is_there = row.ndim == 2 and index < row.shape[1]
+    return np.broadcast_to(row[:, index], (made.count,)).astype(float) if is_there else None
 
 
 # Machines with other values of the free inputs, counted: no more of them are calculated than a search may spend.
 
 
 MOST = 10_000  # machines of a search, unless the user says otherwise
+
+
+Chosen = tuple[DesignInput, str]
+"""An input that takes one of some values, with the one that is chosen, as it is typed."""
 
 
 class Enough(Exception):
@@ -237,82 +218,79 @@ class Spent:
 
 @dataclass(frozen=True)
 class ChangedMachines:
-    """Calculate machines by the shares of their inputs that are changed; ``choices`` are texts and stepped numbers, as typed."""
+    """Calculate machines by the shares of their inputs that are changed, shape (machines, inputs).
+
+    ``choices`` are texts and stepped numbers, as typed, by their paths. ``tell`` is called with what a search is doing.
+    """
 
     config: Config
     inputs: Sequence[DesignInput]
-    choices: Mapping[Input, str] = field(default_factory=dict)
+    choices: Mapping[str, Chosen] = field(default_factory=dict)
     spent: Spent = field(default_factory=Spent)
+    tell: Tell = untold
 
     def __call__(self, shares: Array) -> VariedMachines:
         count = len(shares)
         self.spent.take(count)
-        present = np.array([each.present for each in self.inputs], dtype=float)
-        values = present * (1.0 + shares)
-        given: dict[Input, Any] = {each.asked: values[:, index] for index, each in enumerate(self.inputs)}
-        return varied(
-            self.config, given | {asked: _column(asked, text, count) for asked, text in self.choices.items()}, count
-        )
+        given: dict[Input, Any] = {each.asked: each.changed(shares[:, index]) for index, each in enumerate(self.inputs)}
+        for design, text in self.choices.values():
+            is_text = design.asked.unit is None
+            given[design.asked] = [text] * count if is_text else np.full(count, design.read(text))
+        return varied(self.config, given, count)
 
-    def with_choice(self, asked: Input, text: str) -> ChangedMachines:
-        """Return the same with one more choice."""
-        return self.with_choices({**self.choices, asked: text})
+    @property
+    def present(self) -> Array:
+        """Return the changes of today's machine: none."""
+        return np.zeros(len(self.inputs))
 
-    def with_choices(self, choices: Mapping[Input, str]) -> ChangedMachines:
+    def with_choices(self, choices: Mapping[str, Chosen]) -> ChangedMachines:
         """Return the same with these choices in the place of its own."""
-        return ChangedMachines(self.config, self.inputs, choices, self.spent)
-
-
-def _column(asked: Input, text: str, count: int) -> Any:
-    return np.full(count, float(asked.meta.validate(text))) if isinstance(asked.meta, Quantity) else [text] * count
+        return replace(self, choices=choices)
 
 
 # One machine of a configuration with values written into its text, read again and calculated by itself, as its report would.
 
 
-Data = dict[str, Any]
-
-
 @dataclass(frozen=True)
 class ProvedMachine:
-    """Hold a machine that was calculated alone: the press that it was read as, its results and checks."""
+    """Hold a machine that was calculated alone: the press that it was read as, its calculations and checks."""
 
     press: Press
-    calculations: Mapping[str, Calculation]
-    checked: Mapping[str, list[CheckRecord]]
+    run: WarmRun
 
     @cached_property
     def outputs(self) -> dict[str, float]:
         """Return its numbers by name, SI."""
-        found = {n: v for name, calc in self.calculations.items() for n, v in output_values(name, calc).items()}
+        found = {n: v for name, calc in self.run.calculations.items() for n, v in output_values(name, calc).items()}
         return {name: float(v[0]) for name, v in found.items() if v.dtype.kind in "fi" and v[0] == v[0]}
 
-    def checks(self, status: str) -> list[tuple[str, CheckRecord]]:
-        """Return its checks of a status, each with its name ``drive.crank_torque``."""
-        return [(f"{name}.{each.id}", each) for name, each in self._each() if each.status == status]
+    def checks(self, status: str) -> dict[str, CheckRecord]:
+        """Return its checks of a status by name: ``drive.crank_torque``."""
+        found = ((f"{name}.{each.id}", each) for name, own in self.run.checks.items() for each in own)
+        return {name: each for name, each in found if each.status == status and each.check_class != SELF_TEST}
 
     @property
     def status(self) -> str:
-        return next((status for status in ("fail", "warn") if self.checks(status)), "pass")
+        return self.run.status
+
+    @property
+    def failing(self) -> tuple[str, ...]:
+        """Return the names of the checks that fail."""
+        return tuple(self.checks("fail"))
 
     @property
     def governing(self) -> str | None:
         """Return the check that governs."""
-        found = governing(self.checked)
+        found = self.run.governing
         return str(found) if found else None
-
-    def _each(self) -> Iterator[tuple[str, CheckRecord]]:
-        yield from ((name, each) for name, checks in self.checked.items() for each in checks)
 
 
 def proved(press: Press) -> ProvedMachine:
     """Return a machine calculated alone; UserError where it cannot exist, PluginError where a plugin breaks."""
-    run = _CheckedRun(press.config, lambda _: None)
-    if run.problems:
-        raise UserError(run.problems)
+    run = WarmPress().calculate(press.config)
     for error in run.errors.values():
         raise error
-    return ProvedMachine(press, run.calculations, run.checked)
+    return ProvedMachine(press, run)
 
 
 def write_config(tree: Tree, machine: ProvedMachine, target: Path) -> None:
@@ -322,20 +300,3 @@ def write_config(tree: Tree, machine: ProvedMachine, target: Path) -> None:
         words = "The configuration names files beside it ({files}), which would not be found there. Write it into the folder {folder}."
         raise UserError(Problem(Phrase(words, files=", ".join(config.files), folder=home), str(target)))
     write_all({target: as_file(tree, config.tree.text)}, keep=Path(tree.file), through=True)
-
-
-class _CheckedRun(Run):
-    """One way through the graph that judges each mechanism and prints nothing."""
-
-    def __init__(self, config: Config, tell: Any) -> None:
-        self.checked: dict[str, list[CheckRecord]] = {}
-        super().__init__(config, tell)
-
-    def _comparisons(self) -> None:
-        """Mechanisms that are compared have no checks."""
-
-    def _printed(self, instance: Instance, calculation: Calculation) -> None:
-        checks = check_results(calculation)
-        if failed := failed_self_tests(checks):
-            raise SelfTestFailed(failed)
-        self.checked[instance.name] = [each for each in checks if each.check_class != "numerical"]

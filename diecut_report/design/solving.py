@@ -3,254 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.design.answers import (
-    REACHED,
-    Answer,
-    DesignQuestion,
-    FoundValue,
-    Range,
-    Role,
-    needed,
-    question,
-    typed_answers,
-)
-from diecut_report.design.inputs import DesignInput, is_stepped, with_input
-from diecut_report.design.machines import VariedMachines, impossible, proved, varied
-from diecut_report.errors import Problem, UserError
+from diecut_report.design.answers import Answer, DesignQuestion, FoundValue, Range, Role, question
+from diecut_report.design.inputs import DesignInput
+from diecut_report.design.line_search import Function, crossings, greatest, looked_closer, roots, without_gaps
+from diecut_report.design.machines import VariedMachines, impossible, narrowed, proved, varied
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.formulas import Array
-from diecut_report.mechanics import numerics
+from diecut_report.mechanism.names import SI
 from diecut_report.press import Press
+from diecut_report.quantities.formatting import told
+from diecut_report.study.definition.base_inputs import with_values
 from diecut_report.text.phrases import Phrase
-
-# Roots, limits and extremes of a function of one number that is calculated for many numbers at once, each call being dear.
-#
-# Every call asks for a handful of numbers for each bracket: some spread evenly, which shrink any bracket, and some close to
-# where a straight line through its ends says, which shrink a smooth one at once.
-
-
-Function = Callable[[Array], Array]
-"""Of numbers, shape (n,): what is to be zero, above zero where it holds, NaN where there is nothing."""
-
-EVEN, LEAST_EVEN = 12, 3  # numbers that are spread evenly, of all brackets together, and of each at least
-AROUND = np.array([-1e-2, -1e-4, 0.0, 1e-4, 1e-2])
-ROUNDS = 20
-CLOSE = 1e-9  # relative width at which a bracket is closed
-JUMP = 1e-2  # share of a bracket's first difference that is left in one so narrow: the function jumps there
-PARTS, ZOOMS = 10, 6  # of the neighbourhood of the greatest value, and how often it is looked at closer
-EIGHTHS, HALF = np.arange(1, 8) / 8, np.array([0.5])  # of a pair of neighbours
-HALVED = 5  # how often the distances of such neighbours are halved at most
-MOST_CELLS = 12  # such ends that are looked at closer
-
-
-@dataclass(frozen=True)
-class Crossing:
-    """Hold a place where a function changes its sign: ``inside`` is on the side where it is not below zero, ``at`` between both.
-
-    ``is_jump``: it does not pass through zero there, but from one value to another (or to none).
-    """
-
-    at: float
-    inside: float
-    is_jump: bool
-
-
-def crossings(
-    function: Function, x: Array, values: Array, close: float = CLOSE, among: Array | None = None
-) -> list[Crossing]:
-    """Return where a function changes its sign, between neighbours of ascending numbers with their values; NaN is below zero.
-
-    ``among`` says of each pair of neighbours whether it is looked at.
-    """
-    holds = values >= 0
-    cells = np.flatnonzero((holds[1:] != holds[:-1]) & (True if among is None else among))
-    if not len(cells):
-        return []
-    low, high = np.array([x[cells], values[cells]]), np.array([x[cells + 1], values[cells + 1]])
-    first = np.abs(high[1] - low[1])
-    for _ in range(ROUNDS):
-        open_ = high[0] - low[0] > close * np.maximum(np.abs(low[0]), np.abs(high[0]))
-        if not open_.any():
-            break
-        low[:, open_], high[:, open_] = _narrower(function, low[:, open_], high[:, open_])
-    return [_crossing(low[:, i], high[:, i], first[i]) for i in range(len(cells))]
-
-
-def _narrower(function: Function, low: Array, high: Array) -> tuple[Array, Array]:
-    """The same brackets, each between the two of the numbers within it where the sign changes first."""
-    share = _shares(low[1], high[1])
-    places = low[0] + share * (high[0] - low[0])
-    found = function(places.ravel()).reshape(places.shape)
-    x = np.concatenate([low[:1], places, high[:1]])
-    values = np.concatenate([low[1:], found, high[1:]])
-    holds = values >= 0
-    cell = np.argmax(holds[1:] != holds[:-1], axis=0)
-    column = np.arange(x.shape[1])
-    return (
-        np.array([x[cell, column], values[cell, column]]),
-        np.array([x[cell + 1, column], values[cell + 1, column]]),
-    )
-
-
-def _shares(low: Array, high: Array) -> Array:
-    """Where to look in each bracket, as ascending shares of its width, shape (places, brackets)."""
-    with np.errstate(all="ignore"):
-        line = low / (low - high)
-    line = np.where(np.isfinite(line), line, 0.5)
-    near = np.clip(line[None] + AROUND[:, None], 1e-6, 1 - 1e-6)
-    count = max(LEAST_EVEN, EVEN // len(low))
-    even = np.broadcast_to(np.arange(1, count + 1)[:, None] / (count + 1), (count, len(low)))
-    return np.sort(np.concatenate([even, near]), axis=0)
-
-
-def _crossing(low: Array, high: Array, first: float) -> Crossing:
-    inside = low if low[1] >= 0 else high
-    left = abs(high[1] - low[1])
-    is_jump = not np.isfinite(left) or (left > JUMP * first and inside[1] != 0)
-    at = inside[0] if is_jump or not left else low[0] - low[1] * (high[0] - low[0]) / (high[1] - low[1])
-    return Crossing(float(at), float(inside[0]), bool(is_jump))
-
-
-def greatest(function: Function, x: Array, values: Array) -> tuple[float, float]:
-    """Return where a function is greatest and its value there, refined from values at ascending numbers, of which some are not NaN."""
-    best = int(np.nanargmax(values))
-    low, high = x[max(best - 1, 0)], x[min(best + 1, len(x) - 1)]
-    rounds = ZOOMS if high > low else 1
-    place, depth = numerics.least(
-        lambda at, _: np.nan_to_num(-function(at[0]), nan=np.inf)[None],
-        np.array([low]),
-        np.array([high]),
-        PARTS,
-        rounds,
-    )
-    return (float(place[0]), float(-depth[0])) if -depth[0] > values[best] else (float(x[best]), float(values[best]))
-
-
-def looked_closer(function: Function, x: Array, values: Array, rounds: int = 1) -> tuple[Array, Array]:
-    """Return ascending numbers and values with more of them where a pair of roots, or the end of what exists, may hide.
-
-    Towards each such end they stand closer with each round: much may happen there, and all that exists may lie between two of the numbers.
-    """
-    cells = np.unique(np.concatenate([_edges(values), _lows(values)])).astype(int)
-    for _ in range(rounds):
-        if not len(cells):
-            break
-        x, values = _with_more(function, x, values, cells)
-        cells = _edges(values)[:MOST_CELLS]
-    return x, values
-
-
-def without_gaps(function: Function, x: Array, values: Array) -> tuple[Array, Array]:
-    """Return ascending numbers and values with more of them between neighbours that are not below zero, as long as one there is."""
-    for _ in range(HALVED):
-        cells = np.flatnonzero((values[1:] >= 0) & (values[:-1] >= 0))
-        before = int((~(values >= 0)).sum())
-        if len(cells):
-            x, values = _with_more(function, x, values, cells, HALF)
-        if int((~(values >= 0)).sum()) == before:
-            break
-    return x, values
-
-
-def _with_more(
-    function: Function, x: Array, values: Array, cells: Array, shares: Array = EIGHTHS
-) -> tuple[Array, Array]:
-    more = (x[cells] + shares[:, None] * (x[cells + 1] - x[cells])).ravel()
-    joined, place = np.unique(np.concatenate([x, more]), return_index=True)
-    return joined, np.concatenate([values, function(more)])[place]
-
-
-def _edges(values: Array) -> Array:
-    """The pairs of neighbours of which one alone has a value."""
-    exists = np.isfinite(values)
-    return np.flatnonzero(exists[1:] != exists[:-1])
-
-
-def _lows(values: Array) -> Array:
-    """The pairs of neighbours beside a value that is nearest to zero, and may reach it between them."""
-    size, inner = np.abs(values), np.arange(1, len(values) - 1)
-    with np.errstate(invalid="ignore"):
-        signs = np.sign(values)
-        alike = (signs[inner - 1] == signs[inner]) & (signs[inner] == signs[inner + 1])
-        rise = np.maximum(size[inner - 1], size[inner + 1]) - size[inner]
-        is_lowest = (size[inner] <= size[inner - 1]) & (size[inner] <= size[inner + 1])
-        low = inner[alike & is_lowest & (size[inner] <= rise)]  # else it is too far from zero to reach it
-    return np.concatenate([low - 1, low])
-
-
-# All places of a range where a function takes a value: passed through, stayed at, or hidden beside an end of what exists.
-
-
-SAME_PLACE = 1e-8  # relative: two roots that are no further apart are one
-ROOT_SEARCH_ROUNDS = 4  # towards an end of what exists: to a 4096th of the distance between two numbers
-NEARER = 60  # machines about today's value, as far as the nearest root that was found
-
-
-def roots(
-    function: Function, x: Array, values: Array, present: float | None, allows: Callable[[Array], Array]
-) -> tuple[list[float], list[float]]:
-    """Return where a function is zero, ascending, and where it jumps over zero; of places that are all zero the ends, and ``present``.
-
-    It is searched between ascending numbers with their values, and closer about today's, so that the nearest root is not missed.
-    """
-    x, values = looked_closer(function, x, values, ROOT_SEARCH_ROUNDS)
-    places, jumps = _crossed(function, x, values, present)
-    more = _about(present, places, x, allows) if places else _about_the_nearest(function, x, values)
-    if not len(more):
-        return places, jumps
-    x = np.union1d(x, more)
-    return _crossed(function, x, function(x), present)
-
-
-def _crossed(function: Function, x: Array, values: Array, present: float | None) -> tuple[list[float], list[float]]:
-    """The places between these numbers alone."""
-    places: list[float] = []
-    jumps: list[float] = []
-    for run in _existing(values):
-        own, known = x[run], values[run]
-        for each in crossings(function, own, known):
-            (jumps if each.is_jump else places).append(each.at)
-        ends = ((known[1:] == 0) != (known[:-1] == 0)) & (known[1:] >= 0) & (known[:-1] >= 0)
-        places += [each.at for each in crossings(lambda at: -function(at), own, -known, among=ends)]
-    beside = np.concatenate([[np.nan], values, [np.nan]])
-    before, after = beside[:-2], beside[2:]
-    is_kept = ((before == 0) | (after == 0)) & np.isfinite(before) & np.isfinite(after)  # its ends are found
-    taken = [float(each) for each in x[(values == 0) & (~is_kept | (x == present))]]
-    found = [each for each in places if all(abs(each - one) > SAME_PLACE * abs(one) for one in taken)]
-    return sorted([*taken, *found]), jumps
-
-
-def _about(present: float | None, places: list[float], x: Array, allows: Callable[[Array], Array]) -> Array:
-    """Numbers about today's value, as far as the nearest place: another may lie nearer."""
-    if present is None:
-        return np.array([])
-    reach = min(abs(each - present) for each in places)
-    near = np.linspace(present - reach, present + reach, NEARER + 1)
-    return np.asarray(near[(near > x[0]) & (near < x[-1]) & allows(near)])
-
-
-def _about_the_nearest(function: Function, x: Array, values: Array) -> Array:
-    """Numbers about the one whose value comes nearest to zero: it may change its sign beside it."""
-    tried: list[float] = []
-
-    def nearness(places: Array) -> Array:
-        tried.extend(places.tolist())
-        return -np.abs(function(places))
-
-    greatest(nearness, x, -np.abs(values))
-    return np.array(tried)
-
-
-def _existing(values: Array) -> list[slice]:
-    """The runs of neighbours that all have a value."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], np.isfinite(values), [False]]).astype(int)))
-    return [slice(int(first), int(last)) for first, last in zip(edges[::2], edges[1::2], strict=True)]
-
 
 # Where the values of an input are looked for: the range, and the numbers in it at which machines are calculated first.
 
@@ -266,10 +35,8 @@ def searched_range(design: DesignInput, low: float | None, high: float | None) -
 
     UserError where there is none.
     """
-    least, most = design.bounds
-    present = design.present
-    if design.meta.listed:
-        known = _listed(design)
+    (least, most), present, known = design.bounds, design.present, design.listed
+    if len(known):
         return float(known[0]) if low is None else low, float(known[-1]) if high is None else high
     if (low is None or high is None) and not present:
         words = "{input} has no value at present; give the range to search with --from and --to."
@@ -279,36 +46,26 @@ def searched_range(design: DesignInput, low: float | None, high: float | None) -
     last = min(around[1], most) if high is None else high
     if not first < last:
         words = "{input}: the range from {low} to {high} is empty; give --from below --to."
-        raise UserError(
-            Problem(Phrase(words, input=design.name, low=design.told(first), high=design.told(last)), path="--from")
-        )
+        empty = Phrase(words, input=design.name, low=design.told(first), high=design.told(last))
+        raise UserError(Problem(empty, path="--from"))
     return first, last
 
 
 def searched_places(design: DesignInput, low: float, high: float) -> Array:
     """Return where the range is looked at: at equal ratios where it is wide, today's value among them; whole and listed numbers all."""
-    if design.meta.listed:
-        known = _listed(design)
+    present, known = design.present, design.listed
+    if len(known):
+        if present is not None:  # it stands as it is, to the last digit
+            known = np.where(np.isclose(known, present, rtol=SAME), present, known)
         return known[(known >= low * (1 - SAME)) & (known <= high * (1 + SAME))]
     if design.is_whole:
         whole = np.arange(math.ceil(low), math.floor(high) + 1, dtype=float)
         return whole if len(whole) <= MOST_WHOLE else np.unique(np.round(np.linspace(low, high, MOST_WHOLE)))
     is_wide = low > 0 and high / low > 4
     x = np.geomspace(low, high, POINTS) if is_wide else np.linspace(low, high, POINTS)
-    present = design.present
     if present is not None and low < present < high:
         x = np.unique(np.append(x, present))
     return x[design.allows(x)] if design.allows(x).any() else x
-
-
-def _listed(design: DesignInput) -> Array:
-    """The numbers of its list (SI), ascending; today's as it is, to the last digit."""
-    known = np.sort(np.array([design.meta.parsed_unit.to_si(value) for value in design.meta.listed]))
-    return (
-        known
-        if design.present is None
-        else np.where(np.isclose(known, design.present, rtol=SAME), design.present, known)
-    )
 
 
 PASSING_CLOSE = 1e-6  # relative width at which the limit of what passes is known: more is not typed
@@ -323,15 +80,12 @@ def solved(
     UserError in words where that is not a question, there is no range to search, or what is asked does not vary with the input.
     """
     config = press.config
-    is_new = design.present is None and low is not None
-    what = question(with_input(config, design, low or 0.0) if is_new else config, asked)
+    if design.present is None and low is not None:  # a value may bring quantities with it that are not there without
+        config, _ = with_values(config, {design.asked: SI(low, design.meta.parsed_unit.si, design.name)})
+    what = question(config, asked)
     press.tell(Phrase("solving for {input}", input=design.name))
-    ends = searched_range(design, low, high)
-    search = _RangeSearch(config, what, design, passing)
-    answer = search.answer(*ends)
-    if not answer.found:
-        return answer
-    return _proved(answer, press)
+    answer = _RangeSearch(press.config, what, design, passing).answer(*searched_range(design, low, high))
+    return _proved(answer, press) if answer.found else answer
 
 
 def _proved(answer: Answer, press: Press) -> Answer:
@@ -344,20 +98,16 @@ def _proved(answer: Answer, press: Press) -> Answer:
             faults.append(fault)
             continue
         reached = machine.outputs.get(answer.question.quantity.column, first.reached)
-        failing = tuple(name for name, _ in machine.checks("fail"))
-        return replace(
-            answer,
-            found=(replace(first, reached=reached, failing=failing), *answer.found[index + 1 :]),
-            machine=machine,
-        )
+        first = replace(first, reached=reached, failing=machine.failing)
+        return replace(answer, found=(first, *answer.found[index + 1 :]), machine=machine)
     words = "{input} = {typed} satisfies it, but the machine then cannot exist: {reason}"
-    what = {"input": answer.design.name, "typed": answer.found[0].typed, "reason": faults[0].problems[0].message}
-    raise UserError(Problem(Phrase(words, what), press.config.tree.file))
+    typed, reason = answer.found[0].typed, faults[0].problems[0].message
+    raise refusal(words, press.config.tree.file, input=answer.design.name, typed=typed, reason=reason)
 
 
 @dataclass
 class _RangeSearch:
-    """Looks along the range of an input; ``at`` calculates many machines of it at once."""
+    """Looks along the range of an input; ``part`` are the mechanisms that must be calculated for it."""
 
     config: Config
     question: DesignQuestion
@@ -365,11 +115,11 @@ class _RangeSearch:
     passing: bool
 
     def __post_init__(self) -> None:
-        self.part = self.config if self.passing else needed(self.config, self.question.quantity, self.design.asked)
-        asked = self.question.quantity.asked
-        self.inputs = [asked] if asked is not None else []
+        asked = self.question.quantity
+        is_whole = self.passing or asked.asked is not None  # of an input the whole says whether it can be
+        self.part = self.config if is_whole else narrowed(self.config, [asked.home, self.design.asked.instance])
+        self.inputs = [] if asked.asked is None else [asked.asked]
         self.known: dict[float, tuple[float, float]] = {}
-        self.is_stepped = is_stepped(self.design)
 
     def machines(self, x: Array) -> VariedMachines:
         return varied(self.part, {self.design.asked: x}, len(x), self.inputs)
@@ -381,54 +131,47 @@ class _RangeSearch:
         y = made.values(self.question.quantity.column)
         self._refuse_constant(made, y)
         self._keep(x, made)
-        answer = Answer(
-            self.question, self.design, float(x[0]), float(x[-1]), self._present(x, y), passing=self.passing
-        )
+        present = y[x == (math.nan if self.design.present is None else self.design.present)]
+        today = float(present[0]) if len(present) else math.nan
+        answer = Answer(self.question, self.design, float(x[0]), float(x[-1]), today, passing=self.passing)
         if self.question.kind == "=":
-            roots, jumps = self._roots(x, y)
-            answer = replace(answer, found=tuple(self._nearest_first(roots)), jumps=tuple(jumps))
-        elif self.question.kind in ("max", "min"):
+            found, jumps = self._roots(x, y)
+            answer = replace(answer, found=tuple(self._nearest_first(found)), jumps=tuple(jumps))
+        elif self.question.is_extreme:
             answer = replace(answer, found=tuple(self._extreme(x, made, y)))
         else:
             ranges = self._ranges(x, self.holds(made, y))
             answer = replace(answer, found=tuple(self._of_ranges(ranges)), ranges=tuple(ranges))
         if answer.found:
             return answer
-        always = _always_failing(made) if self.passing else ()
-        return replace(answer, nearest=self._nearest(x, made, y), always=always)
+        failing = [name for name in made.checks if (made.check(name)[made.exists] == "fail").all()]
+        return replace(answer, nearest=self._nearest(x, made, y), always=tuple(failing) if self.passing else ())
 
     def _refuse_constant(self, made: VariedMachines, y: Array) -> None:
-        known = y[np.isfinite(y)]
-        name, asked = self.design.name, self.question.quantity.name
+        known, file = y[np.isfinite(y)], self.config.tree.file
+        name, asked = self.design.name, self.question.quantity
         if not made.exists.any():
             words = "no machine of the range of {input} can be calculated: {reason}"
-            reason = next(filter(None, made.reasons))
+            reason = next(filter(None, made.errors))
             raise impossible(self.config, reason, Phrase(words, input=name, reason=reason))
         if not len(known):
-            words = "{asked} has no value in the whole range of {input}."
-            raise UserError(Problem(Phrase(words, asked=asked, input=name), self.config.tree.file))
+            raise refusal("{asked} has no value in the whole range of {input}.", file, asked=asked.name, input=name)
         if np.ptp(known) <= SAME * np.abs(known).max() and len(known) > 1:
             words = "{asked} does not vary with {input}: it is {value} in the whole range."
-            value = self.question.quantity.told(float(known[0]))
-            raise UserError(Problem(Phrase(words, asked=asked, input=name, value=value), self.config.tree.file))
-
-    def _present(self, x: Array, y: Array) -> float:
-        index = np.flatnonzero(x == (np.nan if self.design.present is None else self.design.present))
-        return float(y[index[0]]) if len(index) else math.nan
+            raise refusal(words, file, asked=asked.name, input=name, value=told(float(known[0]), asked.unit, 6))
 
     # --- what is looked for ------------------------------------------------------------------------------------------
 
     def _roots(self, x: Array, y: Array) -> tuple[list[FoundValue], list[float]]:
-        value = self.question.value
+        value, present = self.question.value, self.design.present
         off = y - value
-        if self.is_stepped:
+        if self.design.is_stepped:
             exact = np.abs(off) <= SAME * max(abs(value), 1e-300)
-            return self._judged([(float(each), "root") for each in x[exact]]), []
-        places, jumps = roots(self._off, x, off, self.design.present, self.design.allows)
-        judged = self._judged([(each, "today" if each == self.design.present else "root") for each in places])
-        true = [
-            each for each in judged if self.missed(np.array(each.reached)) <= REACHED
-        ]  # else it stands beside a jump
+            return typed_answers(self, [(float(each), "root") for each in x[exact]]), []
+        places, jumps = roots(self._off, x, off, present, self.design.allows)
+        judged = typed_answers(self, [(each, "today" if each == present else "root") for each in places])
+        # what misses the value stands beside a jump
+        true = [each for each in judged if self.missed(np.array(each.reached)) <= REACHED]
         return [each for each in true if not (self.passing and each.failing)], jumps
 
     def missed(self, y: Array) -> Array:
@@ -456,7 +199,7 @@ class _RangeSearch:
 
     def holds(self, made: VariedMachines, y: Array) -> Array:
         """How far what is asked holds: above or equal to zero where it does, NaN where there is no machine."""
-        if self.question.kind in ("max", "min"):
+        if self.question.is_extreme:
             held = np.where(np.isfinite(y), 1.0, np.nan)
         else:
             sign = 1.0 if self.question.kind == "<=" else -1.0
@@ -466,27 +209,22 @@ class _RangeSearch:
 
     def _ranges(self, x: Array, held: Array) -> list[Range]:
         """The ranges of values where it holds."""
-        ends: dict[float, float] = {}
-        if not self.is_stepped:
+        refined: dict[float, float] = {}
+        if not self.design.is_stepped:
             x, held = looked_closer(self._held, x, held)
             x, held = without_gaps(self._held, x, held)
-            ends = {each.at: each.inside for each in crossings(self._held, x, held, PASSING_CLOSE)}
-        places = self._ends(x, held >= 0, ends)
-        found = self._judged(places)
-        is_end = [place in (x[0], x[-1]) for place, _ in places]
-        found = [replace(each, at_end=last) for each, last in zip(found, is_end, strict=True)]
-        return list(zip(found[::2], found[1::2], strict=True))
-
-    def _ends(self, x: Array, holds: Array, refined: dict[float, float]) -> list[tuple[float, Role]]:
-        """The lower and the upper end of each range of values that hold; between the points those that were refined."""
-        found: list[tuple[float, Role]] = []
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
+            refined = {each.at: each.inside for each in crossings(self._held, x, held, PASSING_CLOSE)}
+        places: list[tuple[float, Role]] = []
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], held >= 0, [False]]).astype(int)))
         for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
-            low = _between(refined, x[first - 1], x[first]) if first else None
-            high = _between(refined, x[last], x[last + 1]) if last + 1 < len(x) else None
-            low, high = x[first] if low is None else low, x[last] if high is None else high
-            found += [(float(low), "lower"), (float(high), "upper")]
-        return found
+            low = _between(refined, x[first - 1], x[first], x[first]) if first else x[first]
+            high = _between(refined, x[last], x[last + 1], x[last]) if last + 1 < len(x) else x[last]
+            places += [(float(low), "lower"), (float(high), "upper")]
+        found = [
+            replace(each, at_end=place in (x[0], x[-1]))
+            for each, (place, _) in zip(typed_answers(self, places), places, strict=True)
+        ]
+        return list(zip(found[::2], found[1::2], strict=True))
 
     def _extreme(self, x: Array, made: VariedMachines, y: Array) -> list[FoundValue]:
         """Where it is greatest or least among the machines that hold, which may be at the end of those."""
@@ -496,14 +234,13 @@ class _RangeSearch:
             own, holds = self._along(places)
             return np.where(holds >= 0, sign * own, np.nan)
 
-        if self.is_stepped:
+        if self.design.is_stepped:
             places = x[self.holds(made, y) >= 0]
             top = float(places[np.nanargmax(heights(places))]) if len(places) else None
         else:
             top = self._top(np.union1d(x, self._about_the_best(x, heights(x))), sign, heights)
-        if top is None:
-            return []
-        return [replace(each, at_end=top in (x[0], x[-1])) for each in self._judged([(top, "extreme")])]
+        found = [] if top is None else typed_answers(self, [(top, "extreme")])
+        return [replace(each, at_end=top in (x[0], x[-1])) for each in found]
 
     def _about_the_best(self, x: Array, known: Array) -> Array:
         """More numbers about the best of these, as far as its neighbours: what is rounded fails and passes in steps."""
@@ -516,25 +253,17 @@ class _RangeSearch:
         return np.asarray(near[self.design.allows(near)])
 
     def _top(self, x: Array, sign: float, heights: Function) -> float | None:
-        """Where it is highest, between these numbers and at the ends of what holds; None where nothing does."""
-        places = self._holding(x, sign)
-        known = heights(places)
-        return greatest(heights, places, known)[0] if np.isfinite(known).any() else None
-
-    def _holding(self, x: Array, sign: float) -> Array:
-        """The places that hold, with the ends of what holds where these may be better than all of them."""
+        """Where it is highest, between these numbers and at the ends of what holds where these may be better; None where nothing holds."""
         x, held = looked_closer(self._held, x, self._held(x))
         height = sign * self._along(x)[0]
         best = np.where(held >= 0, height, -np.inf).max()
         rising = ~(np.fmax(height[1:], height[:-1]) < best)
         ends = crossings(self._held, x, held, PASSING_CLOSE, rising)
-        return np.unique([*x[held >= 0], *(each.inside for each in ends)])
+        places = np.unique([*x[held >= 0], *(each.inside for each in ends)])
+        known = heights(places)
+        return greatest(heights, places, known)[0] if np.isfinite(known).any() else None
 
     # --- the answers -------------------------------------------------------------------------------------------------
-
-    def _judged(self, places: list[tuple[float, Role]]) -> list[FoundValue]:
-        """The values as they are typed, calculated as that: with as few digits as answer as well."""
-        return typed_answers(self, places)
 
     def _nearest_first(self, found: list[FoundValue]) -> list[FoundValue]:
         present = self.design.present
@@ -546,7 +275,7 @@ class _RangeSearch:
         if present is None:
             return [low for low, _ in ranges]
         if any(low.value <= present <= high.value for low, high in ranges):
-            return self._judged([(present, "today")])
+            return typed_answers(self, [(present, "today")])
         return self._nearest_first([min(ends, key=lambda each: abs(each.value - present)) for ends in ranges])
 
     def _nearest(self, x: Array, made: VariedMachines, y: Array) -> FoundValue | None:
@@ -555,20 +284,91 @@ class _RangeSearch:
         away = np.where(made.exists & np.isfinite(away), away, np.inf)
         if not np.isfinite(away).any():
             return None
-        if not self.is_stepped and self.question.kind == "=":
+        if not self.design.is_stepped and self.question.kind == "=":
             value, _ = greatest(lambda places: -np.abs(self._off(places)), x, -away)
         else:
             best = x[away <= away.min()]  # where all are as far away the one that is nearest to today's
             value = float(best[np.argmin(np.abs(best - (self.design.present or best[0])))])
-        found = self._judged([(value, "nearest")])
+        found = typed_answers(self, [(value, "nearest")])
         return replace(found[0], at_end=value in (x[0], x[-1])) if found else None
 
 
-def _always_failing(made: VariedMachines) -> tuple[str, ...]:
-    """The checks that fail in every machine that can be calculated."""
-    return tuple(name for name in made.checks if (made.check(name)[made.exists] == "fail").all())
+def _between(refined: dict[float, float], low: float, high: float, known: float) -> float:
+    """The end that was found between two machines; of values that have none between them the known one."""
+    return next((inside for at, inside in refined.items() if low <= at <= high), known)
 
 
-def _between(refined: dict[float, float], low: float, high: float) -> float | None:
-    """The end that was found between two machines; None of values that have none between them."""
-    return next((inside for at, inside in refined.items() if low <= at <= high), None)
+# Values that were found, as they are typed: with few digits where these answer as well, each calculated as it is typed.
+
+
+EXACT, ALL = 9, 17  # digits of a root; of one beside a jump
+REACHED = 1e-5  # share of its size by which a root as it is typed may miss the value
+FEW = 5  # digits of the end of a range
+SAME_END = 1e-6  # share of an end by which a rounded one may lie beyond it, where it holds all the same
+SAME_EXTREME = 2e-5  # share of an extreme that rounding the input may take from it
+BEYOND = 1e-4  # share of a value by which it is left to see what fails there
+
+
+def typed_answers(search: _RangeSearch, places: Sequence[tuple[float, Role]]) -> list[FoundValue]:
+    """Return for each place what is typed there, all calculated in one run."""
+    design = search.design
+    texts = [_candidates(design, value, role) for value, role in places]
+    rows = [(number, design.read(text)) for number, each in enumerate(texts) for text in each]
+    beyond = [(number, value) for number, (value, role) in enumerate(places) for value in _outside(search, value, role)]
+    if not rows:
+        return []
+    x = np.array([value for _, value in (*rows, *beyond)])
+    made = search.machines(x)
+    y = made.values(search.question.quantity.column)
+    held, missed = search.holds(made, y) >= 0, search.missed(y)
+    owner = np.array([number for number, _ in (*rows, *beyond)])
+    found = []
+    for number, (value, role) in enumerate(places):
+        own = np.flatnonzero(owner[: len(rows)] == number)
+        best = _chosen(own, x, y, held, missed, value, role)
+        outside = np.flatnonzero(owner[len(rows) :] == number) + len(rows)
+        failing = tuple(made.failing(best)) if search.passing else ()
+        limits = tuple(dict.fromkeys(name for row in outside for name in made.failing(int(row)) if name not in failing))
+        found.append(FoundValue(float(x[best]), texts[number][best - own[0]], float(y[best]), role, failing, limits))
+    return found
+
+
+def _candidates(design: DesignInput, value: float, role: Role) -> list[str]:
+    """What may be typed, the best first."""
+    exact = design.typed(value, EXACT)
+    if design.is_whole or role == "today" or value == design.present:
+        return [exact]
+    inwards = [design.typed_inwards(value, EXACT, up=up) for up in (True, False)]
+    few = {
+        "root": [exact, *inwards, design.typed(value, ALL)],  # beside a jump rounding may fall over its edge
+        "lower": [design.typed(value, FEW), design.typed_inwards(value, FEW, up=True), inwards[0], exact],
+        "upper": [design.typed(value, FEW), design.typed_inwards(value, FEW, up=False), inwards[1], exact],
+        "extreme": [*(design.typed(value, digits) for digits in (3, 4, 5, 6, 7)), exact],
+    }.get(role, [exact])
+    return [text for text in dict.fromkeys(few) if design.allows(np.array(design.read_allowed(text)))]
+
+
+def _chosen(own: Array, x: Array, y: Array, held: Array, missed: Array, value: float, role: Role) -> int:
+    """The first of the candidates that is as good as the exact one, which is the last."""
+    exact = int(own[-1])
+    if role in ("lower", "upper"):
+        near = np.abs(x[own] - value) <= SAME_END * abs(value)
+        inside = x[own] >= value if role == "lower" else x[own] <= value
+        good = held[own] & (near | inside)
+    elif role == "extreme":
+        good = held[own] & (np.abs(y[own] - y[exact]) <= SAME_EXTREME * abs(y[exact]))
+    elif role == "root":
+        good = missed[own] <= REACHED
+    else:
+        return exact
+    return int(own[np.argmax(good)]) if good.any() else exact
+
+
+def _outside(search: _RangeSearch, value: float, role: Role) -> list[float]:
+    """Values just beyond the end of what passes."""
+    if not search.passing or role in ("root", "today", "nearest"):
+        return []
+    step = 1.0 if search.design.is_whole else BEYOND * abs(value)
+    ways = {"lower": (-step,), "upper": (step,)}.get(role, (-step, step))
+    beyond = np.array([value + way for way in ways])
+    return [float(each) for each in beyond[search.design.allows(beyond)]]

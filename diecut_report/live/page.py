@@ -12,7 +12,7 @@ import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.design.inputs import DesignChoice, DesignInput
+from diecut_report.design.inputs import DesignInput
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
 from diecut_report.errors import Problem, refusal
 from diecut_report.live.session import LiveMachine, LiveSession
@@ -80,7 +80,7 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
     kind = instance.mechanism.kind if instance.mechanism else ""
     own = {
         "inputs": [
-            _input(each, kind, start, edits) if isinstance(each, DesignInput) else _choice(each, kind, start, edits)
+            _input(each, kind, start, edits) if each.asked.unit is not None else _choice(each, kind, start, edits)
             for each in _inputs(name, machine)
         ]
     }
@@ -110,19 +110,19 @@ def _text(text: object, kind: str) -> str:
     return tidy(localised(said(text if isinstance(text, str) else "", kind)))
 
 
-def _inputs(name: str, machine: LiveMachine) -> list[DesignInput | DesignChoice]:
+def _inputs(name: str, machine: LiveMachine) -> list[DesignInput]:
     """What may be changed of a mechanism, in the order of the file."""
-    every: list[DesignInput | DesignChoice] = [*machine.inputs.values(), *machine.choices.values()]
+    every = [*machine.inputs.values(), *machine.choices.values()]
     own = (each for each in every if each.asked.instance == name)
     return sorted(own, key=lambda each: machine.config.tree.position(each.stands))
 
 
-def _choice(asked: DesignChoice, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
+def _choice(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
     first = start.choices.get(asked.name)
     return _named(asked, asked.asked.meta, kind) | {
         "unit": "",
-        "typed": edits.get(asked.name) or asked.typed,
-        "start": first.typed if first else "",
+        "typed": edits.get(asked.name) or asked.written,
+        "start": first.written if first else "",
         "options": list(asked.options),
     }
 
@@ -143,7 +143,7 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
     }
 
 
-def _named(asked: DesignInput | DesignChoice, meta: Any, kind: str) -> Data:
+def _named(asked: DesignInput, meta: Any, kind: str) -> Data:
     text = _text(meta.description, kind)
     return {"name": asked.name, "path": asked.asked.path, "text": text, "symbol": meta.symbol}
 

@@ -16,7 +16,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery, said
 from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.yaml import KeyPath, Tree
-from diecut_report.design.inputs import DesignChoice, DesignInput, given_choices, given_numbers
+from diecut_report.design.inputs import DesignInput, given_choices, given_numbers
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import write
 from diecut_report.press import Press
@@ -40,7 +40,7 @@ class LiveMachine:
     config: Config
     run: WarmRun
     inputs: Mapping[str, DesignInput]
-    choices: Mapping[str, DesignChoice]
+    choices: Mapping[str, DesignInput]
 
 
 class LiveSession:
@@ -202,7 +202,7 @@ def in_time(file: Path) -> Iterator[None]:
         raise refusal(words, file, seconds=f"{SESSION_PATIENCE:g}", said=said(cause)) from cause
 
 
-def _chosen(asked: DesignChoice, typed: str) -> str:
+def _chosen(asked: DesignInput, typed: str) -> str:
     """One of the values that a choice has; UserError with them where it is another."""
     if typed not in asked.options:
         words = "{given} is not a value of {name}; allowed: {options}."

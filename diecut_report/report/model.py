@@ -18,6 +18,7 @@ from diecut_report.report.symbols import SymbolRow, symbol
 from diecut_report.report.text import is_words, joined, number, quantity, value_in_words
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism_record import AbsentRecord, ItemRecord, QuantityRecord
+from diecut_report.results.model import MovedBarRecord
 
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
 
@@ -28,7 +29,7 @@ class TornadoFigure:
 
     title: str
     today: float
-    bars: list[dict[str, Any]]
+    bars: Sequence[MovedBarRecord]
     type: str = "tornado"
     error: str = ""
 

@@ -21,10 +21,11 @@ from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.steps import Require
 from diecut_report.mechanism.steps.table_steps import si_values
-from diecut_report.quantities.formatting import outward
-from diecut_report.results.advised_ways import Change, Number, Way
-from diecut_report.results.record import Relation
+from diecut_report.quantities.formatting import number_text, outward, with_unit
+from diecut_report.results.mechanism_record import KeyChangeRecord
+from diecut_report.results.record import Relation, Value
 from diecut_report.results.trials import LEVELS, CheckTrials, Judge, PossibleTrials, Trials, VariedNumber
+from diecut_report.text.phrases import Phrase, joined, named, phrase
 
 LARGEST_FACTOR = 50.0  # by which an input is changed at most
 GRID_POINTS = 24  # values of an input in each direction
@@ -34,6 +35,55 @@ SECTIONS, ROUNDS = 10, 4  # into which the interval around a limit is cut at onc
 DIGITS = (4, 5, 6)  # significant digits of an advised number: the first with which the check holds
 ROUNDING = 1e-9  # relative: by how much a limit is surely missed that was met but for the rounding of its last place
 FEW_OPTIONS = 3  # that an advice names
+
+
+@dataclass(frozen=True)
+class Way:
+    """Hold changes that together make a check hold, and how much holds with them (LEVELS); ``broken`` are titles of checks that then fail."""
+
+    changes: Sequence[KeyChangeRecord]
+    level: int
+    broken: tuple[str, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """Return the way in words."""
+        changes = joined(map(_told, self.changes), " and ")
+        if not self.broken:
+            return changes
+        titles = joined([Phrase("“{title}”", title=phrase(title)) for title in self.broken], ", ")
+        return Phrase("{changes} (this check then fails: {checks})", changes=changes, checks=titles)
+
+
+def advice_text(ways: Sequence[Way]) -> Phrase:
+    """Return the ways as one sentence."""
+    return Phrase("{ways:capital}.", {"ways:capital": joined([way.text for way in ways], ", or ")})
+
+
+def _told(change: KeyChangeRecord) -> Phrase:
+    values = [
+        _printed(each, change.unit) for each in (change.value if isinstance(change.value, list) else [change.value])
+    ]
+    match change.relation:
+        case "at_least":
+            return Phrase("set {key} to at least {value}", key=change.key, value=values[0])
+        case "at_most":
+            return Phrase("set {key} to at most {value}", key=change.key, value=values[0])
+        case "between":
+            return Phrase("set {key} to between {low} and {high}", key=change.key, low=values[0], high=values[1])
+        case "one_of":
+            return Phrase("set {key} to {values}", key=change.key, values=named(values, " or "))
+    return Phrase("set {key} to {value}", key=change.key, value=values[0])
+
+
+def _printed(value: Value, unit: str) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return value if isinstance(value, str) else with_unit(number_text(value, 6), unit)
+
+
+def _changed(key: str, unit: str, relation: Relation, *values: Value) -> KeyChangeRecord:
+    return KeyChangeRecord(key=key, relation=relation, value=values[0] if len(values) == 1 else list(values), unit=unit)
 
 
 class Advisor:
@@ -105,9 +155,9 @@ def _text(trials: Trials, key: str, texts: Sequence[str]) -> Way | None:
     level = _level(held)
     if level is None:
         return None
-    found = tuple(option for option, is_held in zip(options, held[level], strict=True) if is_held)[:FEW_OPTIONS]
-    change = Change(key, "one_of", found) if len(found) > 1 else Change(key, "equal", found[0])
-    return Way((change,), level, trials.broken({key: found[0]}) if level == 0 else ())
+    found = [option for option, is_held in zip(options, held[level], strict=True) if is_held][:FEW_OPTIONS]
+    change = _changed(key, "1", "one_of" if len(found) > 1 else "equal", *found)
+    return Way([change], level, trials.broken({key: found[0]}) if level == 0 else ())
 
 
 # A number: the values with which the check holds lie between limits, which are narrowed down and rounded to the side that holds.
@@ -154,16 +204,6 @@ class TriedLine:
         level = _level(held)
         return None if level is None else cls(trials, ray, held[level], level)
 
-    @property
-    def grid(self) -> Array:
-        """Return the parameters that were tried."""
-        return self.ray.grid
-
-    @property
-    def present(self) -> float | None:
-        """Return the parameter of today's machine."""
-        return self.ray.present
-
     def holds(self, parameters: Array) -> Array:
         """Return whether what is asked holds with each of some parameters."""
         found: Array = self.trials.with_numbers(self.ray.places, self.ray.at(parameters))[self.level]
@@ -172,30 +212,31 @@ class TriedLine:
     @cached_property
     def run(self) -> tuple[float, float]:
         """Return the ends of the values that hold one beside the other, of several such runs of that nearest to today's value."""
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], self.held, [False]]).astype(int)))
-        runs = [(float(self.grid[i]), float(self.grid[j - 1])) for i, j in zip(edges[::2], edges[1::2], strict=True)]
-        if self.present is None:
+        edges, grid = np.flatnonzero(np.diff(np.concatenate([[False], self.held, [False]]).astype(int))), self.ray.grid
+        runs = [(float(grid[i]), float(grid[j - 1])) for i, j in zip(edges[::2], edges[1::2], strict=True)]
+        present = self.ray.present
+        if present is None:
             return max(runs, key=lambda run: run[1] - run[0])
-        return min(runs, key=self._distance)
 
-    def _distance(self, run: tuple[float, float]) -> float:
-        assert self.present is not None
-        nearest = min(run, key=lambda end: abs(end - (self.present or 0.0)))
-        if nearest * self.present > 0:
-            return abs(math.log(nearest / self.present))
-        return abs(nearest - self.present) / max(abs(nearest), abs(self.present))
+        def distance(run: tuple[float, float]) -> float:
+            nearest = min(run, key=lambda end: abs(end - present))
+            if nearest * present > 0:
+                return abs(math.log(nearest / present))
+            return abs(nearest - present) / max(abs(nearest), abs(present))
+
+        return min(runs, key=distance)
 
     @property
     def rises(self) -> bool:
         """Return whether the values that hold lie above the present one."""
-        return bool(self.run[1] == self.grid[-1] if self.present is None else self.run[0] > self.present)
+        return bool(self.run[1] == self.ray.grid[-1] if self.ray.present is None else self.run[0] > self.ray.present)
 
     @property
     def relation(self) -> Relation:
         """Return how the run bounds the parameter: on one side where all that was tried beyond it holds."""
         if self.rises:
-            return "at_least" if self.run[1] == self.grid[-1] else "between"
-        return "at_most" if self.run[0] == self.grid[0] else "between"
+            return "at_least" if self.run[1] == self.ray.grid[-1] else "between"
+        return "at_most" if self.run[0] == self.ray.grid[0] else "between"
 
     def region(self, meta: Quantity) -> tuple[Relation, float, float]:
         """Return where all that is tried holds, of a number alone: how it is bounded, its end at the present value, and the other one."""
@@ -215,20 +256,23 @@ class TriedLine:
         """Values from one to another: between those of the grid, as many to each part, and as many to each decade."""
         low, high = sorted((near, far))
         decades = [np.geomspace(np.copysign(meta.sizes.ends[0], end), end, GRID_POINTS) for end in (low, high) if end]
-        middles = (self.grid[1:] + self.grid[:-1]) / 2
+        middles = (self.ray.grid[1:] + self.ray.grid[:-1]) / 2
         values = np.concatenate([[near, far], np.linspace(low, high, GRID_POINTS), middles, *decades])
         values = np.unique(np.rint(values) if meta.integer else values)
         return _allowed(meta, values[(low <= values) & (values <= high)])[:: 1 if near <= far else -1]
 
     def low(self) -> float:
         """Return the lower end of the run, moved as far as it holds."""
-        below = [*self.grid[self.grid < self.run[0]], *([self.present] if self.present is not None else [])]
-        return self._moved(self.run[0], max((each for each in below if each < self.run[0]), default=self.run[0]))
+        end = self.run[0]
+        return self._moved(end, max((each for each in self._tried() if each < end), default=end))
 
     def high(self) -> float:
         """Return the upper end of the run, moved as far as it holds."""
-        above = [*self.grid[self.grid > self.run[1]], *([self.present] if self.present is not None else [])]
-        return self._moved(self.run[1], min((each for each in above if each > self.run[1]), default=self.run[1]))
+        end = self.run[1]
+        return self._moved(end, min((each for each in self._tried() if each > end), default=end))
+
+    def _tried(self) -> list[float]:
+        return [*self.ray.grid.tolist(), *([] if self.ray.present is None else [self.ray.present])]
 
     def _moved(self, inner: float, outer: float) -> float:
         """The last value that holds on the way from one that does to one that does not."""
@@ -252,10 +296,10 @@ def _number(trials: Trials, wanted: Vary, place: VariedNumber) -> Way | None:
     change = (_listed_change if is_listed else _change)(line, place, relation, near, far)
     if change is None:
         return None
-    typed = change.value if isinstance(change.value, tuple) else (change.value,)
+    typed = change.value if isinstance(change.value, list) else [change.value]
     values = [np.array([[place.si(float(each))]]) for each in typed] if line.level == 0 else []
     broken = [title for value in values for title in trials.broken(trials.changed([place], value))]
-    return Way((change,), line.level, tuple(dict.fromkeys(broken)))
+    return Way([change], line.level, tuple(dict.fromkeys(broken)))
 
 
 def _is_towards(value: float, present: float | None, to: str) -> bool:
@@ -288,35 +332,36 @@ def _allowed(meta: Quantity, values: Array) -> Array:
 
 def _bounds(meta: Quantity) -> list[float | None]:
     """The least and the greatest number that are allowed, SI, where there are such."""
-    pairs = ((meta.ge, meta.gt), (meta.le, meta.lt))
-    ends = [next((each for each in pair if each is not None), None) for pair in pairs]
+    ends = (meta.gt if meta.ge is None else meta.ge, meta.lt if meta.le is None else meta.le)
     return [None if end is None else end * meta.parsed_unit.factor for end in ends]
 
 
 def _ends(meta: Quantity) -> tuple[float, float]:
     """The ends of what a machine may have, SI: the bounds, else the plausible sizes."""
-    low, high = _bounds(meta)
-    least, most = meta.sizes.ends
+    (low, high), (least, most) = _bounds(meta), meta.sizes.ends
     return (-most if low is None else low or least, most if high is None else high)
 
 
-def _listed_change(line: TriedLine, place: VariedNumber, relation: Relation, near: float, far: float) -> Change:
+def _listed_change(
+    line: TriedLine, place: VariedNumber, relation: Relation, near: float, far: float
+) -> KeyChangeRecord:
     """The change to a value of a series, or a whole number."""
     low, high = sorted((near, far))
     if relation in ("at_least", "at_most") and line.run[0] != line.run[1]:
-        return Change(place.path, relation, _typed(place, near), place.meta.unit)
-    inside = [each for each in line.grid if low <= each <= high]
-    near_ones = sorted(sorted(inside, key=lambda each: abs(each - (line.present or 0.0)))[:FEW_OPTIONS])
-    values = tuple(_typed(place, each) for each in near_ones)
-    relation, value = ("one_of", values) if len(values) > 1 else ("equal", values[0])
-    return Change(place.path, relation, value, place.meta.unit)
+        return _changed(place.path, place.meta.unit, relation, _typed(place, near))
+    inside = [each for each in line.ray.grid if low <= each <= high]
+    near_ones = sorted(sorted(inside, key=lambda each: abs(each - (line.ray.present or 0.0)))[:FEW_OPTIONS])
+    values = [_typed(place, each) for each in near_ones]
+    return _changed(place.path, place.meta.unit, "one_of" if len(values) > 1 else "equal", *values)
 
 
-def _typed(place: VariedNumber, value: float) -> Number:
+def _typed(place: VariedNumber, value: float) -> float:
     return round(place.shown(value)) if place.meta.integer else place.shown(value)
 
 
-def _change(line: TriedLine, place: VariedNumber, relation: Relation, near: float, far: float) -> Change | None:
+def _change(
+    line: TriedLine, place: VariedNumber, relation: Relation, near: float, far: float
+) -> KeyChangeRecord | None:
     """The change to values that hold as they are printed; None where none that is printed does."""
     first = _shortest(line, place, near, up=line.rises)
     if first is None:
@@ -324,25 +369,21 @@ def _change(line: TriedLine, place: VariedNumber, relation: Relation, near: floa
     if relation == "between":
         last = _shortest(line, place, far, up=not line.rises)
         if last is not None and first != last and (last > first) == line.rises:
-            return Change(place.path, "between", (min(first, last), max(first, last)), place.meta.unit)
+            return _changed(place.path, place.meta.unit, "between", *sorted((first, last)))
         relation = "equal"
-    return Change(place.path, relation, first, place.meta.unit)
+    return _changed(place.path, place.meta.unit, relation, first)
 
 
 def _shortest(line: TriedLine, place: VariedNumber, value: float, *, up: bool) -> float | None:
-    """The shortest number at a limit that holds as it is printed."""
-    tried = _rounded(place.shown(value), up=up)
-    held = line.holds(np.array([place.si(each) for each in tried]))
-    return next((each for each, is_held in zip(tried, held, strict=True) if is_held), None)
-
-
-def _rounded(value: float, *, up: bool) -> list[float]:
-    """A limit as it may be printed, the shortest first: the nearest number may hold, the next one on the safe side does.
+    """The shortest number at a limit that holds as it is printed: the nearest may hold, the next one on the safe side does.
 
     A limit that is such a number itself may fail by the rounding of its last place: the next one lies beyond it.
     """
-    beyond = value + (ROUNDING if up else -ROUNDING) * abs(value)
-    return [each for digits in DIGITS for each in (float(f"{value:.{digits}g}"), outward(beyond, up, digits))]
+    limit = place.shown(value)
+    beyond = limit + (ROUNDING if up else -ROUNDING) * abs(limit)
+    tried = [each for digits in DIGITS for each in (float(f"{limit:.{digits}g}"), outward(beyond, up, digits))]
+    held = line.holds(np.array([place.si(each) for each in tried]))
+    return next((each for each, is_held in zip(tried, held, strict=True) if is_held), None)
 
 
 # Several numbers that are changed together; those that need not be changed are left as they are.
@@ -399,13 +440,16 @@ def _way_to(trials: Trials, ray: Ray, parameter: float) -> Way | None:
         values = np.array([[place.si(each) for each, place in zip(typed, ray.places, strict=True)]])
         held = trials.with_numbers(ray.places, values)
         if held[0, 0]:
-            changes = [Change(p.path, "equal", each, p.meta.unit) for each, p in zip(typed, ray.places, strict=True)]
+            changes = [
+                _changed(place.path, place.meta.unit, "equal", each)
+                for each, place in zip(typed, ray.places, strict=True)
+            ]
             broken = () if held[1, 0] else trials.broken(trials.changed(ray.places, values))
-            return Way(tuple(changes), _level(held) or 0, broken)
+            return Way(changes, _level(held) or 0, broken)
     return None
 
 
-def _safe(place: VariedNumber, value: float, digits: int) -> Number:
+def _safe(place: VariedNumber, value: float, digits: int) -> float:
     """A value as it is printed, rounded away from today's."""
     shown = place.shown(value)
     return round(shown) if place.meta.integer else outward(shown, value > (place.present or 0.0), digits)

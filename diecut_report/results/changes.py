@@ -43,8 +43,8 @@ def changes(old: ResultsRecord, new: ResultsRecord) -> ChangesRecord:
         new=_document(new),
         mechanisms=list(_mechanisms(old.mechanisms, new.mechanisms)),
         checks=sorted(_checks(old, new), key=_check_order),
-        inputs=sorted(_rows(_inputs(old, new), _inputs(new, old)), key=_input_order),
-        outputs=sorted(_rows(_outputs(old, new), _outputs(new, old)), key=_output_order),
+        inputs=sorted(_rows(_inputs(old, new), _inputs(new, old)), key=lambda row: (bool(row.follows), -_size(row))),
+        outputs=sorted(_rows(_outputs(old, new), _outputs(new, old)), key=lambda row: (not row.key, -_size(row))),
         code=list(_code(old, new)),
     )
 
@@ -74,8 +74,7 @@ def _document(results: ResultsRecord) -> ChangedDocumentRecord:
 
 def _title(results: ResultsRecord, governing: GoverningRecord) -> str:
     """The title of the check that governs."""
-    checks = results.calculated[governing.mechanism].checks
-    return next(check.title for check in checks if check.id == governing.check)
+    return next(each.title for each in results.calculated[governing.mechanism].checks if each.id == governing.check)
 
 
 def _mechanisms(old: Mechanisms, new: Mechanisms) -> Iterator[ChangedTextRecord]:
@@ -97,7 +96,10 @@ def _of_mechanism(data: MechanismRecord | None) -> str:
 
 def _checks(old: ResultsRecord, new: ResultsRecord) -> Iterator[ChangedCheckRecord]:
     """The checks that changed; those of a mechanism that went went with it."""
-    sides = [dict(_named_checks(side)) for side in (old, new)]
+    sides = [
+        {(name, check.id): check for name, data in side.mechanisms.items() for check in data.checks if check.check_class != SELF_TEST}
+        for side in (old, new)
+    ]  # fmt: skip
     for key in dict.fromkeys([*sides[0], *sides[1]]):
         before, after = (side.get(key) for side in sides)
         some = after or before
@@ -106,11 +108,6 @@ def _checks(old: ResultsRecord, new: ResultsRecord) -> Iterator[ChangedCheckReco
                 mechanism=key[0], id=key[1], title=some.title, check_class=some.check_class, old=_of_check(before),
                 new=_of_check(after), change=_change(before, after),
             )  # fmt: skip
-
-
-def _named_checks(results: ResultsRecord) -> Iterator[tuple[tuple[str, str], CheckRecord]]:
-    for name, mechanism in results.mechanisms.items():
-        yield from (((name, check.id), check) for check in mechanism.checks if check.check_class != SELF_TEST)
 
 
 def _is_other(before: CheckRecord | None, after: CheckRecord | None) -> bool:
@@ -188,19 +185,13 @@ def _rows(old: Iterator[Named], new: Iterator[Named]) -> Iterator[ChangedQuantit
 
 
 def _has_changed(before: QuantityRecord | None, after: QuantityRecord | None) -> bool:
-    if before is None or after is None:
-        return True
-    if before.basis != after.basis:
+    if before is None or after is None or before.basis != after.basis:
         return True
     a, b = before.value, after.value
     if not (_is_number(a) and _is_number(b)):
         return a != b
     factor = _factor(after)
-    return before.unit != after.unit or _differ(a / factor, b / factor)
-
-
-def _differ(a: float, b: float) -> bool:
-    return not math.isclose(a, b, rel_tol=SAME, abs_tol=NOTHING)
+    return before.unit != after.unit or not math.isclose(a / factor, b / factor, rel_tol=SAME, abs_tol=NOTHING)
 
 
 def _is_number(value: object) -> TypeGuard[float]:
@@ -257,14 +248,6 @@ def _follows(before: QuantityRecord | None, after: QuantityRecord | None) -> str
 
 def _size(row: ChangedQuantityRecord) -> float:
     return math.inf if row.relative is None else abs(row.relative)
-
-
-def _input_order(row: ChangedQuantityRecord) -> tuple[bool, float]:
-    return bool(row.follows), -_size(row)
-
-
-def _output_order(row: ChangedQuantityRecord) -> tuple[bool, float]:
-    return not row.key, -_size(row)
 
 
 # --- code ------------------------------------------------------------------------------------------------------------

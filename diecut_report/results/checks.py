@@ -18,8 +18,7 @@ from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.names import listed
 from diecut_report.quantities.formatting import place_shown, shown, with_unit
 from diecut_report.quantities.units import unit
-from diecut_report.results.advice import Advisor
-from diecut_report.results.advised_ways import Way, advice_records, advice_text
+from diecut_report.results.advice import Advisor, Way, advice_text
 from diecut_report.results.mechanism_record import CheckRecord, ShownRecord
 from diecut_report.text.phrases import Phrase, joined, named, phrase
 
@@ -44,17 +43,11 @@ def missing_checks(calc: Calculation, check: Check) -> tuple[str, ...]:
     """Return the keys without which a check is not made; none where it is made, does not apply, or tests the calculation itself."""
     if not is_of_machine(check) or any(_does_not_exist(calc, side) for side in (check.demand, check.limit)):
         return ()
-    return missing_keys(calc.mechanism, check, calc.given) or _left_out(calc, check)
-
-
-def _left_out(calc: Calculation, check: Check) -> tuple[str, ...]:
-    """Return the optional keys of a list that the part which a check judges leaves out, though others give them."""
-    rows = {key: calc.inputs[key] for key in check.named if key in calc.inputs}
-    return tuple(
-        key
-        for key, row in rows.items()
-        if check.index is not None and isinstance(row, tuple) and row[check.index] is None
-    )
+    if keys := missing_keys(calc.mechanism, check, calc.given):
+        return keys
+    # the optional keys of a list that the part which it judges leaves out, though others give them
+    rows = {key: calc.inputs[key] for key in check.named if key in calc.inputs and check.index is not None}
+    return tuple(key for key, row in rows.items() if isinstance(row, tuple) and row[check.index or 0] is None)
 
 
 def _does_not_exist(calc: Calculation, side: str | float) -> bool:
@@ -77,14 +70,8 @@ def not_made(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRec
 
 def _head(check: Check) -> dict[str, Any]:
     """What a check is called, whatever comes of it."""
-    return {
-        "id": check.id,
-        "title": check.title,
-        "check_class": check.check_class,
-        "operator": check.operator,
-        "unit": unit(check.unit).si,
-        "source": check.source,
-    }
+    return {"id": check.id, "title": check.title, "check_class": check.check_class, "operator": check.operator,
+            "unit": unit(check.unit).si, "source": check.source}  # fmt: skip
 
 
 def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
@@ -109,19 +96,11 @@ def check_unit(calc: Calculation, check: Check, sides: list[float]) -> str:
 
 def _message(calc: Calculation, check: Check, keys: tuple[str, ...]) -> str:
     """What is known of either side, and what is not given."""
-    sides = (
-        (check.demand_label, _known(calc, check.demand, check.index)),
-        (check.limit_label, _known(calc, check.limit, check.index)),
-    )
-    known = [
-        Phrase(
-            "{label} {value}",
-            label=phrase(label),
-            value=with_unit(*shown(value, check_unit(calc, check, [value])).values()),
-        )
-        for label, value in sides
-        if value is not None
-    ]
+    known: list[Phrase] = []
+    for label, side in ((check.demand_label, check.demand), (check.limit_label, check.limit)):
+        if (value := _known(calc, side, check.index)) is not None:
+            text = with_unit(*shown(value, check_unit(calc, check, [value])).values())
+            known.append(Phrase("{label} {value}", label=phrase(label), value=text))
     told: str = Phrase(MISSING[len(keys) > 1, bool(known)], keys=listed(keys), known=known[0] if known else "")
     return joined([told, *dict.fromkeys(_of_partners(calc, keys))], " ")
 
@@ -304,7 +283,7 @@ def _check(calc: Calculation, check: Check, found: JudgedCheck, advisor: Advisor
     return CheckRecord(
         **_head(check),
         **told,
-        advice=advice_records(ways),
+        advice=[list(way.changes) for way in ways],
         **_further(calc, check, display, found, pair, part),
         message=joined([message, advice_text(ways)], " ") if ways else message,
         sized_to_limit=is_sized(calc.given, check),
@@ -321,23 +300,16 @@ def _told(check: Check, display: str, found: JudgedCheck, pair: int, part: int) 
     """What is reported of one pair of sides (0: demand and limit, 1: lower bound and demand), of one part."""
     demand, limit, ratio = (float(side[0, pair, part]) for side in (found.demand, found.limit, found.ratio))
     labels = (check.at_least_label, check.demand_label) if pair else (check.demand_label, check.limit_label)
-    return {
-        "status": "pass" if found.held[0, pair, part] else "fail" if check.is_failure(np.array(ratio)) else "warn",
-        "demand": demand,
-        "limit": limit,
-        "utilisation": None if math.isnan(ratio) else ratio,
-        "demand_label": labels[0],
-        "limit_label": labels[1],
-        **{f"{name}_display": text for name, text in _texts(demand, limit, display).items()},
-    }
+    status = "pass" if found.held[0, pair, part] else "fail" if check.is_failure(np.array(ratio)) else "warn"
+    return {"status": status, "demand": demand, "limit": limit, "utilisation": None if math.isnan(ratio) else ratio,
+            "demand_label": labels[0], "limit_label": labels[1], **_texts(demand, limit, display)}  # fmt: skip
 
 
 def _bounds(told: dict[str, Any], *sides: str) -> Phrase:
     """What is compared, the one beside the other."""
     labels = [phrase(told[f"{side}_label"]) for side in sides]
-    values = [with_unit(*told[f"{side}_display"].values()) for side in sides]
-    named = dict(zip(("first", "next"), values, strict=True)) | dict(zip(("label", "next_label"), labels, strict=True))
-    return Phrase("{label} {first}, {next_label} {next}", named)
+    first, next = (with_unit(*told[f"{side}_display"].values()) for side in sides)
+    return Phrase("{label} {first}, {next_label} {next}", first=first, next=next, label=labels[0], next_label=labels[1])
 
 
 def _beside(calc: Calculation, check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> str:
@@ -414,7 +386,7 @@ def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str
         seen = (float(texts[1]["text"]) - float(texts[0]["text"])) * unit(display).factor
         if abs(seen - margin) <= 0.05 * abs(margin):
             break
-    return {"demand": texts[0], "limit": texts[1], "margin": _margin(margin, display, texts)}
+    return {"demand_display": texts[0], "limit_display": texts[1], "margin_display": _margin(margin, display, texts)}
 
 
 def _margin(margin: float, display: str, texts: list[dict[str, str]]) -> dict[str, str]:

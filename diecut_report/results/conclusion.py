@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import NamedTuple, Protocol
+from typing import Literal, NamedTuple
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.source_hashes import plugin_faults
 from diecut_report.machine.calculation import Calculation
-from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.mechanism import CurveTable, Profile, Source
-from diecut_report.mechanism.steps import Step
 from diecut_report.results.checks import applies, checks_of
 from diecut_report.results.figure_views import curve_named, guarded
 from diecut_report.results.mechanism_record import (
@@ -34,24 +33,19 @@ def cited_sources(calc: Calculation) -> list[SourceRecord]:
     """Return the works that the calculation rests on; papers, which are numbered, and what no step names, always."""
     mechanism = calc.mechanism
     every = {step.source for _, step in mechanism.steps} | {check.source for check in mechanism.checks}
-    used = {text for chapter, step in mechanism.active(calc.given) for text in _texts(chapter, step)}
-    used |= {check.source for check in checks_of(calc) if applies(calc, check)} | {
-        *mechanism.assumptions,
-        mechanism.summary,
-    }
-    kept = [
-        each for each in mechanism.sources if _is_named(each, used) or not _is_named(each, every) or each.id.isdigit()
-    ]
-    return [SourceRecord(id=source.id, citation=source.citation) for source in kept]
+    used = {mechanism.summary, *mechanism.assumptions}
+    used |= {check.source for check in checks_of(calc) if applies(calc, check)}
+    for chapter, step in mechanism.active(calc.given):
+        used |= {chapter.text, step.source, step.description, getattr(step, "method", "")}
+
+    def is_cited(source: Source) -> bool:
+        return source.id.isdigit() or _is_named(source, used) or not _is_named(source, every)
+
+    return [SourceRecord(id=source.id, citation=source.citation) for source in mechanism.sources if is_cited(source)]
 
 
 def _is_named(source: Source, texts: Collection[str]) -> bool:
     return any(source.id in text for text in texts)
-
-
-def _texts(chapter: Chapter, step: Step) -> tuple[str, ...]:
-    """What is said of a step that may name a source."""
-    return chapter.text, step.source, step.description, getattr(step, "method", "")
 
 
 # What is written beside the report: profiles as tables and drawings.
@@ -63,11 +57,9 @@ def exports(calc: Calculation) -> list[ExportRecord]:
 
 
 def _export(calc: Calculation, profile: Profile) -> ExportRecord:
-    is_table = isinstance(profile, CurveTable)
-    columns = list(profile.columns)
-    lost = ExportRecord(
-        id=profile.id, title=profile.title, type="table" if is_table else "profile", abscissa="", columns=columns
-    )
+    is_table, columns = isinstance(profile, CurveTable), list(profile.columns)
+    form: Literal["table", "profile"] = "table" if is_table else "profile"
+    lost = ExportRecord(id=profile.id, title=profile.title, type=form, abscissa="", columns=columns)
 
     def made() -> ExportRecord:
         abscissa = curve_named(calc, columns[0])
@@ -91,9 +83,8 @@ def shown_alike(results: Mechanisms, mechanisms: Mechanisms) -> dict[str, Mechan
     """Return results, each input that refers to a number of one of the mechanisms shown as that number is where it is given."""
     found = {}
     for name, data in results.items():
-        changed = {
-            key: row.with_(display=there) for key, row in data.inputs.items() if (there := _shown(row, mechanisms))
-        }
+        shown = {key: _shown(row, mechanisms) for key, row in data.inputs.items()}
+        changed = {key: data.inputs[key].with_(display=there) for key, there in shown.items() if there}
         found[name] = data.with_(inputs=data.inputs | changed) if changed else data
     return found
 
@@ -123,11 +114,11 @@ def doubtful_kinds(results: ResultsRecord) -> list[str]:
 
 def doubtful(results: ResultsRecord, discovery: Discovery | None = None) -> list[str]:
     """Return in words which foreign plugins of a report have faults in their formulas, with the first that are known here."""
-    known = discovery.origins if discovery else {}
-    found = {
-        kind: discovery.mechanism(kind) if discovery and kind in known else None for kind in doubtful_kinds(results)
-    }
-    return [line for kind, mechanism in found.items() for line in told_faults(kind, plugin_faults(mechanism))]
+    found = []
+    for kind in doubtful_kinds(results):
+        is_known = discovery is not None and kind in discovery.origins
+        found += told_faults(kind, plugin_faults(discovery.mechanism(kind) if discovery and is_known else None))
+    return found
 
 
 def told_faults(kind: str, faults: Sequence[str]) -> list[str]:
@@ -151,15 +142,12 @@ SELF_TEST = "numerical"
 
 def counts(checks: Sequence[CheckRecord]) -> CountRecord:
     """Return how many checks there are of each status; the self-tests of the calculation stand apart."""
-    of_machine = [check.status for check in checks if check.check_class != SELF_TEST]
-    own = [check.status == "pass" for check in checks if check.check_class == SELF_TEST]
+    found = Counter(check.status for check in checks if check.check_class != SELF_TEST)
+    own = Counter(check.status == "pass" for check in checks if check.check_class == SELF_TEST)
     return CountRecord(
-        passing=of_machine.count("pass"),
-        warn=of_machine.count("warn"),
-        fail=of_machine.count("fail"),
-        not_checked=of_machine.count("not_checked"),
-        numerical=SelfTestCountRecord(passing=own.count(True), fail=own.count(False)),
-    )
+        passing=found["pass"], warn=found["warn"], fail=found["fail"], not_checked=found["not_checked"],
+        numerical=SelfTestCountRecord(passing=own[True], fail=own[False]),
+    )  # fmt: skip
 
 
 def failed_self_tests(checks: Iterable[CheckRecord]) -> list[CheckRecord]:
@@ -185,28 +173,13 @@ def governing(checks: Mapping[str, Sequence[CheckRecord]]) -> GoverningRecord | 
     return GoverningRecord(mechanism=name, check=check.id)
 
 
-class Weighed(Protocol):
-    """What the weight of a check follows from."""
-
-    @property
-    def status(self) -> str: ...
-    @property
-    def check_class(self) -> str: ...
-    @property
-    def utilisation(self) -> float | None: ...
-    @property
-    def presumed(self) -> bool: ...
-    @property
-    def sized_to_limit(self) -> bool: ...
-
-
-def may_govern(check: Weighed) -> bool:
+def may_govern(check: CheckRecord) -> bool:
     """Return whether a check may govern, see ``governing``."""
     shows_reserve = not (check.sized_to_limit or check.presumed)
     return check.status in RANK and check.check_class != SELF_TEST and (shows_reserve or check.status != "pass")
 
 
-def weight(check: Weighed) -> tuple[int, float]:
+def weight(check: CheckRecord) -> tuple[int, float]:
     """Return by what checks are ordered: the status, then the utilisation."""
     unknown = math.inf if check.status != "pass" else -math.inf
     return RANK[check.status], unknown if check.utilisation is None else check.utilisation
@@ -232,7 +205,10 @@ class Open(NamedTuple):
             failed = Counted(found.fail, "{n} of {total} checks fails", "{n} of {total} checks fail", total=made)
             return Phrase("{failed}; {left}.", failed=failed, left=left) if left else Phrase("{failed}.", failed=failed)
         if self.lost:
-            return self._lost()
+            words = "{n} of {total} mechanisms were not calculated."
+            if self.are_compared:
+                words = "{n} of {total} mechanisms and comparisons were not calculated."
+            return Phrase(words, n=self.lost, total=self.parts)
         if not made:
             return Phrase("Nothing was checked, and {left}.", left=left) if found.not_checked else phrase("There are no checks.")  # fmt: skip
         return Phrase("No check fails, but {left}.", left=left) if left else phrase("All checks pass.")
@@ -255,14 +231,6 @@ class Open(NamedTuple):
     def is_open(self) -> bool:
         """Return whether a machine of which no check fails is not proved all the same: it may not carry a tick."""
         return any(True for _ in self.left())
-
-    def _lost(self) -> Phrase:
-        what = (
-            "{n} of {total} mechanisms and comparisons were not calculated."
-            if self.are_compared
-            else "{n} of {total} mechanisms were not calculated."
-        )
-        return Phrase(what, n=self.lost, total=self.parts)
 
 
 def open_of(results: ResultsRecord) -> Open:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import platform
-from collections.abc import Iterable, Iterator, Sequence, Sized
+from collections.abc import Iterable, Sequence, Sized
 from typing import Any
 
 import numpy as np
@@ -59,6 +59,10 @@ def document(run: Run) -> ResultsRecord:
     comparisons = shown_alike({case.name: _comparison_data(run, case) for case in run.cases}, mechanisms)
     mechanisms = shown_alike(mechanisms, mechanisms)
     checks = {name: data.checks for name, data in mechanisms.items()}
+    left_out = None
+    if comparisons and run.left_out:
+        words = Phrase(LEFT_OUT, count=len(run.left_out), first=run.left_out[0], most=MAX_COMPARISONS)
+        left_out = LeftOutRecord(message=words, names=run.left_out)
     made = ResultsRecord(
         schema_version=1,
         form_version=FORM_VERSION,
@@ -82,7 +86,7 @@ def document(run: Run) -> ResultsRecord:
         summary=summary(checks, assumed(config)),
         mechanisms=mechanisms,
         comparisons=comparisons,
-        comparisons_left_out=_left_out(run) if comparisons else None,
+        comparisons_left_out=left_out,
     )
     return made.with_(summary=made.summary.with_(conclusion=conclusion(made)))
 
@@ -95,14 +99,6 @@ def verdict(statuses: Iterable[str], errors: Sized) -> Status:
 def _logo(logo: Logo) -> LogoRecord:
     content = base64.b64encode(logo.content).decode()
     return LogoRecord(file=logo.name, sha256=logo.sha256, media_type=logo.media_type, base64=content)
-
-
-def _left_out(run: Run) -> LeftOutRecord | None:
-    """The comparisons beyond the most that a config gets, with words on how to get them."""
-    if not run.left_out:
-        return None
-    words = Phrase(LEFT_OUT, count=len(run.left_out), first=run.left_out[0], most=MAX_COMPARISONS)
-    return LeftOutRecord(message=words, names=run.left_out)
 
 
 def _program(config: Config) -> ProgramRecord:
@@ -189,22 +185,17 @@ def resolved(run: Run) -> Data:
 
 
 def _plain(block: Block, node: Node, instance: Instance, bases: Bases) -> Data:
-    values = {name: getattr(block, name) for name in type(block).model_fields}
-    values = {name: value for name, value in values.items() if value is not None}
-    idle = set(_idle(block, values))
+    values = {name: value for name in type(block).model_fields if (value := getattr(block, name)) is not None}
+    idle: set[str] = set()  # defaults that have no use beside what is given: as given keys they would be refused
+    for rule in filter(lambda rule: rule.is_asked(values), type(block).one_of):
+        fault = rule.fault(values)
+        defaults = [name for name in values if name not in block.model_fields_set] if fault else []
+        idle |= {name for name in defaults if rule.fault(values.keys() - {name}) != fault}
     return {
         name: _plain_value(block, (*node, name), value, instance, bases)
         for name, value in values.items()
         if name not in idle
     }
-
-
-def _idle(block: Block, values: Data) -> Iterator[str]:
-    """Return the defaults that have no use beside what is given: as given keys they would be refused."""
-    for rule in filter(lambda rule: rule.is_asked(values), type(block).one_of):
-        fault = rule.fault(values)
-        defaults = [name for name in values if name not in block.model_fields_set] if fault else []
-        yield from (name for name in defaults if rule.fault(values.keys() - {name}) != fault)
 
 
 def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases: Bases) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from math import cos, sin
 from pathlib import Path
@@ -43,7 +43,7 @@ from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.record import Record
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import MessageError, Phrase, phrase
 
 # What figures and exports may name, and what a fault in one of them costs: that one alone.
 
@@ -52,8 +52,8 @@ Data = dict[str, Any]
 R = TypeVar("R", bound=Record)
 
 
-class Undrawable(ValueError):
-    """Report that a figure or export asks for what is not there, in words."""
+class Undrawable(MessageError):
+    """A figure or export that asks for what is not there; the text says what."""
 
 
 def guarded(make: Callable[[], R], lost: Callable[[str], R], place: str) -> R:
@@ -61,55 +61,32 @@ def guarded(make: Callable[[], R], lost: Callable[[str], R], place: str) -> R:
     place = Path(place).name
     try:
         return make()
-    except Undrawable as fault:
-        return lost(f"{fault} ({place})")
-    except ValidationError as cause:
-        return lost(f"{_misfit(cause)} ({place})")
+    except Undrawable as unfit:
+        return lost(f"{unfit} ({place})")
+    except ValidationError as cause:  # what cannot stand in a results file
+        fault = cause.errors(include_url=False)[0]
+        words = "{where}: {fault}; a figure holds finite numbers, texts and lists of these, and None for an absent number in a line"
+        told = Phrase(words, where=".".join(map(str, fault["loc"])), fault=fault["msg"])
+        return lost(f"{told} ({place})")
     except Exception as cause:
         return lost(Phrase("{said}, asked for at {place}", said=said(cause), place=place))
 
 
-def _misfit(cause: ValidationError) -> Phrase:
-    """What cannot stand in a results file."""
-    fault = cause.errors(include_url=False)[0]
-    where = ".".join(map(str, fault["loc"]))
-    words = "{where}: {fault}; a figure holds finite numbers, texts and lists of these, and None for an absent number in a line"
-    return Phrase(words, where=where, fault=fault["msg"])
-
-
 def curve_named(calc: Calculation, name: str, abscissa: str | None = None) -> str:
     """Return a curve's abscissa; refused where the results have no such curve, or not over this abscissa."""
-    found = _abscissas(calc).get(name)
-    if found is None:
-        raise Undrawable(
-            Phrase("{name} is {what}; it takes a curve that the results hold", name=repr(name), what=_what(calc, name))
-        )
-    if abscissa is not None and found != abscissa:
-        raise Undrawable(
-            Phrase(
-                "{name} runs over {found}, not over {abscissa}; both must have one abscissa",
-                name=repr(name),
-                found=repr(found),
-                abscissa=repr(abscissa),
-            )
-        )
-    return found
-
-
-def _abscissas(calc: Calculation) -> Mapping[str, str]:
-    """The abscissa of each curve of the results; an abscissa is its own."""
-    own = {name: name for name in calc.domains} | {n: calc.axis[n] for n, step in calc.curves.items() if step.output}
+    known = {each: each for each in calc.domains} | {n: calc.axis[n] for n, step in calc.curves.items() if step.output}
     for spectrum in calc.mechanism.spectra:
-        own |= {spectrum.id: spectrum.id} | {line.id: spectrum.id for line in spectrum.lines()}
-    return own
-
-
-def _what(calc: Calculation, name: str) -> str:
-    if name in calc.curves:
-        return phrase("a curve that is not an output")
-    if name in calc.values or name in calc.inputs:
-        return phrase("a number or a text, not a curve")
-    return phrase("not a quantity of this machine")
+        known |= {spectrum.id: spectrum.id} | {line.id: spectrum.id for line in spectrum.lines()}
+    found = known.get(name)
+    if found is None:
+        is_number = name in calc.values or name in calc.inputs
+        what = phrase("a number or a text, not a curve") if is_number else phrase("not a quantity of this machine")
+        what = phrase("a curve that is not an output") if name in calc.curves else what
+        raise Undrawable("{name} is {what}; it takes a curve that the results hold", name=repr(name), what=what)
+    if abscissa is not None and found != abscissa:
+        words = "{name} runs over {found}, not over {abscissa}; both must have one abscissa"
+        raise Undrawable(words, name=repr(name), found=repr(found), abscissa=repr(abscissa))
+    return found
 
 
 # What moves in a drawing: each shape once, with the numbers that it has at each place of the abscissa.
@@ -132,13 +109,8 @@ def moving_shapes(title: str, frames: Sequence[Sequence[Shape]]) -> list[Shape]:
     """Return the shapes of all frames once: as it is what stands still, others with their numbers in each frame (``moves``)."""
     forms = [[_form(shape) for shape in frame] for frame in frames]
     if any(form != forms[0] for form in forms) or not all(_is_movable(shape) for shape in frames[0]):
-        raise Undrawable(
-            Phrase(
-                "what moves in {title} must be the same {movable} at each place",
-                title=repr(title),
-                movable=f"{', '.join(MOVABLE)}, rigid",
-            )
-        )
+        words = "what moves in {title} must be the same {movable} at each place"
+        raise Undrawable(words, title=repr(title), movable=f"{', '.join(MOVABLE)}, rigid")
     return [_moved(shapes) for shapes in zip(*frames, strict=True)]
 
 
@@ -202,7 +174,7 @@ def _placed(rigid: Shape) -> list[Shape]:
                 placed.append(point(of(shape["at"]), shape["role"], shape.get("label", "")))
             case kind:
                 words = "{kind} cannot be part of what is rigid; it takes {movable}"
-                raise Undrawable(Phrase(words, kind=repr(kind), movable=", ".join(MOVABLE)))
+                raise Undrawable(words, kind=repr(kind), movable=", ".join(MOVABLE))
     return placed
 
 
@@ -222,40 +194,19 @@ def declared(made: Data, limits: Range | None, view: View, lines: Lines) -> Data
     return checked(made | {"range": ends}, lines)
 
 
-def of_lines(panel: Data) -> Data:
-    """Return a chart's panel; Undrawable where its lines leave the range that it declares."""
-    if "range" not in panel:
-        return panel
-    lines = [(each["label"], [y for y in each["y"] if y is not None]) for each in (*panel["lines"], *panel["fills"])]
-    return checked(panel, lines)
-
-
 def checked(panel: Data, lines: Lines) -> Data:
     """Return a panel with its range; Undrawable where that is empty, or where something drawn lies outside of it."""
     low, high = panel["range"]
-    name = panel.get("title") or panel["label"]
+    name = repr(panel.get("title") or panel["label"])
+    ends = ["…" if end is None else told(end, panel["unit"]) for end in (low, high)]
     if low is not None and high is not None and not low < high:
-        raise Undrawable(
-            Phrase(
-                "the range of {name} goes from {low} to {high}, which is none",
-                name=repr(name),
-                low=_told(low, panel),
-                high=_told(high, panel),
-            )
-        )
+        words = "the range of {name} goes from {low} to {high}, which is none"
+        raise Undrawable(words, name=name, low=ends[0], high=ends[1])
     room = SAME * max(abs(end) for end in (low, high, 0.0) if end is not None)
     for label, value in _heights(panel, lines):
         if (low is not None and value < low - room) or (high is not None and value > high + room):
-            limits = f"{'…' if low is None else _told(low, panel)} to {'…' if high is None else _told(high, panel)}"
-            raise Undrawable(
-                Phrase(
-                    "{label} reaches {value}, outside of the range of {name}, {limits}; widen it",
-                    label=label,
-                    value=_told(value, panel),
-                    name=repr(name),
-                    limits=limits,
-                )
-            )
+            words = "{label} reaches {value}, outside of the range of {name}, {limits}; widen it"
+            raise Undrawable(words, label=label, value=told(value, panel["unit"]), name=name, limits=" to ".join(ends))
     return panel
 
 
@@ -266,10 +217,6 @@ def _heights(panel: Data, lines: Lines) -> Iterator[tuple[str, float]]:
             yield from ((label, min(values)), (label, max(values)))
     yield from ((mark["label"], mark["y"]) for mark in panel.get("marks", ()))
     yield from ((level["label"], level["value"]) for level in panel.get("levels", ()))
-
-
-def _told(value: float, panel: Data) -> str:
-    return told(value, panel["unit"])
 
 
 class MachineView:
@@ -289,7 +236,7 @@ class MachineView:
     def __getitem__(self, name: str) -> float:
         """A number by its id, SI."""
         if name not in self:
-            raise Undrawable(Phrase("there is no number {name} in this machine", name=repr(name)))
+            raise Undrawable("there is no number {name} in this machine", name=repr(name))
         self.asked[name] = None
         return float(self.calc[name][0, 0])
 
@@ -299,8 +246,7 @@ class MachineView:
 
     def get(self, name: str, default: float) -> float:
         """Return a number by its id, or the default where there is none."""
-        known = name in self
-        return self[name] if known else default
+        return self[name] if name in self else default  # noqa: SIM401
 
     def at(self, curve: str, place: float) -> float:
         """Return a curve's value at a place of its abscissa, SI."""
@@ -387,17 +333,13 @@ def shown_figures(calc: Calculation) -> list[Figure]:
 
 def _guarded(calc: Calculation, figure: Figure) -> FigureRecord:
     head: Data = {"id": figure.id, "title": figure.title, "caption": figure.caption}
-    return guarded(
-        lambda: FigureRecord(**_figure(calc, figure, head)),
-        lambda error: FigureRecord(**head, type="failed", error=error),
-        figure.at,
-    )
 
+    def made() -> FigureRecord:
+        view = MachineView(calc)
+        found = _made(calc, figure, head, view)
+        return FigureRecord(**found, shows=_curves(figure)[1:] or list(view.asked))
 
-def _figure(calc: Calculation, figure: Figure, head: Data) -> Data:
-    view = MachineView(calc)
-    made = _made(calc, figure, head, view)
-    return made | {"shows": _curves(figure)[1:] or list(view.asked)}
+    return guarded(made, lambda error: FigureRecord(**head, type="failed", error=error), figure.at)
 
 
 def _made(calc: Calculation, figure: Figure, head: Data, view: MachineView) -> Data:
@@ -416,16 +358,22 @@ def _made(calc: Calculation, figure: Figure, head: Data, view: MachineView) -> D
             drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": laid_out(_listed(build, view))}
             return head | drawn | ({"schematic": True} if schematic else {}) | _moving(calc, figure)
         case Chart(build=build):
-            own = [of_lines(_of_its_size(panel)) for panel in _listed(build, view)]
+            own = [_of_lines(panel) for panel in _listed(build, view)]
             for over in (panel["over"] for panel in own if "over" in panel):
                 curve_named(calc, over, over)
             return head | {"type": "chart", "panels": own}
     raise TypeError(Phrase("{id} is not a known figure", id=figure.id))
 
 
-def _of_its_size(panel: Data) -> Data:
+def _of_lines(panel: Data) -> Data:
+    """A chart's panel in a unit of its size; Undrawable where its lines leave the range that it declares."""
     heights = (height for line in panel["lines"] for height in line["y"] if height is not None)
-    return panel | {"unit": axis_unit(panel["unit"], heights)}
+    panel = panel | {"unit": axis_unit(panel["unit"], heights)}
+    if "range" not in panel:
+        return panel
+    return checked(
+        panel, [(each["label"], [y for y in each["y"] if y is not None]) for each in (*panel["lines"], *panel["fills"])]
+    )
 
 
 def _moving(calc: Calculation, drawing: Drawing) -> Data:
@@ -437,33 +385,19 @@ def _moving(calc: Calculation, drawing: Drawing) -> Data:
     curve_named(calc, drawing.over, drawing.over)
     places = frame_places(calc.domains[drawing.over])
     view = MachineView(calc, places)
-    frames = [_listed(partial(_at_place, drawing.moving, place), view) for place in places]
+    moving = drawing.moving
+    frames = [_listed(partial(lambda place, view: moving(view, place), place), view) for place in places]
     return {"moving": {"over": drawing.over, "places": list(places), "shapes": moving_shapes(drawing.title, frames)}}
-
-
-def _at_place(moving: Callable[[MachineView, float], Any], place: float, view: MachineView) -> Any:
-    return moving(view, place)
 
 
 def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:
     """What an author's function draws, which must be a list of shapes; a function without a return gives none."""
     drawn = build(view)
     if not isinstance(drawn, list) or not all(isinstance(shape, dict) for shape in drawn):
-        name = getattr(build, "__name__", phrase("its function"))
-        given = (
-            "nothing"
-            if drawn is None
-            else f"a {type(drawn).__name__}"
-            if not isinstance(drawn, list)
-            else phrase("other things in its list")
-        )
-        raise Undrawable(
-            Phrase(
-                "{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give",
-                name=name,
-                given=given,
-            )
-        )
+        name, kind = getattr(build, "__name__", phrase("its function")), type(drawn).__name__
+        given = "nothing" if drawn is None else f"a {kind}" if kind != "list" else phrase("other things in its list")
+        words = "{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give"
+        raise Undrawable(words, name=name, given=given)
     return drawn
 
 
@@ -484,9 +418,10 @@ def _panel(panel: Panel, view: MachineView, abscissa: str) -> Data:
         "marks": [mark(view[each.x], _marked(each, panel, view), each.label) for each in panel.marks],
         "spans": [{"from": view[each.start], "to": view[each.end], "label": each.label} for each in panel.spans],
     }  # fmt: skip
-    curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series if panel.range]
-    heights = (height for one in panel.series for height in view.heights(one.curve, abscissa))
-    return _in_chosen_unit(view, declared(made, panel.range, view, curves), heights)
+    curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series]
+    ranged, first = declared(made, panel.range, view, curves), panel.series[0].curve if panel.series else ""
+    unit = view.calc.chosen_units.of(first, panel.unit) or axis_unit(panel.unit, (y for _, own in curves for y in own))
+    return ranged | {"unit": unit}
 
 
 def _marked(mark: Mark, panel: Panel, view: MachineView) -> float:
@@ -496,18 +431,10 @@ def _marked(mark: Mark, panel: Panel, view: MachineView) -> float:
         return height
     if step.of not in [one.curve for one in panel.series]:
         return height
-    return math.copysign(height, _height(step.id, step.of, view))
-
-
-def _height(size: str, curve: str, view: MachineView) -> float:
-    calc, place = view.calc, place_name(size)
+    calc, place = view.calc, place_name(step.id)
     x, rows = calc[place][:1], np.zeros(1, dtype=int)
-    return float(calc.sampler_of(calc.axis[curve], x, calc.middle[place][:1], rows).over(curve)[0, 0])
-
-
-def _in_chosen_unit(view: MachineView, made: Data, heights: Iterable[float]) -> Data:
-    first = made["series"][0]["curve"] if made["series"] else ""
-    return made | {"unit": view.calc.chosen_units.of(first, made["unit"]) or axis_unit(made["unit"], heights)}
+    sampler = calc.sampler_of(calc.axis[step.of], x, calc.middle[place][:1], rows)
+    return math.copysign(height, float(sampler.over(step.of)[0, 0]))
 
 
 def _polar(figure: Polar, view: MachineView, head: Data) -> Data:
@@ -517,16 +444,11 @@ def _polar(figure: Polar, view: MachineView, head: Data) -> Data:
         "unit": figure.unit,
         "series": [vars(s) for s in figure.series],
     }
-    distances = [
-        (one.label, [abs(float(value)) for value in view.curve(one.curve)]) for one in figure.series if figure.range
-    ]
+    distances = [(one.label, [abs(value) for value in view.curve(one.curve)]) for one in figure.series if figure.range]
     ranged = declared(head | made, figure.range, view, distances)
     if (ranged.get("range", [None])[0] or 0) < 0:
-        raise Undrawable(
-            Phrase(
-                "the range of {title} begins below zero, where no distance from the pole is", title=repr(figure.title)
-            )
-        )
+        words = "the range of {title} begins below zero, where no distance from the pole is"
+        raise Undrawable(words, title=repr(figure.title))
     return ranged
 
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
-from typing import Any, NamedTuple, get_args
+from typing import Any, get_args
 
 import numpy as np
 
 from diecut_report.config.source_hashes import plugin_code
-from diecut_report.formulas import Array
 from diecut_report.machine import mechanism as listings
 from diecut_report.machine.calculation import Calculation, Unproven, declared_unit, unit_for
 from diecut_report.machine.mechanism import intervals, period_of, phases_of, speed_of
-from diecut_report.machine.numerics.domain import Domain
 from diecut_report.machine.printing.items import section_items
 from diecut_report.machine.steps import soundness
 from diecut_report.machine.steps.soundness import require_whole
@@ -74,7 +72,6 @@ def curves(calc: Calculation) -> dict[str, CurveRecord]:
         edges = np.unique(domain.joints[0])[1:-1]
         if len(edges):
             found[name]["breakpoints"] = edges.tolist()
-    pieces = {axis: _edges(domain) for axis, domain in calc.domains.items()}
     asked = {getattr(step, "of", "") for step in calc.steps.values()}
     for name, curve in calc.curves.items():
         if curve.output or name in asked:
@@ -82,63 +79,40 @@ def curves(calc: Calculation) -> dict[str, CurveRecord]:
         if curve.output:
             values = calc.curve_samples(name)[0]
             shown = _curve(curve, values, unit_for(calc, name, curve.unit, values))
-            found[name] = shown | _limits(calc, name, pieces[calc.axis[name]])
+            found[name] = shown | _limits(calc, name)
     for spectrum in calc.mechanism.spectra:
         found |= _spectrum(spectrum)
     return {name: CurveRecord(**each) for name, each in found.items()}
 
 
 def _spectrum(spectrum: Spectrum) -> Data:
-    common = {"is_spectrum": True}
-    lines = {
-        line.id: _curve(line, line.values, line.unit) | {"abscissa": spectrum.id} | common for line in spectrum.lines()
-    }
-    return {spectrum.id: _curve(spectrum, spectrum.values, spectrum.unit) | common} | lines
+    own = {spectrum.id: _curve(spectrum, spectrum.values, spectrum.unit) | {"is_spectrum": True}}
+    for line in spectrum.lines():
+        own[line.id] = _curve(line, line.values, line.unit) | {"abscissa": spectrum.id, "is_spectrum": True}
+    return own
 
 
 def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
     if not np.isfinite(np.asarray(values, dtype=float)).all():
-        raise Unproven(
-            Phrase(
-                "{description} ({id}) is a curve that has no value at some of its places",
-                description=step.description,
-                id=step.id,
-            ),
-            step.at,
-        )
+        words = "{description} ({id}) is a curve that has no value at some of its places"
+        raise Unproven(Phrase(words, description=step.description, id=step.id), step.at)
     return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
             "description": step.description, "display_unit": display, "source": step.source,
             **({"source_symbol": step.source_symbol} if isinstance(step, Step) and step.source_symbol else {})}  # fmt: skip
 
 
-class _Edges(NamedTuple):
-    """Hold the smooth pieces of an abscissa: their ends and middles, each (1, pieces), and at which of those between them a curve may jump."""
-
-    starts: Array
-    ends: Array
-    middles: Array
-    joint: Array
-
-
-def _edges(domain: Domain) -> _Edges:
+def _limits(calc: Calculation, name: str) -> Data:
+    """The values of a curve before and after each place between the smooth pieces of its abscissa at which it may jump."""
+    axis, first = calc.axis[name], np.zeros(1, dtype=int)
+    domain = calc.domains[axis]
     wide = domain.widths[0] > 1e-12 * domain.period[0, 0]
-    starts, ends = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide]
+    starts, ends, middles = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide], domain.middles[:1, wide]
     joint = (domain.is_joint(starts[:, 1:]) | domain.is_joint(ends[:, :-1]))[0]
-    return _Edges(starts, ends, domain.middles[:1, wide], joint)
-
-
-def _limits(calc: Calculation, name: str, edges: _Edges) -> Data:
-    axis = calc.axis[name]
-    first = np.zeros(1, dtype=int)
-    after = calc.kept("starts", axis, lambda _: (edges.starts, edges.middles), first)[name]
-    before = calc.kept("ends", axis, lambda _: (edges.ends, edges.middles), first)[name]
-    after, before = (np.broadcast_to(limits, edges.starts.shape)[0] for limits in (after, before))
-    return {
-        "abscissa": axis,
-        "breakpoints": edges.starts[0, 1:][edges.joint].tolist(),
-        "left": before[:-1][edges.joint].tolist(),
-        "right": after[1:][edges.joint].tolist(),
-    }
+    after = calc.kept("starts", axis, lambda _: (starts, middles), first)[name]
+    before = calc.kept("ends", axis, lambda _: (ends, middles), first)[name]
+    after, before = (np.broadcast_to(limits, starts.shape)[0] for limits in (after, before))
+    return {"abscissa": axis, "breakpoints": starts[0, 1:][joint].tolist(), "left": before[:-1][joint].tolist(),
+            "right": after[1:][joint].tolist()}  # fmt: skip
 
 
 # Phases in the results: their intervals as numbers and as they are printed, and which there are not, and why.
@@ -154,34 +128,23 @@ def phases(calc: Calculation) -> dict[str, PhaseRecord]:
         held = intervals(calc, name)
         if held:
             axis = calc.steps[step.abscissa]
-            display = declared_unit(calc, axis.id, axis.unit)
+            display, more = declared_unit(calc, axis.id, axis.unit), _more_digits(calc, step.abscissa)
             speed = speed_of(calc, step.abscissa)
-            more = _more_digits(calc, step.abscissa, display)
+            times = [{"time": shown((end - start) / speed, "ms")["text"]} if speed else {} for start, end in held]
+            texts = [
+                ShownIntervalRecord(**_shown(each, display, more), **time)
+                for each, time in zip(held, times, strict=True)
+            ]
             found[name] = PhaseRecord(
-                role=step.role,
-                description=step.description,
-                abscissa=step.abscissa,
-                period=period_of(calc, step),
-                unit=unit(axis.unit).si,
-                intervals=[list(interval) for interval in held],
-                display=ShownPhaseRecord(
-                    unit=display,
-                    intervals=[
-                        ShownIntervalRecord(**_shown(interval, display, more), **_lasts(interval, speed))
-                        for interval in held
-                    ],
-                ),
-            )
-    return _with_parts(found)
-
-
-def _with_parts(phases: dict[str, PhaseRecord]) -> dict[str, PhaseRecord]:
-    """The phases, those that are nothing but others together with these."""
+                role=step.role, description=step.description, abscissa=step.abscissa, period=period_of(calc, step),
+                unit=unit(axis.unit).si, intervals=[list(interval) for interval in held],
+                display=ShownPhaseRecord(unit=display, intervals=texts),
+            )  # fmt: skip
     sets = {
-        name: frozenset((each.role, each.abscissa, *ends) for ends in each.intervals) for name, each in phases.items()
+        name: frozenset((each.role, each.abscissa, *ends) for ends in each.intervals) for name, each in found.items()
     }
-    whole = composed(sets)
-    return {name: each.with_(parts=list(whole[name])) if name in whole else each for name, each in phases.items()}
+    whole = composed(sets)  # what is nothing but others together
+    return {name: each.with_(parts=list(whole[name])) if name in whole else each for name, each in found.items()}
 
 
 def _shown(interval: Interval, display: str, more: int) -> dict[str, str]:
@@ -191,21 +154,16 @@ def _shown(interval: Interval, display: str, more: int) -> dict[str, str]:
     return {key: place_shown(value, display, more)["text"] for key, value in texts.items()}
 
 
-def _lasts(interval: Interval, speed: float | None) -> dict[str, str]:
-    """The time of an interval in ms, where the speed is known."""
-    return {"time": shown((interval[1] - interval[0]) / speed, "ms")["text"]} if speed else {}
-
-
-def _more_digits(calc: Calculation, abscissa: str, display: str) -> int:
+def _more_digits(calc: Calculation, abscissa: str) -> int:
     """With how many more digits all phases over an abscissa are shown, so that the printed ends give the printed lengths."""
+    display = declared_unit(calc, abscissa, calc.steps[abscissa].unit)
     names = [name for name, step in phases_of(calc).items() if step.abscissa == abscissa]
     held = [interval for name in names for interval in intervals(calc, name)]
-    return next((more for more in MORE if all(_agree(_shown(each, display, more)) for each in held)), 0)
 
+    def agree(told: dict[str, str]) -> bool:
+        return Decimal(told["to"]) - Decimal(told["begin"]) == Decimal(told["length"])
 
-def _agree(told: dict[str, str]) -> bool:
-    """Whether the printed ends give the printed length."""
-    return Decimal(told["to"]) - Decimal(told["begin"]) == Decimal(told["length"])
+    return next((more for more in MORE if all(agree(_shown(each, display, more)) for each in held)), 0)
 
 
 def phases_absent(calc: Calculation) -> dict[str, AbsentPhaseRecord]:
@@ -229,9 +187,8 @@ class SelfTestFailed(Exception):
 
     def __init__(self, checks: list[CheckRecord]) -> None:
         told = " ".join(f"{check.title}: {check.message}" for check in checks)
-        super().__init__(
-            Phrase("The calculation contradicts itself, and its numbers must not be used. {told}", told=told)
-        )
+        words = "The calculation contradicts itself, and its numbers must not be used. {told}"
+        super().__init__(Phrase(words, told=told))
         self.checks = checks
 
 
@@ -307,20 +264,18 @@ IDLE = "not checked although {key} is given: the quantity it limits is not calcu
 def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[AbsentRecord]:
     """Return what is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
     unmade = [s for s in calc.mechanism.chapters if not calc.given.issuperset(s.needs)]
-    left_out = [
-        AbsentRecord(title=s.title, text=words)
-        for s in unmade
-        if (words := soundness.unmet(calc, s.needs) or _why(calc, s))
-    ]
+    reasons = [(s.title, soundness.unmet(calc, s.needs) or _why(calc, s)) for s in unmade]
     checks = checks_of(calc)
     made = {check.id for check in checks if applies(calc, check) or missing_checks(calc, check)}
     used = {check.limit for check in checks if check.id in made}
-    idle = [
-        AbsentRecord(title=c.title, text=Phrase(IDLE, key=c.limit))
-        for c in checks
-        if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made and c.limit not in used
-    ]
-    return left_out + idle
+    for check in checks:
+        limit = str(check.limit)  # is it an input that is there, and not by its default alone?
+        is_given = (
+            limit in calc.inputs and limit not in calc.values and provenance.get(limit, GIVEN).origin != "default"
+        )
+        if is_given and check.id not in made and check.limit not in used:
+            reasons.append((check.title, Phrase(IDLE, key=check.limit)))
+    return [AbsentRecord(title=title, text=words) for title, words in reasons if words]
 
 
 def _why(calc: Calculation, chapter: Chapter) -> str:
@@ -329,11 +284,6 @@ def _why(calc: Calculation, chapter: Chapter) -> str:
         return chapter.absent
     keys = [key for key in chapter.needs if key not in calc.given]
     return Phrase(chapter.absent, missing=keys_listed(keys))
-
-
-def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Provenance]) -> bool:
-    """Whether a limit is an input that is there, and not by its default alone."""
-    return name in calc.inputs and name not in calc.values and provenance.get(name, GIVEN).origin != "default"
 
 
 def worst(statuses: Iterable[str]) -> Status:
@@ -422,8 +372,7 @@ def _number(step: Step, value: Any, display: str) -> Data:
         return {"value": value, "unit": "1"} | said | {"display": {"text": value, "unit": "1"}}
     if isinstance(value, bool | np.bool_):
         return {"value": bool(value), "unit": "1"} | said | {"display": {"text": "yes" if value else "no", "unit": "1"}}
+    text = shown(float(value), display, author_digits(float(value), display, step.digits))
     return (
-        {"value": round(value) if step.whole else float(value), "unit": unit(step.unit).si}
-        | said
-        | {"display": shown(float(value), display, author_digits(float(value), display, step.digits))}
+        {"value": round(value) if step.whole else float(value), "unit": unit(step.unit).si} | said | {"display": text}
     )

@@ -6,8 +6,9 @@ Numbers are SI. A key without a default is always there; any other is left out o
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
+from pydantic import WithJsonSchema
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
 
@@ -31,6 +32,8 @@ from diecut_report.results.record import (
     always,
     sometimes,
 )
+
+OPEN_BLOCK = WithJsonSchema({"additionalProperties": True, "type": "object"})  # form 2.0 tells no more of it
 
 
 class ProgramRecord(Record):
@@ -171,6 +174,68 @@ class SummaryRecord(CountRecord):
     )
 
 
+class MovedBarRecord(Record):
+    """An input that moves a number, and the number with it lowered and raised; null where the machine cannot exist."""
+
+    name: str = always("The input.")
+    unit: str = always("The unit of its values.")
+    lowered: float = always("Its lower value.")
+    raised: float = always("Its higher value.")
+    low: float | None = always("The number with the lower value.")
+    high: float | None = always("The number with the higher value.")
+
+
+class TornadoRecord(Record):
+    """What inputs do to a number, the greatest first; values are in the unit that they are read in."""
+
+    name: str = always("The number.")
+    unit: str = always("Its unit.")
+    today: float = always("Its value without a change.")
+    bars: list[MovedBarRecord] = always("The inputs that move it most.")
+    more: int = always("How many more move it.")
+    still: int = always("How many do not.")
+    at_default: int = always("How many stand at their default and were not changed.")
+
+
+class ScatterRecord(Record):
+    """An input that scatters."""
+
+    name: str = always("The input.")
+    unit: str = always("The unit of its values.")
+    value: float = always("Its value.")
+    tolerance: float = always("How far it scatters to both sides.")
+
+
+class ChanceRecord(Record):
+    """How probable it is that a check holds, with the interval of Clopper and Pearson."""
+
+    check: str = always("The check.")
+    held: int = always("In how many machines it holds.")
+    count: int = always("Of how many.")
+    probability: float = always("The share of these.")
+    low: float = always("The lower end of the interval.")
+    high: float = always("Its upper end.")
+
+
+class TolerancesRecord(Record):
+    """What tolerances do to the checks."""
+
+    distribution: Literal["normal", "uniform"] = always("How the inputs scatter.")
+    seed: int = always("The seed of the draws.")
+    count: int = always("How many machines were drawn.")
+    inputs: list[ScatterRecord] = always("The inputs.")
+    whole: ChanceRecord = always("That no check fails.")
+    checks: list[ChanceRecord] = always("Of each check, the least probable first.")
+
+
+class InfluenceRecord(Record):
+    """What moves what, as the chapter on it tells."""
+
+    by: float = always("Share by which each input is lowered and raised.")
+    tornados: list[TornadoRecord] = always("The numbers that are looked at.")
+    tolerances: TolerancesRecord | None = sometimes("What tolerances do.")
+
+
 class LeftOutRecord(Record):
     """Comparisons beyond the most that a configuration gets."""
 
@@ -281,8 +346,8 @@ class ResultsRecord(Record):
     mechanisms: dict[Name, MechanismRecord] = always("The mechanisms by name, in the order of the configuration.")
     comparisons: dict[Name, MechanismRecord] = sometimes("Comparisons between mechanisms, by kind and mechanisms.", {})
     comparisons_left_out: LeftOutRecord | None = sometimes("Comparisons that are not made.")
-    influence: dict[str, Any] = sometimes(
-        "Of a report with `report: {influence: …}`: what moves what, as its chapter reports it.", {}
+    influence: Annotated[InfluenceRecord, OPEN_BLOCK] | None = sometimes(
+        "Of a report with `report: {influence: …}`: what moves what, as its chapter reports it."
     )
     changes: ChangesRecord | None = sometimes(
         "Of a report with `--previous`: what changed (the form of `diff --format json`)."
@@ -330,11 +395,8 @@ def _named(part: Any) -> Any:
         return [_named(each) for each in part]
     if not isinstance(part, Mapping):
         return part
-    found = {key.removesuffix(SUFFIX): _named(value) for key, value in part.items() if not _is_title(key, value)}
+    kept = {key: value for key, value in part.items() if not (key == "title" and isinstance(value, str))}
+    found = {key.removesuffix(SUFFIX): _named(value) for key, value in kept.items()}
     if isinstance(found.get("$ref"), str):
         found["$ref"] = found["$ref"].removesuffix(SUFFIX)
     return found
-
-
-def _is_title(key: str, value: Any) -> bool:
-    return key == "title" and isinstance(value, str)

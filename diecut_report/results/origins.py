@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import cache
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 
@@ -30,15 +30,14 @@ from diecut_report.quantities.formatting import given_shown, shortest
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, PartRecord, QuantityRecord
-from diecut_report.results.model import SummaryRecord
+from diecut_report.results.model import MoveRecord, SummaryRecord
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 # What advice names is changed where it begins: a key that follows from another one is not changed in one mechanism alone.
 
 
-InputsOf = Callable[
-    [str], Mapping[str, str]
-]  # what each input of a mechanism refers to, by its name; nothing of what is not one
+InputsOf = Callable[[str], Mapping[str, str]]
+"""What each input of a mechanism refers to, by its name; nothing of what is not one."""
 FOLLOWS = "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
 
 
@@ -49,11 +48,12 @@ def with_origins(mechanisms: Mapping[str, MechanismRecord]) -> dict[str, Mechani
         return {key: row.path for key, row in mechanisms[name].inputs.items()} if name in mechanisms else {}
 
     checks = checks_with_origins({name: data.checks for name, data in mechanisms.items()}, cache(paths))
-    return {name: data.with_(**_warned(checks[name])) if data.checks else data for name, data in mechanisms.items()}
-
-
-def _warned(checks: list[CheckRecord]) -> dict[str, Any]:
-    return {"checks": checks, "warnings": [check.message for check in checks if check.status == "warn"]}
+    found = dict(mechanisms)
+    for name, own in checks.items():
+        if own:
+            warned = [check.message for check in own if check.status == "warn"]
+            found[name] = found[name].with_(checks=own, warnings=warned)
+    return found
 
 
 def checks_with_origins(checks: Mapping[str, list[CheckRecord]], inputs_of: InputsOf) -> dict[str, list[CheckRecord]]:
@@ -65,14 +65,9 @@ def _check(inputs_of: InputsOf, name: str, check: CheckRecord) -> CheckRecord:
     if check.status not in ("warn", "fail"):
         return check
     keys = {change.key for way in check.advice for change in way}
-    words = dict.fromkeys(_origins(inputs_of, name, keys))
+    begun = ((key, _beginning(inputs_of, path)) for key, path in inputs_of(name).items() if path and key in keys)
+    words = dict.fromkeys(Phrase(FOLLOWS, key=key, origin=origin) for key, origin in begun)
     return check.with_(message=joined([check.message, *words], " ")) if words else check
-
-
-def _origins(inputs_of: InputsOf, name: str, keys: Container[str]) -> Iterator[str]:
-    for key, path in inputs_of(name).items():
-        if path and key in keys:
-            yield Phrase(FOLLOWS, key=key, origin=_beginning(inputs_of, path))
 
 
 def _beginning(inputs_of: InputsOf, path: str) -> str:
@@ -151,20 +146,13 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
 # What the values of a run rest on: a reference carries the weakest basis of all that it is calculated from.
 
 
-class _Slots(NamedTuple):
-    """Hold the inputs of a mechanism: the keys of those that are given, and of all with the names that its steps know them by."""
-
-    given: frozenset[KeyPath]
-    named: Sequence[tuple[str, KeyPath]]
-
-
 class Bases:
     """Follow the references of a run, of which all calculations are known that a value refers to."""
 
     def __init__(self, config: Config, calculations: Mapping[str, Calculation]) -> None:
         self.config, self.calculations = config, calculations
         self._known: dict[Node, str] = {}
-        self._slots_of: dict[str, _Slots] = {}
+        self._given: dict[str, set[KeyPath]] = {}
         self._linked: dict[Node, list[Target]] = {}
         for node, target in config.links.items():
             for length in range(2, len(node) + 1):  # also of the whole list that it stands in
@@ -199,15 +187,11 @@ class Bases:
 
     def _is_given(self, node: Node) -> bool:
         instance = self.config.instances[str(node[0])]
-        return instance is not None and node[1:] in self._slots(instance).given
-
-    def _slots(self, instance: Instance) -> _Slots:
-        if instance.name not in self._slots_of:
-            found = instance.slots
-            given = frozenset(slot.key for slot in found if slot.is_given)
-            names = [(".".join(part for part in slot.key if isinstance(part, str)), slot.key) for slot in found]
-            self._slots_of[instance.name] = _Slots(given, names)
-        return self._slots_of[instance.name]
+        if instance is None:
+            return False
+        if instance.name not in self._given:
+            self._given[instance.name] = {slot.key for slot in instance.slots if slot.is_given}
+        return node[1:] in self._given[instance.name]
 
     def _target(self, target: Target) -> str:
         if target.result is None:
@@ -220,13 +204,11 @@ class Bases:
         instance = self.config.instances[target.instance]
         assert instance is not None, "what is calculated has a model"
         names = needed(calculation.mechanism, calculation.given, [str(target.result)])
-        used = {
-            name
-            for _, step in calculation.mechanism.active(calculation.given)
-            if step.id in names
-            for name in taken(step)
-        }
-        yield from ((instance.name, *key) for name, key in self._slots(instance).named if name in used)
+        steps = (step for _, step in calculation.mechanism.active(calculation.given) if step.id in names)
+        used = set[str]().union(*map(taken, steps))
+        for slot in instance.slots:
+            if ".".join(part for part in slot.key if isinstance(part, str)) in used:  # as its steps know it
+                yield (instance.name, *slot.key)
 
 
 def assumed(config: Config) -> list[str]:
@@ -245,34 +227,11 @@ def assumed(config: Config) -> list[str]:
 MOVES = 1e-3  # change of a utilisation, by a change of the value by a tenth, below which it does not count
 
 
-class Assumed(NamedTuple):
-    """Name an assumed value by its path, and the governing check (``train.motor``) that it moves most, "" where none is known.
-
-    ``change`` is the greatest change of that check's utilisation when the value changes by a tenth.
-    """
-
-    path: str
-    check: str = ""
-    change: float = 0.0
-
-
-def ordered(summary: SummaryRecord) -> list[Assumed]:
-    """Return the assumed values of a machine: those that move a governing check first, then in the file's order."""
-    moves = {move.path: Assumed(move.path, move.check, move.change or 0.0) for move in summary.moves}
-    found = [moves.get(path, Assumed(path)) for path in summary.assumed]
-    return sorted(found, key=lambda each: -each.change)
-
-
-# Inputs that vary over a cycle, as the results tell them.
-
-
-def varying(meta: Varying, value: Any, display: str) -> dict[str, Any]:
-    """Return what is given in place of a number: extremes, a text, a curve."""
-    text = value if isinstance(value, str) else "a curve"
-    if isinstance(value, Extremes):
-        text = " … ".join(shortest(unit(display).from_si(end)) for end in (value.low, value.high))
-    return {"value": text, "unit": meta.parsed_unit.si, "symbol": meta.symbol, "description": meta.description,
-            "display": {"text": text, "unit": display if isinstance(value, Extremes) else "1"}}  # fmt: skip
+def ordered(summary: SummaryRecord) -> list[MoveRecord]:
+    """Return the assumed values of a machine: those that move a governing check first, then in the file's order; no check where none is known."""
+    moves = {move.path: move for move in summary.moves}
+    found = [moves.get(path, MoveRecord(path=path, check="", change=0.0)) for path in summary.assumed]
+    return sorted(found, key=lambda each: -(each.change or 0.0))
 
 
 # The inputs of a mechanism as results hold them: value, unit, where each comes from and what was typed.
@@ -287,13 +246,13 @@ class Provenance:
 
     origin: Origin
     path: str = ""
-    text: str | None = None
-    paths: tuple[str, ...] = ()
+    text: str = ""
+    paths: list[str] = field(default_factory=list)
     basis: str = ""
     note: str = ""
 
 
-GIVEN = Provenance("given")
+GIVEN, DEFAULT = Provenance("given"), Provenance("default")
 
 
 def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> dict[str, QuantityRecord]:
@@ -304,7 +263,7 @@ def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> dict[str,
         display = declared_unit(calc, name, meta.unit) if isinstance(meta, Quantity) else "1"
         quantity = name.removeprefix(f"{home}.")
         part = None if index is None else PartRecord(family=home, index=index, quantity=quantity)
-        found[path] = QuantityRecord(**_input(meta, value, display), **_origin(provenance.get(path)), part=part)
+        found[path] = QuantityRecord(**_input(meta, value, display), **vars(provenance.get(path, DEFAULT)), part=part)
     return found
 
 
@@ -324,45 +283,38 @@ def placed_inputs(calc: Calculation) -> Iterator[tuple[str, str, int | None, Any
                 yield f"{home}.{index}{name.removeprefix(home)}", name, index, part
 
 
-def _origin(provenance: Provenance | None) -> dict[str, Any]:
-    known = provenance or Provenance("default")
-    return vars(known) | {"paths": list(known.paths), "text": known.text or ""}
-
-
-def _as_text(value: Any) -> str:
-    """A choice as one would say it: texts after one another, yes or no."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return ", ".join(value) if isinstance(value, tuple) else str(value)
-
-
 def _input(meta: Any, value: Any, display: str) -> dict[str, Any]:
-    if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
-        return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
-                "display": {"text": str(value), "unit": "1"}}  # fmt: skip
-    if not isinstance(meta, Quantity):
-        is_curve = isinstance(meta, CurveInput)
-        text = "a curve" if is_curve else _as_text(value)
-        plain = list(value) if isinstance(value, tuple) else value
-        return {"value": text if is_curve else plain, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
-                "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
-    if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
-        return varying(meta, value, display)
-    number = float(np.ravel(value)[0])
-    return {
-        "value": int(number) if meta.integer else number,
-        "unit": meta.parsed_unit.si,
-        "symbol": meta.symbol,
-        "description": meta.description,
-        "display": given_shown(number, display),
-    }
+    """What the results hold of an input; of one that is not a number words, of a choice those that one would say."""
+    head = {"symbol": meta.symbol, "description": meta.description}
+    is_word = isinstance(value, str | TakenWhole)
+    if (
+        isinstance(meta, Quantity)
+        and not is_word
+        and (isinstance(value, float | np.ndarray) or not isinstance(meta, Varying))
+    ):
+        number = float(np.ravel(value)[0])
+        exact = int(number) if meta.integer else number
+        return head | {"value": exact, "unit": meta.parsed_unit.si, "display": given_shown(number, display)}
+    is_varying = isinstance(meta, CurveInput | Varying) and not is_word
+    plain, display = list(value) if isinstance(value, tuple) else value, display if isinstance(value, Extremes) else "1"
+    if isinstance(value, Extremes):
+        text = " … ".join(shortest(unit(display).from_si(end)) for end in (value.low, value.high))
+    elif is_varying:
+        text = "a curve"
+    elif isinstance(value, bool):
+        text = "yes" if value else "no"
+    else:
+        text = ", ".join(value) if isinstance(value, tuple) else str(value)
+    is_plain = not (is_varying or isinstance(value, TakenWhole))
+    return head | {"value": plain if is_plain else text, "unit": unit(meta.unit).si if is_varying else "1",
+                   "display": {"text": text, "unit": display}}  # fmt: skip
 
 
 def origin_of(config: Config, instance: Instance, slot: Slot) -> Provenance:
     """Return where an input comes from; what it rests on is not said."""
     target = config.links.get((instance.name, *slot.key))
-    typed = instance.place.typed(slot.key) if slot.is_given else None
+    typed = (instance.place.typed(slot.key) if slot.is_given else None) or ""
     if target is not None and target.expression:
-        return Provenance("expression", "", typed, tuple(term.path for term in target.terms))
+        return Provenance("expression", "", typed, [term.path for term in target.terms])
     origin: Origin = "default" if not slot.is_given else "reference" if target else "given"
     return Provenance(origin, target.path if target else "", typed)

@@ -30,8 +30,7 @@ from diecut_report.mechanism.names import SI, Text
 from diecut_report.mechanism.steps import Clash, Require
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
-from diecut_report.results.advice import possible_ways
-from diecut_report.results.advised_ways import advice_text
+from diecut_report.results.advice import advice_text, possible_ways
 from diecut_report.results.checks import holds
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, SourceRecord
@@ -100,23 +99,17 @@ def _block(case: Found, values: Mapping[str, Any]) -> Block:
     except ValidationError as error:
         fault = error.errors(include_url=False)[0]
         key = str(fault["loc"][0])
-        if not _is_of_its_kind(case, key, values.get(key)):
+        meta, value = meta_of(case.comparison.mechanism.inputs, key), values.get(key)
+        if not (
+            isinstance(meta, Quantity) and isinstance(value, SI) and unit(value.unit).kind == meta.parsed_unit.kind
+        ):
             raise  # a fault of what is declared
         kind, name = case.comparison.takes[key]
-        instance = case.between[kind]
-        words = Phrase(
-            "The comparison {name} takes {output}: {fault}.",
-            name=case.name,
-            output=f"{instance}.{name}",
-            fault=fault["msg"].removeprefix("Value error, "),
-        )
-        raise Uncomparable(words, instance, name) from error
-
-
-def _is_of_its_kind(case: Found, key: str, value: Any) -> bool:
-    """Return whether a result is a number of the kind that an input takes."""
-    meta = meta_of(case.comparison.mechanism.inputs, key)
-    return isinstance(meta, Quantity) and isinstance(value, SI) and unit(value.unit).kind == meta.parsed_unit.kind
+        instance, told = case.between[kind], fault["msg"].removeprefix("Value error, ")
+        words = "The comparison {name} takes {output}: {fault}."
+        raise Uncomparable(
+            Phrase(words, name=case.name, output=f"{instance}.{name}", fault=told), instance, name
+        ) from error
 
 
 def _taken(calc: Calculation, name: str) -> Any:
@@ -163,9 +156,7 @@ class Run:
         self.calculations: dict[str, Calculation] = {}
         self.results: dict[str, MechanismRecord] = {}
         self.errors: dict[str, PluginError] = dict(config.broken)
-        self.self_tests: dict[
-            str, list[CheckRecord]
-        ] = {}  # of each mechanism that contradicts itself, what does not hold
+        self.self_tests: dict[str, list[CheckRecord]] = {}  # of what contradicts itself, what does not hold
         self.skipped: dict[str, str] = {}
         self.withheld: dict[Node, str] = {}  # values that are not calculated, and why
         self.problems: list[Problem] = []
@@ -216,18 +207,11 @@ class Run:
         known = {name: given.value for name, given in zip(expression.names, values, strict=True)}
         value = expression.value(known.__getitem__)
         if isinstance(value, float) and math.isnan(value):
-            told = ", ".join(
-                Phrase("{name} is {given}", name=name, given=f"{given:.6g}")
-                for name, given in known.items()
-                if np.ndim(given) == 0
-            )
+            single = {name: f"{given:.6g}" for name, given in known.items() if np.ndim(given) == 0}
+            told = ", ".join(Phrase("{name} is {given}", name=name, given=given) for name, given in single.items())
+            fault = expression.fault(known.__getitem__)
             raise Valueless(
-                Phrase(
-                    "{told} {fault}, where (in SI) {told_2}.",
-                    told=target.told,
-                    fault=expression.fault(known.__getitem__),
-                    told_2=told,
-                )
+                Phrase("{told} {fault}, where (in SI) {told_2}.", told=target.told, fault=fault, told_2=told)
             )
         return SI(value, str(target.unit), expression.text)
 
@@ -276,18 +260,16 @@ class Run:
         own = {node: target for node, target in links.items() if node[0] == name}
         if instance is None or name in self.errors:
             return
-        needed = [
-            each.instance for node, target in own.items() if node[1] not in instance.derived for each in target.single
-        ]
-        unusable = [name for name in needed if name in self.errors or name in self.skipped]
+        asked = (target for node, target in own.items() if node[1] not in instance.derived)
+        lost = self.errors.keys() | self.skipped.keys()
+        unusable = [each.instance for target in asked for each in target.single if each.instance in lost]
         missing = [node for node in own if node not in self.values]
         if instance.mechanism is None:
             self._press(instance, {node: own[node] for node in own if node not in missing}, missing)
             return
         if unusable or missing:
             self.skipped[name] = self._why_skipped(unusable, missing)
-            return
-        if self._validated(name, instance, self._with_values(instance, own)):
+        elif self._validated(name, instance, self._with_values(instance, own)):
             self._calculate(name, instance, self.blocks[name])
 
     def _why_skipped(self, unusable: list[str], missing: list[Node]) -> str:
@@ -368,25 +350,22 @@ class Run:
         try:
             with in_time():
                 self.comparisons[case.name] = compared(case, self.calculations, self.chosen_units(""))
-        except Uncomparable as fault:
-            self.problems.append(self._uncomparable(fault))
+        except (
+            Uncomparable
+        ) as fault:  # told at the key that the value was given by, or else at the mechanism that gives it
+            instance = self.config.instances[fault.instance]
+            assert instance is not None, "a broken mechanism is compared with nothing"
+            is_given = fault.name in instance.data
+            key = (fault.name,) if is_given else ()
+            self.problems.append(instance.place.problem(key, str(fault), at_key=not is_given))
         except Exception as cause:
-            error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
-            error.__cause__ = cause
-            self.errors[case.name] = error
-
-    def _uncomparable(self, fault: Uncomparable) -> Problem:
-        """The problem at the key that the value was given by, or else at the mechanism that gives it."""
-        instance = self.config.instances[fault.instance]
-        assert instance is not None, "a broken mechanism is compared with nothing"
-        is_given = fault.name in instance.data
-        return instance.place.problem((fault.name,) if is_given else (), str(fault), at_key=not is_given)
+            self.errors[case.name] = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
+            self.errors[case.name].__cause__ = cause
 
     def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
         self.calculations.pop(instance.name, None)
-        error = PluginError(words or said(cause), self.config.kinds[instance.name], instance.name)
-        error.__cause__ = cause
-        self.errors[instance.name] = error
+        self.errors[instance.name] = PluginError(words or said(cause), self.config.kinds[instance.name], instance.name)
+        self.errors[instance.name].__cause__ = cause
 
     @cached_property
     def bases(self) -> Bases:
@@ -420,7 +399,7 @@ class _FeasibilityRun(Run):
 
     def __init__(self, config: Config, known: Sequence[Problem]) -> None:
         self.known = known
-        self.wrong = {name for name in config.instances for problem in known if _concerns(problem, name)}
+        self.wrong = {name for name in config.instances for problem in known if _is_within(problem.path, _home(name))}
         super().__init__(config, lambda _: None)
 
     def _mechanism(self, name: str) -> None:
@@ -431,8 +410,9 @@ class _FeasibilityRun(Run):
 
     def _referred(self, target: Target) -> Any:
         """Return what a reference stands for; Unavailable where the value there has a problem of its own, for it cannot be read."""
-        path = ".".join(map(str, (*_home(target.instance), *target.key)))
-        if target.instance in self.wrong and any(_overlap(problem.path, path) for problem in self.known):
+        path = ".".join((_home(target.instance), *map(str, target.key)))
+        faulty = (problem.path for problem in self.known if target.instance in self.wrong)
+        if any(_is_within(each, path) or _is_within(path, each) for each in faulty):
             raise Unavailable(target.instance)
         return super()._referred(target)
 
@@ -442,9 +422,12 @@ class _FeasibilityRun(Run):
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         inputs = flatten(block)
         given = frozenset(inputs) | texts_given(inputs)
-        names = [*self._referred_to(instance.name), *_conditions(mechanism, given)]
         if self._is_taken_whole(instance.name):
             return calculate(mechanism, inputs)
+        referred = (single for target in self.config.links.values() for single in target.single)
+        names = [str(each.result) for each in referred if each.instance == instance.name and each.result]
+        steps = [step for _, step in mechanism.active(given) if isinstance(step, Require | Clash)]
+        names += [name for step in steps for name in taken(step)]  # what must be known of what must hold
         try:
             return calculate(mechanism, inputs, 1, needed(mechanism, given, names))
         except Impossible:  # its words may name what these steps do not know
@@ -453,32 +436,17 @@ class _FeasibilityRun(Run):
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
         """Nothing is printed."""
 
-    def _referred_to(self, name: str) -> Iterator[str]:
-        for target in self.config.links.values():
-            yield from (str(single.result) for single in target.single if single.instance == name and single.result)
-
     def _is_taken_whole(self, name: str) -> bool:
         """Whether another mechanism takes it, or a phase of it, which is more than a few of its results."""
         links = self.config.links.values()
         return any(link.instance == name and (link.is_mechanism or link.phase_unit is not None) for link in links)
 
 
-def _concerns(problem: Problem, name: str) -> bool:
-    return f"{problem.path}.".startswith(f"{'.'.join(_home(name))}.")
-
-
-def _home(name: str) -> tuple[str, ...]:
+def _home(name: str) -> str:
     """Return the key path of the press or a mechanism."""
-    return (PRESS,) if name == PRESS else ("mechanisms", name)
+    return PRESS if name == PRESS else f"mechanisms.{name}"
 
 
-def _overlap(one: str, other: str) -> bool:
-    """Return whether one of two key paths is the other or lies within it."""
-    return f"{one}.".startswith(f"{other}.") or f"{other}.".startswith(f"{one}.")
-
-
-def _conditions(mechanism: Mechanism, given: frozenset[str]) -> Iterator[str]:
-    """What must be known of what must hold."""
-    for step in mechanism.active(given):
-        if isinstance(step[1], Require | Clash):
-            yield from taken(step[1])
+def _is_within(path: str, home: str) -> bool:
+    """Return whether a key path is another or lies within it."""
+    return f"{path}.".startswith(f"{home}.")

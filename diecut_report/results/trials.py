@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -72,15 +72,10 @@ class Trials(ABC):
 
     def none_fails(self, made: Calculation, checks: Sequence[Check]) -> Array:
         """Return the machines of which no check fails."""
-        judged = (self.judge(made, check) for check in checks)
-        found: Array = np.logical_and.reduce(
-            [np.ones(made.count, dtype=bool), *(~there | holds for there, holds in judged)]
-        )
+        found = np.ones(made.count, dtype=bool)
+        for there, holds in (self.judge(made, check) for check in checks):
+            found &= ~there | holds
         return found
-
-    @cached_property
-    def _lists(self) -> Mapping[str, str]:
-        return list_inputs(self.calc.mechanism.inputs)
 
     def may_be_given(self, key: str) -> bool:
         """Return whether an input is given, or may be given beside what is: not in place of what else was chosen."""
@@ -97,7 +92,7 @@ class Trials(ABC):
         meta, value = self.calc.meta.get(key), self.calc.inputs.get(key)
         if not isinstance(meta, Quantity) or not isinstance(value, np.ndarray | tuple | None):
             return []
-        home = self._lists.get(key)
+        home = list_inputs(self.calc.mechanism.inputs).get(key)
         if home is None:
             present = None if value is None else float(np.ravel(value)[0])
             return [VariedNumber(key, meta, None, present, key)]
@@ -138,14 +133,10 @@ class Trials(ABC):
             if place.part is None:
                 found[place.key] = values[:, column]
                 continue
-            row = found.get(place.key) or _parts(self.calc.inputs[place.key])
+            known = self.calc.inputs[place.key]  # of parts each a number, or None where a part does not have it
+            row = found.get(place.key) or (tuple(known[0].tolist()) if isinstance(known, np.ndarray) else tuple(known))
             found[place.key] = (*row[: place.part], values[:, column], *row[place.part + 1 :])
         return found
-
-
-def _parts(value: Any) -> tuple[Any, ...]:
-    """The parts of a list's input, each a number, or None where a part does not have it."""
-    return tuple(float(part) for part in value[0]) if isinstance(value, np.ndarray) else tuple(value)
 
 
 @lru_cache(maxsize=1024)

@@ -22,7 +22,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import cache, cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
@@ -54,6 +54,7 @@ from diecut_report.results.origins import assumed, checks_with_origins, origin_o
 from diecut_report.results.press_run import Run, Tell, require_possible
 
 Data = dict[str, Any]
+T = TypeVar("T")
 KEPT = 4  # machines of each mechanism that are remembered: the one at the start, to compare with, and the last ones
 
 
@@ -74,17 +75,15 @@ class Remembered:
     def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], told: Told) -> bool:
         """Return whether it was calculated from these inputs, and is told alike."""
         known = self.calculation
-        return (
-            known.mechanism is mechanism
-            and Told(known.chosen_units, known.unfounded) == told
-            and _same(self.taken, taken)
-        )
+        is_alike = known.mechanism is mechanism and Told(known.chosen_units, known.unfounded) == told
+        return is_alike and _same(self.taken, taken)
 
-    def of(self, make: Callable[[Calculation], Any]) -> Any:
+    def of(self, make: Callable[[Calculation], T]) -> T:
         """Return what a function makes of the calculation; made once."""
         if make not in self._made:
             self._made[make] = make(self.calculation)
-        return self._made[make]
+        made: T = self._made[make]
+        return made
 
 
 def _same(one: Any, other: Any) -> bool:
@@ -122,9 +121,7 @@ class WarmPress:
         """Calculate a configuration and print it as the ordinary way does, for ``results.document``; else as ``calculate``."""
         return require_possible(_PrintedRun(config, self, tell))
 
-    def remembered(
-        self, name: str, mechanism: Mechanism, taken: Mapping[str, Any], told: Told, tell: Tell
-    ) -> Remembered:
+    def remembered(self, name: str, mechanism: Mechanism, taken: Data, told: Told, tell: Tell) -> Remembered:
         """Return a mechanism calculated from these inputs: remembered, or anew."""
         known = self._known.setdefault(name, [])
         found = next((each for each in known if each.is_of(mechanism, taken, told)), None)
@@ -176,10 +173,7 @@ class WarmRun(Run):
         return checks_with_origins({name: self._checks(name) for name in names}, cache(self._paths))
 
     def _checks(self, name: str) -> list[CheckRecord]:
-        if name in self.calculations:
-            found: list[CheckRecord] = self.remembered[name].of(check_results)
-            return found
-        return self.self_tests.get(name, [])
+        return self.remembered[name].of(check_results) if name in self.calculations else self.self_tests.get(name, [])
 
     def _paths(self, name: str) -> dict[str, str]:
         """What the inputs of a mechanism refer to."""
@@ -223,23 +217,19 @@ class WarmRun(Run):
 
     def outputs(self, name: str) -> Quantities:
         """Return the outputs of a mechanism; KeyError where it is broken or skipped (``errors``, ``skipped``), as below."""
-        found: Quantities = self.remembered[name].of(numbers)["outputs"]
-        return found
+        return self.remembered[name].of(numbers)["outputs"]
 
     def key_outputs(self, name: str) -> Quantities:
         """Return of the outputs of a mechanism those that tell most: what a page shows without making all others."""
-        found: Quantities = self.remembered[name].of(key_outputs)
-        return found
+        return self.remembered[name].of(key_outputs)
 
     def curves(self, name: str) -> dict[str, CurveRecord]:
         """Return the curves of a mechanism."""
-        found: dict[str, CurveRecord] = self.remembered[name].of(curves)
-        return found
+        return self.remembered[name].of(curves)
 
     def figures(self, name: str) -> list[FigureRecord]:
         """Return the figures of a mechanism."""
-        found: list[FigureRecord] = self.remembered[name].of(figures)
-        return found
+        return self.remembered[name].of(figures)
 
     def figure_titles(self, name: str) -> list[str]:
         """Return the titles of the figures whose needs are given, also of charts that turn out empty; no figure is made for it."""
@@ -247,8 +237,7 @@ class WarmRun(Run):
 
     def sections(self, name: str) -> list[SectionRecord]:
         """Return the printed calculation of a mechanism."""
-        found: list[SectionRecord] = self.remembered[name].of(sections)
-        return found
+        return self.remembered[name].of(sections)
 
     def document(self) -> ResultsRecord:
         """Return all results, comparisons too; printed is what has not been asked for yet. UserError as of any calculation."""
@@ -259,9 +248,8 @@ class _PrintedRun(WarmRun):
     """A run of which everything is printed at once, in the order of the ordinary way."""
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
-        self._store(
-            instance, mechanism_results(calculation, self._provenance(instance), self.remembered[instance.name].of)
-        )
+        of = self.remembered[instance.name].of
+        self._store(instance, mechanism_results(calculation, self._provenance(instance), of))
 
     def _comparisons(self) -> None:
         Run._comparisons(self)

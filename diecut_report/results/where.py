@@ -81,16 +81,10 @@ class _PlaceFinder:
             return self.input(name.removeprefix(INPUTS))
         step = self._step(name)
         if step is None:
-            known = [
-                *self._names(),
-                *(f"{INPUTS}{path}" for path in self.inputs),
-                *(f"checks.{id}" for id in self.checks),
-            ]
-            words = Phrase(
-                "{kind} gives nothing of this name{nearest}",
-                kind=self.calc.mechanism.kind,
-                nearest=nearest(name, known),
-            )
+            groups = numbers(self.calc)
+            own = (*(f"{INPUTS}{path}" for path in self.inputs), *(f"checks.{id}" for id in self.checks))
+            near = nearest(name, [*groups["outputs"], *groups["values"], *own])
+            words = Phrase("{kind} gives nothing of this name{nearest}", kind=self.calc.mechanism.kind, nearest=near)
             raise UnknownName(Problem(words, f"{self.instance.name}.{name}"))
         compared = tuple(self.check(check) for check in self.checks.values() if {name, step.id} & {*check.named})
         return self.quantity(step, name, takes=tuple(self._taken(step)), checks=compared)
@@ -100,16 +94,8 @@ class _PlaceFinder:
         own = getattr(step, "formula", None)
         function = bound(own).formula.place if isinstance(own, Binding) else ""
         formula = "" if function == step.at else function
-        return FoundPlace(
-            f"{self.instance.name}.{name}",
-            self._value(step, name),
-            step.at,
-            step.symbol,
-            step.description,
-            formula,
-            step.source,
-            **more,
-        )
+        whole, value = f"{self.instance.name}.{name}", self._value(step, name)
+        return FoundPlace(whole, value, step.at, step.symbol, step.description, formula, step.source, **more)
 
     def input(self, path: str) -> FoundPlace:
         """Return the place where an input is typed, or that it is at its default."""
@@ -119,22 +105,14 @@ class _PlaceFinder:
         typed = self._typed(key)
         place = f"{problem.file}:{problem.line}" if typed else phrase("at its default, or taken from the press")
         symbol = meta.symbol if isinstance(meta, Quantity) else ""
-        return FoundPlace(
-            f"{self.instance.name}.{INPUTS}{path}", self._input_value(path, typed), place, symbol, meta.description
-        )
+        name, value = f"{self.instance.name}.{INPUTS}{path}", self._input_value(path, typed)
+        return FoundPlace(name, value, place, symbol, meta.description)
 
     def check(self, check: Check, *, whole: bool = False) -> FoundPlace:
         """Return the place of a check, with its sides where it is asked for itself."""
         sides = tuple(place for name in check.named for place in self._places(name)) if whole else ()
-        return FoundPlace(
-            f"{self.instance.name}.checks.{check.id}",
-            "",
-            check.at,
-            "",
-            str(check.title),
-            source=check.source,
-            takes=sides,
-        )
+        name = f"{self.instance.name}.checks.{check.id}"
+        return FoundPlace(name, "", check.at, "", str(check.title), source=check.source, takes=sides)
 
     def _taken(self, step: Step) -> Iterator[FoundPlace]:
         for name in sorted(taken(step) - {step.id, getattr(step, "unknown", ""), getattr(step, "given", "")}):
@@ -152,10 +130,6 @@ class _PlaceFinder:
     def _step(self, name: str) -> Step | None:
         return self.calc.steps.get(giver_of(name, self.calc.steps))
 
-    def _names(self) -> list[str]:
-        groups = numbers(self.calc)
-        return [*groups["outputs"], *groups["values"]]
-
     def _value(self, step: Step, name: str) -> str:
         """A single number, or that of a part, or a text; empty for a curve or a whole row."""
         known = named(name, self.calc.steps)
@@ -165,9 +139,9 @@ class _PlaceFinder:
         if index >= len(row) or (len(row) > 1 and not is_part):
             return ""
         value = row[index]
-        return (
-            value if isinstance(value, str) else told(float(value), number_unit(self.calc, step.id, step, float(value)))
-        )
+        if isinstance(value, str):
+            return value
+        return told(float(value), number_unit(self.calc, step.id, step, float(value)))
 
     def _typed(self, key: Sequence[str | int]) -> str:
         try:
@@ -213,9 +187,5 @@ def _from_here(place: str) -> str:
 def data(found: FoundPlace) -> dict[str, Any]:
     """Return the same as plain data."""
     own = {key: getattr(found, key) for key in ("name", "value", "symbol", "description", "place", "formula", "source")}
-    more = {
-        key: [data(each) for each in places]
-        for key, places in (("takes", found.takes), ("checks", found.checks))
-        if places
-    }
-    return {key: str(text) for key, text in own.items() if text} | more
+    more = {"takes": [data(each) for each in found.takes], "checks": [data(each) for each in found.checks]}
+    return {key: str(text) for key, text in own.items() if text} | {key: each for key, each in more.items() if each}

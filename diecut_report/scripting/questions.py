@@ -104,7 +104,7 @@ def mended_press(asked: Press, make: Make[PressT], free: Iterable[str], keep: It
     """Return the smallest changes with which no check fails, as the command gives them."""
     found = advice.mended(asked, free=free, keep=keep)
     press = None if found.machine is None else make(found.machine.press)
-    changes = {each.name: each.after for each in found.changes} if found.machine is not None else {}
+    changes = {each.design.name: each.after for each in found.changes} if found.machine is not None else {}
     return MendedPress(advice.data(found), "\n".join(advice.lines(found)), changes, press)
 
 
@@ -115,4 +115,4 @@ def influence_of(config: Config, names: Sequence[str], share: float, *, defaults
         raise ConfigError(Problem(Phrase(words, share=repr(share)), path="share"))
     found = influence.tornados(config, list(names), share, {}, defaults=defaults)
     text = "\n".join(influence.lines(found, None, "defaults=True"))
-    return InfluenceTable(influence.data(found, None), text)
+    return InfluenceTable(influence.data(found), text)

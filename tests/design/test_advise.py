@@ -149,7 +149,7 @@ def test_what_steps_do_not_see_is_found_by_one_input_over_its_range(tmp_path: Pa
 @pytest.mark.parametrize("config", few([EXAMPLE], lambda _: False))
 def test_the_published_press_is_mended_by_advice_alone(config: Path) -> None:
     made = mended(Press.read(config, Discovery([])))
-    assert made.machine is not None and made.machine.checks("fail") == [] and len(made.changes) <= 20
+    assert made.machine is not None and made.machine.failing == () and len(made.changes) <= 20
 
 
 @pytest.mark.parametrize(

@@ -86,15 +86,10 @@ def test_the_probability_is_that_of_the_distribution(
 
 def test_the_page_in_ukrainian_has_decimal_commas(press: Path, tmp_path: Path) -> None:
     page = tmp_path / "1.html"
-    assert (
-        influence(
-            press, "--format", "html", "-o", page, "--tolerance", "a.arm=2.5 mm", "--count", 20, "--language", "uk"
-        )
-        == 0
-    )
-    shown = re.sub(
-        r"<(style|script)\b.*?</\1>|<[^>]+>", " ", page.read_text("utf-8").replace(__version__, ""), flags=re.DOTALL
-    )
+    more = ("--tolerance", "a.arm=2.5 mm", "--count", 20, "--language", "uk")
+    assert influence(press, "--format", "html", "-o", page, *more) == 0
+    text = page.read_text("utf-8").replace(__version__, "")
+    shown = re.sub(r"<(style|script)\b.*?</\1>|<[^>]+>", " ", text, flags=re.DOTALL)
     assert not re.search(r"\d\.\d", shown) and re.search(r"\d,\d", shown)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from diecut_report.design.solving import crossings, greatest, looked_closer, roots
+from diecut_report.design.line_search import crossings, greatest, looked_closer, roots
 from diecut_report.formulas import Array
 
 X = np.linspace(0.1, 4.0, 20)

@@ -99,11 +99,8 @@ def test_what_stands_there_is_not_written_over(tmp_path: Path, capfd: Capture, c
     assert main([name, str(file), *options, "-o", str(tmp_path / target), "--plugins", str(GOOD)]) == 2
     out, err = capfd.readouterr()
     assert "Choose another place with -o" in err and out == ""
-    assert (
-        file.read_text("utf-8") == PRESS
-        and len(list(tmp_path.iterdir())) == 3
-        and not list((tmp_path / "folder").iterdir())
-    )
+    assert file.read_text("utf-8") == PRESS
+    assert len(list(tmp_path.iterdir())) == 3 and not list((tmp_path / "folder").iterdir())
 
 
 @pytest.mark.parametrize(

@@ -60,24 +60,13 @@ def without_words(part: Any) -> Any:
 
 def odd(folder: Path, *more: str) -> dict[str, Any]:
     """What a report tells of a press with all that is seldom."""
-    file = saved(folder, ODD)
-    main(
-        [
-            "report",
-            str(file),
-            "-o",
-            str(folder),
-            "--format",
-            "json",
-            "--plugins",
-            str(GOOD),
-            "--plugins",
-            str(BROKEN),
-            "--quiet",
-            *more,
-        ]
-    )
-    found: dict[str, Any] = json.loads((folder / "press.json").read_text("utf-8"))
+    return reported(saved(folder, ODD), "--plugins", str(BROKEN), *more)
+
+
+def reported(file: Path, *more: str) -> dict[str, Any]:
+    """The results file of a report, beside its configuration."""
+    main(["report", str(file), "-o", str(file.parent), "--format", "json", "--plugins", str(GOOD), "--quiet", *more])
+    found: dict[str, Any] = json.loads((file.parent / "press.json").read_text("utf-8"))
     return found
 
 
@@ -89,9 +78,8 @@ def test_the_schema_is_one_and_the_command_gives_it(capfd: pytest.CaptureFixture
 
 
 def test_a_form_keeps_its_version() -> None:
-    assert (
-        sha256(json.dumps(without_words(results_schema()), sort_keys=True).encode()).hexdigest() == FORMS[FORM_VERSION]
-    )
+    form = json.dumps(without_words(results_schema()), sort_keys=True)
+    assert sha256(form.encode()).hexdigest() == FORMS[FORM_VERSION]
 
 
 def test_what_each_form_added_is_told() -> None:
@@ -115,44 +103,26 @@ def test_a_small_press_meets_the_schema(small_report: Path) -> None:
 
 def test_what_is_seldom_meets_the_schema(tmp_path: Path) -> None:
     found = odd(tmp_path, "--only", "a,b", "--detail", "brief")
-    assert {name: data["status"] for name, data in found["mechanisms"].items()} == {
-        "a": "fail",
-        "b": "pass",
-        "c": "error",
-        "d": "skipped",
-    }
-    assert (
-        found["report"]["only"] == ["a", "b"] and found["mechanisms"]["c"]["plugin_file"] == "breaks_in_calculation.py"
-    )
+    statuses = {name: data["status"] for name, data in found["mechanisms"].items()}
+    assert statuses == {"a": "fail", "b": "pass", "c": "error", "d": "skipped"} and found["report"]["only"] == [
+        "a",
+        "b",
+    ]
+    assert found["mechanisms"]["c"]["plugin_file"] == "breaks_in_calculation.py"
     assert faults(found) == []
 
 
 def test_what_a_report_alone_tells_meets_the_schema(tmp_path: Path) -> None:
     text = ODD.split("  c: ")[0]
     results = dr.load(saved(tmp_path, text), plugins=[GOOD]).calculate()
-    main(["report", str(tmp_path / "press.yaml"), "-o", str(tmp_path), "--format", "json", "--plugins", str(GOOD), "--quiet",
-          "--previous", str(results.save(tmp_path / "old.json"))])  # fmt: skip
-    found = json.loads((tmp_path / "press.json").read_text("utf-8"))
+    found = reported(tmp_path / "press.yaml", "--previous", str(results.save(tmp_path / "old.json")))
     assert found["summary"]["moves"] and "changes" in found
     assert faults(found) == []
 
 
 def test_the_influence_of_inputs_meets_the_schema(tmp_path: Path) -> None:
     text = ODD.split("  b: ")[0] + "report: {influence: {of: [a.moment]}}\n"
-    main(
-        [
-            "report",
-            str(saved(tmp_path, text)),
-            "-o",
-            str(tmp_path),
-            "--format",
-            "json",
-            "--plugins",
-            str(GOOD),
-            "--quiet",
-        ]
-    )
-    found = json.loads((tmp_path / "press.json").read_text("utf-8"))
+    found = reported(saved(tmp_path, text))
     assert found["influence"]["tornados"] and found["report"]["influence"]["of"] == ["a.moment"]
     assert faults(found) == []
 

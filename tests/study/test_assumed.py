@@ -10,8 +10,8 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import load
-from diecut_report.results.model import ResultsRecord, SummaryRecord
-from diecut_report.results.origins import Assumed, ordered
+from diecut_report.results.model import MoveRecord, ResultsRecord, SummaryRecord
+from diecut_report.results.origins import ordered
 from diecut_report.study.analysis.variant_config import _place
 from tests.configs import GOOD, HEAD, LEVER, saved
 from tests.records import filled
@@ -66,7 +66,9 @@ def test_the_input_table_shows_expression_basis_and_note(out: Path) -> None:
 
 
 def test_results_without_weights_keep_the_order_of_the_file() -> None:
-    assert ordered(filled(SummaryRecord, {"assumed": ["b", "a"]})) == [Assumed("b"), Assumed("a")]
+    assert ordered(filled(SummaryRecord, {"assumed": ["b", "a"]})) == [
+        MoveRecord(path=path, check="", change=0.0) for path in "ba"
+    ]
     assert ordered(filled(SummaryRecord, {})) == []
 
 

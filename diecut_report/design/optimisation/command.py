@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from diecut_report.design.optimisation.result import InputPlace, OptimisationResult, result
-from diecut_report.design.optimisation.run import Recheck, SearchOutcome, run_search
-from diecut_report.design.optimisation.texts import lines
+from diecut_report.design.optimisation.result import Conflict, InputPlace, OptimisationResult, result
+from diecut_report.design.optimisation.run import SearchRun, run_search
+from diecut_report.design.optimisation.texts import lines, plain
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import write_all
 from diecut_report.study.analysis.answers import answer
@@ -35,11 +35,10 @@ Data = dict[str, Any]
 def data(found: OptimisationResult) -> Data:
     """Return all of it: objectives, counts, the whole front, what is suggested, where it lies, how it was found and proved."""
     front = found.front
-    columns = {column.name: column for column in (*(goal.column for goal in front.objectives), *front.varied)}
     return {
         "study": found.stored.description.study.file,
         "objectives": [{"minimise" if goal.is_less else "maximise": goal.column.name} for goal in front.objectives],
-        "units": {name: column.unit for name, column in columns.items() if column.is_number},
+        "units": {column.name: column.unit for column in front.columns if column.is_number},
         "tried": found.tried,
         "calculated": found.calculated,
         "allowed": front.allowed,
@@ -53,16 +52,20 @@ def data(found: OptimisationResult) -> Data:
             {"tried": tried, "reached": _number(reached)}
             for tried, reached in zip(found.progress.tried, found.progress.reached, strict=True)
         ],
-        "recheck": [_recheck(each) for each in found.rechecks],
-        "conflict": _conflict(found),
-    }
+        "recheck": [
+            {"variant": each.variant, "status": each.status, "alone": each.alone, "same": each.is_same, "differs": each.name or None,
+             "share": _number(each.share), "fault": each.fault or None}
+            for each in found.rechecks
+        ],
+        "conflict": None if found.conflict is None else _conflict(found.conflict),
+    }  # fmt: skip
 
 
 def _points(found: OptimisationResult) -> Iterator[Data]:
     front, listed = found.front, set(found.front.listed)
     for place, variant in enumerate(front.variants):
-        values = {goal.column.name: _plain(front.values[place, n]) for n, goal in enumerate(front.objectives)}
-        inputs = {path: _plain(column[place]) for path, column in front.inputs.items()}
+        values = {goal.column.name: plain(front.values[place, n]) for n, goal in enumerate(front.objectives)}
+        inputs = {path: plain(column[place]) for path, column in front.inputs.items()}
         verdict = {"status": front.status[place], "governing": front.governing[place]}
         yield {"variant": int(variant), **verdict, "listed": place in listed, "values": {**values, **inputs}}
 
@@ -74,25 +77,13 @@ def _place(each: InputPlace) -> Data:
     return {"input": each.column.name, "count": each.count, **ends}
 
 
-def _recheck(each: Recheck) -> Data:
-    told = {"variant": each.variant, "status": each.status, "alone": each.alone, "same": each.is_same}
-    return told | {"differs": each.name or None, "share": _number(each.share), "fault": each.fault or None}
-
-
-def _conflict(found: OptimisationResult) -> Data | None:
-    why = found.conflict
-    if why is None:
-        return None
+def _conflict(why: Conflict) -> Data:
     failing = {name: _number(used) for name, used in why.failing}
     return {"together": list(why.together), "nearest": why.nearest, "failing": failing, "reason": why.reason or None}
 
 
 def _number(value: float) -> float | None:
     return value if math.isfinite(value) else None
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if hasattr(value, "item") else value
 
 
 SUGGESTED, FRONT = "suggested", "front"  # machines that a user may name for a report, beside their numbers
@@ -106,7 +97,7 @@ class OptimiseOutcome:
     data: Data
     csv: str
     written: tuple[Path, ...]
-    search: SearchOutcome
+    search: SearchRun
     broken_reports: dict[str, str]
     notes: tuple[str, ...]
     is_found: bool
@@ -131,8 +122,7 @@ def run(
 ) -> OptimiseOutcome:
     """Search, or go on with the search of a folder; then prove, tell and draw what was found."""
     study = _asked(file, directory, where)
-    _refuse_huge(study, agreed)
-    _refuse_unknown(study, reports)
+    _refuse(study, reports, agreed)
     search = run_search(study, directory, where, resume=resume, tell=shown)
     with search.store.lock(), ExitStack() as open_ones:
         with in_its_language(study, where):  # columns have their titles in the language of the documents
@@ -160,22 +150,21 @@ def _asked(file: Path | None, directory: Path, where: Where) -> Study:
     return study
 
 
-def _refuse_huge(study: Study, agreed: bool) -> None:
+def _refuse(study: Study, reports: Sequence[str], agreed: bool) -> None:
+    """Refuse very many machines, and the number of a machine that is never tried."""
     assert study.optimise is not None
     count = study.optimise.evaluations
     if count > LARGEST and not agreed:
         words = Phrase("are {n}, more than {most}; give fewer, or --yes.", n=f"{count:,}", most=f"{LARGEST:,}")
         raise UserError(Problem(words, str(study.file), path="optimise.evaluations"))
-
-
-def _refuse_unknown(study: Study, reports: Sequence[str]) -> None:
-    """Refuse the number of a machine that is never tried."""
-    assert study.optimise is not None
-    last = study.optimise.evaluations - 1
     for number in (int(name) for name in reports if name.isdecimal()):
-        if number > last:
-            words = "there is no machine {number}; those that are tried are numbered from 0 to {last}."
-            raise UserError(Problem(Phrase(words, number=number, last=last), str(study.file), path="--report"))
+        if number >= count:
+            words = Phrase(
+                "there is no machine {number}; those that are tried are numbered from 0 to {last}.",
+                number=number,
+                last=count - 1,
+            )
+            raise UserError(Problem(words, str(study.file), path="--report"))
 
 
 def _files(found: OptimisationResult, csv: str, where: Where) -> dict[Path, bytes]:

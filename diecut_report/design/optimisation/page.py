@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
@@ -23,7 +23,7 @@ from diecut_report.design.optimisation.result import (
     OptimisationResult,
     SearchProgress,
     TriedMachines,
-    columns_shown,
+    signs,
 )
 from diecut_report.design.optimisation.run import asked_of
 from diecut_report.design.optimisation.texts import (
@@ -38,17 +38,15 @@ from diecut_report.design.optimisation.texts import (
 from diecut_report.files import room
 from diecut_report.formulas import Array
 from diecut_report.report.figures.diagram import WIDTH
-from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
+from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, canvas, drawn, text_size
 from diecut_report.report.pages import html, pdf
 from diecut_report.report.pages.page_engine import HTML, URLFetcher
 from diecut_report.report.text import Catalogue, number
-from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.summary import best
 from diecut_report.study.summary import content as questions
 from diecut_report.study.summary.best import StoredObjective
 from diecut_report.study.summary.charts import COLOURS, HEAD, LABEL, panel
-from diecut_report.study.summary.data import display, factor, named, titled, utilised, value_text, wrapped
-from diecut_report.study.summary.data import quantity as charts_quantity
+from diecut_report.study.summary.data import display, factor, named, quantity, titled, utilised, value_text, wrapped
 from diecut_report.study.summary.figures import SummaryFigure
 from diecut_report.text.phrases import capital
 from diecut_report.text.translation import localised, said, say, say_counted, spoken_language
@@ -60,38 +58,17 @@ LEGEND, MOST_PAIRS, MOST_POINTS = 16.0, 6, 3000
 Pair = tuple[int, int]  # of objectives, by their places
 
 
-@dataclass(frozen=True)
-class Cloud:
-    """Hold the machines behind a front: their objectives (SI) and which of them are allowed."""
-
-    values: Array
-    allowed: Array
-
-
-def cloud(there: TriedMachines, goals: Sequence[StoredObjective]) -> Cloud:
-    """Return the calculated machines, every so-manieth of very many."""
-    signs = np.array([1.0 if goal.is_less else -1.0 for goal in goals])
-    rows = np.flatnonzero(np.isfinite(there.costs).all(axis=1))
-    rows = rows[:: max(1, -(-len(rows) // MOST_POINTS))]
-    return Cloud(there.costs[rows] * signs, there.violations[rows] == 0)
-
-
-def front(found: FoundFront, there: TriedMachines, told: str) -> Svg:
-    """Return each pair of objectives: what was tried, the front, the suggested machine and today's."""
+def _front_chart(found: FoundFront, there: TriedMachines) -> Figure:
+    """Each pair of objectives: what was tried, the front, the suggested machine and today's."""
     pairs = list(combinations(range(len(found.objectives)), 2))[:MOST_PAIRS]
-    return drawn(partial(_charts_front, found, there, pairs), told, "front")
-
-
-def _charts_front(found: FoundFront, there: TriedMachines, pairs: Sequence[Pair]) -> Figure:
     across = 1 if len(pairs) == 1 else 3
     wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 100.0)
     pitch, rows = high + 46 + HEAD, -(-len(pairs) // across)
     sheet = canvas(WIDTH, rows * pitch + LEGEND)
-    behind = cloud(there, found.objectives)
     for index, pair in enumerate(pairs):
         row, column = divmod(index, across)
         axes = panel(sheet, 44 + column * (wide + 44), (rows - row - 1) * pitch + 40 + LEGEND, wide, high)
-        _pair(axes, found, there, behind, pair, 24.0 if across == 1 else 9.0)
+        _pair(axes, found, there, pair, 24.0 if across == 1 else 9.0)
         x, y = (found.objectives[place].column for place in pair)
         axes.set_title(wrapped(titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
         axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
@@ -102,16 +79,19 @@ def _charts_front(found: FoundFront, there: TriedMachines, pairs: Sequence[Pair]
     return sheet
 
 
-def _pair(axes: Axes, found: FoundFront, there: TriedMachines, behind: Cloud, pair: Pair, size: float) -> None:
+def _pair(axes: Axes, found: FoundFront, there: TriedMachines, pair: Pair, size: float) -> None:
     x, y = pair
-    columns = [found.objectives[place].column for place in pair]
-    scale = np.array([factor(column) for column in columns])
+    own = [found.objectives[place] for place in pair]
+    scale = np.array([factor(goal.column) for goal in own])
     points = found.values[:, [x, y]] * scale
+    calculated = np.flatnonzero(np.isfinite(there.costs).all(axis=1))
+    rows = calculated[:: max(1, -(-len(calculated) // MOST_POINTS))]  # every so-manieth of very many
+    behind, allowed = there.costs[rows][:, [x, y]] * signs(own) * scale, there.violations[rows] == 0
     for is_allowed, colour, words in (
         (False, "#dcc3c3", say("is not feasible")),
         (True, COLOURS["pass"], say("is feasible")),
     ):
-        some = behind.values[behind.allowed == is_allowed][:, [x, y]] * scale
+        some = behind[allowed == is_allowed]
         axes.scatter(some[:, 0], some[:, 1], s=size / 3, c=colour, linewidths=0, alpha=0.7, label=words)
     line = "-" if len(found.objectives) == 2 else "none"
     step = "steps-post" if found.objectives[x].is_less else "steps-pre"  # round what the front betters
@@ -122,10 +102,9 @@ def _pair(axes: Axes, found: FoundFront, there: TriedMachines, behind: Cloud, pa
         axes.plot(*points[[found.suggested]].T, "o", color="none", markeredgecolor=ACCENT, markeredgewidth=1.6,
                   markersize=9, label=say("suggestion"))  # fmt: skip
     if found.present is not None and np.isfinite(there.costs[0]).all():
-        signs = np.array([1.0 if found.objectives[place].is_less else -1.0 for place in pair])
-        now = there.costs[0, [x, y]] * signs * scale
+        now = there.costs[0, [x, y]] * signs(own) * scale
         axes.plot([now[0]], [now[1]], "*", color="#b06a2c", markersize=9, label=say("today"))
-    _limits(axes, points, behind.values[behind.allowed][:, [x, y]] * scale)
+    _limits(axes, points, behind[allowed])
 
 
 def _limits(axes: Axes, points: Array, allowed: Array) -> None:
@@ -137,18 +116,14 @@ def _limits(axes: Axes, points: Array, allowed: Array) -> None:
     axes.set_ylim(low[1] - room[1], high[1] + room[1])
 
 
-def progress(found: SearchProgress, goals: Sequence[StoredObjective], told: str) -> Svg:
-    """Return how far the search was after each generation."""
-    return drawn(partial(_charts_progress, found, goals), told, "progress")
-
-
-def _charts_progress(found: SearchProgress, goals: Sequence[StoredObjective]) -> Figure:
+def _progress_chart(found: SearchProgress, goals: Sequence[StoredObjective]) -> Figure:
+    """How far the search was after each generation."""
     wide, high = WIDTH - 60, 120.0
     sheet = canvas(WIDTH, high + 40 + HEAD)
     axes = panel(sheet, 44, 36, wide, high)
     reached = np.array(found.reached)
     if len(goals) == 1:
-        reached = reached * (1.0 if goals[0].is_less else -1.0) * factor(goals[0].column)
+        reached = reached * signs(goals) * factor(goals[0].column)
         title = titled(goals[0].column)
     else:
         reached, title = 100 * reached, say("Volume dominated by the front, % of the final volume")
@@ -160,14 +135,10 @@ def _charts_progress(found: SearchProgress, goals: Sequence[StoredObjective]) ->
     return sheet
 
 
-def bounds(found: Sequence[InputPlace], told: str) -> Svg:
-    """Return where the front's points lie within the range of each number that varies."""
-    return drawn(partial(_bounds, found), told, "bounds")
-
-
-def _bounds(found: Sequence[InputPlace]) -> Figure:
+def _bounds_chart(found: Sequence[InputPlace]) -> Figure:
+    """Where the front's points lie within the range of each number that varies."""
     labels = [wrapped(titled(each.column), LABEL, FONT_SIZE, 1) for each in found]
-    ends = [(_bare(each.low, each.column), _bare(each.high, each.column)) for each in found]
+    ends = [(quantity(each.low, each.column), quantity(each.high, each.column)) for each in found]
     names = max(text_size(label)[0] for label in labels) + 14
     left, right = (max(text_size(each[side], 8)[0] for each in ends) + 10 for side in (0, 1))
     sheet = canvas(WIDTH, 20.0 * len(found) + 8)
@@ -186,10 +157,6 @@ def _bounds(found: Sequence[InputPlace]) -> Figure:
     axes.set_ylim(-0.6, len(found) - 0.4)
     axes.set_axis_off()
     return sheet
-
-
-def _bare(value: float, column: StoredColumn) -> str:
-    return charts_quantity(value, column)
 
 
 @dataclass(frozen=True)
@@ -224,11 +191,11 @@ def _filled(found: OptimisationResult, kind: str) -> str:
     return html._environment().get_template("optimisation.html.j2").render(
         r=found, o=asked, t=Catalogue(spoken_language()), language=spoken_language(), kind=kind, policy=html.policy(),
         style=Markup(style), version=__version__, title=_title(found), figure=partial(_figure, kind), figures=_figures(found),
-        asked=questions.asked_questions(found.stored), heads=[titled(column) for column in columns_shown(found.front)],
+        asked=questions.asked_questions(found.stored), heads=[titled(column) for column in found.front.columns],
         goals=[goal.label for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
         counts=capital(counts(found)), suggested=capital(suggested(found)), present=capital(present(found, named)),
         held=_held(found), rechecked=[capital(line) for line in recheck_lines(found)],
-        conflict=list(conflict_lines(found, found.conflict)) if found.conflict else [],
+        conflict=list(conflict_lines(found.conflict)) if found.conflict else [],
         words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, say=say, counted=_counted,
         files=_files(found), localised=localised, value_text=value_text,
         example=int(found.front.variants[found.front.suggested or 0]) if found.conflict is None else found.conflict.nearest,
@@ -255,16 +222,14 @@ def _files(found: OptimisationResult) -> list[tuple[str, str]]:
 
 def _row(found: OptimisationResult, place: int) -> PageRow:
     variant, status, governing, *values = row(found, place)
-    check = governing or ""
-    used = ""
+    check, ratio = governing or "", None
     if check in found.stored.checks:
-        ((ratio,),) = found.stored.rows(
-            f"SELECT {found.stored.checks[check][0].sql} FROM v WHERE variant = ?", [variant]
-        )
-        used = f"{utilised(ratio)} " if ratio is not None else ""
+        asked = f"SELECT {found.stored.checks[check][0].sql} FROM v WHERE variant = ?"
+        ((ratio,),) = found.stored.rows(asked, [variant])
+    used = f"{utilised(ratio)} " if ratio is not None else ""
     shown = [
         display(value, column) if column.is_number else value_text(value)
-        for value, column in zip(values, columns_shown(found.front), strict=True)
+        for value, column in zip(values, found.front.columns, strict=True)
     ]
     told = used + (said(found.stored.check_label(check)) if check else "–")
     is_suggested = not found.front.is_single and place == found.front.suggested
@@ -280,18 +245,14 @@ def _figures(found: OptimisationResult) -> dict[str, SummaryFigure]:
     """The charts that there is something for, by their keys."""
     if found.conflict is not None:
         return {}
-    goals = found.front.objectives
-    listed = [each for each in found.bounds if not each.is_text]
-    parts: dict[str, Callable[[], SummaryFigure]] = {"progress": lambda: _progress(found)}
-    if len(goals) > 1:
-        parts["front"] = lambda: _front(found)
-    if listed:
+    figures = {"progress": _progress(found)} | ({} if found.front.is_single else {"front": _front(found)})
+    if listed := [each for each in found.bounds if not each.is_text]:
         told = "; ".join(_held(found)) or say("No point lies at a limit of its range.")
-        caption = say(
+        words = (
             "Position of the front points within the search ranges; a red bar marks a limit that is active for some."
         )
-        parts["bounds"] = lambda: SummaryFigure(bounds(listed, told), caption, told)
-    return {key: make() for key, make in parts.items()}
+        figures["bounds"] = SummaryFigure(drawn(partial(_bounds_chart, listed), told, "bounds"), say(words), told)
+    return figures
 
 
 def _front(found: OptimisationResult) -> SummaryFigure:
@@ -302,19 +263,18 @@ def _front(found: OptimisationResult) -> SummaryFigure:
         "Machines tried and the Pareto front: no other machine is better than one on the front in all objectives. "
         "Machines far from it lie outside."
     )
-    return SummaryFigure(front(found.front, found.known, told), caption, told)
+    return SummaryFigure(drawn(partial(_front_chart, found.front, found.known), told, "front"), caption, told)
 
 
 def _progress(found: OptimisationResult) -> SummaryFigure:
     gained, tried = found.progress.last_gain, found.tried
-    told = say(
-        "The last thousandth of the gain was reached after {n} of {all} machines.",
-        n=number(str(gained)),
-        all=number(str(tried)),
-    )
+    words = "The last thousandth of the gain was reached after {n} of {all} machines."
+    told = say(words, n=number(str(gained)), all=number(str(tried)))
     if gained > 0.9 * tried and not found.is_all:
         told += " " + say("The search was still improving: more evaluations may find better machines.")
-    return SummaryFigure(progress(found.progress, found.front.objectives, told), told, told)
+    return SummaryFigure(
+        drawn(partial(_progress_chart, found.progress, found.front.objectives), told, "progress"), told, told
+    )
 
 
 def _figure(kind: str, fig: Any) -> Markup:

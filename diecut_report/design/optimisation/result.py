@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from diecut_report.design.optimisation.run import VIOLATION, Recheck, asked_of, present_values, rechecked
-from diecut_report.design.optimisation.search import gene
+from diecut_report.design.optimisation.search import gene, is_alike
 from diecut_report.formulas import Array
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variants import Stored, StoredColumn, quoted
-from diecut_report.study.definition.study_file import Free, Study
-from diecut_report.study.definition.variables import ChoiceVariable
+from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.study_run import Where
 from diecut_report.study.storage.store import Store
 from diecut_report.study.summary.best import StoredObjective, objectives, pareto_best
@@ -26,7 +25,6 @@ from diecut_report.text.phrases import phrase
 
 
 BULGE = 0.02  # share of the front's size by which a point must stand out to be suggested
-NEAR = 1e-9  # share by which today's values may differ from those that were tried for them
 
 
 @dataclass(frozen=True)
@@ -66,6 +64,11 @@ class FoundFront:
     def is_single(self) -> bool:
         return len(self.objectives) == 1
 
+    @property
+    def columns(self) -> list[StoredColumn]:
+        """Return objectives and varied inputs, each once."""
+        return list(dict.fromkeys([*(goal.column for goal in self.objectives), *self.varied]))
+
     def numbers(self) -> list[int]:
         """Return the numbers of the listed machines."""
         return [int(self.variants[place]) for place in self.listed]
@@ -80,10 +83,14 @@ def known(stored: Stored) -> TriedMachines:
     labelled = ", ".join(f"{name} AS c{n}" for n, name in enumerate(names))
     found = stored.connection.execute(f"SELECT {labelled} FROM v ORDER BY variant").fetchnumpy()
     columns = [filled(found[f"c{n}"]) for n in range(len(names))]
-    signs = np.array([1.0 if goal.is_less else -1.0 for goal in goals])
-    costs = np.column_stack(columns[4 : 4 + len(goals)]).astype(float) * signs
+    costs = np.column_stack(columns[4 : 4 + len(goals)]).astype(float) * signs(goals)
     given = {column.name: values for column, values in zip(stored.varied, columns[4 + len(goals) :], strict=True)}
     return TriedMachines(columns[0], columns[1], columns[2], columns[3].astype(float), costs, given)
+
+
+def signs(goals: Sequence[StoredObjective]) -> Array:
+    """Return with which sign each objective is a cost, of which less is better."""
+    return np.array([1.0 if goal.is_less else -1.0 for goal in goals])
 
 
 def filled(values: Any) -> Array:
@@ -102,11 +109,10 @@ def found_front(study: Study, stored: Stored, there: TriedMachines) -> FoundFron
     goals = objectives(stored)
     allowed = np.flatnonzero(there.violations == 0)
     places = allowed[_unbeaten(there.costs[allowed])] if len(allowed) else allowed
-    signs = np.array([1.0 if goal.is_less else -1.0 for goal in goals])
     costs = there.costs[places]
     suggested, why = _outstanding(costs)
     return FoundFront(
-        goals, tuple(stored.varied), there.variants[places], costs * signs, there.status[places], there.governing[places],
+        goals, tuple(stored.varied), there.variants[places], costs * signs(goals), there.status[places], there.governing[places],
         {path: values[places] for path, values in there.inputs.items()},
         _listed(costs, asked_of(study).points, suggested), suggested, why, _present(study, there), len(allowed),
     )  # fmt: skip
@@ -162,18 +168,7 @@ def _present(study: Study, there: TriedMachines) -> int | None:
     own = present_values(study)
     if not len(there.variants) or there.variants[0] != 0 or own.keys() != there.inputs.keys():
         return None
-    return 0 if all(_is_alike(there.inputs[path][0], value) for path, value in own.items()) else None
-
-
-def _is_alike(tried: Any, present: Any) -> bool:
-    if isinstance(tried, str) or isinstance(present, str):
-        return bool(tried == present)
-    return bool(abs(tried - present) <= NEAR * max(abs(tried), abs(present)))
-
-
-def columns_shown(front: FoundFront) -> Sequence[StoredColumn]:
-    """Return objectives and varied inputs, each once."""
-    return list(dict.fromkeys([*(goal.column for goal in front.objectives), *front.varied]))
+    return 0 if all(is_alike(there.inputs[path][0], value) for path, value in own.items()) else None
 
 
 # Where no machine is allowed: which demands no machine holds together, and which machine comes nearest.
@@ -201,8 +196,7 @@ class Conflict:
 def conflict(study: Study, stored: Stored, there: TriedMachines) -> Conflict:
     """Return why no machine is allowed."""
     exists = there.status != "error"
-    demands = _broken(study, stored)
-    demands = {name: broken[exists] for name, broken in demands.items()}
+    demands = {name: broken[exists] for name, broken in _broken(study, stored).items()}
     numbers, violations = there.variants[exists], there.violations[exists]
     place = int(np.argmin(violations)) if len(violations) else None
     failing = () if place is None else tuple(_failing(stored, demands, place, int(numbers[place])))
@@ -219,7 +213,7 @@ def _broken(study: Study, stored: Stored) -> dict[str, Array]:
     if checks:
         names = ", ".join(f"{stored.checks[check][1].sql} = 'fail' AS c{n}" for n, check in enumerate(checks))
         columns = stored.connection.execute(f"SELECT {names} FROM v ORDER BY variant").fetchnumpy()
-        found = {check: _truths(columns[f"c{n}"]) for n, check in enumerate(checks)}
+        found = {check: np.ma.filled(columns[f"c{n}"], False).astype(bool) for n, check in enumerate(checks)}
     for constraint in study.constraints:
         if constraint.outputs:
             names = ", ".join(f"{quoted(name)} AS c{n}" for n, name in enumerate(constraint.paths))
@@ -230,12 +224,8 @@ def _broken(study: Study, stored: Stored) -> dict[str, Array]:
     return {name: found[name] for name in telling[:MOST]}
 
 
-def _truths(values: Array) -> Array:
-    return np.asarray(values.filled(False) if isinstance(values, np.ma.MaskedArray) else values, dtype=bool)
-
-
 def _together(broken: dict[str, Array]) -> tuple[str, ...]:
-    """A few demands that no machine holds together: the one that most break, then always the one that leaves fewest."""
+    """A few demands that no machine holds together: the one that most break, then always the one that leaves fewest; no more than it needs."""
     chosen: list[str] = []
     left = np.ones(len(next(iter(broken.values()), ())), dtype=bool)
     while left.any():
@@ -244,27 +234,20 @@ def _together(broken: dict[str, Array]) -> tuple[str, ...]:
             return ()
         chosen.append(name)
         left = left & ~broken[name]
-    return tuple(_needed(broken, chosen))
-
-
-def _needed(broken: dict[str, Array], chosen: list[str]) -> list[str]:
-    """Those of the demands without which some machine would hold the others."""
     for name in list(chosen):
         others = [each for each in chosen if each != name]
         if others and np.logical_or.reduce([broken[each] for each in others]).all():
             chosen = others
-    return chosen
+    return tuple(chosen)
 
 
 def _failing(stored: Stored, broken: dict[str, Array], place: int, number: int) -> list[tuple[str, float]]:
     found = []
-    for name, rows in broken.items():
-        if rows[place]:
-            used = float("nan")
-            if name in stored.checks:
-                ((value,),) = stored.rows(f"SELECT {stored.checks[name][0].sql} FROM v WHERE variant = ?", [number])
-                used = float("nan") if value is None else float(value)
-            found.append((name, used))
+    for name in (name for name, rows in broken.items() if rows[place]):
+        value = None
+        if name in stored.checks:
+            ((value,),) = stored.rows(f"SELECT {stored.checks[name][0].sql} FROM v WHERE variant = ?", [number])
+        found.append((name, float("nan") if value is None else float(value)))
     return found
 
 
@@ -291,14 +274,14 @@ class InputPlace:
     """
 
     column: StoredColumn
-    low: float
-    high: float
-    shares: Array
-    at_low: int
-    at_high: int
-    counts: tuple[tuple[str, int], ...]
-    may_lower: bool
-    may_raise: bool
+    low: float = 0.0
+    high: float = 0.0
+    shares: Array = field(default_factory=lambda: np.empty(0))
+    at_low: int = 0
+    at_high: int = 0
+    may_lower: bool = False
+    may_raise: bool = False
+    counts: tuple[tuple[str, int], ...] = ()
 
     @property
     def is_text(self) -> bool:
@@ -315,38 +298,30 @@ def places(study: Study, front: FoundFront) -> list[InputPlace]:
     found = []
     for variable in asked_of(study).variables:
         own = gene(variable)
-        if own.kind == "fixed":
+        if not own.is_free:
             continue
         values = front.inputs[variable.path]
         if own.kind == "text":
             counted = Counter(map(str, values))
             told = tuple((option, counted[option]) for option in own.options)
-            found.append(InputPlace(columns[variable.path], 0.0, 0.0, np.empty(0), 0, 0, told, False, False))
+            found.append(InputPlace(columns[variable.path], counts=told))
             continue
-        is_list = isinstance(variable, ChoiceVariable)
-        ends = (own.options[0], own.options[-1]) if is_list else sorted(ends_of(variable))
-        least = len(values) / 2 if is_list else 0.0
-        found.append(_of_numbers(study, columns[variable.path], values.astype(float), ends[0], ends[-1], least))
+        low, high = (own.options[0], own.options[-1]) if own.options else sorted(own.ends)
+        least = len(values) / 2 if own.options else 0.0
+        found.append(_of_numbers(study, columns[variable.path], values.astype(float), low, high, least))
     return found
-
-
-def ends_of(variable: Free) -> tuple[float, float]:
-    """Return the ends of a range."""
-    assert not isinstance(variable, ChoiceVariable)
-    return variable.low, variable.high
 
 
 def _of_numbers(study: Study, column: StoredColumn, values: Array, low: float, high: float, least: float) -> InputPlace:
     """Where numbers lie; an end holds some where it holds more than so many: the ends of a short list are met by chance."""
     shares = (values - low) / (high - low)
-    at_low, at_high = (
-        int(count) if count > least else 0 for count in (np.sum(shares <= AT_END), np.sum(shares >= 1 - AT_END))
-    )
+    at_ends = (int(np.sum(shares <= AT_END)), int(np.sum(shares >= 1 - AT_END)))
+    at_low, at_high = (count if count > least else 0 for count in at_ends)
     meta: Any = study.inputs[column.name].meta
     assert isinstance(meta, Quantity)
     step = meta.parsed_unit.factor if meta.integer else AT_END * (high - low)
     beyond = meta.holds(np.array([low - step, high + step]))
-    return InputPlace(column, low, high, shares, at_low, at_high, (), bool(beyond[0]), bool(beyond[1]))
+    return InputPlace(column, low, high, shares, at_low, at_high, bool(beyond[0]), bool(beyond[1]))
 
 
 # How a search went: after each generation what is best so far, or which share of the final front's volume is reached.
@@ -387,28 +362,29 @@ def progress(there: TriedMachines, rows: int, chunk: int) -> SearchProgress:
     return SearchProgress(tuple(ends), tuple(_volumes(there, allowed, ends)))
 
 
-def _volumes(there: TriedMachines, allowed: Array, ends: list[int]) -> list[float]:
+def _volumes(there: TriedMachines, allowed: Array, ends: list[int]) -> Iterator[float]:
     """The volume after each generation, as a share of the last."""
+    from pymoo.indicators.hv import HV
+
     fronts: list[Array] = []
-    front = np.empty((0, there.costs.shape[1]))
-    begin = 0
+    front, begin = np.empty((0, there.costs.shape[1])), 0
     for end in ends:
         new = there.costs[allowed & (there.variants >= begin) & (there.variants < end)]
         front = np.concatenate([front, new])
-        front = front[pareto_best(front)]
+        front, begin = front[pareto_best(front)], end
         fronts.append(front)
-        begin = end
     low, size = front.min(axis=0), np.where(np.ptp(front, axis=0) > 0, np.ptp(front, axis=0), 1.0)
-    volumes = [_volume((each - low) / size) for each in fronts]
-    return [volume / volumes[-1] if len(each) else float("nan") for volume, each in zip(volumes, fronts, strict=True)]
-
-
-def _volume(costs: Array) -> float:
-    from pymoo.indicators.hv import HV
-
-    inside = costs[(costs < BEYOND).all(axis=1)]
-    some = inside[np.linspace(0, len(inside) - 1, PROGRESS_MOST).astype(int)] if len(inside) > PROGRESS_MOST else inside
-    return float(HV(ref_point=np.full(costs.shape[1], BEYOND))(some)) if len(some) else 0.0
+    volume = HV(ref_point=np.full(front.shape[1], BEYOND))
+    volumes = []
+    for costs in ((each - low) / size for each in fronts):
+        inside = costs[(costs < BEYOND).all(axis=1)]
+        some = (
+            inside[np.linspace(0, len(inside) - 1, PROGRESS_MOST).astype(int)]
+            if len(inside) > PROGRESS_MOST
+            else inside
+        )
+        volumes.append(float(volume(some)) if len(some) else 0.0)
+    yield from (own / volumes[-1] if len(each) else float("nan") for own, each in zip(volumes, fronts, strict=True))
 
 
 @dataclass(frozen=True)

@@ -20,13 +20,12 @@ import numpy as np
 from diecut_report.config import yaml
 from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
-from diecut_report.design.machines import ProvedMachine, proved
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.design.machines import CHECKS, STATUS, UTILISATION, ProvedMachine, proved
+from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import refuse_unreadable_name
 from diecut_report.formulas import Array
 from diecut_report.press import Press
 from diecut_report.study.analysis.variant_config import variant_of
-from diecut_report.study.analysis.variants import UTILISATION as RECHECK_UTILISATION
 from diecut_report.study.analysis.variants import Stored, opened, quoted
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.study_file import Optimise, Study
@@ -47,7 +46,6 @@ from diecut_report.text.phrases import Phrase, phrase
 VIOLATION = ResultColumn(
     SEARCHED, "float", description="By how much limits and constraints are broken in sum; 0 where none is"
 )
-STATUS, UTILISATION = ".status", ".utilisation"
 TOGETHER = 256  # machines of a piece, whatever number of processes there is: equal pieces give equal bytes
 MOST, LEAST = 10.0, 1e-3  # that a check adds which fails by far, or by next to nothing
 NO_VALUE, NO_MACHINE, NOT_TRIED = (
@@ -123,16 +121,20 @@ def evaluate(study: Study, piece: GenerationPiece) -> Tried:
     rows = calculate_rows(study.base, {study.inputs[p]: v for p, v in values.items()}, len(left), study.curves)
     known = {**values, **rows.columns}
     violation = _violation(study, rows, known)
-    costs = np.zeros((len(broken), len(asked_of(study).objectives)))
-    costs[left] = costs_of(known, asked_of(study).objectives, len(left))
-    violations = np.where(broken > 0, NOT_TRIED + broken, 0.0)
-    violations[left] = violation
-    costs[violations > 0] = 0.0
     kept = {name: column for name, column in rows.columns.items() if _is_kept(study, name)}
     inputs = {path: np.asarray(v, dtype=float if isinstance(v, np.ndarray) else object) for path, v in values.items()}
     found = {"variant": piece.start + left} | inputs | kept | {VIOLATION.name: violation}
     found |= {"status": rows.status, "governing": rows.governing, "error": rows.errors}
-    return Tried(found, costs, violations, rows.slow, rows.broken)
+    return Tried(found, *_judged(study, broken, known, violation), rows.slow, rows.broken)
+
+
+def _judged(study: Study, broken: Array, known: Mapping[str, Values], violation: Array) -> tuple[Array, Array]:
+    """Costs and violations of all machines, of which those that break no constraint between inputs were calculated."""
+    left, objectives = broken == 0, asked_of(study).objectives
+    costs, violations = np.zeros((len(broken), len(objectives))), np.where(left, 0.0, NOT_TRIED + broken)
+    costs[left], violations[left] = costs_of(known, objectives, len(violation)), violation
+    costs[violations > 0] = 0.0
+    return costs, violations
 
 
 def costs_of(known: Mapping[str, Values], objectives: Sequence[Objective], count: int) -> Array:
@@ -161,7 +163,7 @@ def failing(known: Mapping[str, Array], count: int) -> Array:
     """Return for each machine how far its failing checks are beyond their limits, in sum."""
     found = np.zeros(count)
     for name in known:
-        if ".checks." in name and name.endswith(STATUS):
+        if CHECKS in name and name.endswith(STATUS):
             used = np.asarray(known[name.removesuffix(STATUS) + UTILISATION], dtype=float) - 1
             beyond = np.clip(np.nan_to_num(used, nan=MOST, posinf=MOST), LEAST, MOST)
             found += np.where(known[name] == "fail", beyond, 0.0)
@@ -169,7 +171,7 @@ def failing(known: Mapping[str, Array], count: int) -> Array:
 
 
 def _is_kept(study: Study, name: str) -> bool:
-    return study.outputs is None or ".checks." in name or name in study.outputs or name in study.curves
+    return study.outputs is None or CHECKS in name or name in study.outputs or name in study.curves
 
 
 def joined(tried: Sequence[Tried]) -> Tried:
@@ -215,17 +217,8 @@ class MachinePlace:
 
 
 @dataclass(frozen=True)
-class Rechecked:
-    """Hold what a machine is by itself: its verdict, its numbers (SI, None for none), or why it could not be calculated."""
-
-    status: str
-    values: tuple[float | None, ...] = ()
-    fault: str = ""
-
-
-@dataclass(frozen=True)
 class Recheck:
-    """Hold a machine as it was among many and by itself: verdicts, and the number that differs most, with its share."""
+    """Hold a machine as it was among many and by itself: verdicts, and the number that differs most, with its share, or why there is none."""
 
     variant: int
     status: str
@@ -246,17 +239,11 @@ def rechecked(store: Store, stored: Stored, variants: Sequence[int], where: Wher
     names = tuple(name for name in dict.fromkeys([*goals, *used]) if not name.startswith(("mechanisms.", "press.")))
     jobs = min(where.jobs or os.cpu_count() or 1, len(variants)) if len(variants) > FEW else 1
     some = [SomeMachines(tuple(variants[start::jobs])) for start in range(jobs)]
-    with _engine(store, where, names, jobs) as engine:
-        alone = {variant: each for _, found in results(engine, _alone, some) for variant, each in found.items()}
-    return [_compared(stored, variant, names, alone[variant]) for variant in variants]
-
-
-def _engine(store: Store, where: Where, names: tuple[str, ...], jobs: int) -> Engine:
     plugins = tuple(where.plugins)
-    setup = WorkerSetup(
-        "\n".join(["alone", str(store.directory), *plugins]), _loaded, (store.directory, plugins, names)
-    )
-    return local_engine(jobs, jobs, setup)
+    key = "\n".join(["alone", str(store.directory), *plugins])
+    with local_engine(jobs, jobs, WorkerSetup(key, _loaded, (store.directory, plugins, names))) as engine:
+        found = {each.variant: each for _, part in results(engine, _alone, some) for each in part}
+    return [found[variant] for variant in variants]
 
 
 def _loaded(directory: Path, plugins: tuple[str, ...], names: tuple[str, ...]) -> MachinePlace:
@@ -264,41 +251,35 @@ def _loaded(directory: Path, plugins: tuple[str, ...], names: tuple[str, ...]) -
     return MachinePlace(directory, Discovery([Path(plugin) for plugin in plugins]), names)
 
 
-def _alone(place: MachinePlace, some: SomeMachines) -> dict[int, Rechecked]:
+def _alone(place: MachinePlace, some: SomeMachines) -> list[Recheck]:
     """Calculate machines, each by itself."""
     with opened(place.directory) as stored:
-        return {variant: _of_one(place, stored, variant) for variant in some.variants}
+        return [_compared(place, stored, variant) for variant in some.variants]
 
 
-def _of_one(place: MachinePlace, stored: Stored, variant: int) -> Rechecked:
+def _compared(place: MachinePlace, stored: Stored, variant: int) -> Recheck:
+    listed = ", ".join(map(quoted, place.names)) or "NULL"
+    ((status, *values),) = stored.rows(f"SELECT status, {listed} FROM v WHERE variant = ?", [variant])
     try:
         tree = variant_of(stored, variant, place.discovery, f"{variant}.yaml")
         machine = proved(Press.read(yaml.parse(tree.text, tree.file), place.discovery))
     except (UserError, PluginError) as error:
-        return Rechecked("error", fault=str(error).splitlines()[0])
+        return Recheck(variant, status, "error", fault=str(error).splitlines()[0])
     known = _numbers(machine)
-    return Rechecked(machine.status, tuple(known.get(name) for name in place.names))
+    apart = [(_share(one, known.get(name)), name) for name, one in zip(place.names, values, strict=False)]
+    share, name = max(apart, default=(0.0, ""))
+    return Recheck(variant, status, machine.status, name if share else "", share)
 
 
 def _numbers(machine: ProvedMachine) -> dict[str, float]:
     """The outputs of a machine, and the utilisations of its checks."""
     found = dict(machine.outputs)
-    for name, checks in machine.checked.items():
+    for home, checks in machine.run.checks.items():
         for each in checks:
-            column, used = f"{name}.checks.{each.id}{RECHECK_UTILISATION}", each.utilisation
+            column, used = f"{home}{CHECKS}{each.id}{UTILISATION}", each.utilisation
             if used is not None:  # of repeated parts the one that is used most governs
                 found[column] = max(float(used), found.get(column, -math.inf))
     return found
-
-
-def _compared(stored: Stored, variant: int, names: Sequence[str], alone: Rechecked) -> Recheck:
-    listed = ", ".join(map(quoted, names)) or "NULL"
-    ((status, *values),) = stored.rows(f"SELECT status, {listed} FROM v WHERE variant = ?", [variant])
-    if alone.fault:
-        return Recheck(variant, status, alone.status, fault=alone.fault)
-    apart = [(_share(one, other), name) for name, one, other in zip(names, values, alone.values, strict=False)]
-    share, name = max(apart, default=(0.0, ""))
-    return Recheck(variant, status, alone.status, name if share else "", share)
 
 
 def _share(one: Any, other: float | None) -> float:
@@ -331,15 +312,6 @@ PYMOO = "pymoo"
 STILL, ENOUGH = 1e-12, 10  # share of its size by which an objective differs by rounding alone; machines that show it
 
 
-@dataclass
-class SearchOutcome:
-    """Hold what a run left in its folder; ``slow`` and ``broken`` name plugins, and why."""
-
-    store: Store
-    slow: dict[str, str] = field(default_factory=dict)
-    broken: dict[str, str] = field(default_factory=dict)
-
-
 def description(study: Study) -> Description:
     """Return the study as the folder of its optimisation keeps it: a part for each generation, and what each machine breaks."""
     asked, found = asked_of(study), described(study)
@@ -347,29 +319,27 @@ def description(study: Study) -> Description:
     return replace(found, rows=count, chunk=min(asked.population, count), columns=(*found.columns, VIOLATION))
 
 
-def run_search(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> SearchOutcome:
+def run_search(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> SearchRun:
     """Try as many machines as the study says, but for those that the folder holds; each part file is whole or absent."""
     wanted = description(study)
     store = Store.open(directory, wanted) if resume else None
     if store is None:
-        _refuse_used(directory)
+        refuse_unreadable_name(directory)
+        if directory.is_dir():
+            refuse_used(directory)  # before anything is calculated
     with engine_for(study, where, wanted.parts * wanted.chunk // TOGETHER, wanted.rows) as engine:
-        run = _Run(study, engine, wanted.rows, tell)
+        run = SearchRun(study, engine, wanted.rows, tell)
         first = None if store else run.first(wanted.chunk)
-        store = store or Store.create(directory, wanted)
-        with store.lock():
-            return run.through(store, first)
+        run.store = store or Store.create(directory, wanted)
+        with run.store.lock():
+            run.through(first)
+    return run
 
 
-def _refuse_used(directory: Path) -> None:
-    """Refuse a folder that holds anything, before anything is calculated."""
-    refuse_unreadable_name(directory)
-    if directory.is_dir():
-        refuse_used(directory)
+class SearchRun:
+    """One run: what is stored is told to the search, what is not is calculated. ``slow`` and ``broken`` name plugins, and why."""
 
-
-class _Run:
-    """One run: what is stored is told to the search, what is not is calculated."""
+    store: Store
 
     def __init__(self, study: Study, engine: Engine, rows: int, tell: Tell) -> None:
         from diecut_report.design.optimisation.search import search  # with pymoo, which takes half a second
@@ -387,25 +357,24 @@ class _Run:
         self._refuse_still(tried)
         return tried
 
-    def through(self, store: Store, first: Tried | None) -> SearchOutcome:
+    def through(self, first: Tried | None) -> None:
         """Go through all generations, and mark the folder as complete."""
-        self._started(store)
+        store = self.store
+        self._started()
         began, before = time.monotonic(), float(store.state.get("seconds") or 0)
         there, is_new = store.done_parts(), False
         try:
             for part in range(store.description.parts):
                 is_new |= part not in there
-                self._generation(store, part, part in there, first if part == 0 else None)
+                self._generation(part, part in there, first if part == 0 else None)
         finally:
             if is_new:
-                store.note({"slow": self.slow, "seconds": before + time.monotonic() - began} | self._faults())
+                faults = {"broken": self.broken} if self.broken else {}
+                store.note({"slow": self.slow, "seconds": before + time.monotonic() - began} | faults)
         store.finish({})
-        return SearchOutcome(store, self.slow, self.broken)
 
-    def _faults(self) -> dict[str, dict[str, str]]:
-        return {"broken": self.broken} if self.broken else {}
-
-    def _started(self, store: Store) -> None:
+    def _started(self) -> None:
+        store = self.store
         store.start(facts(replace(self.study, objectives=asked_of(self.study).objectives)))
         known = store.state
         versions = dict.fromkeys([*known["libraries"].get(PYMOO, ()), version(PYMOO)])
@@ -415,16 +384,16 @@ class _Run:
         for path in (path for index, path in store.parts().items() if index not in there):
             path.unlink(missing_ok=True)  # a damaged part is calculated again
 
-    def _generation(self, store: Store, part: int, is_there: bool, tried: Tried | None) -> None:
+    def _generation(self, part: int, is_there: bool, tried: Tried | None) -> None:
         """One generation: from its part file, else calculated and written; then told to the search."""
-        rows = store.description.part_rows(part)
+        rows = self.store.description.part_rows(part)
         if tried is None:
             values = rows_of(self.search.ask(), np.arange(len(rows)))
-            tried = self._stored(store, part, values) if is_there else self._calculated(rows.start, values)
+            tried = self._stored(part, values) if is_there else self._calculated(rows.start, values)
         if not is_there:
-            store.write_part(part, tried.columns)
+            self.store.write_part(part, tried.columns)
         self._count(tried, len(rows), is_there)
-        if len(rows) == store.description.chunk and rows.stop < store.description.rows:
+        if len(rows) == self.store.description.chunk and rows.stop < self.store.description.rows:
             self.search.tell(tried.costs, tried.violations)
 
     def _calculated(self, start: int, values: Mapping[str, Values]) -> Tried:
@@ -435,24 +404,25 @@ class _Run:
         self.broken |= tried.broken
         return tried
 
-    def _stored(self, store: Store, part: int, values: Mapping[str, Values]) -> Tried:
+    def _stored(self, part: int, values: Mapping[str, Values]) -> Tried:
         """Return a generation as it is stored; UserError where it holds other machines than those that are asked for now."""
-        broken = broken_inputs(self.study, values)
+        broken, store = broken_inputs(self.study, values), self.store
         left = np.flatnonzero(broken == 0)
-        objectives = asked_of(self.study).objectives
-        names = ["variant", "status", VIOLATION.name, *values, *(each.output for each in objectives)]
-        table = columns_of_part(store.part(part), store.schema, list(dict.fromkeys(names)))
-        known = (
-            {name: table.column(name).to_numpy(zero_copy_only=False) for name in table.column_names} if table else {}
-        )
+        goals = (each.output for each in asked_of(self.study).objectives)
+        names = dict.fromkeys(["variant", "status", VIOLATION.name, *values, *goals])
+        table = columns_of_part(store.part(part), store.schema, list(names))
+        columns = zip(table.column_names, table.columns, strict=True) if table else ()
+        known = {name: column.to_numpy() for name, column in columns}
         if not _is_same(known, rows_of(values, left), store.description.part_rows(part).start + left):
-            raise UserError(_other_machines(store))
-        violations = np.where(broken > 0, NOT_TRIED + broken, 0.0)
-        violations[left] = known[VIOLATION.name]
-        costs = np.zeros((len(broken), len(objectives)))
-        costs[left] = costs_of(known, objectives, len(left))
-        costs[violations > 0] = 0.0
-        return Tried(known, costs, violations)
+            used = "; ".join(
+                f"{name} {', '.join(store.state['libraries'].get(name, ['?']))}" for name in ("numpy", PYMOO)
+            )
+            words = (
+                "These results belong to another search, so it cannot be resumed. They were started with {used}: continue with those "
+                "versions, or start again in another folder with -o."
+            )
+            raise refusal(words, store.directory, used=used)
+        return Tried(known, *_judged(self.study, broken, known, known[VIOLATION.name]))
 
     def _count(self, tried: Tried, rows: int, is_there: bool) -> None:
         status = tried.columns["status"]
@@ -495,12 +465,3 @@ def _is_same(known: Mapping[str, Array], values: Mapping[str, Values], numbers: 
     if not known or not np.array_equal(known["variant"], numbers):
         return False
     return all(np.array_equal(known[path], np.asarray(given, known[path].dtype)) for path, given in values.items())
-
-
-def _other_machines(store: Store) -> Problem:
-    used = "; ".join(f"{name} {', '.join(store.state['libraries'].get(name, ['?']))}" for name in ("numpy", PYMOO))
-    words = (
-        "These results belong to another search, so it cannot be resumed. They were started with {used}: continue with those versions, or start "
-        "again in another folder with -o."
-    )
-    return Problem(Phrase(words, used=used), str(store.directory))

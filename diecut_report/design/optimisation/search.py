@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Any, Literal
 
 import numpy as np
 from pymoo.algorithms.moo.nsga2 import binary_tournament
@@ -27,6 +27,8 @@ from diecut_report.study.definition.study_file import Free, Optimise, count_of
 from diecut_report.study.definition.variables import ChoiceVariable, Values
 
 Kind = Literal["share", "whole", "text", "fixed"]
+Codes = list[dict[str, Any]]
+"""Of machines, by the paths of what is free."""
 NEAR = 1e-9  # share of a range by which a value may lie beside one of a list
 
 
@@ -46,43 +48,57 @@ class Gene:
     def path(self) -> str:
         return self.variable.path
 
-    def value(self, codes: Sequence[Any]) -> Values:
-        """Return the values (SI floats, or texts) that codes stand for."""
+    @property
+    def is_free(self) -> bool:
+        return self.kind != "fixed"
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Return the ends of a range, as they stand in the study."""
+        assert not isinstance(self.variable, ChoiceVariable)
+        return self.variable.low, self.variable.high
+
+    def column(self, rows: Codes) -> Values:
+        """Return the values (SI floats, or texts) that rows of codes stand for."""
+        if self.is_free:
+            return self._values([row[self.path] for row in rows])
+        only = self.options[0] if self.options else self.variable.quantile(np.array([0.5]))[0]
+        return [only] * len(rows) if isinstance(only, str) else np.full(len(rows), float(only))
+
+    def _values(self, codes: Sequence[Any]) -> Values:
         if self.kind == "text":
             return [str(code) for code in codes]
         if self.kind == "share":
             return self.variable.quantile(np.asarray(codes, dtype=float))
         numbers = np.asarray(codes, dtype=float).astype(int)
-        if self.options:
-            return ChoiceVariable(self.path, self.options).at(numbers)
-        assert not isinstance(self.variable, ChoiceVariable)
-        return min(self.variable.low, self.variable.high) + numbers.astype(float)
+        return (
+            ChoiceVariable(self.path, self.options).at(numbers)
+            if self.options
+            else min(self.ends) + numbers.astype(float)
+        )
 
     def code(self, value: Any) -> Any:
         """Return the code of a value; None for one that is not among those that are searched."""
         if isinstance(self.variable, ChoiceVariable):
-            found = [n for n, option in enumerate(self.options) if _is_alike(option, value)]
-            if not found:
-                return None
-            return self.options[found[0]] if self.kind == "text" else found[0]
-        low, high = sorted((self.variable.low, self.variable.high))
-        if isinstance(value, str) or not low <= value <= high:
+            number = next((n for n, option in enumerate(self.options) if is_alike(option, value)), None)
+            return self.options[number] if self.kind == "text" and number is not None else number
+        first, last = self.ends
+        if isinstance(value, str) or not min(self.ends) <= value <= max(self.ends):
             return None
-        return self._share(value) if self.kind == "share" else round(value - low)
-
-    def _share(self, value: float) -> float:
-        """Where a value lies in its range."""
-        assert not isinstance(self.variable, ChoiceVariable)
-        low, high = self.variable.low, self.variable.high
-        if self.variable.log:
-            return float(np.log(value / low) / np.log(high / low))
-        return (value - low) / (high - low)
+        if self.kind != "share":
+            return round(value - min(self.ends))
+        return (
+            float(np.log(value / first) / np.log(last / first))
+            if self.variable.log
+            else (value - first) / (last - first)
+        )
 
 
-def _is_alike(option: Any, value: Any) -> bool:
-    if isinstance(option, str) or isinstance(value, str):
-        return bool(option == value)
-    return bool(abs(option - value) <= NEAR * max(abs(option), abs(value)))
+def is_alike(one: Any, other: Any) -> bool:
+    """Return whether two values are the same, numbers but for rounding."""
+    if isinstance(one, str) or isinstance(other, str):
+        return bool(one == other)
+    return bool(abs(one - other) <= NEAR * max(abs(one), abs(other)))
 
 
 def gene(variable: Free) -> Gene:
@@ -97,21 +113,9 @@ def gene(variable: Free) -> Gene:
     return Gene(variable, "fixed" if count == 1 else "whole", (), count - 1)
 
 
-def decoded(genes: Sequence[Gene], rows: Sequence[Mapping[str, Any]]) -> dict[str, Values]:
-    """Return the machines that rows of codes stand for, a column for each path."""
-    return {each.path: _column(each, rows) for each in genes}
-
-
-def _column(each: Gene, rows: Sequence[Mapping[str, Any]]) -> Values:
-    if each.kind != "fixed":
-        return each.value([row[each.path] for row in rows])
-    only = each.options[0] if each.options else each.variable.quantile(np.array([0.5]))[0]
-    return [only] * len(rows) if isinstance(only, str) else np.full(len(rows), float(only))
-
-
-def combinations(genes: Sequence[Gene], start: int, stop: int) -> list[dict[str, Any]]:
+def combinations(genes: Sequence[Gene], start: int, stop: int) -> Codes:
     """Return some of all machines that lists and whole numbers make; the last path changes first."""
-    free = [each for each in genes if each.kind != "fixed"]
+    free = [each for each in genes if each.is_free]
     rest: Array = np.arange(start, stop, dtype=np.int64)
     columns: dict[str, list[Any]] = {}
     for each in reversed(free):
@@ -126,19 +130,8 @@ def combinations(genes: Sequence[Gene], start: int, stop: int) -> list[dict[str,
 # by being told again what is stored.
 
 
-Codes = list[dict[str, Any]]
 CROSSED = 0.9  # share of the values that a trial of differential evolution takes from elsewhere: sizes act together
 Config.warnings["not_compiled"] = False
-
-
-class Search(Protocol):
-    """Describe what proposes machines: a column of values for each path."""
-
-    def ask(self) -> dict[str, Values]:
-        """Return the next generation."""
-
-    def tell(self, costs: Array, violations: Array) -> None:
-        """Take what came of it: the objectives (machines, objectives), less is better, and by how much each is not allowed."""
 
 
 def search(asked: Optimise, present: Mapping[str, Any]) -> Search:
@@ -155,45 +148,50 @@ def search(asked: Optimise, present: Mapping[str, Any]) -> Search:
 def _first(genes: Sequence[Gene], asked: Optimise, present: Mapping[str, Any]) -> Codes:
     """The codes of the first generation: spread evenly, with today's machine before them where it is within what varies."""
     rows = asked.first.rows(0, asked.population)
-    free = [each for each in genes if each.kind != "fixed"]
+    free = [each for each in genes if each.is_free]
     columns = {each.path: [each.code(value) for value in rows[each.path]] for each in free}
     codes = [{path: column[row] for path, column in columns.items()} for row in range(asked.population)]
     own = {each.path: each.code(present[each.path]) if each.path in present else None for each in free}
     return codes if None in own.values() else [own, *codes[1:]]
 
 
-class _All:
-    """Every machine there is, one generation after the other."""
+class Search:
+    """Propose machines, a generation after the other."""
 
-    def __init__(self, genes: Sequence[Gene], asked: Optimise) -> None:
-        self.genes, self.size, self.count, self.done = genes, asked.population, asked.combinations or 0, 0
+    def __init__(self, genes: Sequence[Gene]) -> None:
+        self.genes, self.free = genes, [each for each in genes if each.is_free]
 
     def ask(self) -> dict[str, Values]:
-        stop = min(self.done + self.size, self.count)
-        codes = combinations(self.genes, self.done, stop)
-        self.done = stop
-        return decoded(self.genes, codes)
+        """Return the next generation: a column of values for each path."""
+        codes = self._codes()
+        return {each.path: each.column(codes) for each in self.genes}
+
+    def _codes(self) -> Codes:
+        raise NotImplementedError
 
     def tell(self, costs: Array, violations: Array) -> None:
-        """What comes of one machine changes nothing about the others."""
+        """Take what came of it: the objectives (machines, objectives), less is better, and by how much each is not allowed."""
 
 
-class _Evolution:
+class _All(Search):
+    """Every machine there is: what comes of one changes nothing about the others."""
+
+    def __init__(self, genes: Sequence[Gene], asked: Optimise) -> None:
+        super().__init__(genes)
+        self.size, self.count, self.done = asked.population, asked.combinations or 0, 0
+
+    def _codes(self) -> Codes:
+        start, self.done = self.done, min(self.done + self.size, self.count)
+        return combinations(self.genes, start, self.done)
+
+
+class _Evolution(Search):
     """A search by pymoo."""
 
     def __init__(self, genes: Sequence[Gene], asked: Optimise, problem: Problem, algorithm: Any) -> None:
-        self.genes, self.problem = genes, problem
-        self.free = [each for each in genes if each.kind != "fixed"]
-        self.algorithm = algorithm
+        super().__init__(genes)
+        self.problem, self.algorithm, self.asked = problem, algorithm, Population.empty()
         self.algorithm.setup(problem, seed=asked.seed, termination=NoTermination())
-        self.asked: Population | None = None
-
-    def ask(self) -> dict[str, Values]:
-        self.asked = self.algorithm.ask()
-        return decoded(self.genes, self._codes(self.asked.get("X")))
-
-    def _codes(self, found: Any) -> Codes:
-        raise NotImplementedError
 
     def tell(self, costs: Array, violations: Array) -> None:
         known = StaticProblem(self.problem, F=costs, G=violations[:, None])
@@ -205,20 +203,21 @@ class _Differential(_Evolution):
     """Differential evolution: one objective, ranges alone."""
 
     def __init__(self, genes: Sequence[Gene], asked: Optimise, first: Codes) -> None:
-        free = [each.path for each in genes if each.kind != "fixed"]
+        free = [each.path for each in genes if each.is_free]
         problem = Problem(n_var=len(free), n_obj=1, n_ieq_constr=1, xl=0.0, xu=1.0)
         sampling = np.array([[row[path] for path in free] for row in first])
         super().__init__(genes, asked, problem, DE(pop_size=len(first), sampling=sampling, CR=CROSSED))
 
-    def _codes(self, found: Any) -> Codes:
-        return [{each.path: code for each, code in zip(self.free, row, strict=True)} for row in found]
+    def _codes(self) -> Codes:
+        self.asked = self.algorithm.ask()
+        return [{each.path: code for each, code in zip(self.free, row, strict=True)} for row in self.asked.get("X")]
 
 
 class _Genetic(_Evolution):
     """NSGA-II over ranges, whole numbers, lists and texts; for one objective a genetic algorithm."""
 
     def __init__(self, genes: Sequence[Gene], asked: Optimise, first: Codes) -> None:
-        variables = {each.path: _variable(each) for each in genes if each.kind != "fixed"}
+        variables = {each.path: _variable(each) for each in genes if each.is_free}
         problem = Problem(vars=variables, n_obj=len(asked.objectives), n_ieq_constr=1)
         is_single = len(asked.objectives) == 1
         chosen = TournamentSelection(func_comp=comp_by_cv_and_fitness if is_single else binary_tournament)
@@ -232,17 +231,14 @@ class _Genetic(_Evolution):
         self.size = asked.population
         super().__init__(genes, asked, problem, algorithm)
 
-    def ask(self) -> dict[str, Values]:
-        """Return the next generation; where few machines are left that were not tried, others fill it up."""
+    def _codes(self) -> Codes:
+        """Where few machines are left that were not tried, others fill the generation up."""
         found = self.algorithm.ask()
         self.asked = Population.empty() if found is None else found
         if missing := self.size - len(self.asked):
             more = MixedVariableSampling().do(self.problem, missing, random_state=self.algorithm.random_state)
             self.asked = Population.merge(self.asked, more)
-        return decoded(self.genes, self._codes(self.asked.get("X")))
-
-    def _codes(self, found: Any) -> Codes:
-        return list(found)
+        return list(self.asked.get("X"))
 
 
 def _variable(each: Gene) -> Any:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from diecut_report.design.optimisation.result import (
     Conflict,
     InputPlace,
     OptimisationResult,
-    columns_shown,
+    signs,
 )
-from diecut_report.design.optimisation.run import Recheck
 from diecut_report.quantities.formatting import number_text, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.study.analysis.variants import StoredColumn, table_text
@@ -34,36 +33,26 @@ def called(column: StoredColumn) -> str:
 
 
 def lines(found: OptimisationResult) -> Iterator[str]:
-    """Yield what was found, a line after the other."""
-    yield goals(found)
-    yield counts(found)
-    if found.conflict is not None:
-        yield from conflict_lines(found, found.conflict)
-        return
-    yield from (line for line in (head(found), *table(found), suggested(found), present(found)) if line)
-    for each in found.bounds:
-        if told := held(each, found.front.is_single):
-            yield told
-    yield from recheck_lines(found)
-
-
-def goals(found: OptimisationResult) -> str:
-    """Return what was searched for."""
-    told = [
+    """Yield what was searched for and found, a line after the other."""
+    goals = [
         Phrase("{quantity} minimised" if goal.is_less else "{quantity} maximised", quantity=called(goal.column))
         for goal in found.front.objectives
     ]
-    return Phrase("searched for: {goals}", goals=joined(told, ", "))
+    yield Phrase("searched for: {goals}", goals=joined(goals, ", "))
+    yield counts(found)
+    if found.conflict is not None:
+        yield from conflict_lines(found.conflict)
+        return
+    held_ones = (held(each, found.front.is_single) for each in found.bounds)
+    yield from filter(None, (head(found), *table(found), suggested(found), present(found), *held_ones))
+    yield from recheck_lines(found)
 
 
 def counts(found: OptimisationResult) -> str:
     """Return how many machines were tried, and what became of them."""
     tried = Counted(found.tried, "{n} machine tried", "{n} machines tried")
-    whole = tried + phrase(", all that exist") if found.is_all else tried
-    parts: list[str] = [
-        whole,
-        Counted(found.front.allowed, "{n} of them feasible", "{n} of them feasible"),
-    ]
+    parts: list[str] = [tried + phrase(", all that exist") if found.is_all else tried]
+    parts.append(Counted(found.front.allowed, "{n} of them feasible", "{n} of them feasible"))
     if found.errors:
         parts.append(Counted(found.errors, "{n} cannot exist", "{n} cannot exist"))
     if found.dropped:
@@ -86,7 +75,7 @@ def table(found: OptimisationResult) -> list[str]:
     """Return the listed machines as lines of a table."""
     stored, front = found.stored, found.front
     fixed = [stored.columns[name] for name in ("variant", "status", "governing")]
-    columns = [*fixed, *columns_shown(front)]
+    columns = [*fixed, *front.columns]
     text, _ = table_text(columns, [row(found, place) for place in front.listed], None)
     return [line for line in text.splitlines() if line.strip()]
 
@@ -97,11 +86,11 @@ def row(found: OptimisationResult, place: int) -> list[Any]:
     values: dict[str, Any] = {column.name: front.inputs[column.name][place] for column in front.varied}
     values |= {goal.column.name: front.values[place, n] for n, goal in enumerate(front.objectives)}
     own = [int(front.variants[place]), front.status[place], front.governing[place]]
-    return [*own, *(_plain(values[column.name]) for column in columns_shown(front))]
+    return [*own, *(plain(values[column.name]) for column in front.columns)]
 
 
-def _plain(value: Any) -> Any:
-    """A value as plain data."""
+def plain(value: Any) -> Any:
+    """Return a value as plain data."""
     return value.item() if hasattr(value, "item") else value
 
 
@@ -120,51 +109,36 @@ def present(found: OptimisationResult, name: Callable[[StoredColumn], str] = cal
     """Return what today's machine has of the objectives, each by its ``name``."""
     if found.front.present is None:
         return ""
-    signs = [1.0 if goal.is_less else -1.0 for goal in found.front.objectives]
-    goals_ = zip(found.front.objectives, found.known.costs[0] * signs, strict=True)
-    told = [
-        Phrase(
-            "{name} {value}",
-            name=name(goal.column),
-            value=quantity(value, goal.column) if math.isfinite(value) else "–",
-        )
-        for goal, value in goals_
-    ]
+    goals = found.front.objectives
+    told = []
+    for goal, value in zip(goals, found.known.costs[0] * signs(goals), strict=True):
+        shown = quantity(value, goal.column) if math.isfinite(value) else "–"
+        told.append(Phrase("{name} {value}", name=name(goal.column), value=shown))
     verdict = phrase("it is feasible") if found.known.violations[0] == 0 else phrase("it is not feasible")
-    return Phrase(
-        "the present machine is {number} ({verdict}): {told}", number=0, verdict=verdict, told=joined(told, ", ")
-    )
+    words = "the present machine is {number} ({verdict}): {told}"
+    return Phrase(words, number=0, verdict=verdict, told=joined(told, ", "))
 
 
 def held(each: InputPlace, is_single: bool) -> str:
     """Return in words that an end of what is searched holds the front; nothing where none does."""
     if each.is_text or not (each.at_low or each.at_high):
         return ""
-    parts = [
-        _end(each, count, value, may_go, is_single, is_low=is_low)
-        for count, value, may_go, is_low in (
-            (each.at_low, each.low, each.may_lower, True),
-            (each.at_high, each.high, each.may_raise, False),
-        )
-        if count
-    ]
+    ends = (
+        (phrase("lower"), each.at_low, each.low, each.may_lower),
+        (phrase("upper"), each.at_high, each.high, each.may_raise),
+    )
+    parts = [_end(each, *end, is_single) for end in ends if end[1]]
     return Phrase("{name}: {ends}", name=called(each.column), ends=joined(parts, "; "))
 
 
-def _end(each: InputPlace, count: int, value: float, may_go: bool, is_single: bool, *, is_low: bool) -> str:
-    end = phrase("lower") if is_low else phrase("upper")
-    told = quantity(value, each.column)
-    if is_single:
-        place = Phrase("is at the {end} limit of its range, {value}", end=end, value=told)
-    else:
-        words = (
-            "{n} of {all} is at the {end} limit of its range, {value}",
-            "{n} of {all} are at the {end} limit of its range, {value}",
-        )
-        place = Counted(count, *words, all=each.count, end=end, value=told)
-    if not may_go:
-        return place + phrase(", and the input allows no more")
-    return place + phrase(": the limit is active; widen the range to search further")
+def _end(each: InputPlace, end: str, count: int, value: float, may_go: bool, is_single: bool) -> str:
+    where = {"end": end, "value": quantity(value, each.column)}
+    place = Phrase("is at the {end} limit of its range, {value}", where)
+    if not is_single:
+        one = "{n} of {all} is at the {end} limit of its range, {value}"
+        place = Counted(count, one, "{n} of {all} are at the {end} limit of its range, {value}", where, all=each.count)
+    more = ": the limit is active; widen the range to search further" if may_go else ", and the input allows no more"
+    return place + phrase(more)
 
 
 def recheck_lines(found: OptimisationResult) -> Iterator[str]:
@@ -176,23 +150,21 @@ def recheck_lines(found: OptimisationResult) -> Iterator[str]:
         share = Phrase(" (numbers differ by {share} at most)", share=f"{most:.1g}") if most else ""
         yield Counted(count, *agreed, most=share)
         return
-    words = "recalculated individually: {n} of {all} differs", "recalculated individually: {n} of {all} differ"
-    yield Counted(len(differing), *words, all=count)
-    yield from ("  " + phrase(difference(each)) for each in differing[:TOLD])
+    one = "recalculated individually: {n} of {all} differs"
+    yield Counted(len(differing), one, "recalculated individually: {n} of {all} differ", all=count)
+    for each in differing[:TOLD]:
+        if each.fault:
+            told = Phrase("{number}: {fault}", number=each.variant, fault=phrase(each.fault))
+        elif each.status != each.alone:
+            words = "{number}: {status} in the batch, {alone} on its own"
+            told = Phrase(words, number=each.variant, status=phrase(each.status), alone=phrase(each.alone))
+        else:
+            words = "{number}: {name} differs by {share} of its value"
+            told = Phrase(words, number=each.variant, name=each.name, share=f"{each.share:.2g}")
+        yield "  " + told
 
 
-def difference(each: Recheck) -> str:
-    """Return in words how a machine by itself differs from what it was among many."""
-    if each.fault:
-        return Phrase("{number}: {fault}", number=each.variant, fault=phrase(each.fault))
-    if each.status != each.alone:
-        words = "{number}: {status} in the batch, {alone} on its own"
-        return Phrase(words, number=each.variant, status=phrase(each.status), alone=phrase(each.alone))
-    words = "{number}: {name} differs by {share} of its value"
-    return Phrase(words, number=each.variant, name=each.name, share=f"{each.share:.2g}")
-
-
-def conflict_lines(found: OptimisationResult, why: Conflict) -> Iterator[str]:
+def conflict_lines(why: Conflict) -> Iterator[str]:
     """Yield why no machine is allowed, and which one comes nearest."""
     if why.nearest is None:
         reason = phrase(why.reason) if why.reason else phrase("the constraints between inputs exclude them all")
@@ -202,11 +174,8 @@ def conflict_lines(found: OptimisationResult, why: Conflict) -> Iterator[str]:
         yield Phrase("none of them satisfies this: {name}", name=why.together[0])
     elif why.together:
         yield Phrase("none of them satisfies all of these: {names}", names=", ".join(why.together))
-    yield Phrase("the nearest is {number}, which violates {names}", number=why.nearest, names=", ".join(_broken(why)))
-
-
-def _broken(why: Conflict) -> Sequence[str]:
     told = [
         f"{name} ({localised(f'{used:.4g}')})" if math.isfinite(used) else name for name, used in why.failing[:TOLD]
     ]
-    return [*told, "…"] if len(why.failing) > TOLD else told
+    names = ", ".join([*told, "…"] if len(why.failing) > TOLD else told)
+    yield Phrase("the nearest is {number}, which violates {names}", number=why.nearest, names=names)

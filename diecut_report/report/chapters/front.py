@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from hashlib import sha256
 from itertools import groupby
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 from markupsafe import Markup
 
@@ -20,19 +20,22 @@ from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, joined, number, quantity
 from diecut_report.results.mechanism_record import CheckRecord, ItemRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
+    ChanceRecord,
     ChangedCheckRecord,
     ChangedCodeRecord,
     ChangedDocumentRecord,
     ChangedQuantityRecord,
     ChangesRecord,
     CheckSideRecord,
+    MoveRecord,
     QuantitySideRecord,
     ResultsRecord,
+    TolerancesRecord,
+    TornadoRecord,
 )
-from diecut_report.results.origins import Assumed, ordered
+from diecut_report.results.origins import ordered
 from diecut_report.results.results_file import config_content, encoded, results_text
 
-Data = Mapping[str, Any]
 DIGITS = 4
 NUMBER = "1.{n}"  # of a figure: those of mechanisms begin with a letter
 
@@ -79,38 +82,36 @@ def printed_influence(results: ResultsRecord, words: Catalogue) -> PrintedInflue
     found = results.influence
     if not found:
         return None
-    lead = words.say("influence_lead", by=_percent(found["by"], words))
-    tornados = [_tornado(results, each, index, words) for index, each in enumerate(found["tornados"], 1)]
-    drawn = found.get("tolerances")
+    lead, drawn = words.say("influence_lead", by=_percent(found.by, words)), found.tolerances
+    tornados = [_tornado(results, each, index, words) for index, each in enumerate(found.tornados, 1)]
     if not drawn:
         return PrintedInfluence(lead, tornados)
-    unsure = [drawn["whole"], *(each for each in drawn["checks"] if each["held"] < each["count"])]
+    unsure = [drawn.whole, *(each for each in drawn.checks if each.held < each.count)]
     chances = [_chance(results, each, words) for each in unsure]
-    sure = words.say("influence_sure", n=len(drawn["checks"]) - len(unsure) + 1)
+    sure = words.say("influence_sure", n=len(drawn.checks) - len(unsure) + 1)
     return PrintedInfluence(lead, tornados, _scatter(drawn, words), chances, sure)
 
 
-def _tornado(results: ResultsRecord, found: Data, index: int, words: Catalogue) -> PrintedTornado:
-    title, unit = _title(results, found["name"], words), found["unit"]
+def _tornado(results: ResultsRecord, found: TornadoRecord, index: int, words: Catalogue) -> PrintedTornado:
+    title, unit = _title(results, found.name, words), found.unit
     rows = [
-        (bar["name"], _told(bar["lowered"], bar["unit"], words), _told(bar["low"], unit, words), _told(bar["raised"], bar["unit"], words),
-         _told(bar["high"], unit, words))
-        for bar in found["bars"]
+        (bar.name, _told(bar.lowered, bar.unit, words), _told(bar.low, unit, words), _told(bar.raised, bar.unit, words),
+         _told(bar.high, unit, words))
+        for bar in found.bars
     ]  # fmt: skip
     said = title + (f" ({_unit(unit)})" if _unit(unit) else "")
-    bars = [{"label": bar["name"], "low": bar["low"], "high": bar["high"]} for bar in found["bars"]]
-    figure = TornadoFigure(words.say("influence_on", what=said), found["today"], bars)
-    now = words.say("influence_today", value=_told(found["today"], unit, words))
+    figure = TornadoFigure(words.say("influence_on", what=said), found.today, found.bars)
+    now = words.say("influence_today", value=_told(found.today, unit, words))
     return PrintedTornado(title, NUMBER.format(n=index), figure, rows, " ".join([now, *_rest(found, words)]))
 
 
-def _rest(found: Data, words: Catalogue) -> Iterator[str]:
-    if found["more"]:
-        yield words.say("influence_more", n=found["more"])
-    if found["still"]:
-        yield words.say("influence_still", n=found["still"])
-    if found.get("at_default"):
-        yield words.say("influence_at_default", n=found["at_default"])
+def _rest(found: TornadoRecord, words: Catalogue) -> Iterator[str]:
+    if found.more:
+        yield words.say("influence_more", n=found.more)
+    if found.still:
+        yield words.say("influence_still", n=found.still)
+    if found.at_default:
+        yield words.say("influence_at_default", n=found.at_default)
 
 
 def _title(results: ResultsRecord, name: str, words: Catalogue) -> str:
@@ -126,26 +127,22 @@ def _title(results: ResultsRecord, name: str, words: Catalogue) -> str:
     return f"{data.title} · {row.description}" if row else name
 
 
-def _chance(results: ResultsRecord, found: Data, words: Catalogue) -> ChanceRow:
-    home, _, own = found["check"].partition(".")
+def _chance(results: ResultsRecord, found: ChanceRecord, words: Catalogue) -> ChanceRow:
+    home, _, own = found.check.partition(".")
     data = results.mechanisms.get(home)
     check = next((each.title for each in data.checks if each.id == own), own) if data else ""
     title = f"{data.title} · {check}" if data else words["influence_all"]
-    interval = f"{_percent(found['low'], words)} … {_percent(found['high'], words)}"
-    return ChanceRow(
-        title,
-        _percent(found["probability"], words),
-        interval,
-        words.say("influence_of", n=found["held"], total=found["count"]),
-    )
+    interval = f"{_percent(found.low, words)} … {_percent(found.high, words)}"
+    of_all = words.say("influence_of", n=found.held, total=found.count)
+    return ChanceRow(title, _percent(found.probability, words), interval, of_all)
 
 
-def _scatter(drawn: Data, words: Catalogue) -> str:
+def _scatter(drawn: TolerancesRecord, words: Catalogue) -> str:
     inputs = ", ".join(
-        f"{each['name']} {_told(each['value'], each['unit'], words)} ± {_told(each['tolerance'], each['unit'], words)}"
-        for each in drawn["inputs"]
+        f"{each.name} {_told(each.value, each.unit, words)} ± {_told(each.tolerance, each.unit, words)}"
+        for each in drawn.inputs
     )
-    return words.say(f"influence_{drawn['distribution']}", inputs=inputs, n=drawn["count"], seed=drawn["seed"])
+    return words.say(f"influence_{drawn.distribution}", inputs=inputs, n=drawn.count, seed=drawn.seed)
 
 
 def _told(value: float | None, unit: str, words: Catalogue) -> str:
@@ -388,14 +385,14 @@ class AssumedGroup:
 
 def assumed_groups(results: ResultsRecord, words: Catalogue) -> list[AssumedGroup]:
     """Return all assumed values by what they belong to, in the file's order, those of each that move a check first."""
-    groups: dict[str, list[Assumed]] = {}
+    groups: dict[str, list[MoveRecord]] = {}
     found = {each.path: each for each in ordered(results.summary)}
     for path in results.summary.assumed:
         groups.setdefault(_input(results, path)[0], []).append(found[path])
     return [AssumedGroup(name, _valued(results, words, values)) for name, values in groups.items()]
 
 
-def _valued(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> list[tuple[str, str, str]]:
+def _valued(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> list[tuple[str, str, str]]:
     """Key and value of each, and what it moves."""
     first = list(dict.fromkeys(each.check for each in values if each.check))
     told = []
@@ -406,7 +403,7 @@ def _valued(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> 
     return told
 
 
-def _runs(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> Iterator[tuple[Assumed, str]]:
+def _runs(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> Iterator[tuple[MoveRecord, str]]:
     """Each value, behind the last of those that move the same check what they move."""
     for check, run in groupby(values, lambda each: each.check):
         *others, last = run

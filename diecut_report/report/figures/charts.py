@@ -44,6 +44,7 @@ from diecut_report.results.figure_record import (
     PlotPanelRecord,
 )
 from diecut_report.results.mechanism_record import CurveRecord
+from diecut_report.results.model import MovedBarRecord
 
 Array = NDArray[Any]
 LEFT, RIGHT, TOP = 46.0, 10.0, 6.0  # points
@@ -364,8 +365,8 @@ ROW, HEAD, TORNADO_FOOT = 17.0, 14.0, 24.0  # points
 LOWERED = "#b06a2c"
 
 
-def tornado(today: float, bars: Sequence[Mapping[str, Any]], told: str, key: str, decimal: str) -> Svg:
-    """Return the bars (``label``, ``low``, ``high`` with the input lowered and raised, None without a machine) about today's value."""
+def tornado(today: float, bars: Sequence[MovedBarRecord], told: str, key: str, decimal: str) -> Svg:
+    """Return the bars, with the input lowered and raised, about today's value."""
     return drawn(partial(_tornado, today, bars, decimal), told, key)
 
 
@@ -374,21 +375,21 @@ def tornado_of(figure: TornadoFigure, _curves: Any, words: Catalogue, size: Size
     return _tornado(figure.today, figure.bars, words["decimal"])
 
 
-def _tornado(today: float, bars: Sequence[Mapping[str, Any]], decimal: str) -> Figure:
+def _tornado(today: float, bars: Sequence[MovedBarRecord], decimal: str) -> Figure:
     height = HEAD + TORNADO_FOOT + ROW * len(bars)
     sheet = canvas(WIDTH, height)
-    names = max(text_size(str(bar["label"]))[0] for bar in bars) + 10
+    names = max(text_size(bar.name)[0] for bar in bars) + 10
     axes = sheet.add_axes(
         (names / WIDTH, TORNADO_FOOT / height, (WIDTH - names - 12) / WIDTH, ROW * len(bars) / height)
     )
     places = np.arange(len(bars))[::-1]
     for place, bar in zip(places, bars, strict=True):
         for side, colour in (("low", LOWERED), ("high", ACCENT)):
-            if bar[side] is not None:
-                axes.barh(place, bar[side] - today, 0.62, left=today, color=colour, alpha=0.85)
+            if (value := getattr(bar, side)) is not None:
+                axes.barh(place, value - today, 0.62, left=today, color=colour, alpha=0.85)
             else:
                 axes.plot(today, place, "x", color=colour)
-    axes.set_yticks(places, [str(bar["label"]) for bar in bars], va="center_baseline")
+    axes.set_yticks(places, [bar.name for bar in bars], va="center_baseline")
     axes.xaxis.set_major_formatter(lambda value, _: number(number_text(value), decimal))
     axes.set_ylim(-0.6, len(bars) - 0.4)
     axes.axvline(today, color=INK, linewidth=0.8)

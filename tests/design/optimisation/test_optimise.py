@@ -27,16 +27,11 @@ def parts(folder: Path) -> dict[str, bytes]:
 
 def test_the_front_of_a_lever_is_the_hyperbola_of_its_least_force(tmp_path: Path, capfd: Any) -> None:
     # moment m = F a, pressure p = F / (b a): p m = F² / b, least where F is least, whatever the arm
-    assert (
-        optimised(
-            search_file(tmp_path, more="evaluations: 900, population: 60, points: 4"), tmp_path / "out", "--quiet"
-        )
-        == 0
-    )
+    study = search_file(tmp_path, more="evaluations: 900, population: 60, points: 4")
+    assert optimised(study, tmp_path / "out", "--quiet") == 0
     found = told(tmp_path / "out")
-    moment, pressure = (
-        np.array([point["values"][name] for point in found["front"]]) for name in ("a.moment", "a.pressure")
-    )
+    values = [point["values"] for point in found["front"]]
+    moment, pressure = (np.array([each[name] for each in values]) for name in ("a.moment", "a.pressure"))
     least = 1000.0**2 / WIDTH
     assert (moment * pressure >= least * (1 - 1e-12)).all() and np.median(moment * pressure) <= least * 1.02
     assert moment.min() < 52 and moment.max() > 195  # from 1 kN × 50 mm to 1 kN × 200 mm
@@ -55,17 +50,17 @@ def test_a_search_that_was_stopped_goes_on_where_it_ended(
     study = search_file(tmp_path)
     assert optimised(study, tmp_path / "whole", "--quiet") == 0
     whole = parts(tmp_path / "whole")
-    written = run_module._Run._generation
+    written = run_module.SearchRun._generation
 
-    def until_the_third(self: Any, store: Any, part: int, *more: Any) -> None:
+    def until_the_third(self: Any, part: int, *more: Any) -> None:
         if part == 3:
             raise KeyboardInterrupt
-        written(self, store, part, *more)
+        written(self, part, *more)
 
-    monkeypatch.setattr(run_module._Run, "_generation", until_the_third)
+    monkeypatch.setattr(run_module.SearchRun, "_generation", until_the_third)
     assert optimised(study, tmp_path / "begun", "--quiet") == 130
     assert f"optimise --resume {tmp_path / 'begun'}" in capfd.readouterr().err
-    monkeypatch.setattr(run_module._Run, "_generation", written)
+    monkeypatch.setattr(run_module.SearchRun, "_generation", written)
     assert parts(tmp_path / "begun") == {name: whole[name] for name in list(whole)[:3]}
     assert optimised(None, tmp_path, "--resume", str(tmp_path / "begun"), "--quiet") == 0
     assert parts(tmp_path / "begun") == whole
@@ -176,9 +171,8 @@ def test_what_is_stored_is_asked_as_a_study(tmp_path: Path, capfd: Any) -> None:
     assert main(["variants", str(tmp_path / "out"), "--where", "violation = 0", "--format", "json", "--top", "1"]) == 0
     (row,) = json.loads(capfd.readouterr().out)["variants"]
     assert row["violation"] == 0
-    assert (
-        main(["take", f"{tmp_path / 'out'}#7", "-o", str(tmp_path / "my.yaml"), "--plugins", str(GOOD), "--quiet"]) == 0
-    )
+    named = [f"{tmp_path / 'out'}#7", "-o", str(tmp_path / "my.yaml")]
+    assert main(["take", *named, "--plugins", str(GOOD), "--quiet"]) == 0
     assert "force: " in (tmp_path / "my.yaml").read_text("utf-8")
 
 
