@@ -113,11 +113,11 @@ def constant(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str,
         tried += AT_ONCE
         if time.process_time() - began > CONSTANT_VERDICTS_LONGEST or all(len(held) == 2 for held in found.values()):
             break
-    passes = "passes in all {n} machines far from the example; make sure that it can fail"
-    fails = "fails in all {n} machines far from the example; make sure that it can pass"
     for id, held in found.items():
-        if len(held) == 1:
-            yield id, Phrase(passes, n=tried) if held.pop() else Phrase(fails, n=tried)
+        if held == {True}:
+            yield id, Phrase("passes in all {n} machines far from the example; make sure that it can fail", n=tried)
+        elif held == {False}:
+            yield id, Phrase("fails in all {n} machines far from the example; make sure that it can pass", n=tried)
 
 
 def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str, set[bool]]]:
