@@ -8,9 +8,6 @@ from dataclasses import dataclass, field
 
 from diecut_report.text.phrases import Phrase, joined, message
 
-# Every error that a user can see.
-
-
 MAX_SHOWN = 20  # problems of a file that are told, so that the message itself stays short
 
 
@@ -40,11 +37,7 @@ class Problem:
         """The one-line form that editors and terminals can follow: `press.yaml:12:5: path: message`."""
         file = self.file.replace("\n", r"\n")  # a name that holds lines stays within this one
         place = ":".join(str(part) for part in (file, self.line, self.column) if part not in ("", None))
-        words = (
-            joined([self.message, self.advice], " " if self.message.endswith(".") else ". ")
-            if self.advice
-            else self.message
-        )
+        words = joined(filter(None, (self.message, self.advice)), " " if self.message.endswith(".") else ". ")
         return "".join(f"{part}: " for part in (place, self.path) if part) + words
 
 
@@ -98,8 +91,8 @@ class PluginError(Exception):
     def __str__(self) -> str:
         where = Phrase("mechanism {name}", name=repr(self.instance)) if self.instance else ""
         plugin = Phrase("plugin {kind}", kind=repr(self.kind)) if self.kind else ""
-        whose = joined([part for part in (where, plugin) if part], " of ")
-        return joined([part for part in (whose, self.message) if part], ": ")
+        whose = joined(filter(None, (where, plugin)), " of ")
+        return joined(filter(None, (whose, self.message)), ": ")
 
 
 def nearest(given: str, known: Iterable[str]) -> str:

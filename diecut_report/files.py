@@ -49,7 +49,9 @@ def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool =
         for path, content in files.items():
             with in_words(path, NOTHING):
                 place = _place(path)
-                _refuse_config(path, keep)
+                if keep is not None and path.exists() and keep.exists() and path.samefile(keep):
+                    words = "This is the configuration itself and would be overwritten. Choose another place with -o."
+                    raise refusal(words, path)
                 _refuse_stored(place)
                 ready.append((stack.enter_context(_beside(place, content, through)), place, path))
         for temporary, place, path in ready:
@@ -81,24 +83,12 @@ def _place(path: Path) -> Path:
 
 
 def _is_stream(place: Path) -> bool:
-    """Whether it stands for itself: a device, a pipe, or a file that is open already (/dev/stdout, /dev/fd/3)."""
+    """Whether it, or where its links lead, stands for itself: a device, a pipe, or a file that is open already (/dev/stdout, /dev/fd/3)."""
     if not place.exists():
         return False
-    opened = any(_OPEN.fullmatch(str(step.parent)) for step in _steps(place))
-    return opened or not (place.is_file() or place.is_dir())
-
-
-def _steps(place: Path) -> Iterator[Path]:
-    """The place, and where its links lead one after the other."""
-    yield place
-    while place.is_symlink() and not _OPEN.fullmatch(str(place.parent)):
+    while not (opened := _OPEN.fullmatch(str(place.parent))) and place.is_symlink():
         place = _place(place.parent / place.readlink())
-        yield place
-
-
-def _refuse_config(path: Path, keep: Path | None) -> None:
-    if keep is not None and path.exists() and keep.exists() and path.samefile(keep):
-        raise refusal("This is the configuration itself and would be overwritten. Choose another place with -o.", path)
+    return opened is not None or not (place.is_file() or place.is_dir())
 
 
 def _refuse_stored(place: Path) -> None:
@@ -229,14 +219,16 @@ def in_words(path: Path, after: str = KEPT) -> Iterator[None]:
 def reason(error: OSError, after: str = NOTHING) -> str:
     """Return why a file cannot be written, and what to do; ``after`` is that on a full disk."""
     elsewhere = phrase("Choose another place with -o.")
+    denied = Phrase("writing is not permitted there. {elsewhere}", elsewhere=elsewhere)
+    within_file = Phrase("a part of the path is a file, not a folder. {elsewhere}", elsewhere=elsewhere)
     reasons = {
         errno.ENOSPC: Phrase("the disk is full. {after}", after=after),
         errno.EDQUOT: Phrase("the disk quota is exhausted. {after}", after=after),
-        errno.EACCES: Phrase("writing is not permitted there. {elsewhere}", elsewhere=elsewhere),
-        errno.EPERM: Phrase("writing is not permitted there. {elsewhere}", elsewhere=elsewhere),
+        errno.EACCES: denied,
+        errno.EPERM: denied,
         errno.EROFS: Phrase("the disk is read-only. {elsewhere}", elsewhere=elsewhere),
-        errno.ENOTDIR: Phrase("a part of the path is a file, not a folder. {elsewhere}", elsewhere=elsewhere),
-        errno.EEXIST: Phrase("a part of the path is a file, not a folder. {elsewhere}", elsewhere=elsewhere),
+        errno.ENOTDIR: within_file,
+        errno.EEXIST: within_file,
         errno.EISDIR: Phrase("a folder has this name. {elsewhere}", elsewhere=elsewhere),
         errno.ENAMETOOLONG: phrase("the name is too long. Choose a shorter one."),
     }
@@ -299,12 +291,8 @@ def room(folder: Path | None = None) -> Iterator[None]:
 
     Without a folder they go where temporary files go.
     """
-    after = (
-        KEPT
-        if folder
-        else phrase("Nothing was written; free disk space, or name another folder in the variable TMPDIR.")
-    )
-    folder = folder or _for_temporary_files()
+    nothing = phrase("Nothing was written; free disk space, or name another folder in the variable TMPDIR.")
+    after, folder = KEPT if folder else nothing, folder or _for_temporary_files()
     before = tempfile.tempdir
     with in_words(folder, after), tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as place:
         tempfile.tempdir = place
@@ -318,10 +306,10 @@ def _for_temporary_files() -> Path:
     try:
         return Path(tempfile.gettempdir())
     except OSError as error:  # none of those that the system names can be written
-        words = phrase(
+        words = (
             "No folder for temporary files has enough free space. Free some, or name a folder in the variable TMPDIR."
         )
-        raise Unwritable(Problem(words)) from error
+        raise Unwritable(Problem(phrase(words))) from error
 
 
 def remove_stale(folder: Path) -> None:
@@ -348,14 +336,10 @@ def _sync(path: Path) -> None:
 
 
 KINDS = {
-    stat.S_IFREG: phrase("a file"),
-    stat.S_IFDIR: phrase("a folder"),
-    stat.S_IFLNK: phrase("a link"),
-    stat.S_IFIFO: phrase("a pipe and no regular file"),
-    stat.S_IFCHR: phrase("a device and no regular file"),
-    stat.S_IFBLK: phrase("a device and no regular file"),
-    stat.S_IFSOCK: phrase("a socket and no regular file"),
-}
+    stat.S_IFREG: phrase("a file"), stat.S_IFDIR: phrase("a folder"), stat.S_IFLNK: phrase("a link"),
+    stat.S_IFIFO: phrase("a pipe and no regular file"), stat.S_IFCHR: phrase("a device and no regular file"),
+    stat.S_IFBLK: phrase("a device and no regular file"), stat.S_IFSOCK: phrase("a socket and no regular file"),
+}  # fmt: skip
 
 
 def content(path: Path, most: int, wanted: str) -> bytes:

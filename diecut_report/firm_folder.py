@@ -6,7 +6,7 @@ import base64
 from importlib import import_module
 from pathlib import Path
 
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import Problem, UserError, nearest, refusal
 from diecut_report.files import content
 from diecut_report.pictures import MAX_BYTES, PictureFault, media_type
 from diecut_report.report.pages.firm_templates import CSS, ENDING, HouseStyle, problems
@@ -19,44 +19,29 @@ PICTURES = (".png", ".svg")
 def house_style(folder: Path) -> HouseStyle:
     """Return what the folder holds; UserError where it is none, or where a file in it cannot be what it is for."""
     if not folder.is_dir():
-        raise UserError(Problem(phrase("This is not a folder. Give the folder of your templates."), str(folder)))
+        raise refusal("This is not a folder. Give the folder of your templates.", folder)
     files = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
     if len(files) > MOST_FILES:
-        raise UserError(
-            Problem(
-                Phrase(
-                    "The folder has {count} files; at most {most_files} are allowed.",
-                    count=len(files),
-                    most_files=MOST_FILES,
-                ),
-                str(folder),
-            )
-        )
+        words = "The folder has {count} files; at most {most_files} are allowed."
+        raise refusal(words, folder, count=len(files), most_files=MOST_FILES)
     if outside := [path for path in files if not path.resolve().is_relative_to(folder.resolve())]:
-        words = phrase(
-            "This is a link out of the folder: what lies elsewhere would go into the report. Put the file "
-            "itself into the folder."
-        )
-        raise UserError([Problem(words, str(path)) for path in outside])
+        words = "This is a link out of the folder: what lies elsewhere would go into the report. Put the file itself into the folder."
+        raise UserError([Problem(phrase(words), str(path)) for path in outside])
     templates = {path.name: _text(path) for path in files if path.name.endswith(ENDING)}
     css = "".join(_text(path) for path in files if path.name == CSS)
     pictures = {path.name: _picture(path) for path in files if path.suffix.lower() in PICTURES}
     made = HouseStyle(str(folder), templates, css, pictures)
-    found = [*_unused(files, made), *_ending_style(made), *problems(made, _programs())]
-    if found:
+    programs = Path(import_module("diecut_report.templates").__path__[0])
+    if found := [*_unused(files, made), *_ending_style(made), *problems(made, programs)]:
         raise UserError(found)
     return made
-
-
-def _programs() -> Path:
-    return Path(import_module("diecut_report.templates").__path__[0])
 
 
 def _text(path: Path) -> str:
     try:
         return content(path, MOST_TEXT, phrase("a text file")).decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise UserError(Problem(phrase("The file is not UTF-8. Save it in this encoding."), str(path))) from error
+        raise refusal("The file is not UTF-8. Save it in this encoding.", path) from error
 
 
 def _picture(path: Path) -> str:
@@ -64,22 +49,19 @@ def _picture(path: Path) -> str:
     try:
         media = media_type(found)
     except PictureFault as fault:
-        raise UserError(Problem(Phrase("The file {fault}. Give another picture.", fault=fault), str(path))) from fault
+        raise refusal("The file {fault}. Give another picture.", path, fault=fault) from fault
     return f"data:{media};base64,{base64.b64encode(found).decode()}"
 
 
 def _unused(files: list[Path], made: HouseStyle) -> list[Problem]:
     """What would be left unused without a word: another style sheet, another ending of a template."""
-    wrong = [
-        path
-        for path in files
-        if path.suffix in (".css", ".j2", ".html", ".jpg", ".jpeg", ".gif") and path.name not in (*made.templates, CSS)
+    strange = [path for path in files if path.suffix in (".css", ".j2", ".html", ".jpg", ".jpeg", ".gif")]
+    wrong = [path for path in strange if path.name not in (*made.templates, CSS)]
+    words = "Nothing asks for {name}{nearest}. A folder holds templates (NAME{ending}), {css}, and pictures (PNG, SVG)."
+    told = [
+        Phrase(words, name=repr(each.name), nearest=nearest(each.name, [CSS]), ending=ENDING, css=CSS) for each in wrong
     ]
-    return [
-        Problem(Phrase("Nothing asks for {name}{nearest}. A folder holds templates (NAME{ending}), {css}, and pictures "
-"(PNG, SVG).", name=repr(path.name), nearest=nearest(path.name, [CSS]), ending=ENDING, css=CSS), str(path))
-        for path in wrong
-    ]  # fmt: skip
+    return [Problem(each, str(path)) for each, path in zip(told, wrong, strict=True)]
 
 
 def _ending_style(made: HouseStyle) -> list[Problem]:

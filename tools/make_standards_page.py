@@ -39,8 +39,7 @@ Write `diecut_report/standards/data/ID.json` with `title`, `unit`, `sources` (tw
 - `values`: the values in ascending order, with `range`: the first and the last of them, stated again;
 - `table`: a value for each name;
 - `by`: for each name (such as a belt section) `values` and `range`, and `sources` or `left_out` if they differ from
-  those of the file;
-- `from`: the id of a series of one decade from 1 to 10, with `decades`: the powers of ten it is laid over, and `range`.
+  those of the file.
 
 A value out of order or given twice, a range that is not met, an unknown unit or fewer than two sources raise a `StandardFault`
 that names the series. Type a second source's table into `tests/standards/test_standards.py` and make this page again.
@@ -62,14 +61,14 @@ def _overview() -> Iterator[str]:
 
 
 def _all_series() -> Iterator[StandardSeries]:
-    for form in ("values", "from", "table"):
+    for form in ("values", "table"):
         yield from map(standard_series, standard_ids(form))
     for id in standard_ids("by"):
         yield from standard_series_by(id).values()
 
 
 def _chapters() -> Iterator[str]:
-    for id in (*standard_ids("values"), *standard_ids("from")):
+    for id in standard_ids("values"):
         yield from _chapter(id, standard_series(id))
     for id in standard_ids("table"):
         yield from _chapter(id, standard_table(id))

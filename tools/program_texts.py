@@ -105,7 +105,7 @@ def _sources() -> Iterator[ProgramText]:
 
 def _standards() -> Iterator[ProgramText]:
     """The titles of the standard series and tables."""
-    for form in ("values", "from", "table"):
+    for form in ("values", "table"):
         yield from (text for id in standard_ids(form) for text in _series(standard_series(id)))
     for id in standard_ids("by"):
         yield from (text for each in standard_series_by(id).values() for text in _series(each))

@@ -1,4 +1,4 @@
-"""The command ``check``, which calculates many machines."""
+"""The commands ``validate`` and ``check``, which look at many files, and the verdict with the exit code that follows from it."""
 
 from __future__ import annotations
 
@@ -13,11 +13,12 @@ import click
 from diecut_report.cli import output
 from diecut_report.cli.options import (
     DASH,
-    formats_of,
+    form_option,
+    formats_option,
     from_standard_input,
     jobs_option,
-    json_option,
     path_of,
+    path_option,
     strict_option,
 )
 from diecut_report.cli.output import (
@@ -34,6 +35,7 @@ from diecut_report.cli.output import (
     emit_json,
     emit_lines,
     in_line,
+    inform,
     tell,
     tell_problems,
     tell_written,
@@ -42,7 +44,6 @@ from diecut_report.cli.output import (
 from diecut_report.config import yaml
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
-from diecut_report.config.loader import SHOWN as STANDARD_INPUT
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, refusal
 from diecut_report.results.conclusion import conclusion, doubtful_kinds, is_open
@@ -56,9 +57,6 @@ if TYPE_CHECKING:
     from diecut_report.config.yaml import Tree
     from diecut_report.study.execution.dry_run import DryRun
     from diecut_report.study.machines import CheckedMachine, Verdict
-
-
-# The command ``validate``: what is wrong with configurations and studies, and how a study would run.
 
 
 STATES = {PASSED: "valid", BAD_INPUT: "bad", PLUGIN_BROKE: "broken"}
@@ -87,16 +85,16 @@ class JudgedFile:
     help="For a study also report its size, columns and first variant, what the constraints exclude, and the time and disk space measured on a "
          "few variants.",
 )  # fmt: skip
-@json_option
+@form_option("text", "json")
 @common
-def validate(files: tuple[Path, ...], tries: bool, form: str, folders: tuple[Path, ...], quiet: bool) -> int:
+def validate(files: tuple[Path, ...], tries: bool, form: str, discovery: Discovery) -> int:
     """Validate configurations and studies without calculating; all problems of all files are reported."""
-    discovery, judged = Discovery(folders), []
+    judged = []
     for file in files:
         found = _judged(file, discovery, tries)
         judged.append(found)
         if form == "text":
-            _tell(found, alone=len(files) == 1, quiet=quiet)
+            _tell(found, alone=len(files) == 1)
     if form == "json":
         emit_json([_data(each) for each in judged])
     codes = [each.code for each in judged]
@@ -136,11 +134,11 @@ def _study(shown: str, tree: Tree, discovery: Discovery, tries: bool) -> JudgedF
     return JudgedFile(shown, broken=broken, tried=found, data=data(found))
 
 
-def _tell(found: JudgedFile, *, alone: bool, quiet: bool) -> None:
+def _tell(found: JudgedFile, *, alone: bool) -> None:
     tell_problems(found.problems)
     tell(str(error) if alone else f"{found.shown}: " + phrase(str(error)) for error in found.broken)
-    if found.code == PASSED and not quiet:
-        tell([Phrase("{file}: valid", file=in_line(found.shown))])
+    if found.code == PASSED:
+        inform([Phrase("{file}: valid", file=in_line(found.shown))])
     if found.tried is not None:
         from diecut_report.study.execution.dry_run import lines
 
@@ -151,9 +149,6 @@ def _data(found: JudgedFile) -> dict[str, Any]:
     problems = [asdict(problem) | {"message": str(problem.message)} for problem in found.problems]
     told = {"file": found.shown, "status": STATES[found.code], "problems": problems}
     return told | {"broken": [str(error) for error in found.broken]} | ({"study": found.data} if found.data else {})
-
-
-# The verdict on standard error, and the exit code that follows from it.
 
 
 ORDER = ("fail", "warn", "not_checked")
@@ -186,24 +181,15 @@ def verdict_lines(results: ResultsRecord, discovery: Discovery | None = None) ->
 
     ``discovery`` knows where plugins of others have their words.
     """
-    results = _translated(results, discovery)
-    skipped = [
-        (marked("skipped"), f" {name}: {data.error}")
-        for name, data in results.mechanisms.items()
-        if data.status == "skipped"
-    ]
+    if spoken_language() != SOURCE_LANGUAGE:
+        from diecut_report.report.text import translated  # with what makes reports, which English does not need
+
+        results = translated(results, spoken_catalogues(discovery))
+    left_out = {name: data.error for name, data in results.mechanisms.items() if data.status == "skipped"}
+    skipped = [(marked("skipped"), f" {name}: {why}") for name, why in left_out.items()]
     lines = [*_checks(results, "fail"), *skipped, *_checks(results, "warn"), *_checks(results, "not_checked")]
     note = [results.comparisons_left_out.message] if results.comparisons_left_out else []
     return [*lines, *note, _whole(results)]
-
-
-def _translated(results: ResultsRecord, discovery: Discovery | None) -> ResultsRecord:
-    """The results in the language that is spoken."""
-    if spoken_language() == SOURCE_LANGUAGE:
-        return results
-    from diecut_report.report.text import translated  # with what makes reports, which English does not need
-
-    return translated(results, spoken_catalogues(discovery))
 
 
 def _checks(results: ResultsRecord, status: str) -> Iterator[Line]:
@@ -238,71 +224,51 @@ def _whole(results: ResultsRecord) -> Line:
 
 
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
-HEADS = (
-    phrase("machine"),
-    phrase("verdict"),
-    phrase("governing check"),
-    phrase("utilisation"),
-    phrase("failed"),
-    phrase("not checked"),
-    phrase("warnings"),
-    phrase("assumed"),
-)
+HEADS = (phrase("machine"), phrase("verdict"), phrase("governing check"), phrase("utilisation"), phrase("failed"), phrase("not checked"),
+         phrase("warnings"), phrase("assumed"))  # fmt: skip
 
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
 @click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
-@click.option("-o", "folder", metavar="DIR", type=path_of, help="Also write a summary of all machines there.")
+@path_option("-o", "folder", metavar="DIR", help="Also write a summary of all machines there.")
 @strict_option
-@click.option(
-    "--format",
-    "formats",
-    metavar="LIST",
-    default="html,pdf,xlsx,csv,json",
-    callback=formats_of(lambda: FORMATS),
-    help="Formats of the summary: html,pdf,xlsx,csv,json or some of them.",
-)
+@formats_option(lambda: FORMATS, ",".join(FORMATS), "Formats of the summary: html,pdf,xlsx,csv,json or some of them.")
 @jobs_option
 @common
 def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
-          folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+          discovery: Discovery) -> int:  # fmt: skip
     """Calculate many machines and show a table of their verdicts; folders are searched for configurations."""
     from diecut_report.study.machines import compared, configurations, in_language
 
     known = configurations(given)
     files = known.files
     read = [from_standard_input() if file == DASH else file for file in files]
-    discovery = Discovery(folders)
-    with Progress(quiet) as progress, without_output():
-        found = _calculated(read, folders, jobs, progress)
+    with Progress() as progress, without_output():
+        found = _calculated(read, discovery, jobs, progress)
     made = compared(in_language(found, spoken_catalogues(discovery)))
     for verdict in made.verdicts:
         tell(f"{verdict.machine}: " + phrase(line) if verdict.status != "bad" else line for line in verdict.words)
     emit_lines(_table(made.verdicts))
     if folder is not None:
-        _write(found, discovery, folder, formats, quiet, files)
-    if not quiet:
-        tell(_passed_over(known.passed_over))
-        tell([_counts(made.verdicts)])
+        _write(found, discovery, folder, formats, files)
+    inform([*_passed_over(known.passed_over), _counts(made.verdicts)])
     return _code(made.verdicts, strict)
 
 
 def _calculated(
-    files: Sequence[Path | Tree], folders: Sequence[Path], jobs: int | None, progress: Progress
+    files: Sequence[Path | Tree], discovery: Discovery, jobs: int | None, progress: Progress
 ) -> list[CheckedMachine]:
-    """What came out of each file, in their order."""
     from diecut_report.study.machines import machines
 
     found: dict[int, CheckedMachine] = {}
     progress(Counted(len(files), "calculating {n} machine", "calculating {n} machines"))
-    for number, machine in machines(files, [str(path.absolute()) for path in folders], jobs):
+    for number, machine in machines(files, discovery.paths, jobs):
         found[number] = machine
         progress(Phrase("calculated {n} of {total} machines", n=len(found), total=len(files)))
     return [found[number] for number in range(len(files))]
 
 
 def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
-    """The table of verdicts, its columns as wide as they need."""
     rows: list[tuple[str, ...]] = [tuple(map(said, HEADS)), *map(_row, verdicts)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
@@ -310,23 +276,19 @@ def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
 
 
 def _row(verdict: Verdict) -> tuple[str, ...]:
-    is_stdin = verdict.machine == STANDARD_INPUT
+    is_stdin = verdict.machine == SHOWN
     machine = verdict.machine if is_stdin else in_line(cell(verdict.machine))  # before its width is taken
     if verdict.status == "bad":
         return machine, said(WORDS["bad"]), "", "", "", "", "", ""
     share = "" if verdict.utilisation is None else localised(f"{100 * verdict.utilisation:.1f} %")
     counts = (verdict.failed, verdict.not_checked, verdict.warnings, verdict.assumed)
-    return machine, _status(verdict), verdict.governing, share, *map(str, counts)
-
-
-def _status(verdict: Verdict) -> str:
-    """The verdict in words; one that formulas with faults gave says so."""
     told = said(WORDS[verdict.face])
-    return say("{status}, formulas with faults", status=told) if verdict.formulas_with_faults else told
+    told = say("{status}, formulas with faults", status=told) if verdict.formulas_with_faults else told
+    return machine, told, verdict.governing, share, *map(str, counts)
 
 
 def _write(
-    found: Sequence[CheckedMachine], discovery: Discovery, folder: Path, formats: list[str], quiet: bool, files: Sequence[Path]
+    found: Sequence[CheckedMachine], discovery: Discovery, folder: Path, formats: list[str], files: Sequence[Path]
 ) -> None:  # fmt: skip
     """Write the summary, in the language that is asked for, else in that of all projects."""
     from diecut_report.files import write_all
@@ -340,8 +302,7 @@ def _write(
     if kept := set(contents) & set(files):
         raise refusal("{file} is one of the configurations, and is not overwritten.", file=min(kept))
     write_all(contents, keep=files[0])
-    if not quiet:
-        tell_written(contents)
+    tell_written(contents)
 
 
 def _counts(verdicts: Sequence[Verdict]) -> Line:
@@ -370,7 +331,5 @@ def _code(verdicts: Sequence[Verdict], strict: bool) -> int:
         return BAD_INPUT
     if "error" in states:
         return PLUGIN_BROKE
-    doubtful = strict and any(
-        verdict.warnings or verdict.not_checked or verdict.formulas_with_faults for verdict in verdicts
-    )
-    return CHECK_FAILED if "fail" in states or doubtful else PASSED
+    doubtful = any(each.warnings or each.not_checked or each.formulas_with_faults for each in verdicts)
+    return CHECK_FAILED if "fail" in states or (strict and doubtful) else PASSED

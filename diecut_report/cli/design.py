@@ -15,9 +15,10 @@ from diecut_report.cli.options import (
     changeable_source,
     config_argument,
     dask_option,
+    form_option,
     jobs_option,
-    json_option,
     path_of,
+    path_option,
     results_folder,
     split,
     study_folder_option,
@@ -36,6 +37,8 @@ from diecut_report.cli.output import (
     common,
     emit,
     emit_or_write,
+    inform,
+    is_quiet,
     tell,
     tell_written,
     without_output,
@@ -52,10 +55,9 @@ if TYPE_CHECKING:
     from diecut_report.press import Press
 
 
-corrected_option = click.option(
-    "-o", "target", metavar="FILE", type=path_of,
-    help="Write the configuration with the result: everything else in it is preserved byte for byte.",
-)  # fmt: skip
+corrected_option = path_option(
+    "-o", "target", help="Write the configuration with the result: everything else in it is preserved byte for byte."
+)
 
 
 @click.command(cls=HelpfulCommand)
@@ -75,11 +77,11 @@ corrected_option = click.option(
 @click.option("--to", "high", metavar="VALUE", help="Upper end of the range (default: three times the present value).")
 @click.option("--passing", is_flag=True, help="Only values for which no check fails.")
 @corrected_option
-@json_option
+@form_option("text", "json")
 @common
 def solve(
     config: Path, vary: str, asked: str, low: str | None, high: str | None, passing: bool, target: Path | None,
-    form: str, folders: tuple[Path, ...], quiet: bool,
+    form: str, discovery: Discovery
 ) -> int:  # fmt: skip
     """Find the values of one input that satisfy a requirement, the nearest to the present value first.
 
@@ -89,12 +91,12 @@ def solve(
     from diecut_report.design.inputs import design_input
     from diecut_report.design.solving import solved
 
-    with Progress(quiet) as progress, without_output():
-        press = _read(config, folders, progress)
+    with Progress() as progress, without_output():
+        press = _read(config, discovery, progress)
         design = design_input(press.config, vary)
         ends = (_end(design, low, "--from"), _end(design, high, "--to"))
         answer = solved(press, asked, design, passing=passing, low=ends[0], high=ends[1])
-    _give(as_json(data(answer)) if form == "json" else _text(lines(answer)), press, answer.machine, target, quiet)
+    _give(as_json(data(answer)) if form == "json" else _text(lines(answer)), press, answer.machine, target)
     return PASSED if answer.found else CHECK_FAILED
 
 
@@ -118,11 +120,11 @@ def solve(
     help="Maximum number of machines to calculate (default: 10000).",
 )
 @corrected_option
-@json_option
+@form_option("text", "json")
 @common
 def advise(
     config: Path, free: tuple[str, ...], keep: tuple[str, ...], most: int, target: Path | None, form: str,
-    folders: tuple[Path, ...], quiet: bool,
+    discovery: Discovery
 ) -> int:  # fmt: skip
     """Find the smallest changes for which no check fails: the advice of all checks is tried together, then reduced.
 
@@ -130,10 +132,10 @@ def advise(
     """
     from diecut_report.design.advice import data, lines, mended
 
-    with Progress(quiet) as progress, without_output():
-        press = _read(config, folders, progress)
+    with Progress() as progress, without_output():
+        press = _read(config, discovery, progress)
         found = mended(press, free=free, keep=keep, most=most)
-    _give(as_json(data(found)) if form == "json" else _text(lines(found)), press, found.machine, target, quiet)
+    _give(as_json(data(found)) if form == "json" else _text(lines(found)), press, found.machine, target)
     return CHECK_FAILED if found.before.failing and found.machine is None else PASSED
 
 
@@ -192,17 +194,11 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
     help="Random seed; equal seeds give equal machines (default: 1).",
 )
 @target_option
-@click.option(
-    "--format",
-    "form",
-    default="text",
-    type=click.Choice(["text", "json", "html"]),
-    help="text (default), json or html with figures.",
-)
+@form_option("text", "json", "html", help="text (default), json or html with figures.")
 @common
 def influence(
     config: Path, names: tuple[str, ...], share: float, defaults: bool, tolerances: tuple[str, ...], distribution: Any, count: int, seed: int,
-    target: Path | None, form: str, folders: tuple[Path, ...], quiet: bool,
+    target: Path | None, form: str, discovery: Discovery
 ) -> int:  # fmt: skip
     """Report how strongly each input affects the governing checks, and the probability that checks pass within tolerances.
 
@@ -210,8 +206,8 @@ def influence(
     """
     from diecut_report.design.influence import by_input, data, lines, page, tornados, within_tolerances
 
-    with Progress(quiet) as progress, without_output():
-        loaded = _read(config, folders, progress).config
+    with Progress() as progress, without_output():
+        loaded = _read(config, discovery, progress).config
         sizes = by_input(_tolerance(loaded, each) for each in tolerances)
         progress(phrase("varying one input at a time"))
         found = tornados(loaded, names, share, sizes, defaults=defaults)
@@ -220,39 +216,36 @@ def influence(
     told = {"text": lambda: _text(lines(found, drawn)), "json": lambda: as_json(data(found, drawn, sizes)),
             "html": lambda: page(found, drawn, Path(loaded.tree.name).name)}[form]()  # fmt: skip
     emit_or_write(told, target, config)
-    if target is not None and not quiet:
-        tell_written([target])
+    tell_written([target] if target else [])
     return PASSED
 
 
 def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
-    """An input and how far it scatters."""
     from diecut_report.design.inputs import design_input
     from diecut_report.quantities.units import UnitError, parse_quantity
 
+    def wrong(words: str) -> click.BadParameter:
+        return click.BadParameter(words, param_hint="--tolerance")
+
     name, _, size = given.partition("=")
     if not size.strip():
-        raise _wrong_tolerance(say("{given} is not INPUT=SIZE, such as drive.crank_length=0.1 mm", given=repr(given)))
+        raise wrong(say("{given} is not INPUT=SIZE, such as drive.crank_length=0.1 mm", given=repr(given)))
     design = design_input(config, name.strip())
     try:
         value = parse_quantity(size, design.meta.unit)
     except UnitError as fault:
-        raise _wrong_tolerance(say("{name}: {fault}", name=name, fault=fault)) from None
+        raise wrong(say("{name}: {fault}", name=name, fault=fault)) from None
     if value <= 0:
-        raise _wrong_tolerance(say("{name}: {size} is not above zero", name=name, size=size))
+        raise wrong(say("{name}: {size} is not above zero", name=name, size=size))
     return design, value
-
-
-def _wrong_tolerance(words: str) -> click.BadParameter:
-    return click.BadParameter(words, param_hint="--tolerance")
 
 
 @click.command(cls=HelpfulCommand)
 @click.argument("name", metavar="MECHANISM.NAME")
 @config_argument
-@json_option
+@form_option("text", "json")
 @common
-def where(name: str, config: Path, form: str, folders: tuple[Path, ...], quiet: bool) -> int:
+def where(name: str, config: Path, form: str, discovery: Discovery) -> int:
     """Show where a number comes from: file and line of its formula, its inputs, its source, and the checks that use it.
 
     NAME is an output or value of the results file, `inputs.KEY` or `checks.ID`.
@@ -263,19 +256,18 @@ def where(name: str, config: Path, form: str, folders: tuple[Path, ...], quiet: 
     from diecut_report.results.where import data, lines
     from diecut_report.results.where import where as place_of
 
-    with Progress(quiet) as progress, without_output():
-        loaded = _read(config, folders, progress).config
+    with Progress() as progress, without_output():
+        loaded = _read(config, discovery, progress).config
         progress(phrase("calculating"))
         found = place_of(WarmPress().calculate(loaded), name)
     emit(as_json(data(found)) if form == "json" else _text(lines(found)))
     return PASSED
 
 
-def _read(config: Path, folders: tuple[Path, ...], progress: Progress) -> Press:
+def _read(config: Path, discovery: Discovery, progress: Progress) -> Press:
     """The press whose text can be changed; PluginError where one of its plugins is broken."""
     from diecut_report.press import Press
 
-    discovery = Discovery(folders)
     return Press.read(changeable_source(config, discovery), discovery, progress).usable()
 
 
@@ -289,7 +281,7 @@ def _end(design: DesignInput, given: str | None, option: str) -> float | None:
         raise click.BadParameter(words, param_hint=option) from None
 
 
-def _give(told: str, press: Press, machine: ProvedMachine | None, target: Path | None, quiet: bool) -> None:
+def _give(told: str, press: Press, machine: ProvedMachine | None, target: Path | None) -> None:
     """Write the machine that was found, and tell of it: to standard error where ``-`` sends the machine to standard output."""
     from diecut_report.config.references import as_file
     from diecut_report.design.machines import write_config
@@ -302,16 +294,12 @@ def _give(told: str, press: Press, machine: ProvedMachine | None, target: Path |
     if target is not None and machine is not None:
         write_config(press.config.tree, machine, target)
     emit(told)
-    if target is not None and not quiet:
-        tell_written([target]) if machine else tell([Phrase("not written: {path}", path=target)])
+    if target is not None:
+        tell_written([target]) if machine else inform([Phrase("not written: {path}", path=target)])
 
 
 def _text(lines: Iterable[str]) -> str:
-    """Lines in the language that is spoken."""
     return as_lines(map(said, lines))
-
-
-# The command ``optimise``: from a study to its best machines.
 
 
 WORDS = ("suggested", "front")
@@ -328,7 +316,7 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
 @click.command(cls=HelpfulCommand)
 @click.argument("study", required=False, type=path_of)
 @study_folder_option
-@click.option("--resume", metavar="DIR", type=path_of, help="Resume the search of a folder where it stopped.")
+@path_option("--resume", metavar="DIR", help="Resume the search of a folder where it stopped.")
 @click.option(
     "--report",
     "reports",
@@ -340,16 +328,10 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
 @jobs_option
 @dask_option
 @click.option("--yes", is_flag=True, help="Allow a very large number of machines or reports.")
-@click.option(
-    "--format",
-    "form",
-    default="text",
-    type=click.Choice(["text", "json", "csv"]),
-    help="Output format: text (default), json, or csv of the whole front.",
-)
+@form_option("text", "json", "csv", help="Output format: text (default), json, or csv of the whole front.")
 @common
 def optimise(study: Path | None, folder: Path | None, resume: Path | None, reports: list[str], jobs: int | None, dask: str | None, yes: bool,
-             form: str, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+             form: str, discovery: Discovery) -> int:  # fmt: skip
     """Find the best machines of a STUDY by its objectives: a search over its varied inputs, within its constraints.
 
     Exit codes: 0 found, 1 no machine is feasible (conflicts are reported), 2 bad input, 3 a plugin broke, 130 stopped by Ctrl-C.
@@ -359,9 +341,9 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
     from diecut_report.study.execution.study_run import Where
 
     target = results_folder(study, folder, resume)
-    where = Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language())
+    where = Where(jobs, dask, discovery.paths, asked_language())
     try:
-        with without_output(), Shown(quiet) as shown:
+        with without_output(), Shown(is_quiet()) as shown:
             outcome = command.run(
                 study, target, where, resume=resume is not None, agreed=yes, reports=reports, shown=shown
             )
@@ -372,9 +354,8 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
         return INTERRUPTED
     emit({"text": lambda: as_lines(map(said, outcome.lines)), "csv": lambda: outcome.csv,
           "json": lambda: as_json(outcome.data)}[form]())  # fmt: skip
-    if not quiet:
-        tell_written(outcome.written)
-        tell(outcome.notes)
+    tell_written(outcome.written)
+    inform(outcome.notes)
     search = outcome.search
     slow = {kind: why for kind, why in search.slow.items() if kind not in search.broken}
     tell(told_plugins(slow, search.broken, search.store.state.get("doubtful") or {}, outcome.broken_reports))

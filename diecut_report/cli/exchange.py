@@ -13,9 +13,11 @@ import click
 
 from diecut_report.cli import checking, output
 from diecut_report.cli.options import (
-    formats_of,
+    form_option,
+    formats_option,
     here_option,
     path_of,
+    path_option,
     report_formats,
     source,
     strict_option,
@@ -34,6 +36,7 @@ from diecut_report.cli.output import (
     common,
     emit_lines,
     emit_or_write,
+    inform,
     tell,
     tell_written,
     without_output,
@@ -42,16 +45,13 @@ from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
-from diecut_report.text.translation import said, say, speaking
+from diecut_report.text.translation import said, say, speaking, spoken_language
 
 if TYPE_CHECKING:
     from diecut_report.exchange.carried import CarriedResults
-    from diecut_report.exchange.verification import Agreement, Difference, Found, Verification
+    from diecut_report.exchange.verification import Agreement, Found, Verification
     from diecut_report.report.pages.firm_templates import HouseStyle
     from diecut_report.results.model import ChangesRecord, ResultsRecord
-
-
-# What `verify` found of a report, as lines for a terminal.
 
 
 SHOWN = 20  # differences that are told
@@ -67,7 +67,8 @@ def verification_lines(carried: CarriedResults, found: Verification) -> Iterator
     yield _line(say("configuration"), found.config)
     yield from (_line(say("options"), each) for each in found.options)
     yield _line(say("numbers"), (_numbers(found.agreement), not found.agreement.differences))
-    yield from (f"    {_difference(each)}" for each in found.agreement.differences[:SHOWN])
+    for each in found.agreement.differences[:SHOWN]:
+        yield f"    {each.path}: {_value(each.first)} → {_value(each.second)}"
     if len(found.agreement.differences) > SHOWN:
         yield say("    and {n} more", n=len(found.agreement.differences) - SHOWN)
     if found.pages:
@@ -77,15 +78,12 @@ def verification_lines(carried: CarriedResults, found: Verification) -> Iterator
     yield from (_line(say("signature"), (each.words, each.holds)) for each in found.signatures)
     if carried.form == "pdf" and not found.signatures:
         yield _line(say("signature"), (phrase("none: the report is not signed"), True))
-    yield _last(carried, found)
-
-
-def _last(carried: CarriedResults, found: Verification) -> str:
     if not found.holds:
-        return say("Not everything agrees.")
-    if found.pages is None and carried.form != "json":
-        return say("The results agree; the contents of the pages were not compared.")
-    return say("Everything agrees.")
+        yield say("Not everything agrees.")
+    elif found.pages is None and carried.form != "json":
+        yield say("The results agree; the contents of the pages were not compared.")
+    else:
+        yield say("Everything agrees.")
 
 
 def _line(what: str, told: Found) -> str:
@@ -105,10 +103,6 @@ def _numbers(found: Agreement) -> str:
     return Phrase(words, n=max(agreeing, 0), total=found.numbers, texts=texts)
 
 
-def _difference(each: Difference) -> str:
-    return f"{each.path}: {_value(each.first)} → {_value(each.second)}"
-
-
 def _value(value: object) -> str:
     if value is None:
         return "–"
@@ -122,20 +116,17 @@ def _value(value: object) -> str:
 @click.argument("report", metavar="REPORT", type=path_of)
 @here_option
 @common
-def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) -> int:
+def extract(report: Path, folder: Path, discovery: Discovery) -> int:
     """Extract the configuration and the results from a REPORT (PDF or HTML), as NAME.yaml and NAME.json."""
     from diecut_report.exchange.carried import extract as taken
 
     files = taken(report, folder)
-    if not quiet:
-        tell_written(files)
+    tell_written(files)
     return PASSED
 
 
-previous_option = click.option(
+previous_option = path_option(
     "--previous",
-    metavar="FILE",
-    type=path_of,
     help="The previous report, results, configuration or variant to which the changes shown in the report refer.",
 )
 
@@ -143,26 +134,25 @@ previous_option = click.option(
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
 @click.option("--numbers", is_flag=True, help="Compare only the results, not the pages, which takes longer.")
-@click.option("--trust", metavar="FILE", type=path_of, help="Certificates (PEM) to which signatures must lead.")
+@path_option("--trust", help="Certificates (PEM) to which signatures must lead.")
 @previous_option
 @template_option
 @common
 def verify(
-    report: Path, numbers: bool, trust: Path | None, previous: Path | None, house: HouseStyle | None, folders: tuple[Path, ...],
-    quiet: bool,
+    report: Path, numbers: bool, trust: Path | None, previous: Path | None, house: HouseStyle | None, discovery: Discovery
 ) -> int:  # fmt: skip
     """Recalculate a REPORT (PDF, HTML or results); report whether everything it shows is reproduced, and who has signed it.
 
     Exit codes: 0 everything agrees, 1 something does not or is not proved, 2 the report cannot be read, 3 a plugin broke.
     """
-    carried, found = verified(report, Discovery(folders), quiet, house, previous, trust, pages=not numbers)
+    carried, found = verified(report, discovery, house, previous, trust, pages=not numbers)
     tell(str(error) for error in found.broken)
     emit_lines(verification_lines(carried, found))
     return PLUGIN_BROKE if found.broken else PASSED if found.holds else CHECK_FAILED
 
 
 def verified(
-    report: Path, discovery: Discovery, quiet: bool, house: HouseStyle | None, previous: Path | None,
+    report: Path, discovery: Discovery, house: HouseStyle | None, previous: Path | None,
     trusted: Path | None = None, *, pages: bool = True,
 ) -> tuple[CarriedResults, Verification]:  # fmt: skip
     """Return what a report carries, and what was found of it."""
@@ -171,7 +161,7 @@ def verified(
     from diecut_report.exchange.verification import verify as judged
 
     carried = carried_results(report)
-    with Progress(quiet) as progress, without_output():
+    with Progress() as progress, without_output():
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
         found = judged(carried, discovery, progress, pages=pages, trusted=trusted, house=house, previous=former)
     return carried, found
@@ -180,37 +170,20 @@ def verified(
 @click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
 @click.argument("results", metavar="RESULTS.json", type=path_of)
 @here_option
-@click.option(
-    "--format",
-    "formats",
-    metavar="LIST",
-    default="html,pdf",
-    callback=formats_of(lambda: report_formats()[:-1]),
-    help="html,pdf (default), also docx,xlsx.",
-)
+@formats_option(lambda: report_formats()[:-1], "html,pdf", "html,pdf (default), also docx,xlsx.")
 @template_option
 @strict_option
 @common
-def render(
-    results: Path,
-    folder: Path,
-    formats: list[str],
-    house: HouseStyle | None,
-    strict: bool,
-    folders: tuple[Path, ...],
-    quiet: bool,
-) -> int:
+def render(results: Path, folder: Path, formats: list[str], house: HouseStyle | None, strict: bool, discovery: Discovery) -> int:  # fmt: skip
     """Regenerate the report from a results file, without calculating."""
     from diecut_report.exchange.rendering import render as rendered
     from diecut_report.exchange.rendering import told
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        discovery = Discovery(folders)
+    with Progress() as progress, redirect_stdout(sys.stderr):
         outcome, lost = rendered(results, folder, formats, progress, discovery, asked_language(), house)
     tell((*told(lost), *outcome.warnings))
-    if not quiet:
-        tell_written(outcome.written)
-        tell(checking.verdict_lines(outcome.results, discovery))
+    tell_written(outcome.written)
+    inform(checking.verdict_lines(outcome.results, discovery))
     is_broken = bool(lost) or outcome.results.status == "error"
     return checking.exit_code(outcome.results, is_broken=is_broken, is_strict=strict)
 
@@ -218,15 +191,11 @@ def render(
 @click.command(cls=HelpfulCommand)
 @click.argument("old", metavar="OLD", type=path_of)
 @click.argument("new", metavar="NEW", type=path_of)
-@click.option(
-    "--format", "form", default="text", type=click.Choice(["text", "json", "html"]), help="text, json or html."
-)
+@form_option("text", "json", "html", help="text, json or html.")
 @target_option
 @click.option("--all", "all_rows", is_flag=True, help="As text, show all changes, not only the most important ones.")
 @common
-def diff(
-    old: Path, new: Path, form: str, target: Path | None, all_rows: bool, folders: tuple[Path, ...], quiet: bool
-) -> int:
+def diff(old: Path, new: Path, form: str, target: Path | None, all_rows: bool, discovery: Discovery) -> int:
     """Report what changed from OLD to NEW: each a configuration, a results file, a report, or a variant of a study (DIR#N).
 
     Exit codes are those of NEW: 0 no check fails, 1 a check fails, 3 a plugin broke; 2 where one of the two cannot be read.
@@ -234,8 +203,7 @@ def diff(
     from diecut_report.exchange.rendering import side
     from diecut_report.results.changes import changes
 
-    with Progress(quiet) as progress, without_output():
-        discovery = Discovery(folders)
+    with Progress() as progress, without_output():
         sides = [side(source(given, discovery), discovery, progress) for given in (old, new)]
         found = changes(sides[0][0], sides[1][0])
         text = _changes(found, [results for results, _ in sides], discovery, form, all_rows)
@@ -247,15 +215,14 @@ def diff(
 
 def _changes(found: ChangesRecord, sides: list[ResultsRecord], discovery: Discovery, form: str, all_rows: bool) -> str:
     """The changes in a format: as JSON neutral, as a page in the language that is asked for, else in that of the new project."""
-    old, new = sides
     if form == "json":
         return as_json(found.data(), indent=1)
     from diecut_report.exchange.rendering import lines, page, said_changes
 
-    if form == "html":
-        with speaking(asked_language() or new.project.language):
-            return page(said_changes(found, old, new, spoken_catalogues(discovery)))
-    return as_lines(lines(said_changes(found, old, new, spoken_catalogues(discovery)), all_rows=all_rows))
+    document_language = asked_language() or sides[1].project.language
+    with speaking(document_language if form == "html" else spoken_language()):
+        told = said_changes(found, sides[0], sides[1], spoken_catalogues(discovery))
+        return page(told) if form == "html" else as_lines(lines(told, all_rows=all_rows))
 
 
 # The command that signs a report. A password comes from a prompt or from the environment, never from the command line.
@@ -266,21 +233,19 @@ PASSWORD = "DIECUT_REPORT_KEY_PASSWORD"  # the name of a variable of the environ
 
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT.pdf", type=path_of)
-@click.option(
-    "--key", required=True, metavar="FILE", type=path_of, help="Your private key: PKCS #12 (.p12, .pfx) or PEM."
-)
-@click.option("--cert", metavar="FILE", type=path_of, help="Its certificate (PEM), where it is not in the same file.")
+@path_option("--key", required=True, help="Your private key: PKCS #12 (.p12, .pfx) or PEM.")
+@path_option("--cert", help="Its certificate (PEM), where it is not in the same file.")
 @click.option(
     "--field", metavar="NAME", help="prepared, checked, norm_checked or approved; required if several are free."
 )
 @click.option("--reason", metavar="TEXT", help="Reason for signing, as stored in the signature.")
-@click.option("-o", "target", metavar="FILE", type=path_of, help="Write to another file (default: REPORT.pdf itself).")
+@path_option("-o", "target", help="Write to another file (default: REPORT.pdf itself).")
 @previous_option
 @template_option
 @common
 def sign(
     report: Path, key: Path, cert: Path | None, field: str | None, reason: str | None, target: Path | None, previous: Path | None,
-    house: HouseStyle | None, folders: tuple[Path, ...], quiet: bool,
+    house: HouseStyle | None, discovery: Discovery
 ) -> int:  # fmt: skip
     """Sign a report in one of its fields. Existing content is preserved byte for byte, so that others can sign it too.
 
@@ -298,17 +263,16 @@ def sign(
             raise refusal(words, out)
 
     def require_as_made() -> None:
-        carried, found = verified(report, Discovery(folders), quiet, house, previous)
+        carried, found = verified(report, discovery, house, previous)
         if not found.holds:
             faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
             words = phrase(
-                "The report differs from what this program produces, and was not signed. Findings of `diecut-report "
-                "verify`:"
+                "The report differs from what this program produces, and was not signed. Findings of `diecut-report verify`:"
             )
             raise UserError([Problem(words, str(report)), *map(Problem, faults)])
 
     def told(words: str) -> None:
-        tell([] if quiet else [f"{out}: " + phrase(words)])
+        inform([f"{out}: " + phrase(words)])
 
     signed(Signing(report, out, field, reason), signing_key(key, cert, _password), told, require_as_made)
     return PASSED

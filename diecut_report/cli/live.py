@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli.options import DASH, config_argument
-from diecut_report.cli.output import PASSED, HelpfulCommand, asked_language, common, emit, tell, without_output
+from diecut_report.cli.output import PASSED, HelpfulCommand, asked_language, common, emit, inform, tell, without_output
 from diecut_report.config import yaml
 from diecut_report.config.catalogues import catalogues_of
 from diecut_report.config.loader import SHOWN, refuse_study
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 @click.option("--port", metavar="N", type=click.IntRange(0, 65535), default=0, help="The port (default: a free one).")
 @click.option("--open/--no-open", "is_opened", default=True, help="Whether to open the page in the browser.")
 @common
-def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], quiet: bool) -> int:
+def live(config: Path, port: int, is_opened: bool, discovery: Discovery) -> int:
     """Show CONFIG as a live page that follows each change of the file and lets you edit its numbers. End with Ctrl-C.
 
     The page is only for this machine: its address contains a secret.
@@ -42,9 +42,7 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     from diecut_report.live.server import LiveApplication, serve
     from diecut_report.live.session import LiveSession
 
-    if not quiet:
-        tell([say("reading and calculating {config} …", config=config)])
-    discovery = Discovery(folders)
+    inform([say("reading and calculating {config} …", config=config)])
     with without_output():  # a plugin that prints does not spoil the address
         session = LiveSession(config.absolute(), discovery)
 
@@ -55,7 +53,7 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
 
     def ready(address: str) -> None:
         emit(f"{address}\n")
-        tell([] if quiet else [follows])
+        inform([follows])
         if is_opened:  # beside the server: a browser in a terminal comes back when it is closed, and waits for the page
             Thread(target=show, args=[_door(doors, address)], daemon=True).start()
 
@@ -65,8 +63,9 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     language = asked_language() or _of_project(session) or spoken_language()
     spoken = speaking(language, catalogues_of(language, discovery))
     with TemporaryDirectory(prefix="diecut-report-") as doors, spoken, _until_ended():
-        serve(LiveApplication(session, folders, asked_language()), port, ready)
-    tell(_unwritten(session))
+        serve(LiveApplication(session, discovery.folders, asked_language()), port, ready)
+    words = "changed on the page but not saved: {name}: {typed}"  # so that nothing is lost
+    tell(say(words, name=name, typed=typed) for name, typed in session.edits.items())
     return PASSED
 
 
@@ -113,14 +112,7 @@ def _require_file(config: Path) -> None:
 
 
 def _of_project(session: LiveSession) -> str | None:
-    """The language that the file gives its project; None where it gives none that there is."""
     data = session.tree.data if session.tree else None
     project = data.get("project") if isinstance(data, dict) else None
     given = project.get("language") if isinstance(project, dict) else None
     return given if given in languages() else None
-
-
-def _unwritten(session: LiveSession) -> Iterator[str]:
-    """Return what was changed on the page and not written, so that nothing is lost."""
-    for name, typed in session.edits.items():
-        yield say("changed on the page but not saved: {name}: {typed}", name=name, typed=typed)

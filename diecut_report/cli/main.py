@@ -28,9 +28,9 @@ from diecut_report.cli.exchange import diff, extract, render, sign, verify
 from diecut_report.cli.live import live
 from diecut_report.cli.options import (
     config_argument,
-    formats_of,
+    formats_option,
     here_option,
-    path_of,
+    path_option,
     read_detail,
     read_mechanisms,
     report_formats,
@@ -53,6 +53,7 @@ from diecut_report.cli.output import (
     emit,
     emit_json,
     emit_lines,
+    inform,
     language_option,
     of_environment,
     open_streams,
@@ -170,14 +171,8 @@ def _run(arguments: Sequence[str] | None) -> int:
         tell([str(error)])
         return PLUGIN_BROKE
     except Exception:
-        tell(traceback.format_exc().splitlines())
-        tell(
-            [
-                phrase(
-                    "This is a fault of diecut-report itself. Please report it with the lines above and the configuration."
-                )
-            ]
-        )
+        words = "This is a fault of diecut-report itself. Please report it with the lines above and the configuration."
+        tell([*traceback.format_exc().splitlines(), phrase(words)])
         return FAULT
 
 
@@ -205,20 +200,10 @@ def program() -> None:
 @program.command(epilog=output.OF_CHECKS)
 @config_argument
 @here_option
-@click.option(
-    "--format",
-    "formats",
-    metavar="LIST",
-    default="html,pdf,json",
-    callback=formats_of(report_formats),
-    help="html,pdf,json (default), also docx,xlsx.",
-)
-@click.option(
+@formats_option(report_formats, "html,pdf,json", "html,pdf,json (default), also docx,xlsx.")
+@path_option(
     "--previous",
-    metavar="FILE",
-    type=path_of,
-    help="A previous report, results file, configuration or variant: mark changes since then and add a page of "
-    "changes.",
+    help="A previous report, results file, configuration or variant: mark changes since then and add a page of changes.",
 )
 @click.option(
     "--detail",
@@ -239,23 +224,21 @@ def program() -> None:
 @common
 def report(
     config: Path, folder: Path, formats: list[str], previous: Path | None, detail: str | None, only: tuple[str, ...],
-    house: HouseStyle | None, strict: bool, folders: tuple[Path, ...], quiet: bool,
+    house: HouseStyle | None, strict: bool, discovery: Discovery
 ) -> int:  # fmt: skip
     """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report.design.findings import with_findings
     from diecut_report.exchange.rendering import side
     from diecut_report.press import AskedReport, Press
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
-        discovery = Discovery(folders)
+    with Progress() as progress, redirect_stdout(sys.stderr):
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
         press = Press.read(source(config, discovery), discovery, progress)
         press.require_reportable(formats, only)
         asked = AskedReport(asked_language(), detail, only, house)
         outcome = with_findings(press.calculate()).report(folder, formats, asked, former)
-    if not quiet:
-        tell_written(outcome.written)
-    return _verdict(outcome, discovery, quiet, strict)
+    tell_written(outcome.written)
+    return _verdict(outcome, discovery, strict)
 
 
 @program.command(epilog=output.OF_CHECKS)
@@ -263,37 +246,34 @@ def report(
 @target_option
 @strict_option
 @common
-def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:
+def calc(config: Path, target: Path | None, strict: bool, discovery: Discovery) -> int:
     """Calculate and write only the results file."""
     from diecut_report.press import Press
 
     # a plugin that prints does not spoil the JSON
-    with Progress(quiet) as progress, without_output() if target is None else redirect_stdout(sys.stderr):
-        discovery = Discovery(folders)
+    with Progress() as progress, without_output() if target is None else redirect_stdout(sys.stderr):
         made = Press.read(source(config, discovery), discovery, progress).calculate()
         text = made.text
         if target is not None:
             made.save(target)
     if target is None:
         emit(text)
-    return _verdict(made, discovery, quiet or target is None, strict)
+    return _verdict(made, discovery, strict, is_shown=target is not None)
 
 
 @program.command()
 @common
-def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
+def plugins(discovery: Discovery) -> int:
     """List the kinds, their sources and where each comes from."""
-    discovery, codes, lines = Discovery(folders), [PASSED], []
+    codes, lines = [PASSED], list[str]()
     for kind, origins in discovery.origins.items():
         try:
             with without_output():
                 mechanism = discovery.mechanism(kind)
             title = said(mechanism.title, kind)
             lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].label)]
-            lines += [
-                say("    source {id}: {citation}", id=source.id, citation=phrase(source.citation))
-                for source in mechanism.sources
-            ]
+            words = "    source {id}: {citation}"
+            lines += [say(words, id=source.id, citation=phrase(source.citation)) for source in mechanism.sources]
         except (DuplicateKind, PluginError) as error:
             tell([str(error)])
             codes.append(PLUGIN_BROKE)
@@ -304,7 +284,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
 @program.command()
 @click.argument("kind", required=False, shell_complete=output.kinds)
 @common
-def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
+def schema(kind: str | None, discovery: Discovery) -> int:
     """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
     from diecut_report.config.schema import config_schema, kind_schema
 
@@ -318,7 +298,6 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
 
         emit_json(results_schema())
         return PASSED
-    discovery = Discovery(folders)
     found, broken = {}, {}
     for name in [kind] if kind else discovery.origins:
         try:
@@ -343,9 +322,11 @@ for _command in OTHERS:
 # --- verdict ---------------------------------------------------------------------------------------------------------
 
 
-def _verdict(outcome: CalculatedPress | ReportOutcome, discovery: Discovery, quiet: bool, strict: bool) -> int:
+def _verdict(
+    outcome: CalculatedPress | ReportOutcome, discovery: Discovery, strict: bool, *, is_shown: bool = True
+) -> int:
     tell(str(error) for error in outcome.broken)
     tell(outcome.warnings)
-    if not quiet:
-        tell(checking.verdict_lines(outcome.results, discovery))
+    if is_shown:
+        inform(checking.verdict_lines(outcome.results, discovery))
     return checking.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)

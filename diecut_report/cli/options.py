@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from diecut_report.cli.output import tell
 from diecut_report.config.loader import SHOWN, load_standard_input
 from diecut_report.config.model import DETAILS
-from diecut_report.config.yaml import Tree
+from diecut_report.config.yaml import Tree, as_text, parse
 from diecut_report.errors import nearest, refusal
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import say
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 RESULTS = "study.json"  # what makes a folder one of a study's results
 READ = "diecut_report.standard_input"
 DASH = Path("-")
+Given = TypeVar("Given", bound=Callable[..., Any])
 path_of = click.Path(path_type=Path)
 
 
@@ -47,8 +48,20 @@ def split(given: str) -> list[str]:
     return [part for part in map(str.strip, given.split(",")) if part]
 
 
-def formats_of(known_formats: Callable[[], Sequence[str]], *, may_be_none: bool = False) -> Callable[..., list[str]]:
-    """Return the callback of a list of formats: small letters, each once; BadParameter for another one, and for none.
+def path_option(*names: str, help: str, metavar: str = "FILE", **more: Any) -> Callable[[Given], Given]:
+    """Return an option that names a file or a folder."""
+    return click.option(*names, metavar=metavar, type=path_of, help=help, **more)
+
+
+def form_option(*forms: str, help: str = "text (default) or json.") -> Callable[[Given], Given]:
+    """Return the option of the form in which something is shown, the first where none is named."""
+    return click.option("--format", "form", default=forms[0], type=click.Choice(forms), help=help)
+
+
+def formats_option(
+    known_formats: Callable[[], Sequence[str]], default: str, help: str, *, may_be_none: bool = False
+) -> Callable[[Given], Given]:
+    """Return the option of a list of formats: small letters, each once; BadParameter for another one, and for none.
 
     The known ones are asked for when the option is read, since what knows them may take long to import.
     """
@@ -62,7 +75,7 @@ def formats_of(known_formats: Callable[[], Sequence[str]], *, may_be_none: bool 
             raise click.BadParameter(say("{words}; known: {known}.", words=words, known=", ".join(known)))
         return asked
 
-    return read
+    return click.option("--format", "formats", metavar="LIST", default=default, callback=read, help=help)
 
 
 def report_formats() -> tuple[str, ...]:
@@ -98,17 +111,12 @@ def _read_template(_: click.Context, __: click.Parameter, given: Path | None) ->
 
 
 config_argument = click.argument("config", type=path_of)
-json_option = click.option(
-    "--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json."
-)
 target_option = click.option(
     "-o", "target", metavar="FILE", type=output_file, help="Write to a file instead of standard output."
 )
-here_option = click.option(
-    "-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here)."
-)
-study_folder_option = click.option(
-    "-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here)."
+here_option = path_option("-o", "folder", metavar="DIR", default=".", help="Where to write (default: here).")
+study_folder_option = path_option(
+    "-o", "folder", metavar="DIR", help="Where to write (default: the study's name, here)."
 )
 jobs_option = click.option(
     "--jobs", metavar="N", type=click.IntRange(1), help="Number of processes (default: one per core)."
@@ -121,14 +129,10 @@ strict_option = click.option(
     is_flag=True,
     help="Exit with 1 also for warnings, for checks that are not performed because a key is not given, and for a plugin with faults.",
 )
-template_option = click.option(
-    "--template",
-    "house",
-    metavar="DIR",
-    type=path_of,
-    callback=_read_template,
+template_option = path_option(
+    "--template", "house", metavar="DIR", callback=_read_template,
     help="A folder with templates of your own, which override blocks of HTML and PDF.",
-)
+)  # fmt: skip
 
 
 # What a command reads.
@@ -143,20 +147,21 @@ def source(config: Path, discovery: Discovery) -> Source:
         return config
     from diecut_report.study.analysis.variant_config import variant_config
 
+    def warn(words: str) -> None:
+        tell([Phrase("warning: {words}", words=phrase(words))])
+
     name = f"{Path(folder).resolve().name}-{number}.yaml"
-    return variant_config(Path(folder), int(number), discovery, name, _warn)
-
-
-def _warn(words: str) -> None:
-    tell([Phrase("warning: {words}", words=phrase(words))])
+    return variant_config(Path(folder), int(number), discovery, name, warn)
 
 
 def changeable_source(config: Path, discovery: Discovery) -> Source:
-    """Return the same where values are written into its text: that of a stored variant has its own places."""
-    from diecut_report.config.yaml import in_its_own_text
-
+    """Return the same where values are written into its text: a stored variant is read again without its heading, which tells of others."""
     found = source(config, discovery)
-    return in_its_own_text(found) if isinstance(found, Tree) and config != DASH else found
+    if config == DASH or not isinstance(found, Tree):
+        return found
+    own = parse(as_text(found.root), found.file)
+    own.name = found.name
+    return own
 
 
 def from_standard_input() -> Tree:

@@ -47,13 +47,11 @@ def is_styled() -> bool:
 class Progress:
     """Shows on a terminal what is being done, once it has taken longer than a second."""
 
-    def __init__(self, quiet: bool) -> None:
-        self.doing, self.status, self.done = "", None, quiet or not is_styled()
-        self.lock = Lock()
+    def __init__(self) -> None:
+        self.doing, self.done, self.lock = "", is_quiet() or not is_styled(), Lock()
+        self.status: Status | None = None
         self.timer = Timer(PATIENCE, self._show)
         self.timer.daemon = True
-
-    status: Status | None
 
     def __call__(self, doing: str) -> None:
         self.doing = said(doing)
@@ -79,9 +77,6 @@ class Progress:
             if not self.done:
                 self.status = Console(stderr=True).status(self.doing)
                 self.status.start()
-
-
-# How commands end, as their help tells it.
 
 
 HEAD = "Exit codes"
@@ -128,7 +123,7 @@ def one_of(known: Callable[[], Iterable[str]]) -> Callable[[click.Context, click
 
 
 def _discovery(context: click.Context) -> Discovery:
-    return Discovery(context.params.get("folders") or ())
+    return context.params.get("discovery") or Discovery()
 
 
 def _title(discovery: Discovery, kind: str) -> str | None:
@@ -172,7 +167,7 @@ def _numbers(config: Config) -> Iterator[str]:
 
 VARIABLE = "DIECUT_REPORT_LANGUAGE"
 LOCALES = ("LC_ALL", "LC_MESSAGES", "LANG")  # as gettext has it: the first that is set
-ASKED = "diecut_report.language"
+ASKED, QUIET = "diecut_report.language", "diecut_report.quiet"  # what is asked for beside the parameters of a command
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -211,15 +206,8 @@ def _language(context: click.Context, _: click.Parameter, given: str | None) -> 
 def language_option(command: Command) -> Command:
     """Give a command the option ``--language``, of which it need not know."""
     words = "Language of messages and documents (en, uk), overriding the environment and the project."
-    option = click.option(
-        "--language",
-        metavar="LANGUAGE",
-        is_eager=True,
-        expose_value=False,
-        callback=_language,
-        help=words,
-        shell_complete=one_of(languages),
-    )
+    option = click.option("--language", metavar="LANGUAGE", is_eager=True, expose_value=False, callback=_language, help=words,
+                          shell_complete=one_of(languages))  # fmt: skip
     return option(command)
 
 
@@ -254,9 +242,20 @@ def tell(lines: Iterable[Line]) -> None:
         click.echo("".join(map(_printable, (line,) if isinstance(line, str) else line)), err=True)
 
 
+def is_quiet() -> bool:
+    """Return whether ``--quiet`` asks for errors alone."""
+    context = click.get_current_context(silent=True)
+    return context is not None and QUIET in context.meta
+
+
+def inform(lines: Iterable[Line]) -> None:
+    """Tell what ``--quiet`` leaves out."""
+    tell(() if is_quiet() else lines)
+
+
 def tell_written(paths: Iterable[Path]) -> None:
     """Which files were written."""
-    tell(Phrase("written: {path}", path=in_line(str(path))) for path in paths)
+    inform(Phrase("written: {path}", path=in_line(str(path))) for path in paths)
 
 
 def tell_problems(problems: Sequence[Problem]) -> None:
@@ -264,16 +263,9 @@ def tell_problems(problems: Sequence[Problem]) -> None:
     unreadable = know_all_plugins()  # of whose inputs the problems tell
     problems = [*problems, *(fault for fault in unreadable if fault not in problems)]
     tell(str(problem) for problem in problems[:MAX_SHOWN])
-    if len(problems) > MAX_SHOWN:
-        tell(
-            [
-                Counted(
-                    len(problems) - MAX_SHOWN,
-                    "{n} more problem of the same run is not shown; fix these first.",
-                    "{n} more problems of the same run are not shown; fix these first.",
-                )
-            ]
-        )
+    if (more := len(problems) - MAX_SHOWN) > 0:
+        one = "{n} more problem of the same run is not shown; fix these first."
+        tell([Counted(more, one, "{n} more problems of the same run are not shown; fix these first.")])
 
 
 def _printable(text: str) -> str:
@@ -486,21 +478,24 @@ def coloured(text: str, status: str) -> str:
     return Coloured(f"\x1b[{COLOURS[status]}m{text}\x1b[0m") if is_styled() else text
 
 
-def _with_words(context: click.Context, _: click.Parameter, folders: tuple[Path, ...]) -> tuple[Path, ...]:
-    """Let plugins of these folders speak by catalogues of their own."""
+def _known(context: click.Context, _: click.Parameter, folders: tuple[Path, ...]) -> Discovery:
+    """What knows the kinds of these folders, whose plugins speak by catalogues of their own."""
+    discovery = Discovery(folders)
     if folders and spoken_language() != SOURCE_LANGUAGE and not context.resilient_parsing:
         from diecut_report.config.catalogues import spoken_catalogues  # with all plugins, which English does not need
-        from diecut_report.config.plugins import Discovery
 
-        speak(spoken_language(), spoken_catalogues(Discovery(folders)))
-    return folders
+        speak(spoken_language(), spoken_catalogues(discovery))
+    return discovery
+
+
+def _quiet(context: click.Context, _: click.Parameter, asked: bool) -> None:
+    context.meta.update({QUIET: True} if asked else {})
 
 
 def common(command: Command) -> Command:
     """The options that every command has."""
-    folders = click.option("--plugins", "folders", metavar="DIR", multiple=True, type=click.Path(path_type=Path), callback=_with_words,
+    folders = click.option("--plugins", "discovery", metavar="DIR", multiple=True, type=click.Path(path_type=Path), callback=_known,
                            help="A folder with plugins (programs that run with your permissions); may be given several times.")  # fmt: skip
-    quiet = click.option(
-        "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are still reported."
-    )
+    quiet = click.option("--quiet", is_flag=True, expose_value=False, callback=_quiet,
+                         help="Show neither progress nor a summary; errors are still reported.")  # fmt: skip
     return folders(quiet(language_option(command)))

@@ -1,4 +1,4 @@
-"""The command that begins a configuration."""
+"""The commands that begin a configuration or a plugin, and that judge a plugin."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli import output
-from diecut_report.cli.options import json_option, output_file, path_of
+from diecut_report.cli.options import form_option, output_file, path_option
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -24,11 +24,14 @@ from diecut_report.cli.output import (
     emit_json,
     emit_lines,
     emit_or_write,
+    inform,
+    is_quiet,
     tell,
     tell_problems,
     tell_written,
     without_output,
 )
+from diecut_report.config import yaml
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery, DuplicateKind
 from diecut_report.errors import PluginError, Problem, UserError, refusal
@@ -40,40 +43,36 @@ if TYPE_CHECKING:
     from diecut_report.testing.plugin_page import CheckedPlugin
 
 
-SHOWN = "<stdout>"
-
-
 @click.command("new", cls=HelpfulCommand)
 @click.argument("kinds", metavar="[KIND[:NAME] …]", nargs=-1, shell_complete=output.kinds)
 @click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
 @click.option("--force", is_flag=True, help="Overwrite an existing file.")
 @common
-def new(kinds: tuple[str, ...], file: Path | None, force: bool, folders: tuple[Path, ...], quiet: bool) -> int:
+def new(kinds: tuple[str, ...], file: Path | None, force: bool, discovery: Discovery) -> int:
     """Start a configuration with mechanisms of these kinds: example values, linked to each other, with each key explained.
 
     Without a KIND the kinds are listed. `clutch:main` names a mechanism; a kind may be given several times.
 
     Exit codes: 0 written or listed, 1 written, but values are left for you to give, 2 bad input, 3 a plugin broke.
     """
-    discovery = Discovery(folders)
     with speaking(spoken_language(), spoken_catalogues(discovery)):
         if not kinds:
             return _list(discovery)
-        if file is not None and not force:
-            _refuse_existing(file)
+        # a device or a pipe that is there is written into
+        if file and not force and os.path.lexists(file) and (file.is_file() or file.is_symlink() or file.is_dir()):
+            raise refusal("This already exists and is not overwritten. Choose another name, or give --force.", file)
         from diecut_report.config.drafting import draft
 
         with without_output():
             made = draft(kinds, discovery, file.name if file else "my_press.yaml")
-            problems = _problems(made, str(file or SHOWN), discovery)
+            problems = _problems(made, str(file or "<stdout>"), discovery)
         emit_or_write(made.text, file)
-        tell(_draft_messages(made, None if quiet else file))
+        tell(_draft_messages(made, None if is_quiet() else file))
     tell_problems(problems)
     return CHECK_FAILED if problems else PASSED
 
 
 def _list(discovery: Discovery) -> int:
-    """List the kinds, each in a line."""
     codes, width = [PASSED], max(map(len, discovery.origins))
     for kind in discovery.origins:
         try:
@@ -86,18 +85,11 @@ def _list(discovery: Discovery) -> int:
     return BAD_INPUT if BAD_INPUT in codes else max(codes)
 
 
-def _refuse_existing(file: Path) -> None:
-    """Refuse a file that is there; a device or a pipe is written into."""
-    if os.path.lexists(file) and (file.is_file() or file.is_symlink() or file.is_dir()):
-        raise refusal("This already exists and is not overwritten. Choose another name, or give --force.", file)
-
-
 def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]:
     """Return what is wrong with the text; whether such machines can exist is asked where no example gives their values."""
-    from diecut_report.config import yaml as yaml_tree
     from diecut_report.press import Press
 
-    tree = yaml_tree.parse(made.text, file)
+    tree = yaml.parse(made.text, file)
     try:
         guessed = made.guessed or made.open
         for error in Press.validate(tree, discovery) if guessed else Press.read(tree, discovery).config.broken.values():
@@ -108,7 +100,6 @@ def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]
 
 
 def _draft_messages(made: Draft, file: Path | None) -> Iterator[str]:
-    """Say what was added, and what no example tells."""
     if file is not None:
         yield Phrase("written: {path}", path=file)
     words = "added: {name} ({kind}), required by {asking}"
@@ -117,9 +108,6 @@ def _draft_messages(made: Draft, file: Path | None) -> Iterator[str]:
         yield say("no example values exist for these; enter your own: {keys}", keys=", ".join(made.guessed))
     if made.open:
         yield say("these need a reference that you must provide: {keys}", keys=", ".join(made.open))
-
-
-# The commands of plugin authors: ``new-plugin`` writes a mechanism that runs, ``check-plugin`` judges one.
 
 
 STATES = {
@@ -142,34 +130,25 @@ STATES = {
     type=click.Choice(["parts", "motion", "selection"]),
     help="Template: parts (default; a list of springs), motion (curves over a turn), selection (a size from a table).",
 )
-@click.option("-o", "folder", metavar="DIR", type=path_of, help="Folder to create (default: NAME, here).")
+@path_option("-o", "folder", metavar="DIR", help="Folder to create (default: NAME, here).")
 @common
-def new_plugin(
-    name: str, as_package: bool, like: str, folder: Path | None, folders: tuple[Path, ...], quiet: bool
-) -> int:
+def new_plugin(name: str, as_package: bool, like: str, folder: Path | None, discovery: Discovery) -> int:
     """Create a working mechanism of the kind NAME: plugin, tests, example, study, translations."""
     from diecut_report.testing.scaffold import scaffold
 
     home = folder or Path(name)
     written = scaffold(name, home, as_package=as_package, like=like)
-    if not quiet:
-        tell_written(written)
-        tell([Phrase("next: read {file}", file=home / "README.md")])
+    tell_written(written)
+    inform([Phrase("next: read {file}", file=home / "README.md")])
     return PASSED
 
 
 @click.command("check-plugin", cls=HelpfulCommand, epilog=output.OF_PLUGIN)
 @click.argument("plugin", metavar="NAME|DIR")
-@click.option("--config", "configs", metavar="FILE", multiple=True, type=path_of,
-              help="A configuration with machines to test it on (default: those beside the plugin).")  # fmt: skip
-@json_option
-@click.option(
-    "-o",
-    "page",
-    metavar="FILE",
-    type=path_of,
-    help="Write the rendered chapter; of several plugins, or into a folder, each as NAME.html.",
-)
+@path_option("--config", "configs", multiple=True,
+             help="A configuration with machines to test it on (default: those beside the plugin).")  # fmt: skip
+@form_option("text", "json")
+@path_option("-o", "page", help="Write the rendered chapter; of several plugins, or into a folder, each as NAME.html.")
 @click.option(
     "--write-po",
     is_flag=True,
@@ -183,39 +162,34 @@ def new_plugin(
 )
 @common
 def check_plugin(
-    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, folders: tuple[Path, ...],
-    quiet: bool,
+    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, discovery: Discovery
 ) -> int:  # fmt: skip
     """Test a plugin against the rules of its contract; with -o render its chapter as HTML. Ends with 1 where a rule is broken."""
-    from diecut_report.testing.plugin_page import CheckedPlugin, checked, meant
+    from diecut_report.testing.plugin_page import checked, meant
 
-    known, kinds = meant(plugin, folders)
+    known, kinds = meant(plugin, discovery.folders)
     if page is not None and len(kinds) > 1 and page.suffix:
         words = "{folder} has {n} plugins; name one of them, or give a folder with -o."
         raise click.UsageError(say(words, folder=plugin, n=len(kinds)))
-    found: list[CheckedPlugin] = []
-    for kind in kinds:
-        with without_output():
-            for each in checked(known, kind, configs, asked_language() or spoken_language(), write_po=write_po):
-                if isinstance(each, CheckedPlugin):
-                    found.append(each)
+    with without_output():
+        language = asked_language() or spoken_language()
+        found = [checked(known, kind, configs, language, write_po=write_po) for kind in kinds]
     if form == "json":
         emit_json([each.data for each in found])
     else:
         emit_lines(line for each in found for line in _lines(each))
     for each in found:
-        _tell_changed(each, quiet)
+        _tell_changed(each)
     pages = {each.kind: each.page.encode() for each in found if each.page}
     if page or is_shown:
-        _write_pages(_places(pages, page, is_single=len(kinds) == 1), configs, quiet, is_shown)
-    elif pages and not quiet and form == "text":
-        tell([Phrase("-o FILE writes the chapter as it stands in a report, --open shows it")])
+        _write_pages(pages, page, configs, is_single=len(kinds) == 1, is_shown=is_shown)
+    elif pages and form == "text":
+        inform([Phrase("-o FILE writes the chapter as it stands in a report, --open shows it")])
     states = {each.status for each in found}
     return PLUGIN_BROKE if "broke" in states else CHECK_FAILED if "fail" in states else PASSED
 
 
 def _lines(found: CheckedPlugin) -> Iterator[str]:
-    """What was found, a line for each rule, below it its faults."""
     version = f" {found.mechanism.version}" if found.mechanism else ""
     yield say("{kind}{version}, from {origin}", kind=found.kind, version=version, origin=found.origin)
     if found.error:
@@ -228,28 +202,24 @@ def _lines(found: CheckedPlugin) -> Iterator[str]:
         yield from (f"      {said(fault)}" for fault in rule.short_list)
 
 
-def _tell_changed(found: CheckedPlugin, quiet: bool) -> None:
-    """Which texts wait for their translation, and how many are obsolete."""
-    for file, made in found.changed.items() if not quiet else ():
-        told = [
-            *([Counted(made.added, "{n} text to be translated", "{n} texts to be translated")] if made.added else []),
-            *([Counted(made.obsolete, "{n} text is obsolete", "{n} texts are obsolete")] if made.obsolete else []),
-        ]
-        tell([Phrase("written: {file}: {told}", file=file, told=joined(told, ", "))])
+def _tell_changed(found: CheckedPlugin) -> None:
+    for file, made in found.changed.items():
+        added = Counted(made.added, "{n} text to be translated", "{n} texts to be translated")
+        obsolete = Counted(made.obsolete, "{n} text is obsolete", "{n} texts are obsolete")
+        told = joined([each for each in (added, obsolete) if each.number], ", ")
+        inform([Phrase("written: {file}: {told}", file=file, told=told)])
 
 
-def _places(pages: Mapping[str, bytes], asked: Path | None, *, is_single: bool) -> dict[Path, bytes]:
-    """Where each chapter is written: the file that is named, a file of its own in a folder; where none is named a temporary folder."""
-    place = asked or Path(mkdtemp(prefix="diecut-report-"))
-    is_file = asked and is_single and not asked.is_dir()
-    return {place if is_file else place / f"{kind}.html": page for kind, page in pages.items()}
-
-
-def _write_pages(pages: Mapping[Path, bytes], configs: tuple[Path, ...], quiet: bool, is_shown: bool) -> None:
+def _write_pages(
+    pages: Mapping[str, bytes], asked: Path | None, configs: tuple[Path, ...], *, is_single: bool, is_shown: bool
+) -> None:  # fmt: skip
+    """Write each chapter into the file that is named, or into one of its own in a folder; where none is named a temporary folder."""
     from diecut_report.files import write_all
 
-    write_all(pages, keep=configs[0] if configs else None)
-    if not quiet:
-        tell_written(pages)
-    for page in pages if is_shown else ():
+    place = asked or Path(mkdtemp(prefix="diecut-report-"))
+    is_file = asked and is_single and not asked.is_dir()
+    files = {place if is_file else place / f"{kind}.html": page for kind, page in pages.items()}
+    write_all(files, keep=configs[0] if configs else None)
+    tell_written(files)
+    for page in files if is_shown else ():
         webbrowser.open(page.resolve().as_uri())

@@ -16,10 +16,12 @@ from diecut_report.cli.options import (
     DASH,
     RESULTS,
     dask_option,
-    formats_of,
+    form_option,
+    formats_option,
     jobs_option,
     output_file,
     path_of,
+    path_option,
     results_folder,
     split,
     strict_option,
@@ -35,17 +37,17 @@ from diecut_report.cli.output import (
     asked_language,
     common,
     emit,
+    inform,
+    is_quiet,
     tell,
 )
+from diecut_report.config.plugins import Discovery
 from diecut_report.results.conclusion import told_faults
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import say
 
 if TYPE_CHECKING:
     from diecut_report.study.execution.study_run import StudyOutcome
-
-EXPORTS = ("csv", "xlsx")
-
 
 SEPARATORS, DECIMALS, UNITS = ("comma", "semicolon", "tab"), ("point", "comma"), ("si", "display")
 
@@ -60,17 +62,10 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
 @click.command(cls=HelpfulCommand, epilog=output.OF_STUDY)
 @click.argument("study", required=False, type=path_of)
 @study_folder_option
-@click.option("--resume", metavar="DIR", type=path_of, help="Continue the run in a folder; finished parts are kept.")
+@path_option("--resume", metavar="DIR", help="Continue the run in a folder; finished parts are kept.")
 @jobs_option
 @dask_option
-@click.option(
-    "--format",
-    "formats",
-    metavar="LIST",
-    default="",
-    callback=formats_of(lambda: EXPORTS, may_be_none=True),
-    help="Also write all variants as csv,xlsx.",
-)
+@formats_option(lambda: ("csv", "xlsx"), "", "Also write all variants as csv,xlsx.", may_be_none=True)
 @click.option(
     "--chunk-limit",
     "chunk_limit",
@@ -82,15 +77,15 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
 @strict_option
 @common
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
-          chunk_limit: float | None, yes: bool, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+          chunk_limit: float | None, yes: bool, strict: bool, discovery: Discovery) -> int:  # fmt: skip
     """Calculate all variants of a STUDY, and write them with a summary and full reports of some."""
     from diecut_report.study import command
     from diecut_report.study.analysis.answers import is_doubtful
 
     target = results_folder(study, folder, resume)
-    where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language(), chunk_limit)
+    where = command.Where(jobs, dask, discovery.paths, asked_language(), chunk_limit)
     try:
-        with redirect_stdout(sys.stderr), command.Shown(quiet) as shown:
+        with redirect_stdout(sys.stderr), command.Shown(is_quiet()) as shown:
             outcome = command.run(
                 study, target, where, resume=resume is not None, agreed=yes, formats=formats, shown=shown
             )
@@ -98,8 +93,7 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
         words = "stopped; what is finished is kept. Continue with: diecut-report batch --resume {folder}"
         tell([Phrase(words, folder=target)])
         return INTERRUPTED
-    if not quiet:
-        tell(_outcome_lines(outcome, target))
+    inform(_outcome_lines(outcome, target))
     tell(told_plugins({}, outcome.broken, outcome.doubtful, outcome.broken_reports))
     is_failed = outcome.is_failed or (strict and (bool(outcome.doubtful) or is_doubtful(target)))
     return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if is_failed else PASSED
@@ -109,7 +103,10 @@ def _outcome_lines(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     from diecut_report.study.definition.constraints import why_dropped
 
     counts = outcome.counts
-    yield Phrase("written: {path}, with summary.html and summary.pdf", path=target) + _reports(target)
+    made = len(list((target / "reports").glob("*.pdf")))
+    reports = Counted(made, ", and {n} full report in reports/", ", and {n} full reports in reports/")
+    written = Phrase("written: {path}, with summary.html and summary.pdf", path=target)
+    yield written + reports if made else written
     named = counted({status: counts.get(status, 0) for status in ("pass", "warn", "fail", "error")})
     more = "; the constraints exclude {n} more of the sample{why}"
     dropped = Phrase(more, n=counts["dropped"], why=why_dropped(counts)) if counts.get("dropped") else ""
@@ -135,13 +132,6 @@ def told_plugins(
         yield Phrase("plugin {kind} broke {why}", kind=repr(kind), why=phrase(why))
 
 
-def _reports(target: Path) -> str:
-    made = len(list((target / "reports").glob("*.pdf")))
-    if not made:
-        return ""
-    return Counted(made, ", and {n} full report in reports/", ", and {n} full reports in reports/")
-
-
 @click.command(cls=HelpfulCommand)
 @click.argument("folder", metavar="DIR", type=path_of)
 @click.option(
@@ -160,13 +150,7 @@ def _reports(target: Path) -> str:
     help="Only these columns, separated by commas.",
 )
 @click.option("--transpose", is_flag=True, help="Compare variants: one row per quantity, one column per variant.")
-@click.option(
-    "--format",
-    "form",
-    default="table",
-    type=click.Choice(["table", "csv", "json", "xlsx"]),
-    help="table, csv, json or xlsx.",
-)
+@form_option("table", "csv", "json", "xlsx", help="table, csv, json or xlsx.")
 @click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
 @click.option(
     "--units", type=click.Choice(UNITS), help="Units in csv, json and xlsx: si (default), or display as in a table."
@@ -176,7 +160,7 @@ def _reports(target: Path) -> str:
 @common
 def variants(folder: Path, where: str | None, sort: str | None, top: int | None, pick: list[int], columns: list[str] | None,
              transpose: bool, form: str, file: Path | None, units: str | None, separator: str | None, decimal: str | None,
-             folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+             discovery: Discovery) -> int:  # fmt: skip
     """Query the stored variants of a study."""
     from diecut_report.files import write_all
     from diecut_report.study.analysis.answers import Notation, answer, answer_workbook, unfinished
@@ -184,12 +168,9 @@ def variants(folder: Path, where: str | None, sort: str | None, top: int | None,
     from diecut_report.study.storage.state import refuse_sources
 
     _refuse_idle(form, file, {"--units": units, "--separator": separator, "--decimal": decimal})
-    asked, notation = (
-        Request(where, sort, top, columns, pick),
-        Notation(units or "si", separator or "comma", decimal or "point"),
-    )
-    if not quiet:
-        tell(unfinished(folder))
+    asked = Request(where, sort, top, columns, pick)
+    notation = Notation(units or "si", separator or "comma", decimal or "point")
+    inform(unfinished(folder))
     if file is not None:
         refuse_sources(folder, file)
     if form == "xlsx":
@@ -217,12 +198,11 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
 
 @click.command(cls=HelpfulCommand)
 @click.argument("variant", metavar="DIR#N")
-@click.option("-o", "file", metavar="FILE", type=path_of, required=True, help="Where to write the configuration.")
+@path_option("-o", "file", required=True, help="Where to write the configuration.")
 @click.option("--digits", metavar="N", type=click.IntRange(1, 15), help="Round its values to this number of digits.")
 @common
-def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...], quiet: bool) -> int:
+def take(variant: str, file: Path, digits: int | None, discovery: Discovery) -> int:
     """Write a variant of a study as a configuration: the study's base with that variant's values, comments kept."""
-    from diecut_report.config.plugins import Discovery
     from diecut_report.files import write_all
     from diecut_report.study.analysis.variant_config import taken_config
     from diecut_report.study.storage.state import refuse_sources
@@ -232,18 +212,15 @@ def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...]
         words = "{variant} names no variant; give the folder of a study and a number, as in build/study#17."
         raise click.UsageError(say(words, variant=repr(variant)))
     refuse_sources(Path(folder), file)
-    found = taken_config(Path(folder), int(number), Discovery(folders), digits)
+    found = taken_config(Path(folder), int(number), discovery, digits)
     if file == DASH:
         emit(found.content.decode())
     else:
         write_all({file: found.content}, Path(folder) / RESULTS, through=True)
-    if not quiet:
-        judged = {
-            "file": "<stdout>" if file == DASH else file,
-            "status": phrase(WORDS[found.status]),
-            "check": found.governing or "–",
-        }
-        tell([say("written: {file}; in the study: {status}, governed by {check}", **judged)])
+    if not is_quiet():
+        judged = {"status": phrase(WORDS[found.status]), "check": found.governing or "–"}
+        place = "<stdout>" if file == DASH else file
+        tell([say("written: {file}; in the study: {status}, governed by {check}", file=place, **judged)])
         missing = {name: copy for name, copy in found.beside.items() if not (file.parent / name).exists()}
         words = "it names {name}, which is looked up beside it; the study keeps a copy: {copy}"
         tell(say(words, name=name, copy=copy) for name, copy in missing.items())

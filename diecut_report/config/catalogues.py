@@ -29,7 +29,7 @@ def catalogues_for(language: str, kinds: Iterable[str], discovery: Discovery, fi
 
 
 def spoken_catalogues(discovery: Discovery | None = None) -> Catalogues:
-    """Return the catalogues of the language that is spoken; what plugins of others do not have stays English."""
+    """Return those of the language that is spoken."""
     return Catalogues(spoken_language()) if discovery is None else catalogues_of(spoken_language(), discovery)
 
 
@@ -42,17 +42,15 @@ def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:
     """Return in words which foreign plugins have no words in the language, or not all: these stay English."""
     if catalogues.language == SOURCE_LANGUAGE:
         return []
-    return list(filter(None, (_lacking(kind, catalogues) for kind in dict.fromkeys(kinds) if not built_in(kind))))
-
-
-def _lacking(kind: str, catalogues: Catalogues) -> str:
-    own, language = catalogues.of(kind), catalogues.language
-    if own is None:
-        words = "The plugin of {kind} has no catalogue locale/{language}.po; its texts remain in English."
-        return Phrase(words, kind=repr(kind), language=language)
-    count = len(own.missing)
-    words = "The catalogue {language} of the plugin of {kind} lacks {count} texts, which remain in English."
-    return Phrase(words, language=language, kind=repr(kind), count=count) if count else ""
+    none = "The plugin of {kind} has no catalogue locale/{language}.po; its texts remain in English."
+    some = "The catalogue {language} of the plugin of {kind} lacks {count} texts, which remain in English."
+    found: list[str] = []
+    for kind in dict.fromkeys(kinds):
+        own = catalogues.of(kind)
+        if not built_in(kind) and (own is None or own.missing):
+            count = len(own.missing) if own else 0
+            found.append(Phrase(some if own else none, kind=repr(kind), language=catalogues.language, count=count))
+    return found
 
 
 def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:
@@ -61,22 +59,13 @@ def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:
         return None
     texts = [] if own is None else own.missing
     told = "; ".join(f"“{text}”" for text in texts[:MAX_LISTED])
-    words = Phrase(
-        "Reports in {language} need a translation of {kind}: {count} texts are not translated ({told} …). ",
-        language=catalogues.language,
-        kind=kind,
-        count=len(texts),
-        told=told,
-    )
-    return Problem(
-        Phrase("{words}Give language: {source_language}.", words=words, source_language=SOURCE_LANGUAGE),
-        file,
-        path="project.language",
-    )
+    words = "Reports in {language} need a translation of {kind}: {count} texts are not translated ({told} …). "
+    why = Phrase(words, language=catalogues.language, kind=kind, count=len(texts), told=told)
+    advised = Phrase("{words}Give language: {source_language}.", words=why, source_language=SOURCE_LANGUAGE)
+    return Problem(advised, file, path="project.language")
 
 
 def _plugin(discovery: Discovery, kind: str) -> Path | None:
-    """The file of a plugin that is loaded, or lies in a local folder."""
     origins = discovery.origins.get(kind, [])
     try:
         return origins[0].file() if len(origins) == 1 else None

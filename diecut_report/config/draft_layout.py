@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from textwrap import wrap
 from typing import Any, Literal, get_args, get_origin
 
@@ -19,21 +19,18 @@ from diecut_report.text.translation import localised, said, say
 
 # Values for what a kind must have and its example does not give: of plugins without an example, to be replaced by one's own.
 
-
 SIZES = (10, 100, 1, 0.5, 0.1, 20, 50, 1000, 0.01)  # in the key's display unit, which is one of handy numbers
 WAVE = [0, 1, 0, -1]  # of a curve over one period
 
 
 def completed(model: type[Block], data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the values of a block with guesses for the keys that it lacks; what cannot be guessed is left out."""
-    wanted = [*_required(model), *_chosen(model, data)]
+    texts = {name: data.get(name, known.field.default) for name, known in keys_of(model).items()}
+    rules = [rule for rule in model.one_of if not rule.optional and rule.is_asked(texts)]
+    lacking = [rule for rule in rules if not any(data.keys() & set(group) for group in rule.groups)]
+    wanted = [*required(model), *(key for rule in lacking for key in rule.groups[0])]  # the first alternative
     guesses = {key: guess for key in wanted if key not in data and (guess := guessed(keys_of(model)[key])) is not None}
     return {**data, **guesses}
-
-
-def unguessed(model: type[Block], data: Mapping[str, Any]) -> list[str]:
-    """Return the keys that a block must have and that no value is known of."""
-    return [key for key in _required(model) if key not in data]
 
 
 def guessed(known: ModelKey) -> Any:
@@ -48,7 +45,9 @@ def guessed(known: ModelKey) -> Any:
         case CurveInput(referred=False):
             return list(WAVE)
         case Text() as meta:
-            return next(iter(meta.options), None) or first_option(known)
+            # the first of the texts that are allowed, "no" of yes and no, else a text that says that it is one's own
+            is_flag = bool in _parts(known.field.annotation)
+            return next(iter(options(known)), False if is_flag else "A")
     return None
 
 
@@ -59,32 +58,15 @@ def options(known: ModelKey) -> Collection[str]:
     return [option for part in _parts(known.field.annotation) for option in get_args(part) if option is not None]
 
 
-def first_option(known: ModelKey) -> Any:
-    """Return the first of the texts that are allowed, "no" of yes and no, else a text that says that it is one's own."""
-    found = options(known)
-    if found:
-        return next(iter(found))
-    return False if bool in _parts(known.field.annotation) else "A"
-
-
 def _parts(annotation: Any) -> list[Any]:
-    """The types that an annotation allows."""
     if get_origin(annotation) is Literal or not get_args(annotation):
         return [annotation]
     return [each for part in get_args(annotation) for each in _parts(part)]
 
 
-def _required(model: type[Block]) -> list[str]:
+def required(model: type[Block]) -> list[str]:
+    """Return the keys that a block must have."""
     return [name for name, known in keys_of(model).items() if known.field.is_required()]
-
-
-def _chosen(model: type[Block], data: Mapping[str, Any]) -> list[str]:
-    """The keys of the first alternative of each rule of which a block has no key."""
-    texts = {name: data.get(name, known.field.default) for name, known in keys_of(model).items()}
-    rules = [rule for rule in model.one_of if not rule.optional and rule.is_asked(texts)]
-    return [
-        key for rule in rules if not any(data.keys() & set(group) for group in rule.groups) for key in rule.groups[0]
-    ]
 
 
 def _is_allowed(meta: Quantity, size: float) -> bool:
@@ -137,9 +119,8 @@ def _with_comment(line: DraftLine, column: int) -> Iterator[str]:
         yield line.text
         return
     start = max(column, len(line.text) + 2)
-    parts = wrap(
-        line.comment, max(MIN_COMMENT_WIDTH, LINE_WIDTH - start - 2), break_long_words=False, break_on_hyphens=False
-    )
+    width = max(MIN_COMMENT_WIDTH, LINE_WIDTH - start - 2)
+    parts = wrap(line.comment, width, break_long_words=False, break_on_hyphens=False)
     heads = (line.text.ljust(start), *(" " * start for _ in parts[1:]))
     yield from (f"{head}# {part}".replace(UNBROKEN, " ") for head, part in zip(heads, parts, strict=True))
 
@@ -147,10 +128,8 @@ def _with_comment(line: DraftLine, column: int) -> Iterator[str]:
 def shifted(lines: Iterable[DraftLine], by: int, *, off: bool = False) -> Iterator[DraftLine]:
     """Yield lines of a block within another one; ``off`` turns them into comments, whose indents stay behind the mark."""
     for line in lines:
-        if off:
-            yield DraftLine(by, " " * line.indent + line.code, line.comment, off=True)
-        else:
-            yield DraftLine(line.indent + by, line.code, line.comment, line.off)
+        commented = replace(line, indent=by, code=" " * line.indent + line.code, off=True)
+        yield commented if off else replace(line, indent=line.indent + by)
 
 
 # Single values as they are typed in YAML.
@@ -186,17 +165,10 @@ def with_basis(meta: Any, value: Any) -> Any:
 
 
 def _text(text: str, in_braces: bool) -> str:
-    is_plain = (
-        text != ""
-        and text == text.strip()
-        and text[0] not in AT_START
-        and isinstance(resolved(text), str)
-        and not any(mark in text for mark in (": ", " #", "\n"))
-        and not text.endswith(":")
-    )
-    if not is_plain or (in_braces and any(letter in text for letter in IN_BRACES)):
-        return json.dumps(text, ensure_ascii=False)
-    return text
+    is_bare = text == text.strip() and text[:1] not in AT_START and isinstance(resolved(text), str)
+    marks = (": ", " #", "\n", *(IN_BRACES if in_braces else ()))
+    is_plain = is_bare and not text.endswith(":") and not any(mark in text for mark in marks)
+    return text if is_plain else json.dumps(text, ensure_ascii=False)
 
 
 # What is said of a key beside it: symbol, meaning, what is allowed, its default, and what is not checked without it.
@@ -286,9 +258,8 @@ class BlockWriter:
             return
         yield DraftLine(0, f"{name}:", words)
         own = f"{path}{name}."
-        inner = [
-            line for key, each in keys_of(known.block).items() for line in self._off(known.block, key, each, {}, own)
-        ]
+        keys = keys_of(known.block).items()
+        inner = [line for key, each in keys for line in self._off(known.block, key, each, {}, own)]
         yield from shifted(_as_part(inner) if known.is_list else inner, STEP)
 
     def _bare(self, model: type[Block], data: Mapping[str, Any], path: str) -> Iterator[DraftLine]:
@@ -297,7 +268,6 @@ class BlockWriter:
     def _parts(
         self, model: type[Block], parts: Sequence[Mapping[str, Any]], path: str, is_told: bool
     ) -> Iterator[DraftLine]:
-        """The parts of a list; the keys of the first alone are explained."""
         for number, part in enumerate(parts):
             inner = self.lines if is_told and number == 0 else self._bare
             yield from _as_part(list(inner(model, part, path)))
@@ -337,8 +307,5 @@ class BlockWriter:
 
 def _as_part(lines: Sequence[DraftLine]) -> Iterator[DraftLine]:
     """The lines of a part of a list, the first behind a dash."""
-    for number, line in enumerate(lines):
-        if number == 0:
-            yield DraftLine(line.indent, f"- {line.code}", line.comment, line.off)
-        else:
-            yield DraftLine(line.indent + STEP, line.code, line.comment, line.off)
+    yield from (replace(line, code=f"- {line.code}") for line in lines[:1])
+    yield from (replace(line, indent=line.indent + STEP) for line in lines[1:])

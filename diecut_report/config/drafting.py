@@ -13,9 +13,9 @@ from diecut_report.config.draft_layout import (
     completed,
     laid_out,
     remarks,
+    required,
     shifted,
     typed,
-    unguessed,
 )
 from diecut_report.config.loader import RESERVED, free_name, name_fault
 from diecut_report.config.model import PressBlock, Project
@@ -43,7 +43,13 @@ class Drafted:
 def chosen(given: Sequence[str], discovery: Discovery) -> list[Drafted]:
     """Return the mechanisms of texts such as ``clutch`` or ``clutch:main``; UserError with all that is wrong with them."""
     parts = [text.partition(":") for text in given]
-    found, problems = [], list(_wrong_names([name for _, colon, name in parts if colon]))
+    found, problems, asked = [], list[Problem](), [name for _, colon, name in parts if colon]
+    for name in dict.fromkeys(asked):
+        if fault := name_fault(name):
+            problems.append(Problem(fault))
+        elif asked.count(name) > 1:
+            words = "the name {name} is given to several mechanisms. Choose another one."
+            problems.append(Problem(Phrase(words, name=repr(name))))
     if len(given) > MAX_MECHANISMS:
         words = "{count} mechanisms are requested; a configuration has at most {most}."
         problems.append(Problem(Phrase(words, count=len(given), most=MAX_MECHANISMS)))
@@ -65,15 +71,6 @@ def chosen(given: Sequence[str], discovery: Discovery) -> list[Drafted]:
 def _free_name(mechanism: Mechanism, names: Iterable[str]) -> str:
     """Return a name that no other mechanism has: that of its example, else its kind, numbered from the second on."""
     return free_name(mechanism.example.name if mechanism.example else mechanism.kind, {*names, *RESERVED})
-
-
-def _wrong_names(names: Sequence[str]) -> Iterable[Problem]:
-    for name in dict.fromkeys(names):
-        if fault := name_fault(name):
-            yield Problem(fault)
-        elif names.count(name) > 1:
-            words = "the name {name} is given to several mechanisms. Choose another one."
-            yield Problem(Phrase(words, name=repr(name)))
 
 
 # Fills an example with what the other mechanisms of a draft give: names in the place of kinds, other values where a kind is absent.
@@ -196,7 +193,7 @@ class Draft:
 
 def _wire(
     mechanisms: list[Drafted], discovery: Discovery
-) -> tuple[dict[str, dict[str, Any]], list[tuple[Drafted, Drafted]]]:
+) -> tuple[dict[str, dict[str, Any]], list[tuple[Drafted, Drafted]]]:  # fmt: skip
     """Return the values of all mechanisms by their names; those that they cannot be without are added, and returned with who asks."""
     added: list[tuple[Drafted, Drafted]] = []
     while True:
@@ -227,9 +224,8 @@ def draft(given: Sequence[str], discovery: Discovery, file: str = "my_press.yaml
     wired, added = _wire(mechanisms, discovery)
     values = {each.name: completed(each.mechanism.inputs, wired[each.name]) for each in mechanisms}
     guessed = [f"{name}.{key}" for name, found in values.items() for key in found if key not in wired[name]]
-    lacking = [
-        f"{each.name}.{key}" for each in mechanisms for key in unguessed(each.mechanism.inputs, values[each.name])
-    ]
+    needed = [(each.name, key) for each in mechanisms for key in required(each.mechanism.inputs)]
+    lacking = [f"{name}.{key}" for name, key in needed if key not in values[name]]
     text = "\n".join([*_head(mechanisms, file), *_mechanisms(mechanisms, values)]) + "\n"
     return Draft(text, tuple(mechanisms), tuple(added), tuple(guessed), tuple(lacking))
 
@@ -263,9 +259,8 @@ def _head(mechanisms: Sequence[Drafted], file: str) -> Iterator[str]:
 def _press(mechanisms: Sequence[Drafted]) -> dict[str, Any]:
     """The values of the press: those that the examples are made for, the first first, where none of them is of the usual press."""
     found: dict[str, Any] = {"name": say("My press"), **PRESS, "sheet": dict(PRESS["sheet"])}
-    own = [
-        each.mechanism.example.press for each in mechanisms if each.mechanism.example and each.mechanism.example.press
-    ]
+    examples = [each.mechanism.example for each in mechanisms if each.mechanism.example]
+    own = [example.press for example in examples if example.press]
     for path, value in ChainMap(*map(dict, own)).items() if len(own) == len(mechanisms) else ():
         home, _, key = path.rpartition(".")
         (found[home] if home else found)[key] = value

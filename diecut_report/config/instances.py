@@ -153,13 +153,9 @@ class BlockData:
             yield self.place.problem(key, Phrase(words, unit=unit).replace("10 1,", "10,"))
         for name in given:
             if name not in KEYS:
-                yield self.place.problem(
-                    (*key, name),
-                    "is an unknown key{nearest}. A quantity that stands as a block has {keys}.",
-                    at_key=True,
-                    nearest=nearest(name, KEYS),
-                    keys=", ".join(KEYS),
-                )
+                words = "is an unknown key{nearest}. A quantity that stands as a block has {keys}."
+                near, keys = nearest(name, KEYS), ", ".join(KEYS)
+                yield self.place.problem((*key, name), words, at_key=True, nearest=near, keys=keys)
         basis, note = given.get("basis"), given.get("note")
         if "basis" in given and basis not in BASES:
             near = nearest(basis, BASES) if isinstance(basis, str) else ""
@@ -184,20 +180,18 @@ def _unknown_entry(table: str, name: str, known: Sequence[str]) -> str:
         file = phrase("in a file that materials: names")
         words = "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}"
         return Phrase(words, name=quoted(name), table=table, name_2=name, file=file)
-    words, listed = phrase("is {name}{nearest}; {table} has {known}"), ", ".join(known[:MAX_NAMED])
+    words = "is {name}{nearest}; {table} has {known}"
+    listed = ", ".join(known[:MAX_NAMED])
     return Phrase(words, name=quoted(name), nearest=nearest(name, known), table=table, known=listed)
 
 
 def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Problem]:
-    """What is wrong with the keys of an entry, as the block judges them."""
     place, known = ConfigPlace(entry.tree, entry.path), list(rule.gives.values())
     for key in entry.keys:
         if key not in known:
-            words, keys = (
-                phrase("is an unknown key{nearest}. An entry of {table} has {text}."),
-                ", ".join([SOURCE, *known]),
-            )
-            yield place.problem((key,), words, at_key=True, nearest=nearest(key, known), table=rule.table, text=keys)
+            words = "is an unknown key{nearest}. An entry of {table} has {text}."
+            near, keys = nearest(key, known), ", ".join([SOURCE, *known])
+            yield place.problem((key,), words, at_key=True, nearest=near, table=rule.table, text=keys)
     for own, theirs in rule.gives.items():
         if theirs in entry.keys:
             field = keys_of(model)[own].field
@@ -270,10 +264,10 @@ def slots(model: type[Block], data: Mapping[str, Any], key: KeyPath = ()) -> Ite
     """All inputs of a block and of the blocks and lists given in it."""
     for name, (declared, meta, block, _) in keys_of(model).items():
         given, own = data.get(name), (*key, name)
-        default = (
-            None if given is not None or declared.is_required() else declared.get_default(call_default_factory=True)
-        )
-        yield Slot(own, meta, default if given is None else given, given is not None, declared.is_required())
+        value, is_required = given, declared.is_required()
+        if given is None and not is_required:
+            value = declared.get_default(call_default_factory=True)
+        yield Slot(own, meta, value, given is not None, is_required)
         parts = list(enumerate(given)) if isinstance(given, list) else [(None, given)]
         for index, part in parts if block else []:
             if block and isinstance(part, dict):
@@ -381,10 +375,8 @@ class Instance:
         """The results that have a value for each part of a list, with that list."""
         if self.mechanism is None:
             return {}
-        lists = {
-            *list_inputs(self.model).values(),
-            *(s.id for _, s in self.mechanism.steps if isinstance(s, PartNames)),
-        }
+        lists = {*list_inputs(self.model).values()}
+        lists |= {step.id for _, step in self.mechanism.steps if isinstance(step, PartNames)}
         return {name: home for name, home in self.mechanism.axes(self.given).items() if home in lists}
 
     def value(self, key: KeyPath) -> Any:
@@ -481,7 +473,6 @@ def wanted_units(key: Any, instances: Mapping[str, Instance | None]) -> tuple[st
 
 
 def _units(instance: Instance) -> dict[str, tuple[str, ...]]:
-    """The units of all quantities that a mechanism may have, by their ids."""
     found: dict[str, tuple[str, ...]] = {}
     steps = instance.mechanism.steps if instance.mechanism else ()
     named: list[tuple[str, Quantity | Step]] = [(step.id, step) for _, step in steps]

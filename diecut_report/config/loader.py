@@ -99,12 +99,6 @@ def partner_fault(partner: Partner, name: Any, kinds: Kinds) -> str:
     return ""
 
 
-def is_called_for(mechanism: Mechanism, kinds: Kinds) -> bool:
-    """Return whether a config has mechanisms enough for a kind to run by itself."""
-    wanted = {kind for partner in mechanism.partners for kind in partner.kinds}
-    return sum(kind in wanted for kind in kinds.values()) >= FEWEST
-
-
 def free_name(name: str, taken: Container[str]) -> str:
     """Return a name that is not taken: this one, with a number from the second on."""
     return next(each for each in chain([name], (f"{name}_{number}" for number in count(2))) if each not in taken)
@@ -172,9 +166,8 @@ class Config:
     @property
     def files(self) -> dict[str, str]:
         """The SHA-256 of the files that the configuration names, by their names in it."""
-        return {name: tree.sha256 for name, tree in self.tables.items()} | (
-            {self.logo.name: self.logo.sha256} if self.logo else {}
-        )
+        logo = {self.logo.name: self.logo.sha256} if self.logo else {}
+        return {name: tree.sha256 for name, tree in self.tables.items()} | logo
 
     @property
     def source_hashes(self) -> dict[str, str]:
@@ -209,13 +202,10 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     order, loops = ordered(reader.instances, linker.links)
     logo, faults = logo_of(tree, find)
     problems = [*reader.problems, *tables.problems, *faults, *linker.problems, *_wrong_values(reader, linker), *loops]
-    problems += instances.faults(
-        reader.report and reader.report.units, reader.instances, ConfigPlace(tree, ("report",))
-    )
-    if problems:
-        problems += [
-            reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
-        ]
+    units = reader.report and reader.report.units
+    problems += instances.faults(units, reader.instances, ConfigPlace(tree, ("report",)))
+    broken = reader.broken if problems else {}
+    problems += [reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in broken.items()]
     problems = beside(tree, problems)
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
@@ -265,7 +255,9 @@ class _ConfigReader:
             self.instances.setdefault(name, None)
             self._mechanism(name, body, ConfigPlace(self.tree, (home, name)))
         for kind in BY_THEMSELVES:
-            if kind not in self.kinds.values() and is_called_for(self.discovery.mechanism(kind), self.kinds):
+            wanted = {each for partner in self.discovery.mechanism(kind).partners for each in partner.kinds}
+            partners = sum(each in wanted for each in self.kinds.values())
+            if kind not in self.kinds.values() and partners >= FEWEST:
                 own_name = free_name(kind, self.instances)
                 self._of_kind(own_name, kind, {}, ConfigPlace(self.tree, ("mechanisms", own_name)))
         for name in self.with_partners:
@@ -295,8 +287,7 @@ class _ConfigReader:
         self.instances[name] = Instance(name, form, typed, own.place, mechanism, own.bases, own)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
-        fault = name_fault(name)
-        if fault:
+        if fault := name_fault(name):
             self.problems.append(place.problem((), fault, at_key=True))
         elif not isinstance(body, dict):
             words = "is {body}; a block of keys with its kind is needed"
@@ -365,20 +356,14 @@ def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
         written = {node: target for node, target in linker.links.items() if not target.is_default} | unresolved
         data = substituted(instance, written, lambda node, target, own=instance: _pending(own, node, target))  # type: ignore[misc]
         # a text, and what a broken plugin would give, can be judged only when it is known
-        left_open = {
-            node[1:]
-            for node, target in written.items()
-            if node[0] == instance.name and (target.is_broken or _is_text(instance, node, target))
-        }
+        own = [(node[1:], target) for node, target in written.items() if node[0] == instance.name]
+        texts = {key for key, each in own if each.unit is None and isinstance(declared(instance.model, key), Text)}
+        left_open = {key for key, each in own if each.is_broken or (key in texts and not each.phase_unit)}
         try:
             problems += validate(instance.model, data, instance.place, left_open)[1]
         except PluginError as error:
             reader.broken[instance.name] = _of_instance(error, reader.kinds.get(instance.name, ""), instance.name)
     return problems
-
-
-def _is_text(instance: Instance, node: Node, target: Target) -> bool:
-    return isinstance(declared(instance.model, node[1:]), Text) and target.unit is None and not target.phase_unit
 
 
 def _pending(instance: Instance, node: Node, target: Target) -> Any:

@@ -61,11 +61,8 @@ class Project(Block):
 class InfluenceSettings(Block):
     """What a chapter on the influence of inputs tells."""
 
-    of: Annotated[
-        list[str],
-        Text("Outputs and checks that are looked at; without them the checks that govern"),
-        Field(default_factory=list),
-    ]
+    of: Annotated[list[str], Text("Outputs and checks that are looked at; without them the checks that govern"),
+                  Field(default_factory=list)]  # fmt: skip
     by: Annotated[float, Quantity("", "1", "Share by which each input is lowered and raised", gt=0, le=1)] = 0.1
     defaults: Annotated[bool, Text("Whether inputs that stand at their default are changed too")] = False
     tolerances: Annotated[Any, Text("Inputs that scatter, each with how far it does to both sides")] = None
@@ -77,9 +74,8 @@ class InfluenceSettings(Block):
     @classmethod
     def by_inputs(cls, given: Any) -> Any:
         """Sizes by the names of inputs."""
-        if given is not None and (
-            not isinstance(given, dict) or not all(isinstance(size, str | int | float) for size in given.values())
-        ):
+        sizes = {} if given is None else given
+        if not isinstance(sizes, dict) or not all(isinstance(size, str | int | float) for size in sizes.values()):
             raise ValueError(phrase("must be written as keys and sizes, such as drive.crank_length: 0.1 mm"))
         return given
 
@@ -133,9 +129,8 @@ class ConfigDocument(Block):
 
 def written(key: str, data: Mapping[str, Any]) -> str:
     """Return a block's key as it is typed: a slip in it, which is told, hides nothing of what stands below."""
-    return (
-        key if key in data else closest(key, [name for name in data if name not in ConfigDocument.model_fields]) or key
-    )
+    strange = [name for name in data if name not in ConfigDocument.model_fields]
+    return key if key in data else closest(key, strange) or key
 
 
 # Defaults that inputs take from the press: each names a number that a press may give, of the input's kind.
@@ -152,19 +147,15 @@ def faults(mechanism: Mechanism) -> Iterator[Fault]:
                 yield Fault(of_input(mechanism.inputs, path, mechanism.at), f"input {path}", text)
     example = mechanism.example
     for path, value in example.press.items() if example else ():
-        if example and (text := _refused(path, value)):
-            yield Fault(example.at, f"example {example.name}", f"press {path} {text}")
-
-
-def _refused(path: str, value: Any) -> str:
-    """What is wrong with a value of the press, in words."""
-    if f"press.{path}" not in NUMBERS:
-        return Phrase("is not a number of the press; it has {numbers}", numbers=", ".join(NUMBERS))
-    try:
-        NUMBERS[f"press.{path}"].validate(value)
-    except ValueError as fault:
-        return str(fault)
-    return ""
+        refused: str = ""
+        try:
+            NUMBERS[f"press.{path}"].validate(value)
+        except KeyError:
+            refused = Phrase("is not a number of the press; it has {numbers}", numbers=", ".join(NUMBERS))
+        except ValueError as fault:
+            refused = str(fault)
+        if example and refused:
+            yield Fault(example.at, f"example {example.name}", f"press {path} {refused}")
 
 
 def _is_required(model: type[Block], path: str) -> bool:

@@ -87,7 +87,6 @@ class OwnTables:
         return tables
 
     def _add(self, name: str, tree: Tree) -> None:
-        """Add the entries of a file."""
         excess = too_much(tree)
         self.problems += excess
         self.trees[name] = tree
@@ -199,11 +198,8 @@ def logo_of(config: Tree, find: Find | None) -> tuple[Logo | None, list[Problem]
     if name is None:
         return None, []
     try:
-        found = content(
-            _named_file(name, logo_fault(name), place, KEY, find, LOGO_MISSING),
-            MAX_LOGO_BYTES,
-            phrase("a PNG or SVG picture"),
-        )
+        file = _named_file(name, logo_fault(name), place, KEY, find, LOGO_MISSING)
+        found = content(file, MAX_LOGO_BYTES, phrase("a PNG or SVG picture"))
         return Logo(name, found, media_type(found)), []
     except UserError as error:
         return None, list(error.problems)

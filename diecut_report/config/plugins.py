@@ -17,7 +17,7 @@ import re
 import sys
 import tomllib
 import traceback
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
 from importlib import import_module, util
@@ -111,15 +111,13 @@ def _attribute(name: str, module_of: Callable[..., ModuleType], *given: Any) -> 
 # What is told of a plugin of one file that imports another file of its folder, which it cannot.
 
 
-RELATIVE = re.compile("relative import")
-
-
 def beside(file: Path, cause: BaseException) -> str:
     """Return in words what to do where the cause is such an import; empty for other causes."""
     if not isinstance(cause, ImportError) or file.name == "__init__.py":
         return ""
-    asked = RELATIVE.search(str(cause.msg)) is not None
-    if not asked and not (cause.name and file.with_name(f"{cause.name.partition('.')[0]}.py").is_file()):
+    if "relative import" not in str(cause.msg) and not (
+        cause.name and file.with_name(f"{cause.name.partition('.')[0]}.py").is_file()
+    ):
         return ""
     words = (
         "; a plugin of one file cannot import what lies beside it: make a folder {name}/ of it, with {file} as its __init__.py, "
@@ -152,13 +150,7 @@ def announced(folder: Path, group: str) -> dict[str, tuple[str, str]]:
     return {kind: (_source(folder, module), attribute) for kind, (module, _, attribute) in places.items()}
 
 
-def source_of(folder: Path, place: str) -> Path:
-    """Return the folder of a project in which its packages stand, of a kind's place in it."""
-    return folder / SOURCES if place.startswith(f"{SOURCES}/") else folder
-
-
 def _source(folder: Path, module: str) -> str:
-    """Where a module of a package stands in its project."""
     name = module.replace(".", "/")
     found = folder / SOURCES / name
     return f"{SOURCES}/{name}" if found.exists() or found.with_name(f"{found.name}.py").exists() else name
@@ -180,10 +172,7 @@ def refuse_other_contract(file: Callable[[], Path]) -> None:
     """Refuse a plugin that names another contract than this program has, before its code is run: it may not even load."""
     try:
         found = NEEDED.search(file().read_text("utf-8", "replace")) if file().is_file() else None
-    except (
-        KeyError,
-        OSError,
-    ):  # of an installed package, which tells its needs to the installer; or a file that loading will tell of
+    except (KeyError, OSError):  # an installed package tells its needs to the installer; loading will tell of a file
         return
     if found and int(found[1]) != CONTRACT:
         words = "it is written for contract {needed}, this program ({version}) has contract {own}; "
@@ -233,32 +222,34 @@ class Discovery:
 
     def __init__(self, folders: Iterable[Path] = (), first: Iterable[Origin] = ()) -> None:
         self._first = {origin.kind: [origin] for origin in first}
-        self._folders = tuple({folder.resolve(): folder for folder in folders}.values())
+        self.folders = tuple({folder.resolve(): folder for folder in folders}.values())
         self._loaded: dict[str, Mechanism | PluginError] = {}
         self.extended: dict[str, str] = {}  # the extensions that were run, with the hashes of their code
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """Return the folders by their full paths, for other processes."""
+        return tuple(str(folder.absolute()) for folder in self.folders)
 
     @cached_property
     def origins(self) -> dict[str, list[Origin]]:
         """Each kind with all places that give it; more than one is a fault that shows when the kind is used."""
         found: dict[str, list[Origin]] = {}
-        for origin in [*_built_in(), *_installed(), *(o for folder in self._folders for o in in_folder(folder))]:
+        for origin in [*_built_in(), *_installed(), *(o for folder in self.folders for o in in_folder(folder))]:
             found.setdefault(origin.kind, []).append(origin)
         return dict(sorted(found.items())) | self._first
 
     @cached_property
     def _extensions(self) -> list[Origin]:
+        words = "{name} of an installed package"
+        installed = entry_points(group=EXTENSIONS)
         found = [
-            Origin(
-                entry.name,
-                Phrase("{name} of an installed package", name=entry.name),
-                entry.load,
-                partial(file_of, entry.module),
-            )
-            for entry in entry_points(group=EXTENSIONS)
+            Origin(each.name, Phrase(words, name=each.name), each.load, partial(file_of, each.module))
+            for each in installed
         ]
-        files = (file for folder in self._folders for file in sorted(folder.glob(f"{EXTENSION}*.py")))
+        files = [file for folder in self.folders for file in sorted(folder.glob(f"{EXTENSION}*.py"))]
         return found + [
-            Origin(file.stem, str(file), partial(module_of_file, file), partial(Path, file)) for file in files
+            Origin(each.stem, str(each), partial(module_of_file, each), partial(Path, each)) for each in files
         ]
 
     def extend(self) -> None:
@@ -312,13 +303,11 @@ def _loaded(origin: Origin) -> Mechanism:
             found = origin.load()
         digest = module_hash(origin.file())
     except Exception as cause:
-        words = Phrase("it cannot be loaded from {told}: {said}", told=origin.label, said=said(cause))
-        raise PluginError(words + beside(origin.file(), cause), origin.kind) from cause
+        told = Phrase("it cannot be loaded from {told}: {said}", told=origin.label, said=said(cause))
+        raise PluginError(told + beside(origin.file(), cause), origin.kind) from cause
     if not isinstance(found, Mechanism):
-        words = Phrase(
-            "{told} gives a {name}, where a Mechanism is needed", told=origin.label, name=type(found).__name__
-        )
-        raise PluginError(words, origin.kind)
+        words = "{told} gives a {name}, where a Mechanism is needed"
+        raise PluginError(Phrase(words, told=origin.label, name=type(found).__name__), origin.kind)
     if found.kind != origin.kind:
         named = {"told": origin.label, "kind": repr(found.kind), "wanted": repr(origin.kind)}
         raise PluginError(Phrase("{told} gives the kind {kind}; name it {wanted} there", named), origin.kind)
@@ -385,9 +374,6 @@ def _is_foreign(file: Path) -> bool:
     return of_program or of_library or file.parent == STANDARD
 
 
-# --- the three places ------------------------------------------------------------------------------------------------
-
-
 def _built_in() -> Iterator[Origin]:
     package = import_module(GROUP)
     for kind in _names_in(Path(package.__path__[0])):
@@ -402,37 +388,27 @@ def _file_of_module(name: str) -> Path:
 
 def _installed() -> Iterator[Origin]:
     for entry in entry_points(group=GROUP):
-        package = (
-            Phrase("the package {name} {version}", name=entry.dist.name, version=entry.dist.version)
-            if entry.dist
-            else phrase("an installed package")
-        )
+        label = phrase("an installed package")
+        if entry.dist:
+            label = Phrase("the package {name} {version}", name=entry.dist.name, version=entry.dist.version)
         load = entry.load if entry.attr else partial(_attribute, ATTRIBUTE, import_module, entry.module)
-        yield Origin(entry.name, package, load, partial(file_of, entry.module))
+        yield Origin(entry.name, label, load, partial(file_of, entry.module))
 
 
 def in_folder(folder: Path) -> Iterator[Origin]:
     """Yield the kinds of a folder of plugins, or of the project of a package; UserError where there is no such folder."""
     if not folder.is_dir():
         raise refusal("There is no such folder of plugins. Check the name given with --plugins.", folder)
-    if (folder / LIST).is_file():
-        yield from _in_files(folder, _listed(folder))
-    elif kinds := announced(folder, GROUP):
-        for kind, (
-            name,
-            attribute,
-        ) in kinds.items():  # whose modules import each other by its name, as where it is installed
-            file, source = _file_of(folder, name), source_of(folder, name)
-            load = partial(_attribute, attribute or ATTRIBUTE, module_of_project, file, source)
-            yield Origin(kind, str(file), load, partial(Path, file))
-    else:
-        yield from _in_files(folder, {name: (name, ATTRIBUTE) for name in _names_in(folder)})
-
-
-def _in_files(folder: Path, listed: Mapping[str, tuple[str, str]]) -> Iterator[Origin]:
-    for kind, (name, attribute) in listed.items():
-        file = _file_of(folder, name)
-        yield Origin(kind, str(file), partial(_attribute, attribute, module_of_file, file), partial(Path, file))
+    is_listed = (folder / LIST).is_file()
+    project = {} if is_listed else announced(folder, GROUP)
+    alone = _listed(folder) if is_listed else {name: (name, "") for name in _names_in(folder)}
+    for kind, (name, attribute) in (project or alone).items():
+        package = folder / name / "__init__.py"
+        file = package if package.is_file() else folder / f"{name}.py"
+        # the modules of a project import each other by its name, as where it is installed
+        source = folder / SOURCES if name.startswith(f"{SOURCES}/") else folder
+        module = (module_of_project, file, source) if project else (module_of_file, file)
+        yield Origin(kind, str(file), partial(_attribute, attribute or ATTRIBUTE, *module), partial(Path, file))
 
 
 def _names_in(folder: Path) -> list[str]:
@@ -444,13 +420,5 @@ def _listed(folder: Path) -> dict[str, tuple[str, str]]:
     tree = yaml.load(folder / LIST)
     if not isinstance(tree.data, dict) or not all(isinstance(value, str) for value in tree.data.values()):
         raise refusal("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE.", tree.file)
-    found = {}
-    for kind, place in tree.data.items():
-        name, _, attribute = place.partition(":")
-        found[kind] = name.removesuffix(".py"), attribute or ATTRIBUTE
-    return found
-
-
-def _file_of(folder: Path, name: str) -> Path:
-    package = folder / name / "__init__.py"
-    return package if package.is_file() else folder / f"{name}.py"
+    places = {kind: place.partition(":") for kind, place in tree.data.items()}
+    return {kind: (name.removesuffix(".py"), attribute) for kind, (name, _, attribute) in places.items()}

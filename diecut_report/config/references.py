@@ -81,11 +81,8 @@ class Linker:
     def _calculated(self, instance: Instance, key: KeyPath, text: str) -> Target | None:
         """What an expression stands for, in the unit of its key; None for a single reference, and a text around one."""
         meta = _wanted(instance, key)
-        if (
-            WHOLE.fullmatch(text.strip())
-            or not WHOLE.search(text)
-            or not isinstance(meta, Quantity | CurveInput | None)
-        ):
+        is_single = WHOLE.fullmatch(text.strip()) or not WHOLE.search(text)
+        if is_single or not isinstance(meta, Quantity | CurveInput | None):
             return None
         if isinstance(meta, CurveInput) and declared(instance.model, key):
             words = "“{strip}” calculates a number; a curve is needed here, and is referred to whole"
@@ -122,8 +119,8 @@ class Linker:
         if isinstance(meta, CurveInput) and not target.is_broken:
             single = target.unit is not None and not target.is_curve
             if not single or unit(str(target.unit)).kind != unit(meta.unit).kind:
-                raise Unresolved("${{path}} is not a single quantity in {pretty}, as the other values are", path=target.path, pretty=pretty(
-                        meta.unit))  # fmt: skip
+                words = "${{path}} is not a single quantity in {pretty}, as the other values are"
+                raise Unresolved(words, path=target.path, pretty=pretty(meta.unit))
         return target
 
     def _from_press(self, instance: Instance) -> None:
@@ -142,14 +139,9 @@ class Linker:
     def _no_default(self, instance: Instance, slot: Slot, default: FromPress) -> Problem:
         assert isinstance(slot.meta, Quantity)
         field, key = default.path.removeprefix(f"{PRESS}."), slot.key[-1]
-        return instance.place.absent(
-            slot.key,
-            "{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}.",
-            key=key,
-            field=field,
-            text=pretty(slot.meta.unit) or phrase("a number"),
-            path=default.path,
-        )
+        words = "{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}."
+        told = {"key": key, "field": field, "text": pretty(slot.meta.unit) or phrase("a number"), "path": default.path}
+        return instance.place.absent(slot.key, words, **told)
 
     # --- what a path stands for --------------------------------------------------------------------------------------
 
@@ -192,15 +184,10 @@ class Linker:
                 self.links[node] = Target(slot.value, slot.value, result="", is_broken=is_broken, is_mechanism=True)
             else:
                 self.unresolved.add(node)
-                self.problems.append(
-                    instance.place.problem(
-                        slot.key,
-                        "there is no mechanism {value}{nearest}. Known: {known}.",
-                        value=repr(slot.value),
-                        nearest=nearest(slot.value, known),
-                        known=", ".join(known),
-                    )
-                )
+                words = "there is no mechanism {value}{nearest}. Known: {known}."
+                value, near, names = repr(slot.value), nearest(slot.value, known), ", ".join(known)
+                fault = instance.place.problem(slot.key, words, value=value, nearest=near, known=names)
+                self.problems.append(fault)
 
     def _result(self, path: str, instance: Instance, result: str) -> Target | None:
         if result in instance.results:
@@ -232,10 +219,8 @@ class Linker:
         if name not in instance.given:
             words = "${{path}} is not given; it is optional. Give {path}, or write the value itself here."
             raise Unresolved(words, path=path)
-        held = (
-            [text for _, text in texts(instance.data.get(name)) if "${" in text] if isinstance(meta, CurveInput) else []
-        )
-        if held and isinstance(instance.data[name], list):
+        listed = instance.data.get(name) if isinstance(meta, CurveInput) else None
+        if isinstance(listed, list) and (held := [text for _, text in texts(listed) if "${" in text]):
             words = "${{path}} is a list that holds references itself ({held}), and cannot be referred to; write its values here."
             raise Unresolved(words, path=path, held=held[0])
         if isinstance(meta, Varying) and _varies(instance.data, key):
@@ -251,16 +236,16 @@ class Linker:
         if left_out and left_out.role in ("value", "place"):
             missing = instance.missing(left_out.id)
             excess = [n for n in instance.declared[left_out.id].lacks if n in instance.given]
-            words = (
-                Phrase("calculated only if {missing} is given", missing=" and ".join(missing))
-                if missing
-                else Phrase("not calculated, as {excess} is given", excess=", ".join(excess))
-            )
+            words = Phrase("not calculated, as {excess} is given", excess=", ".join(excess))
+            if missing:
+                words = Phrase("calculated only if {missing} is given", missing=" and ".join(missing))
             return Phrase("${{path}} is {words} in {name}.", path=path, words=words, name=instance.name)
         known = _known(instance)
         near = nearest(name, known)
-        return Phrase("${{path}}: {name} has no {name_2}{near}.", path=path, name=instance.name, name_2=repr(name), near=near) + (""
-             if near else Phrase(" Known: {known}.", known=', '.join(known)))  # fmt: skip
+        found = Phrase(
+            "${{path}}: {name} has no {name_2}{near}.", path=path, name=instance.name, name_2=repr(name), near=near
+        )
+        return found if near else found + Phrase(" Known: {known}.", known=", ".join(known))
 
 
 def _wanted(instance: Instance, key: KeyPath) -> Meta | type[Block] | None:
@@ -331,12 +316,10 @@ def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node,
 
 ANCHOR = re.compile(r"&\S+\s+")
 EXPRESSION = phrase(
-    "holds ${…}, a reference or an expression, and is not overwritten; change what it refers to, or write a number "
-    "there first"
+    "holds ${…}, a reference or an expression, and is not overwritten; change what it refers to, or write a number there first"
 )
 SHARED = phrase(
-    "stands in a part that an anchor (&) and its aliases (*) share, so that it cannot be changed "
-    "here alone; write it out"
+    "stands in a part that an anchor (&) and its aliases (*) share, so that it cannot be changed here alone; write it out"
 )
 NO_HOME = phrase(
     "cannot be put into the file, as the block that it belongs to does not stand there; write that block first"
@@ -418,12 +401,9 @@ def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, 
     for name in data if isinstance(data, dict) else ():
         before = (*home, name)
         span, key_span = spans.get(tree.position(before)), spans.get(tree.key_position(before))
-        if (
-            tree.typed(before) in (None, "")
-            or span is None
-            or key_span is None
-            or "\n" in tree.text[key_span.start : span.end]
-        ):
+        if span is None or key_span is None or tree.typed(before) in (None, ""):
+            continue
+        if "\n" in tree.text[key_span.start : span.end]:
             continue
         if span.in_flow:
             return span.end, span.end, f", {key}: {value}"
@@ -451,9 +431,7 @@ def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
 
 
 def _differing(one: Any, other: Any, path: KeyPath = ()) -> Iterator[KeyPath]:
-    """The paths of the single values in which two trees of plain data differ."""
-    is_block = isinstance(one, dict | list) and type(one) is type(other) and len(one) == len(other)
-    if not is_block:
+    if not (isinstance(one, dict | list) and type(one) is type(other) and len(one) == len(other)):
         yield from () if one == other else (path,)
         return
     for key in one if isinstance(one, dict) else range(len(one)):
@@ -487,16 +465,12 @@ def _any_moved(instances: Mapping[str, Instance | None], linker: Linker) -> bool
 
 def _moved(instance: Instance, linker: Linker) -> bool:
     """Lay curves under their own keys; return whether there were any."""
-    curves = {
-        node[1]
-        for node, target in linker.links.items()
-        if node[0] == instance.name and len(node) == 2 and target.is_curve
-    }
-    found = [
-        (key, curve)
-        for key, curve in instance.model.curve_keys.items()
-        if instance.data.get(curve) is None and (key in curves or isinstance(instance.data.get(key), list))
-    ]
+    found = []
+    for key, curve in instance.model.curve_keys.items():
+        target = linker.links.get((instance.name, key))
+        is_curve = (target is not None and target.is_curve) or isinstance(instance.data.get(key), list)
+        if is_curve and instance.data.get(curve) is None:
+            found.append((key, curve))
     for key, curve in found:
         instance.data[curve] = instance.data.pop(key)
         instance.place = replace(instance.place, listed={**instance.place.listed, (curve,): (key,)})

@@ -27,6 +27,7 @@ EXPRESSION = (  # references, numbers with and without unit, functions, signs; a
     r"|(?:abs|max|min|sqrt)\s*\(|[-+*/^(),−])\s*)+$"
 )
 NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,$][^$]*|\s+1/[^$]*)?$"
+_REFERENCE: Schema = {"type": "string", "pattern": REFERENCE, "description": "A reference such as ${cylinder.radius}."}
 BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 
 
@@ -65,7 +66,6 @@ def kind_schema(mechanism: Mechanism) -> Schema:
 
 
 def _report() -> Schema:
-    """How the report is made, with the units that it may choose."""
     schema = block_schema(ReportSettings, refers=False)
     chosen = {"type": "string", "maxLength": MAX_UNIT_LENGTH}
     units = {
@@ -79,11 +79,9 @@ def _report() -> Schema:
 
 
 def _materials() -> Schema:
-    described = {
-        "description": "Files with tables of your own, beside this one or in a folder below: steels, gear_materials, chains, keys."
-    }
+    words = "Files with tables of your own, beside this one or in a folder below: steels, gear_materials, chains, keys."
     name = {"type": "string", "pattern": r"\.ya?ml$", "maxLength": MAX_TEXT}
-    return described | {"anyOf": [name, {"type": "array", "items": name, "maxItems": MAX_FILES}]}
+    return {"description": words, "anyOf": [name, {"type": "array", "items": name, "maxItems": MAX_FILES}]}
 
 
 def _mechanism(mechanisms: Mapping[str, Mechanism], kinds: list[str]) -> Schema:
@@ -147,48 +145,36 @@ def _key(model: type[Block], name: str, refers: bool) -> Schema:
                 curve = keys_of(model)[model.curve_keys[name]].meta
                 assert isinstance(curve, CurveInput), "the declaration check has seen to it"
                 return quantity | {"anyOf": [*quantity["anyOf"], *_curve(curve)["anyOf"]]}
-            return quantity | _listed(quantity, len(model.spread[name])) if name in model.spread else quantity
+            if name in model.spread:  # or a list of so many
+                count = len(model.spread[name])
+                values = {"type": "array", "minItems": count, "maxItems": count, "items": {"anyOf": quantity["anyOf"]}}
+                return quantity | {"anyOf": [*quantity["anyOf"], values]}
+            return quantity
         case CurveInput():
             return _curve(meta)
         case PhaseInput():
-            return {"description": f"{meta.description}. A reference to a phase.", "anyOf": [_reference()]}
+            return {"description": f"{meta.description}. A reference to a phase.", "anyOf": [_REFERENCE]}
         case MechanismInput():
-            return {
-                "description": f"{meta.description}. The name of a mechanism.",
-                "type": "string",
-                "pattern": f"^{NAME.pattern}$",
-            }
+            words = f"{meta.description}. The name of a mechanism."
+            return {"description": words, "type": "string", "pattern": f"^{NAME.pattern}$"}
     described = {"description": f"{meta.description}."} if meta else {}
     allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(field.annotation)
     if any(rule.key == name for rule in model.from_tables):
-        allowed = {
-            "anyOf": [allowed, {"type": "string", "maxLength": MAX_TEXT}]
-        }  # or an entry of a table of the user's
+        allowed = {"anyOf": [allowed, {"type": "string", "maxLength": MAX_TEXT}]}  # an entry of a table of the user's
     if isinstance(meta, Text):
         allowed = {"anyOf": [allowed, _stated([allowed])]}
-    return described | ({"anyOf": [allowed, _reference()]} if refers else allowed) | shown
-
-
-def _listed(quantity: Schema, count: int) -> Schema:
-    """A quantity, or a list of so many."""
-    values = {"type": "array", "minItems": count, "maxItems": count, "items": {"anyOf": quantity["anyOf"]}}
-    return {"anyOf": [*quantity["anyOf"], values]}
-
-
-def _reference() -> Schema:
-    return {"type": "string", "pattern": REFERENCE, "description": "A reference such as ${cylinder.radius}."}
+    return described | ({"anyOf": [allowed, _REFERENCE]} if refers else allowed) | shown
 
 
 def _curve(meta: CurveInput) -> Schema:
     ways = "A reference to a curve" + ("" if meta.referred else ", or its values over a turn")
     values = {"type": "array", "minItems": 4, "maxItems": MAX_CURVE_VALUES, "items": {"type": ["number", "string"]}}
-    allowed = [_reference()] if meta.referred else [_reference(), values]
+    allowed = [_REFERENCE] if meta.referred else [_REFERENCE, values]
     said = f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}."
     return {"description": said, "anyOf": [*allowed, _stated(allowed)]}
 
 
 def _stated(allowed: list[Schema]) -> Schema:
-    """A quantity as a block, with what it rests on."""
     return {
         "type": "object",
         "description": "The value with what it rests on.",
@@ -228,10 +214,8 @@ def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
         words.append({"type": "object", "required": [*ends], "additionalProperties": False, "properties": ends})
     if meta.listed:
         number = {"enum": list(meta.listed)}
-    return {
-        "description": ". ".join(said) + ".",
-        "anyOf": [number, *words, text, *([_stated([number, text])] if refers else [])],
-    }
+    ways = [number, *words, text, *([_stated([number, text])] if refers else [])]
+    return {"description": ". ".join(said) + ".", "anyOf": ways}
 
 
 def _text(annotation: Any) -> Schema:

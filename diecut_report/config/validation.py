@@ -206,7 +206,6 @@ class _Fault:
         return replace(found, allowed=self._allowed())
 
     def _allowed(self) -> str:
-        """The range of the key, or its choices."""
         meta = None if self.type == "extra_forbidden" or not self.key else declared(self.model, self.key)
         if isinstance(meta, Quantity):
             return meta.allowed
@@ -228,12 +227,9 @@ class _Fault:
         meta = declared(self.model, self.key)
         if isinstance(meta, Quantity | CurveInput):
             allowed = f" ({meta.allowed})" if isinstance(meta, Quantity) and meta.allowed else ""
-            return Phrase(
-                "is missing. Give it in {text}{allowed}: {description}.",
-                text=pretty(meta.unit) or phrase("plain numbers"),
-                allowed=allowed,
-                description=phrase(meta.description),
-            )
+            unit = pretty(meta.unit) or phrase("plain numbers")
+            words = "is missing. Give it in {text}{allowed}: {description}."
+            return Phrase(words, text=unit, allowed=allowed, description=phrase(meta.description))
         described = ": " + phrase(meta.description) if isinstance(meta, Text) else ""
         return Phrase("is missing; it is required{described}.", described=described)
 

@@ -26,8 +26,6 @@ from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MA
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, phrase
 
-# What is not YAML, in words with its place; and commas in lists that part what was meant as one number.
-
 
 def syntax_problem(error: Any, text: str, file: str) -> Problem:
     """Return what is told of a text that is not YAML, with the place where it is to be mended."""
@@ -117,9 +115,9 @@ def forbidden_character(text: str) -> str:
 
 def printable(name: str) -> str:
     """Return a name without what no document can show: control and invisible characters, and bytes that are not UTF-8."""
+    shown = (letter.isprintable() and not INVISIBLE.match(letter) for letter in name)
     return "".join(
-        letter if letter.isprintable() and not INVISIBLE.match(letter) else "\N{REPLACEMENT CHARACTER}"
-        for letter in name
+        letter if is_shown else "\N{REPLACEMENT CHARACTER}" for letter, is_shown in zip(name, shown, strict=True)
     )
 
 
@@ -238,9 +236,8 @@ def read(path: Path, raw: bytes | None = None) -> Tree:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        raise UserError(
-            Problem(phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8."), str(path), line)
-        ) from error
+        words = phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8.")
+        raise UserError(Problem(words, str(path), line)) from error
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
 
@@ -298,7 +295,11 @@ class _Builder:
         if isinstance(event, yaml.AliasEvent):
             return self._alias(event, path)
         self._count(1, event, path)
-        self._refuse_tag(event, path)
+        if event.tag is not None:
+            words = "The tag {tag} is not allowed. {advice}"
+            tag = event.tag.replace("tag:yaml.org,2002:", "!!")
+            advice = phrase("Remove it; put the value in quotes where text is meant.")
+            self._report(Phrase(words, tag=tag, advice=advice), _position(event), path)
         if event.anchor is not None:
             self._anchors[event.anchor] = None
         if isinstance(event, yaml.ScalarEvent):
@@ -317,12 +318,6 @@ class _Builder:
             message = Phrase("More than {max_values} values, counting repetitions by aliases (*name). Write fewer.",
                 max_values=MAX_VALUES)  # fmt: skip
             self._stop(message, _position(event), path)
-
-    def _refuse_tag(self, event: Any, path: KeyPath) -> None:
-        if event.tag is not None:
-            tag = event.tag.replace("tag:yaml.org,2002:", "!!")
-            advice = phrase("Remove it; put the value in quotes where text is meant.")
-            self._report(Phrase("The tag {tag} is not allowed. {advice}", tag=tag, advice=advice), _position(event), path)  # fmt: skip
 
     def _refuse_forbidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
         """Report what a text holds when it is decoded: escapes within quotes bring what the file itself may not hold."""
@@ -418,16 +413,6 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
     return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)
 
 
-def in_its_own_text(tree: Tree) -> Tree:
-    """Return a tree with other values, without its heading, as a text of its own: its places are those of that text.
-
-    More values can be written into it, which are not those that the heading tells of.
-    """
-    read = parse(as_text(tree.root), tree.file)
-    read.name = tree.name
-    return read
-
-
 def _with_value(node: YamlNode, path: KeyPath, value: Scalar) -> YamlNode:
     """Return a copy of the node with the value below it: an alias of the node keeps what it has."""
     if not path:
@@ -440,13 +425,8 @@ def _with_value(node: YamlNode, path: KeyPath, value: Scalar) -> YamlNode:
 
 def as_text(root: YamlNode) -> str:
     """Return the tree as YAML; comments, anchors and the layout of the file that it was read from are not kept."""
-    events = [
-        yaml.StreamStartEvent(),
-        yaml.DocumentStartEvent(),
-        *_events(root),
-        yaml.DocumentEndEvent(),
-        yaml.StreamEndEvent(),
-    ]
+    ends = yaml.DocumentEndEvent(), yaml.StreamEndEvent()
+    events = [yaml.StreamStartEvent(), yaml.DocumentStartEvent(), *_events(root), *ends]
     text: str = yaml.emit(events, allow_unicode=True, width=math.inf)
     return text
 
@@ -455,26 +435,20 @@ def _events(node: YamlNode) -> Iterator[Any]:
     if node.children is None:
         yield _scalar(node.scalar, node.typed)
         return
-    start, end = (
-        (yaml.SequenceStartEvent, yaml.SequenceEndEvent)
-        if node.is_list
-        else (yaml.MappingStartEvent, yaml.MappingEndEvent)
-    )
+    start: Any = yaml.SequenceStartEvent if node.is_list else yaml.MappingStartEvent
     yield start(anchor=None, tag=None, implicit=True, flow_style=not node.children)
     for key, child in node.children.items():
         if not node.is_list:
             yield _scalar(key, str(key))
         yield from _events(child)
-    yield end()
+    yield yaml.SequenceEndEvent() if node.is_list else yaml.MappingEndEvent()
 
 
 def _scalar(value: Any, typed: str | None) -> Any:
     """Return a scalar as it was typed; a text that would be read as something else stands in quotes."""
     text = "null" if value is None else str(typed)
     is_other = isinstance(value, str) and resolved(text) != text
-    return yaml.ScalarEvent(
-        anchor=None, tag=None, implicit=(not is_other, True), value=text, style='"' if is_other else None
-    )
+    return yaml.ScalarEvent(None, None, (not is_other, True), text, style='"' if is_other else None)
 
 
 # What is too much in a config: long texts, long lists, many mechanisms. Told before anything is made of it.
@@ -487,7 +461,8 @@ def too_much(tree: Tree) -> list[Problem]:
         if len(found) == MAX_SHOWN:
             return found
         line, column = tree.position(path)
-        found.append(Problem(message, tree.file, line, column, _shown(path)))
+        parts = (part if len(part := str(step)) <= MAX_TEXT else f"{part[:40]}…" for step in path)
+        found.append(Problem(message, tree.file, line, column, ".".join(parts)))
     return found
 
 
@@ -515,7 +490,3 @@ def _excess(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
                 return
             for index, part in enumerate(data):
                 yield from _excess(part, (*path, index))
-
-
-def _shown(path: KeyPath) -> str:
-    return ".".join(part if len(part := str(step)) <= MAX_TEXT else f"{part[:40]}…" for step in path)

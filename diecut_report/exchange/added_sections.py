@@ -18,7 +18,7 @@ MOST_REVISIONS, MOST_ADDED, MOST_BYTES = (
     50,
     100_000,
     5_000_000,
-)  # the latter two of a revision: objects, and what they take
+)  # the latter two of a revision: objects, and their bytes
 LONGEST_END = 64  # bytes behind the end; a program looks for the last table in about a thousand
 LONGEST_GAP = 64  # bytes between the numbers of an object and what it is; more are not taken
 KEYS = {"/Type", "/Size", "/Index", "/W", "/ID", "/Prev", "/Length", "/Filter"}  # with /Root and /Info
@@ -35,11 +35,8 @@ _HEAD = re.compile(  # a number may stand behind a comment; one with a backslash
 WIDEST = (1, 8, 2)  # bytes of the columns of a table; a program that takes no more searches the file for objects
 
 BLANK, END = rb"[\t\n\f\r ]", rb"(?![^\t\n\f\r ()<>\[\]/%])"
-PARTS = rb"%b+|<<|>>|[\[\]]|<(?:[\dA-Fa-f]{2})*>|/[\w.+-]{1,127}%b|-?(?:0|[1-9]\d{0,9})(?:\.\d{1,10})?%b" % (
-    BLANK,
-    END,
-    END,
-)
+NUMBER = rb"-?(?:0|[1-9]\d{0,9})(?:\.\d{1,10})?%b" % END
+PARTS = rb"%b+|<<|>>|[\[\]]|<(?:[\dA-Fa-f]{2})*>|/[\w.+-]{1,127}%b|%b" % (BLANK, END, NUMBER)
 TEXT = rb"\((?:[^()\\\r]++|\\[0-3][0-7]{2}|\\[nrtbf()\\])*+\)"
 _TOKEN = re.compile(rb"(?:([1-9]\d{0,9}) 0 R%b|(true|false|stream|endobj)%b|%b|%b)" % (END, END, PARTS, TEXT), re.ASCII)
 _LENGTH = re.compile(rb"/Length%b+(\d+)%b(?!%b+\d+%b+R)" % (BLANK, END, BLANK, BLANK))
@@ -90,7 +87,10 @@ def _revision(whole: bytes, begin: int, start: re.Match[bytes], former: int) -> 
     for each, at in placed.items():
         _require(whole[at - 1] in b"\r\n" and whole.startswith(b"%d 0 obj" % each, at))
     known = {at + len(f"{each} 0 ") - begin for each, at in placed.items()}
-    _require(not _has_other_objects(whole[begin:], known))
+    added = whole[begin:]
+    others = (each.start() for each in _OBJECT.finditer(added) if each.start() not in known)
+    # a program that searches for objects would find those
+    _require(not any(_HEAD.search(added[max(at - LONGEST_GAP, 0) : at]) for at in others))
     return AddedRevision(whole, number, placed, named)
 
 
@@ -134,28 +134,20 @@ def _entries(told: Any, data: bytes) -> dict[int, int]:
     kinds, places, ends = (sum(widths[:count]) for count in (1, 2, 3))
     _require(len(widths) == 3 and all(map(int.__le__, widths, WIDEST)) and places > kinds)
     _require(len(data) == ends * sum(index[1::2]) <= ends * MOST_ADDED)
-    numbers = [
-        each for first, count in zip(index[::2], index[1::2], strict=True) for each in range(first, first + count)
-    ]
+    ranges = zip(index[::2], index[1::2], strict=True)
+    numbers = [each for first, count in ranges for each in range(first, first + count)]
     _require(len(set(numbers)) == len(numbers))
     placed = dict[int, int]()
     for at, number in enumerate(numbers):
         row = data[at * ends : (at + 1) * ends]
         kind = int.from_bytes(row[:kinds], "big") if kinds else 1
-        if (
-            number
-        ):  # a later generation is another object for some programs, and what is taken away may be there for others
+        # a later generation is another object for some programs, and what is taken away may be there for others
+        if number:
             _require(kind == 1 and not int.from_bytes(row[places:], "big"))
             placed[number] = int.from_bytes(row[kinds:places], "big")
         else:
             _require(kind == 0)
     return placed
-
-
-def _has_other_objects(part: bytes, known: set[int]) -> bool:
-    """Whether a program that searches for objects could find others than those that are known."""
-    others = (each.start() for each in _OBJECT.finditer(part) if each.start() not in known)
-    return any(_HEAD.search(part[max(at - LONGEST_GAP, 0) : at]) for at in others)
 
 
 def _type(found: Any) -> object:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Literal
 
 from diecut_report.config.own_tables import logo_fault, name_fault
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.exchange.results_form import results_of
 from diecut_report.files import content, write_all
 from diecut_report.results.model import CarriedConfigRecord, ResultsRecord
@@ -25,6 +25,7 @@ from diecut_report.text.phrases import Phrase, phrase
 
 LINK = re.compile(rb'download="results\.json\.gz" href="data:application/gzip;base64,([A-Za-z0-9+/]*={0,2})"')
 GZIP = 16 + zlib.MAX_WBITS
+DAMAGED = phrase("The results that the page carries are damaged. Give the file as the program wrote it.")
 
 
 def linked_results(content: bytes, most: int, file: str) -> bytes | None:
@@ -33,32 +34,19 @@ def linked_results(content: bytes, most: int, file: str) -> bytes | None:
     if not found:
         return None
     if len(found) > 1:
-        words = Phrase(
-            "The page carries {count} results files, and a report has one. Give the file as the program wrote it.",
-            count=len(found),
-        )
-        raise UserError(Problem(words, file))
-    return _unpacked(found[0], most, file)
-
-
-def _unpacked(text: bytes, most: int, file: str) -> bytes:
+        words = "The page carries {count} results files, and a report has one. Give the file as the program wrote it."
+        raise refusal(words, file, count=len(found))
     unpacking = zlib.decompressobj(GZIP)
     try:
-        content = unpacking.decompress(base64.b64decode(text, validate=True), most + 1)
+        content = unpacking.decompress(base64.b64decode(found[0], validate=True), most + 1)
     except (binascii.Error, zlib.error) as error:
-        raise UserError(Problem(_damaged(), file)) from error
+        raise refusal(DAMAGED, file) from error
     if len(content) > most:
-        words = Phrase(
-            "What the page carries is too large: it unpacks to more than {most} MB.", most=format(most / 1000000.0, "g")
-        )
-        raise UserError(Problem(words, file))
+        words = "What the page carries is too large: it unpacks to more than {most} MB."
+        raise refusal(words, file, most=f"{most / 1e6:g}")
     if not unpacking.eof or unpacking.unused_data:
-        raise UserError(Problem(_damaged(), file))
+        raise refusal(DAMAGED, file)
     return content
-
-
-def _damaged() -> str:
-    return phrase("The results that the page carries are damaged. Give the file as the program wrote it.")
 
 
 MOST = 200_000_000  # bytes of a report
@@ -92,11 +80,8 @@ def carried_results(path: Path) -> CarriedResults:
     whole = content(path, MOST, phrase("a report (PDF, HTML) or a results file (JSON)"))
     form = form_of(whole)
     if form is None:
-        words = phrase(
-            "This is neither a report (PDF, HTML) nor a results file (JSON). Give a file that "
-            "`diecut-report report` wrote."
-        )
-        raise UserError(Problem(words, str(path)))
+        words = "This is neither a report (PDF, HTML) nor a results file (JSON). Give a file that `diecut-report report` wrote."
+        raise refusal(words, path)
     found = _results_content(whole, form, str(path))
     results = results_of(found, str(path))
     config, tables = _config(whole, form, results.config, str(path)), _tables(results.config, str(path))
@@ -115,22 +100,15 @@ def _results_content(whole: bytes, form: Form, file: str) -> bytes:
     if form == "json":
         found: bytes | None = whole
         if len(whole) > MOST_RESULTS:
-            words = Phrase(
-                "The file is too large: {count} MB; results have at most {most_results} MB.",
-                count=format(len(whole) / 1000000.0, ".1f"),
-                most_results=format(MOST_RESULTS / 1000000.0, "g"),
-            )
-            raise UserError(Problem(words, file))
+            words = "The file is too large: {count} MB; results have at most {most_results} MB."
+            raise refusal(words, file, count=f"{len(whole) / 1e6:.1f}", most_results=f"{MOST_RESULTS / 1e6:g}")
     elif form == "html":
         found = linked_results(whole, MOST_RESULTS, file)
     else:
         found = _attached(whole, "results.json", file)
     if found is None:
-        words = phrase(
-            "This file carries no results: another program made it, or an earlier version of diecut-report, "
-            "or it was printed anew."
-        )
-        raise UserError(Problem(words, file))
+        words = "This file carries no results: another program made it, or an earlier version of diecut-report, or it was printed anew."
+        raise refusal(words, file)
     return found
 
 
@@ -144,41 +122,21 @@ def _config(whole: bytes, form: Form, config: CarriedConfigRecord, file: str) ->
     """The configuration in the results; that of the PDF, which is attached for a reader's convenience, must be the same."""
     found = config_content(config)
     if form == "pdf" and _attached(whole, "config.yaml", file) not in (None, found):
-        words = phrase(
-            "The configuration that is attached is not the one in the attached results. Somebody has "
-            "exchanged one of the two."
-        )
-        raise UserError(Problem(words, file))
+        words = "The configuration that is attached is not the one in the attached results. Somebody has exchanged one of the two."
+        raise refusal(words, file)
     return found
 
 
 def _tables(config: CarriedConfigRecord, file: str) -> dict[str, bytes]:
     found, logo = table_contents(config), logo_content(config)
-    faults = [
-        Problem(Phrase("The name of a table {fault}.", fault=fault), file)
-        for name in found
-        if (fault := name_fault(name))
-    ]
-    faults += [
-        Problem(Phrase("The name of the logo {fault}.", fault=fault), file)
-        for name in logo
-        if (fault := logo_fault(name))
-    ]
+    faults = [Phrase("The name of a table {fault}.", fault=fault) for name in found if (fault := name_fault(name))]
+    faults += [Phrase("The name of the logo {fault}.", fault=fault) for name in logo if (fault := logo_fault(name))]
     found |= logo
+    words = "The name of a file is longer than {longest_name} bytes: {name}…."
     long = [name for name in found if max(len(part.encode()) for part in Path(name).parts) > LONGEST_NAME]
-    faults += [
-        Problem(
-            Phrase(
-                "The name of a file is longer than {longest_name} bytes: {name}….",
-                longest_name=LONGEST_NAME,
-                name=name[:80],
-            ),
-            file,
-        )
-        for name in long
-    ]
+    faults += [Phrase(words, longest_name=LONGEST_NAME, name=name[:80]) for name in long]
     if faults:
-        raise UserError(faults)
+        raise UserError([Problem(fault, file) for fault in faults])
     return found
 
 
@@ -194,11 +152,8 @@ def extract(report: Path, folder: Path) -> list[Path]:
     found = carried_results(report)
     contents = {f"{report.stem}.yaml": found.config_content, f"{report.stem}.json": found.results_content}
     if doubled := sorted(contents.keys() & found.tables.keys()):
-        words = Phrase(
-            "The configuration names a file {doubled}, and would be called so itself. Rename the report.",
-            doubled=doubled[0],
-        )
-        raise UserError(Problem(words, str(report)))
+        words = "The configuration names a file {doubled}, and would be called so itself. Rename the report."
+        raise refusal(words, report, doubled=doubled[0])
     files = {folder / name: each for name, each in (contents | found.tables).items()}
     if problems := list(_refused(files, folder)):
         raise UserError(problems)
@@ -217,6 +172,5 @@ def _refused(files: Mapping[Path, bytes], folder: Path) -> Iterator[Problem]:
 
 
 def _is_same(path: Path, wanted: bytes) -> bool:
-    return (
-        path.is_file() and path.stat().st_size == len(wanted) and content(path, len(wanted), phrase("a file")) == wanted
-    )
+    is_alike = path.is_file() and path.stat().st_size == len(wanted)
+    return is_alike and content(path, len(wanted), phrase("a file")) == wanted

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Iterator, Set
 from typing import Any, NamedTuple
@@ -12,7 +11,7 @@ import pikepdf
 from diecut_report.exchange import pdf_attachments
 from diecut_report.exchange.added_sections import AddedRevision, revisions
 from diecut_report.exchange.carried import MOST_RESULTS
-from diecut_report.exchange.pdf_attachments import bounded
+from diecut_report.exchange.pdf_attachments import bounded, opened
 from diecut_report.exchange.signature_drawing import drawings
 
 OF_FIELD = {"/V", "/AP", "/F", "/M"}  # what signing sets in a field: the signature, how it shows, its flags, its time
@@ -22,24 +21,14 @@ OF_ROOT = OF_PROOFS | {"/AcroForm", "/Version", "/Perms"}  # with what a signer 
 OF_DSS = {"/Type", "/Certs", "/CRLs", "/OCSPs", "/VRI"}
 OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/TU", "/V", "/Rect", "/F", "/P", "/M", "/Ff"}
 OF_DRAWING = {"/Type", "/Subtype", "/BBox", "/Resources", "/Length"}
-OF_SIGNATURE = {
-    "/Type",
-    "/Filter",
-    "/SubFilter",
-    "/ByteRange",
-    "/Contents",
-    "/M",
-    "/Name",
-    "/Reason",
-    "/Location",
-    "/ContactInfo",
-    "/Reference",
-}
+OF_SIGNATURE = {"/Type", "/Filter", "/SubFilter", "/ByteRange", "/Contents", "/M", "/Name", "/Reason", "/Location", "/ContactInfo",
+                "/Reference"}  # fmt: skip
 OF_PROOF = {"/Type", "/Cert", "/CRL", "/OCSP", "/TU", "/TS"}  # of one signature
 WRAPPED = re.compile(rb"q q (?:/BackgroundGS gs )?1 0 0 1 0 0 cm (.*) Q Q", re.DOTALL)
 FLAGS = 4 | 128 | 512
 """Printed, locked, its contents locked; others let a field grow over the sheet where it is shown small."""
 FAULTS = (pikepdf.PasswordError, *pdf_attachments.FAULTS)
+_NONE = pikepdf.Dictionary()
 
 
 def only_signed(before: bytes, after: bytes) -> bool:
@@ -51,7 +40,7 @@ def only_signed(before: bytes, after: bytes) -> bool:
     bounded(MOST_RESULTS)
     try:
         for revision in revisions(before, after):
-            with _opened(before) as old, _opened(revision.content) as new:
+            with opened(before) as old, opened(revision.content) as new:
                 if not (_is_consistent(old, new, revision) and _Changes.made(old, new, revision).are_signing()):
                     return False
             before = revision.content
@@ -84,12 +73,11 @@ class _Changes(NamedTuple):
 
     def are_signing(self) -> bool:
         fields = [pair[1] for pair in self.changed.values() if _is_free_field(pair[0])]
-        stamps = list(self.new.Root.get("/AcroForm", _NONE).get("/Fields", ()))[self._fields_before :]
+        stamps = _fields(self.new)[len(_fields(self.old)) :]
         of_root = OF_ROOT if fields or stamps else OF_PROOFS
         taken = {found.objgen[0] for field in (*fields, *stamps) for found in (field, field["/V"])}
-        taken |= {field["/AP"]["/N"].objgen[0] for field in fields if "/AP" in field} | {
-            *_reached(self.new.Root.get("/DSS"))
-        }
+        taken |= {field["/AP"]["/N"].objgen[0] for field in fields if "/AP" in field}
+        taken |= {*_reached(self.new.Root.get("/DSS"))}
         return (
             len(fields) <= 1
             and self.added <= taken
@@ -97,10 +85,6 @@ class _Changes(NamedTuple):
             and all(self._is_signing(*pair, of_root) for pair in self.changed.values())
             and self._are_proofs()
         )
-
-    @property
-    def _fields_before(self) -> int:
-        return len(self.old.Root.get("/AcroForm", _NONE).get("/Fields", ()))
 
     def _are_proofs(self) -> bool:
         """Whether what proves certificates is of that kind, and nothing that was there for something else."""
@@ -133,7 +117,7 @@ class _Changes(NamedTuple):
         if first.objgen == self.old.Root.get("/DSS", _NONE).objgen:
             return bool(
                 first.objgen == self.new.Root.get("/DSS", _NONE).objgen
-            )  # with all that it takes it is judged there
+            )  # whose content is judged with the proofs
         if _is_free_field(first):
             return self._is_filled(first, second)
         if first.get("/Type") == "/Page":
@@ -159,11 +143,8 @@ class _Changes(NamedTuple):
     def _is_drawn(self, appearance: Any, field: Any) -> bool:
         """Whether what a field shows is what this program draws of the signature."""
         shown = appearance.get("/N")
-        if (
-            set(appearance.keys()) != {"/N"}
-            or not isinstance(shown, pikepdf.Stream)
-            or not set(shown.keys()) <= OF_DRAWING
-        ):
+        is_alone = set(appearance.keys()) == {"/N"} and isinstance(shown, pikepdf.Stream)
+        if not (is_alone and set(shown.keys()) <= OF_DRAWING):
             return False
         x1, y1, x2, y2 = (float(each) for each in field["/Rect"])
         width, height = abs(x2 - x1), abs(y2 - y1)
@@ -198,9 +179,8 @@ class _Changes(NamedTuple):
         if not isinstance(second, pikepdf.Array):
             return False
         a, b = list(first or ()), list(second)
-        same = len(a) <= len(b) and all(
-            x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in zip(a, b, strict=False)
-        )
+        pairs = zip(a, b, strict=False)
+        same = len(a) <= len(b) and all(x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in pairs)
         return same and all(map(self._is_timestamp, b[len(a) :]))
 
     def _is_timestamp(self, field: Any) -> bool:
@@ -209,9 +189,13 @@ class _Changes(NamedTuple):
             return False
         box = [float(each) for each in field["/Rect"]]
         is_field = field["/Subtype"] == "/Widget" and field["/FT"] == "/Sig"  # a note shows, however small its box
-        names = {_plain(each) for each in self.old.Root.get("/AcroForm", _NONE).get("/Fields", ())}
+        names = set(map(_plain, _fields(self.old)))
         is_dated = self._is_added_signature(field, "/DocTimeStamp") and _plain(field) not in names
         return is_field and is_dated and len(box) == 4 and box[:2] == box[2:]
+
+
+def _fields(pdf: pikepdf.Pdf) -> list[Any]:
+    return list(pdf.Root.get("/AcroForm", _NONE).get("/Fields", ()))
 
 
 def _plain(field: Any) -> str:
@@ -235,14 +219,8 @@ def _reached(found: Any, depth: int = 5) -> Iterator[int]:
     if isinstance(found, pikepdf.Object) and depth:
         if found.objgen[0]:
             yield found.objgen[0]
-        parts = (
-            found.values()
-            if isinstance(found, pikepdf.Dictionary)
-            else found
-            if isinstance(found, pikepdf.Array)
-            else ()
-        )
-        for each in parts:
+        listed = found if isinstance(found, pikepdf.Array) else ()
+        for each in found.values() if isinstance(found, pikepdf.Dictionary) else listed:
             yield from _reached(each, depth - 1)
 
 
@@ -250,7 +228,7 @@ def fault(content: bytes) -> str:
     """Return why the objects of a PDF cannot be read within bounds; "" where they can, so that a library without bounds may read them."""
     bounded(MOST_RESULTS)
     try:
-        with _opened(content) as pdf:
+        with opened(content) as pdf:
             for _ in pdf.objects:  # each is unpacked from the stream that holds it
                 pass
     except FAULTS as error:
@@ -261,23 +239,15 @@ def fault(content: bytes) -> str:
 def added_proofs(before: bytes, after: bytes) -> bool:
     """Return whether a later PDF holds more of what proves certificates (DSS), which may stand behind the last signature."""
     try:
-        with _opened(before) as old, _opened(after) as new:
+        with opened(before) as old, opened(after) as new:
             return bool("/DSS" in new.Root and _written(old.Root, "/DSS") != _written(new.Root, "/DSS"))
     except FAULTS:
         return False
 
 
-_NONE = pikepdf.Dictionary()
-
-
-def _opened(content: bytes) -> pikepdf.Pdf:
-    return pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True)
-
-
 def _lists(old: pikepdf.Pdf) -> Iterator[tuple[int, int]]:
     """The lists that a document timestamp is added to, where they are objects of their own: the fields, the annotations of sheets."""
-    form = old.Root.get("/AcroForm", _NONE)
-    for found in (form.get("/Fields"), *(page.obj.get("/Annots") for page in old.pages)):
+    for found in (old.Root.get("/AcroForm", _NONE).get("/Fields"), *(page.obj.get("/Annots") for page in old.pages)):
         if isinstance(found, pikepdf.Array) and found.objgen != (0, 0):
             yield found.objgen
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+import zlib
 from collections.abc import Iterator
 from functools import cache
 from typing import Any
@@ -11,9 +12,8 @@ from typing import Any
 import pikepdf
 from pikepdf import settings
 
-from diecut_report.errors import Problem, UserError
-from diecut_report.exchange.pdf_faults import PDF_FAULTS
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.errors import refusal
+from diecut_report.text.phrases import phrase
 
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
@@ -21,30 +21,37 @@ DEEPEST = 100
 MOST_REVISIONS = 100
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
 END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
+PDF_FAULTS = (
+    ValueError, TypeError, LookupError, AttributeError, NameError, ArithmeticError, RuntimeError, AssertionError, OSError, MemoryError,
+    zlib.error,
+)  # fmt: skip
+"""What libraries raise for a PDF that is not as the standard has it: it was damaged, or made to harm.
+
+RuntimeError with recursion and what is not implemented, ArithmeticError with decimals, NameError with a variable that was never set."""
 FAULTS = (pikepdf.PdfError, *PDF_FAULTS)
-"""What the library raises for a file that is not as the standard has it."""
+"""The same of pikepdf."""
+SEVERAL = phrase(
+    "The PDF carries {count} files named {name}, and a report has one. Give the file as the program wrote it."
+)
 
 
 def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
     """Return the attachment of a name, None where the PDF has none; UserError where it cannot be read, or is larger than ``most``."""
     bounded(most)
     try:
-        with _opened(content) as pdf:
+        with opened(content) as pdf:
             found = _found(pdf, name, most, file)
         _refuse_former(content, found, name, most, file)
         return found
     except pikepdf.PasswordError as error:
-        words = phrase("The PDF is encrypted, and opens only with a password. Give one without.")
-        raise UserError(Problem(words, file)) from error
+        raise refusal("The PDF is encrypted, and opens only with a password. Give one without.", file) from error
     except FAULTS as error:
-        words = Phrase(
-            "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it.",
-            most=format(most / 1000000.0, "g"),
-        )
-        raise UserError(Problem(words, file)) from error
+        words = "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it."
+        raise refusal(words, file, most=f"{most / 1e6:g}") from error
 
 
-def _opened(content: bytes) -> pikepdf.Pdf:
+def opened(content: bytes) -> pikepdf.Pdf:
+    """Return a PDF as it stands: what is damaged is not repaired."""
     return pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True)
 
 
@@ -63,15 +70,11 @@ def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
     if not found:
         return None
     if len(found) > 1:
-        raise UserError(Problem(_several(len(found), name), file))
+        raise refusal(SEVERAL, file, count=len(found), name=name)
     content = found[0].read_bytes()
     if len(content) > most:
-        words = Phrase(
-            "What is attached is too large: {count} MB; at most {most} MB are taken.",
-            count=format(len(content) / 1000000.0, ".1f"),
-            most=format(most / 1000000.0, "g"),
-        )
-        raise UserError(Problem(words, file))
+        words = "What is attached is too large: {count} MB; at most {most} MB are taken."
+        raise refusal(words, file, count=f"{len(content) / 1e6:.1f}", most=f"{most / 1e6:g}")
     return bytes(content)
 
 
@@ -79,25 +82,16 @@ def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, fi
     """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
     ends = [end.end() for end in END.finditer(content)][:-1]
     if len(ends) > MOST_REVISIONS:
-        raise UserError(
-            Problem(
-                Phrase("The PDF was added to {count} times. Give the file as the program wrote it.", count=len(ends)),
-                file,
-            )
-        )
+        words = "The PDF was added to {count} times. Give the file as the program wrote it."
+        raise refusal(words, file, count=len(ends))
     for end in ends:
         try:
-            with _opened(content[:end]) as pdf:
+            with opened(content[:end]) as pdf:
                 former = _found(pdf, name, most, file)
         except FAULTS:  # no end of a PDF: the letters stand in a stream
             continue
         if former is not None and former != found:
-            raise UserError(Problem(_several(2, name), file))
-
-
-def _several(count: int, name: str) -> str:
-    words = "The PDF carries {count} files named {name}, and a report has one. Give the file as the program wrote it."
-    return Phrase(words, count=count, name=name)
+            raise refusal(SEVERAL, file, count=2, name=name)
 
 
 def _named(pdf: pikepdf.Pdf, name: str) -> Iterator[pikepdf.Stream]:

@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from diecut_report import __version__
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError
+from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, refusal
 from diecut_report.exchange.carried import MOST as SIDES_MOST
 from diecut_report.exchange.carried import carried_results, form_of
 from diecut_report.exchange.results_form import other_form
@@ -27,14 +27,9 @@ from diecut_report.text.translation import say, spoken_language
 
 
 def render(
-    file: Path,
-    folder: Path,
-    formats: Sequence[str],
-    tell: Tell,
-    discovery: Discovery,
-    language: str | None = None,
+    file: Path, folder: Path, formats: Sequence[str], tell: Tell, discovery: Discovery, language: str | None = None,
     house: HouseStyle | None = None,
-) -> tuple[ReportOutcome, list[Lost]]:
+) -> tuple[ReportOutcome, list[Lost]]:  # fmt: skip
     """Write the report of a results file, or of a report, as ``STEM.html``, ``STEM.pdf`` and the exports beside it.
 
     Return what was written, and the figures and exports that could not be drawn. UserError where nothing can be made of the file.
@@ -54,49 +49,26 @@ def document(
     results: ResultsRecord, formats: Sequence[str], discovery: Discovery, tell: Tell, file: str, house: HouseStyle | None = None
 ) -> Drawn:  # fmt: skip
     """Return a report of results, as ``drawn`` does; UserError where these are not results of the program."""
-    _refuse_many_sheets(results, formats, file)
+    count = len(results.mechanisms)
+    if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
+        words = "There are {count} mechanisms; a PDF has at most {most}. Leave it out with --format html."
+        raise refusal(words, file, count=count, most=MAX_PRINTED_MECHANISMS)
     try:
         return drawn(results, formats, discovery, tell, house, file)
     except UserError:
         raise
     except Exception as cause:  # of any kind: whoever wrote the file may have put anything in any place
-        words = Phrase(
-            "The report cannot be made of these results: {told}. Give results as the program wrote them.",
-            told=_told(cause),
-        )
-        why = other_form(results.data())
-        raise UserError([Problem(words, file), *([Problem(why, file)] if why else [])]) from cause
+        missing = Phrase("{cause} is missing", cause=cause) if isinstance(cause, KeyError) else None
+        words = "The report cannot be made of these results: {told}. Give results as the program wrote them."
+        told = Phrase(words, told=missing or f"{type(cause).__name__}: {cause}")
+        raise UserError([Problem(each, file) for each in (told, other_form(results.data())) if each]) from cause
 
 
 def told(lost: Iterable[Lost]) -> list[str]:
     """Return in words what could not be drawn."""
-    return [
-        Phrase(
-            "{what} {id} of mechanism {mechanism} cannot be drawn: {words}",
-            what=phrase(each.what),
-            id=repr(each.id),
-            mechanism=repr(each.mechanism),
-            words=phrase(each.words),
-        )
-        for each in lost
-    ]
-
-
-def _told(cause: Exception) -> str:
-    if isinstance(cause, KeyError):
-        return Phrase("{cause} is missing", cause=cause)
-    return f"{type(cause).__name__}: {cause}"
-
-
-def _refuse_many_sheets(results: ResultsRecord, formats: Sequence[str], file: str) -> None:
-    count = len(results.mechanisms)
-    if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
-        words = Phrase(
-            "There are {count} mechanisms; a PDF has at most {most}. Leave it out with --format html.",
-            count=count,
-            most=MAX_PRINTED_MECHANISMS,
-        )
-        raise UserError(Problem(words, file))
+    words = "{what} {id} of mechanism {mechanism} cannot be drawn: {words}"
+    return [Phrase(words, what=phrase(each.what), id=repr(each.id), mechanism=repr(each.mechanism), words=phrase(each.words))
+            for each in lost]  # fmt: skip
 
 
 # What changed between two calculations, as one HTML file without scripts or network.
@@ -132,12 +104,12 @@ def lines(changes: ChangesRecord, *, all_rows: bool = False) -> Iterator[str]:
     mechanisms = [(name, old, "→", new) for name, old, new in made.mechanisms]
     yield from _block("changed_mechanisms", mechanisms, words, all_rows)
     yield from _block("changed_checks", [_check(row, words) for row in made.checks], words, all_rows)
-    yield from _block("changed_inputs", [_row(row) for row in made.inputs], words, all_rows)
+    yield from _block("changed_inputs", map(_row, made.inputs), words, all_rows)
     if all_rows:
-        yield from _block("following_inputs", [_row(row) for row in made.following], words, all_rows)
+        yield from _block("following_inputs", map(_row, made.following), words, all_rows)
     elif made.following:
         yield say("  and {n} that follow from other changes by reference (--all shows them)", n=len(made.following))
-    yield from _block("changed_outputs", [_row(row) for row in made.outputs], words, all_rows)
+    yield from _block("changed_outputs", map(_row, made.outputs), words, all_rows)
     yield from _block("changed_code", [(name, old, "→", new) for name, old, new in made.code], words, all_rows)
 
 
@@ -158,10 +130,8 @@ def _head(name: str, side: ChangedDocumentRecord, words: Catalogue) -> Cells:
 
 
 def _check(row: ChangedCheck, words: Catalogue) -> Cells:
-    old, new = (
-        f"{words[status]} {used}".rstrip() if status else "–"
-        for status, used in ((row.old_status, row.old), (row.new_status, row.new))
-    )
+    sides = (row.old_status, row.old), (row.new_status, row.new)
+    old, new = (f"{words[status]} {used}".rstrip() if status else "–" for status, used in sides)
     return row.change, f"{row.mechanism}: {row.title}", old, "→", new
 
 
@@ -169,9 +139,9 @@ def _row(row: ChangedRow) -> Cells:
     return row.path, row.old, "→", row.new, row.change, row.note
 
 
-def _block(key: str, rows: Sequence[Cells], words: Catalogue, all_rows: bool) -> Iterator[str]:
+def _block(key: str, given: Iterable[Cells], words: Catalogue, all_rows: bool) -> Iterator[str]:
     """A title and its rows, the first ones alone where there are many."""
-    if not rows:
+    if not (rows := list(given)):
         return
     yield ""
     yield f"{words[key]}: {len(rows)}"
@@ -182,7 +152,6 @@ def _block(key: str, rows: Sequence[Cells], words: Catalogue, all_rows: bool) ->
 
 
 def _aligned(rows: Sequence[Cells], indent: str = "  ") -> Iterator[str]:
-    """The rows with their columns as wide as they need."""
     widths = [min(max(map(len, column)), WIDEST) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True) if width)

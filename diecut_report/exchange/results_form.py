@@ -14,11 +14,11 @@ from pydantic_core import ErrorDetails
 
 from diecut_report.config.own_tables import MAX_FILES as MOST_TABLES
 from diecut_report.config.yaml import CONTROL
-from diecut_report.errors import MAX_SHOWN, MAX_TEXT, Problem, UserError
+from diecut_report.errors import MAX_SHOWN, MAX_TEXT, Problem, UserError, refusal
 from diecut_report.exchange import form_1
 from diecut_report.pictures import MAX_BYTES as MOST_OF_PICTURE
 from diecut_report.pictures import PictureFault, media_type
-from diecut_report.results.model import ConfigRecord, LogoRecord, ResultsRecord
+from diecut_report.results.model import LogoRecord, ResultsRecord
 from diecut_report.results.record import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -56,11 +56,8 @@ def other_form(results: Mapping[str, Any]) -> str:
     told = results.get("form_version")
     if told == FORM_VERSION:
         return ""
-    theirs = (
-        Phrase("form {version}", version=told)
-        if _is_version(told)
-        else Phrase("a form before {first}", first=TOLD_SINCE)
-    )
+    former = Phrase("a form before {first}", first=TOLD_SINCE)
+    theirs = Phrase("form {version}", version=told) if _is_version(told) else former
     words = "These results are of {theirs}{by}, this program has form {own}: they may lack what it needs."
     return Phrase(words, theirs=theirs, by=_by(results), own=FORM_VERSION)
 
@@ -88,20 +85,16 @@ def results_of(content: bytes, file: str) -> ResultsRecord:
     try:
         results = form_1.results_of(found) if form_1.is_own(found) else ResultsRecord.model_validate(found)
     except ValidationError as error:
-        faults = error.errors(include_url=False)
-        problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults[:MAX_SHOWN]]
+        faults = error.errors(include_url=False)[:MAX_SHOWN]
+        problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults]
         why = other_form(found)
         raise UserError([*([Problem(why, file)] if why else []), *problems]) from None
-    _refuse_files(results.config, file)
-    return results
-
-
-def _refuse_files(config: ConfigRecord, file: str) -> None:
-    """Refuse files in the results that a configuration could not name."""
-    if len(config.materials) > MOST_TABLES or len(config.file) > MAX_TEXT:
+    config = results.config
+    if len(config.materials) > MOST_TABLES or len(config.file) > MAX_TEXT:  # which a configuration could not name
         raise UserError(Problem(Phrase("is not what stands there in results. {ask}", ask=ASK), file, path="config"))
     if config.logo:
         _refuse_logo(config.logo, file)
+    return results
 
 
 def _refuse_logo(logo: LogoRecord, file: str) -> None:
@@ -126,26 +119,17 @@ def _words(fault: ErrorDetails) -> Phrase:
 def parsed(content: bytes, file: str) -> dict[str, Any]:
     """Return the block of keys that a JSON file holds; UserError where it holds none, or too much."""
     if content.count(b",") + content.count(b"[") + content.count(b"{") > MOST_VALUES:
-        raise UserError(
-            Problem(
-                Phrase(
-                    "The file holds more than {most_values} values. {ask}",
-                    most_values=format(MOST_VALUES, ","),
-                    ask=ASK,
-                ),
-                file,
-            )
-        )
+        words = "The file holds more than {most_values} values. {ask}"
+        raise refusal(words, file, most_values=f"{MOST_VALUES:,}", ask=ASK)
     try:
         found = json.loads(
             content, parse_constant=_refuse_constant, parse_float=_finite, object_pairs_hook=_without_doubles
         )
     except (ValueError, RecursionError) as error:
-        raise UserError(
-            Problem(Phrase("This is not a JSON file that can be read: {told}. {ask}", told=_told(error), ask=ASK), file)
-        ) from error
+        words = "This is not a JSON file that can be read: {told}. {ask}"
+        raise refusal(words, file, told=_told(error), ask=ASK) from error
     if not isinstance(found, dict):
-        raise UserError(Problem(Phrase("This JSON file does not hold results. {ask}", ask=ASK), file))
+        raise refusal("This JSON file does not hold results. {ask}", file, ask=ASK)
     return found
 
 
@@ -200,13 +184,5 @@ def _refuse_hidden(data: Any, file: str) -> None:
         elif isinstance(part, list):
             waiting += [each for each in part if not isinstance(each, float)]
         elif isinstance(part, str) and (found := CONTROL.search(part)):
-            raise UserError(
-                Problem(
-                    Phrase(
-                        "The file holds the control character U+{code}. {ask}",
-                        code=format(ord(found[0]), "04X"),
-                        ask=ASK,
-                    ),
-                    file,
-                )
-            )
+            words = "The file holds the control character U+{code}. {ask}"
+            raise refusal(words, file, code=f"{ord(found[0]):04X}", ask=ASK)

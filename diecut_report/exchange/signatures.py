@@ -1,4 +1,7 @@
-"""Judges the signatures of a report: who signed, and whether anything changed since."""
+"""Judges the signatures of a report: who signed, and whether anything changed since.
+
+Whether only signatures were added later is judged by `later_changes`, as the library takes minutes for it.
+"""
 
 from __future__ import annotations
 
@@ -6,33 +9,42 @@ import io
 import logging
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from datetime import UTC
+from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from diecut_report.exchange.pdf_faults import PDF_FAULTS
+from cryptography import x509
+from pyhanko.keys.internal import translate_pyca_cryptography_cert_to_asn1
+from pyhanko.pdf_utils.misc import PdfError
+from pyhanko.pdf_utils.reader import PdfFileReader
+from pyhanko.sign.validation import validate_pdf_signature, validate_pdf_timestamp
+from pyhanko.sign.validation.errors import SignatureValidationError, ValidationInfoReadingError
+from pyhanko.sign.validation.settings import KeyUsageConstraints
+from pyhanko.sign.validation.status import SignatureCoverageLevel
+from pyhanko_certvalidator import ValidationContext
+
+from diecut_report.exchange.later_changes import added_proofs, fault, only_signed
+from diecut_report.exchange.pdf_attachments import PDF_FAULTS
+from diecut_report.exchange.signing_keys import MOST, WEAK_DIGESTS, certificates_in, name_of, weak_key
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, cell, joined, phrase
 
-if TYPE_CHECKING:
-    from datetime import datetime
-
-    from cryptography import x509
-
-    from diecut_report.exchange.signature_status import Status
-
-MARK = b"/ByteRange"  # stands in clear in each file that is signed
 SHORT = 16  # letters of a fingerprint
-UNSIGNED = phrase("none, where --trust asks for one: nobody has signed the report, or the signatures were removed")
+USAGE = KeyUsageConstraints(key_usage={"non_repudiation", "digital_signature"}, match_all_key_usages=False)
+Roots = Sequence[x509.Certificate] | None
 
 
 class Signature(NamedTuple):
-    """What is to be said of a signature, whether it holds, whether it covers the whole file, and how many bytes it covers."""
+    """What is to be said of a signature, whether it holds, whether it covers the whole file, and how many bytes it covers.
+
+    ``time`` is that which a document timestamp proves.
+    """
 
     words: str
     holds: bool
     is_last: bool = False
     end: int = 0
+    time: datetime | None = None
 
 
 def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
@@ -41,15 +53,10 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     With ``trusted``, a file of certificates, who is not known fails, and so does a report without a signature. UserError where that
     file cannot be read.
     """
-    roots = _certificates(trusted) if trusted else None
-    if MARK not in whole:
-        return [] if roots is None else [Signature(UNSIGNED, False)]
-    from pyhanko.pdf_utils.misc import PdfError
-    from pyhanko.pdf_utils.reader import PdfFileReader
-    from pyhanko.sign.validation.errors import SignatureValidationError, ValidationInfoReadingError
-
-    from diecut_report.exchange.later_changes import added_proofs, fault
-
+    roots = certificates_in(content(trusted, MOST, phrase("certificates (PEM)")), trusted) if trusted else None
+    if b"/ByteRange" not in whole:  # which stands in clear in each file that is signed
+        words = phrase("none, where --trust asks for one: nobody has signed the report, or the signatures were removed")
+        return [] if roots is None else [Signature(words, False)]
     if found_fault := fault(whole):
         return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
     try:
@@ -66,87 +73,123 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     return found
 
 
-def _certificates(file: Path) -> list[x509.Certificate]:
-    from diecut_report.exchange.signing_keys import MOST, certificates_in
-
-    return certificates_in(content(file, MOST, phrase("certificates (PEM)")), file)
-
-
-def _all_judged(embedded: Sequence[Any], whole: bytes, roots: list[x509.Certificate] | None) -> list[Signature]:
+def _all_judged(embedded: Sequence[Any], whole: bytes, roots: Roots) -> list[Signature]:
     """The signatures judged from the last on: a document timestamp proves that those before it were there."""
-    from diecut_report.exchange.signature_status import is_timestamp, status_of
-
     found: list[Signature] = []
     attested: datetime | None = None
     for each in reversed(embedded):
-        status = status_of(each, whole, roots, attested)
-        found.insert(0, _judged(each, status, asks_trust=roots is not None))
-        if is_timestamp(each) and found[0].holds and status.time:
-            attested = min(attested or status.time, status.time)
+        found.insert(0, _judged(each, whole, roots, attested))
+        if found[0].holds and found[0].time:
+            attested = min(attested or found[0].time, found[0].time)
     return found
 
 
-def _judged(signature: Any, status: Status, *, asks_trust: bool) -> Signature:
-    named = f"{cell(signature.field_name)}: {_signer(signature, status)}"
-    if why := _why_not(status) or _other_name(signature):
-        return Signature(Phrase("{named}: {why}", named=named, why=why), False, end=status.end)
-    since = phrase("nothing changed since") if status.is_last else phrase("since then others have signed")
-    if not asks_trust:
+def _judged(signature: Any, whole: bytes, roots: Roots, attested: datetime | None) -> Signature:
+    """An embedded signature; ``attested`` is a time at which it was there already, by a later document timestamp."""
+    found, time = _validated(signature, roots, attested)
+    end = sum(int(each) for each in list(signature.byte_range)[-2:])
+    named = f"{cell(signature.field_name)}: {_signer(signature, time)}"
+    is_last = found.coverage == SignatureCoverageLevel.ENTIRE_FILE
+    is_same = is_last or (found.coverage == SignatureCoverageLevel.ENTIRE_REVISION and only_signed(whole[:end], whole))
+    when = min(filter(None, (time, attested)), default=None)
+    if why := _why_not(signature, bool(found.intact and found.valid), is_same, when):
+        return Signature(Phrase("{named}: {why}", named=named, why=why), False, end=end)
+    since = phrase("nothing changed since") if is_last else phrase("since then others have signed")
+    attests = time if _is_timestamp(signature) else None
+    if roots is None:
         words = Phrase("{named}, {since}", named=named, since=since) + _fingerprint(signature)
-        return Signature(words, True, status.is_last, status.end)
-    trust = (
-        phrase("trusted") if status.is_trusted else phrase("but the certificate does not lead to one that you trust")
-    )
+        return Signature(words, True, is_last, end, attests)
+    unknown = phrase("but the certificate does not lead to one that you trust")
+    trust = phrase("trusted") if found.trusted else unknown
     words = Phrase("{named}, {since}, {trust}", named=named, since=since, trust=trust)
-    return Signature(words, status.is_trusted, status.is_last, status.end)
+    return Signature(words, bool(found.trusted), is_last, end, attests)
 
 
-def _why_not(status: Status) -> str:
+def _is_timestamp(signature: Any) -> bool:
+    """Whether an embedded signature is a document timestamp, which tells no signer but a time."""
+    return bool(signature.sig_object_type == "/DocTimeStamp")
+
+
+def _validated(signature: Any, roots: Roots, attested: datetime | None) -> tuple[Any, datetime | None]:
+    """What the library finds, and the time that an authority tells; one that is not trusted tells none where trust is asked for."""
+    known = [translate_pyca_cryptography_cert_to_asn1(each) for each in roots or ()]
+    context = ValidationContext(trust_roots=known, allow_fetching=False, moment=attested)
+    if _is_timestamp(signature):
+        found: Any = validate_pdf_timestamp(signature, context, skip_diff=True)
+        return found, _time(found, roots, attested)
+    found = validate_pdf_signature(signature, context, skip_diff=True, key_usage_settings=USAGE)
+    time = _time(found.timestamp_validity, roots, attested)
+    if time and not found.trusted and attested is None:
+        return _validated(signature, roots, time)[0], time
+    return found, time
+
+
+def _time(found: Any, roots: Roots, attested: datetime | None) -> datetime | None:
+    """The time of a timestamp that is whole, trusted where roots are given, and whose own certificate has not ended."""
+    if found is None or not (found.intact and found.valid and (roots is None or found.trusted)):
+        return None
+    is_ended = (attested or datetime.now(UTC)) > found.signing_cert.not_valid_after
+    time: datetime = found.timestamp
+    return None if is_ended else time
+
+
+def _why_not(signature: Any, is_whole: bool, is_same: bool, attested: datetime | None) -> str:
     """Why a signature does not hold, whoever is trusted; "" where it does."""
-    if not status.is_whole and not status.weakness:
+    weakness = _weakness(signature)
+    if not is_whole and not weakness:
         return phrase("what was signed has been changed since, or the signature is not the signer's")
-    if not (status.is_last or status.is_signed_again):
+    if not is_same:
         return phrase("the document has been changed since")
-    return status.weakness or status.outdated
+    return weakness or _outdated(signature, attested) or _other_name(signature)
+
+
+def _weakness(signature: Any) -> str:
+    """Which digest or key of a signature can be forged; "" where none can."""
+    info, cert = signature.signer_info, signature.signer_cert
+    digests = [info["digest_algorithm"]["algorithm"].native, signature.external_md_algorithm]
+    if cert.self_signed == "no":  # nobody relies on what a certificate says of itself
+        digests.append(cert.hash_algo)
+    if found := [each for each in filter(None, digests) if each.lower().replace("-", "") in WEAK_DIGESTS]:
+        return Phrase("the digest {digest} can be forged", digest=found[0].upper())
+    return weak_key(cert.public_key.algorithm, cert.public_key.bit_size)
+
+
+def _outdated(signature: Any, attested: datetime | None) -> str:
+    """Why the certificate is not valid: at the time that an authority tells, else now, and at the time that the signature tells."""
+    cert = signature.signer_cert
+    first, last = cert.not_valid_before, cert.not_valid_after
+    told = None if _is_timestamp(signature) else signature.self_reported_timestamp
+    filling = {"first": f"{first:%Y-%m-%d}", "last": f"{last:%Y-%m-%d}"}
+    if told is not None and told.tzinfo is not None and not first <= told <= last:
+        return Phrase("the certificate was not valid when it was used: from {first} to {last}", filling)
+    words = "the certificate is not valid now ({first} to {last}), and no timestamp proves that it was used then"
+    return "" if first <= (attested or datetime.now(UTC)) <= last else Phrase(words, filling)
 
 
 def _other_name(signature: Any) -> str:
     """Why the name that a signature shows is not its signer's; "" where it is, or where it has none."""
-    from cryptography import x509
-
-    from diecut_report.exchange.signing_keys import name_of
-
     shown = signature.sig_object.get("/Name")
     if shown is None or str(shown) == name_of(x509.load_der_x509_certificate(signature.signer_cert.dump())):
         return ""
     return Phrase("it shows the name {shown}, and its certificate has another one", shown=cell(str(shown)))
 
 
-def _signer(signature: Any, status: Status) -> str:
+def _signer(signature: Any, time: datetime | None) -> str:
     """Who signed, when, and why, as the signature has it; of a timestamp who tells the time."""
     found = signature.signer_cert.subject.native
     told = signature.self_reported_timestamp
     own = [found.get("common_name"), found.get("organization_name"), signature.sig_object.get("/Reason")]
     name, firm, reason = (cell(str(each)) if each else "" for each in own)
-    parts = [
-        name,
-        firm,
-        f"{told.astimezone(UTC):%Y-%m-%d %H:%M} UTC" if told else "",
-        reason,
-        Phrase("time stamped {time} UTC", time=f"{status.time:%Y-%m-%d %H:%M}") if status.time else "",
-    ]
-    return joined(filter(None, parts), ", ")
+    signed = f"{told.astimezone(UTC):%Y-%m-%d %H:%M} UTC" if told else ""
+    stamped = Phrase("time stamped {time} UTC", time=f"{time:%Y-%m-%d %H:%M}") if time else ""
+    return joined(filter(None, (name, firm, signed, reason, stamped)), ", ")
 
 
 def _fingerprint(signature: Any) -> str:
-    digest = signature.signer_cert.sha256.hex()[:SHORT]
     cert = signature.signer_cert
     by = phrase("itself") if cert.self_signed != "no" else cell(cert.issuer.human_friendly)
-    return Phrase(
-        "; certificate {digest} by {by}, whose name anybody may have chosen: compare it, or give --trust",
-        digest=digest,
-        by=by,
-    )
+    words = "; certificate {digest} by {by}, whose name anybody may have chosen: compare it, or give --trust"
+    return Phrase(words, digest=cert.sha256.hex()[:SHORT], by=by)
 
 
 @contextmanager

@@ -22,10 +22,10 @@ from pyhanko.sign.signers import PdfSignatureMetadata, PdfSigner, SimpleSigner
 from pyhanko.stamp import StaticStampStyle
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import nearest, refusal
 from diecut_report.exchange.carried import MOST, form_of
 from diecut_report.exchange.later_changes import only_signed
-from diecut_report.exchange.pdf_faults import PDF_FAULTS
+from diecut_report.exchange.pdf_attachments import PDF_FAULTS
 from diecut_report.exchange.signature_drawing import drawing
 from diecut_report.exchange.signatures import silent
 from diecut_report.exchange.signing_keys import SigningKey
@@ -65,10 +65,8 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     """
     whole = content(asked.report, MOST, phrase("a report as PDF"))
     if form_of(whole) != "pdf":
-        words = phrase(
-            "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
-        )
-        raise UserError(Problem(words, str(asked.report)))
+        words = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
+        raise refusal(words, asked.report)
     try:
         with silent():
             field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
@@ -76,10 +74,10 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
         with silent():
             signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
     except (PdfError, SigningError, *PDF_FAULTS) as error:
-        words = Phrase("The PDF cannot be signed: {error}. Give the file as the program wrote it.", error=error)
-        raise UserError(Problem(words, str(asked.report))) from error
+        words = "The PDF cannot be signed: {error}. Give the file as the program wrote it."
+        raise refusal(words, asked.report, error=error) from error
     if not only_signed(whole, signed):
-        raise UserError(Problem(AMBIGUOUS, str(asked.report)))
+        raise refusal(AMBIGUOUS, asked.report)
     write_all({asked.target: signed}, keep=key.file)
     tell(Phrase("signed by {name} in the field {field}", name=key.name, field=field))
 
@@ -97,28 +95,25 @@ def with_signature(writer: Additions, field: str, reason: str | None, key: Signi
     form = PdfSignatureMetadata(
         field_name=field, md_algorithm="sha256", name=key.name, reason=reason, subfilter=SigSeedSubFilter.PADES
     )
-    signer = PdfSigner(form, _signer(key), stamp_style=_appearance(shown, *size))
+    layout = SimpleBoxLayoutRule(AxisAlignment.ALIGN_MIN, AxisAlignment.ALIGN_MIN, Margins(0, 0, 0, 0))
+    picture = RawContent(shown, box=BoxConstraints(width=size[0], height=size[1]))
+    style = StaticStampStyle(border_width=0, background=picture, background_layout=layout)
+    signer = PdfSigner(form, _signer(key), stamp_style=style)
     made: Any = signer.sign_pdf(writer, existing_fields_only=True)
     content: bytes = made.getvalue()
     return content
 
 
 def _chosen(free: list[str], asked: Signing) -> str:
-    file = str(asked.report)
     if not free:
-        raise UserError(Problem(NONE_FREE, file))
+        raise refusal(NONE_FREE, asked.report)
     if asked.field is None and len(free) > 1:
-        raise UserError(
-            Problem(Phrase("Several fields are free; name one with --field: {free}.", free=", ".join(free)), file)
-        )
+        words = "Several fields are free; name one with --field: {free}."
+        raise refusal(words, asked.report, free=", ".join(free))
     if asked.field is not None and asked.field not in free:
-        words = Phrase(
-            "There is no free field {field}{nearest}; free are: {free}.",
-            field=repr(asked.field),
-            nearest=nearest(asked.field, free),
-            free=", ".join(free),
-        )
-        raise UserError(Problem(words, file))
+        near = nearest(asked.field, free)
+        words = "There is no free field {field}{nearest}; free are: {free}."
+        raise refusal(words, asked.report, field=repr(asked.field), nearest=near, free=", ".join(free))
     return asked.field or free[0]
 
 
@@ -130,9 +125,3 @@ def _signer(key: SigningKey) -> SimpleSigner:
     chain.register_multiple(translate_pyca_cryptography_cert_to_asn1(each) for each in key.others)
     own: x509.Certificate = translate_pyca_cryptography_cert_to_asn1(key.certificate)
     return SimpleSigner(signing_cert=own, signing_key=keys.PrivateKeyInfo.load(secret), cert_registry=chain)
-
-
-def _appearance(drawn: bytes, width: float, height: float) -> StaticStampStyle:
-    layout = SimpleBoxLayoutRule(AxisAlignment.ALIGN_MIN, AxisAlignment.ALIGN_MIN, Margins(0, 0, 0, 0))
-    picture = RawContent(drawn, box=BoxConstraints(width=width, height=height))
-    return StaticStampStyle(border_width=0, background=picture, background_layout=layout)

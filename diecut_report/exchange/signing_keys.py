@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from cryptography import x509
 from cryptography.hazmat.primitives import serialization
@@ -14,14 +14,16 @@ from cryptography.hazmat.primitives.asymmetric import dsa, ec, rsa
 from cryptography.hazmat.primitives.serialization import pkcs12
 from cryptography.x509.oid import NameOID
 
-from diecut_report.errors import Problem, UserError
-from diecut_report.exchange.signature_status import weak_key
+from diecut_report.errors import refusal
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, phrase
 
 MOST = 1_000_000  # bytes of a key or of certificates
 PEM = b"-----BEGIN"
 WRONG = phrase("The key cannot be opened: the password is wrong, or the file is damaged or not a key (PKCS #12, PEM).")
+WEAK_DIGESTS = ("md2", "md4", "md5", "sha1")  # of which somebody can make another document
+SHORTEST = {"rsa": 2048, "rsassa_pss": 2048, "dsa": 2048, "ec": 224}
+"""Bits of a key: NIST SP 800-131A wants 112 bits of security."""
 Ask = Callable[[], bytes]
 """Gives the password; UserError where nobody can be asked for it."""
 
@@ -47,6 +49,13 @@ def name_of(certificate: x509.Certificate) -> str:
     return str(found[0].value) if found else certificate.subject.rfc4514_string()
 
 
+def weak_key(kind: str, bits: int | None) -> str:
+    """Return what is told of a key that can be broken; "" of one that cannot."""
+    least = SHORTEST.get(kind, 0)
+    words = "the key is too short: {kind} with {bits} bits, at least {least} are needed"
+    return "" if bits is None or bits >= least else Phrase(words, kind=kind.upper(), bits=bits, least=least)
+
+
 def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
     """Return the key in a file with its certificate, which may stand in another one; UserError in words where they do not serve."""
     whole = content(key, MOST, phrase("a key (PKCS #12 or PEM)"))
@@ -54,34 +63,21 @@ def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
     if certificates is not None:
         found = certificates_in(content(certificates, MOST, phrase("a certificate (PEM)")), certificates) + found
     if not found:
-        _refuse(key, phrase("The file holds no certificate. Give that of the key with --cert."))
-    own = [each for each in found if each.public_key() == private.public_key()]
-    if not own:
-        _refuse(
-            certificates or key,
-            phrase(
-                "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert."
-            ),
-        )
-    if weak := _weakness(private):
-        _refuse(key, Phrase("Nobody can rely on what this key signs: {weak}. Take another one.", weak=weak))
-    now, last = datetime.now(UTC), own[0].not_valid_after_utc
-    if not own[0].not_valid_before_utc <= now <= last:
-        _refuse(
-            certificates or key,
-            Phrase(
-                "The certificate is not valid now: from {not_valid_before_utc} to {last}.",
-                not_valid_before_utc=f"{own[0].not_valid_before_utc:%Y-%m-%d}",
-                last=f"{last:%Y-%m-%d}",
-            ),
-        )
-    return SigningKey(key, private, own[0], tuple(each for each in found if each != own[0]))
-
-
-def _weakness(private: Any) -> str:
+        raise refusal("The file holds no certificate. Give that of the key with --cert.", key)
+    own = next((each for each in found if each.public_key() == private.public_key()), None)
+    if own is None:
+        words = "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert."
+        raise refusal(words, certificates or key)
     kinds = {rsa.RSAPrivateKey: "rsa", dsa.DSAPrivateKey: "dsa", ec.EllipticCurvePrivateKey: "ec"}
     kind = next((name for type_, name in kinds.items() if isinstance(private, type_)), "")
-    return weak_key(kind, private.key_size) if kind else ""
+    if weak := weak_key(kind, private.key_size if kind else None):
+        raise refusal("Nobody can rely on what this key signs: {weak}. Take another one.", key, weak=weak)
+    first, last = own.not_valid_before_utc, own.not_valid_after_utc
+    if not first <= datetime.now(UTC) <= last:
+        told = {"not_valid_before_utc": f"{first:%Y-%m-%d}", "last": f"{last:%Y-%m-%d}"}
+        words = "The certificate is not valid now: from {not_valid_before_utc} to {last}."
+        raise refusal(words, certificates or key, **told)
+    return SigningKey(key, private, own, tuple(each for each in found if each != own))
 
 
 def _pkcs12(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certificate]]:
@@ -91,9 +87,9 @@ def _pkcs12(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certific
         try:
             private, own, others = pkcs12.load_key_and_certificates(whole, ask())
         except ValueError:
-            _refuse(file, WRONG)
+            raise refusal(WRONG, file) from None
     if private is None:
-        _refuse(file, phrase("The file holds no private key."))
+        raise refusal("The file holds no private key.", file)
     return private, [*([own] if own else []), *others]
 
 
@@ -104,7 +100,7 @@ def _pem(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certificate
         except TypeError:  # it has a password
             private = serialization.load_pem_private_key(whole, ask())
     except (ValueError, TypeError):
-        _refuse(file, WRONG)
+        raise refusal(WRONG, file) from None
     return private, certificates_in(whole, file) if b"BEGIN CERTIFICATE" in whole else []
 
 
@@ -113,8 +109,4 @@ def certificates_in(whole: bytes, file: Path) -> list[x509.Certificate]:
     try:
         return x509.load_pem_x509_certificates(whole) if PEM in whole else [x509.load_der_x509_certificate(whole)]
     except ValueError:
-        _refuse(file, phrase("This is not a certificate that can be read. Give one as PEM."))
-
-
-def _refuse(file: Path, words: str) -> NoReturn:
-    raise UserError(Problem(words, str(file))) from None
+        raise refusal("This is not a certificate that can be read. Give one as PEM.", file) from None

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from diecut_report.config import yaml
 from diecut_report.config.own_tables import Find
@@ -20,13 +20,15 @@ from diecut_report.design.findings import with_findings
 from diecut_report.errors import PluginError, UserError
 from diecut_report.exchange.carried import CarriedResults
 from diecut_report.exchange.rendering import document
-from diecut_report.exchange.signatures import Signature, signatures
 from diecut_report.press import AskedReport, Press
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.results.changes import compare_with
 from diecut_report.results.model import CarriedConfigRecord, ProgramRecord, ResultsRecord
 from diecut_report.results.results_file import config_content
 from diecut_report.text.phrases import Counted, Phrase, cell, joined, phrase
+
+if TYPE_CHECKING:
+    from diecut_report.exchange.signatures import Signature
 
 # Two results documents held against each other, value by value: how many numbers agree, how exactly, and which differ.
 
@@ -87,7 +89,8 @@ def _differences(a: Value, b: Value, path: str, made: Agreement, scale: float) -
     elif isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
         scale = max((abs(each) for each in a if _is_number(each)), default=0.0)
         for index, pair in enumerate(zip(a, b, strict=True)):
-            yield from _differences(*pair, _below(path, _named(pair[0], index)), made, scale)
+            part = pair[0]["id"] if isinstance(pair[0], dict) and isinstance(pair[0].get("id"), str) else index
+            yield from _differences(*pair, _below(path, part), made, scale)
     elif not _agree(a, b, made, scale):
         yield Difference(path, None if a is NOWHERE else a, None if b is NOWHERE else b)
 
@@ -116,11 +119,6 @@ def _below(path: str, key: object) -> str:
     return f"{path}.{key}" if path else f"{key}"
 
 
-def _named(part: Value, index: int) -> object:
-    """What a part of a list is called: by its id, where it has one."""
-    return part["id"] if isinstance(part, dict) and isinstance(part.get("id"), str) else index
-
-
 # The results document of a report made once more: from the configuration that it carries and the options that it tells, by this program.
 
 
@@ -128,18 +126,11 @@ Found = tuple[str, bool]  # what was found, in words, and whether it is as it sh
 SHORT = 12  # of a hash, as in a report
 
 
-class Recalculation(NamedTuple):
-    """Hold the results document as the program makes it now, the plugins that broke, and what was found of the report's options."""
-
-    results: ResultsRecord
-    broken: tuple[PluginError, ...]
-    options: tuple[Found, ...]
-
-
 def recalculated(
     carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], previous: ResultsRecord | None
-) -> Recalculation:  # fmt: skip
-    """Return the results document that this program makes of the configuration and the options in a report.
+) -> tuple[ResultsRecord, tuple[PluginError, ...], tuple[Found, ...]]:  # fmt: skip
+    """Return the results document as this program makes it of the configuration and the options in a report, the plugins that broke, and
+    what was found of the options.
 
     ``previous`` are the results of the former revision, where they are given; else they are calculated from what the report carries
     of it. UserError where the configuration cannot be calculated any more.
@@ -148,25 +139,25 @@ def recalculated(
     with _tables(carried.tables) as find:
         tree = _tree(given.config, f"{carried.path} (its configuration)")
         made = Press.read(tree, discovery, tell, find=find).calculate()
-        made = with_findings(made) if _is_report(carried) else made
-    results, asked = made.results, _asked(given, made.results)
+        # a results file without any part of a report is as ``calc`` writes it
+        is_report = carried.form != "json" or given.summary.moves or given.summary.advice or given.influence
+        made = with_findings(made) if is_report else made
+    results = made.results
+    # as far as the command takes them; what it does not take differs from what comes out now
+    only = given.report.only if results.mechanisms.keys() >= set(given.report.only) else []
+    asked = AskedReport(given.project.language, given.report.detail, tuple(dict.fromkeys(only)))
     former, lost = _former(carried, discovery, tell, previous)
     options = _options(given, results, asked)
     again = asked.noted(results)
     again = compare_with(former, again) if former else again
-    again = again.with_(
-        report=again.report.with_(template_sha256=given.report.template_sha256)
-    )  # judged with the pages
+    settings = again.report.with_(template_sha256=given.report.template_sha256)  # judged with the pages
+    again = again.with_(report=settings)
     again = again.with_(changes=given.changes, former=given.former) if lost else again
-    return Recalculation(
-        again, made.broken, (options, *([lost] if lost else ()), *_other_changes(given, again, previous))
-    )
-
-
-def _is_report(carried: CarriedResults) -> bool:
-    """Whether the results are those of a report; a results file without any of its parts is as ``calc`` writes it."""
-    results = carried.results
-    return carried.form != "json" or bool(results.summary.moves or results.summary.advice or results.influence)
+    found = [options, *([(lost, False)] if lost else [])]
+    if previous is None and given.changes != again.changes:
+        words = "not those that come of the former configuration in the report; where another program calculated that, --previous FILE proves them"
+        found.append((phrase(words), False))
+    return again, made.broken, tuple(found)
 
 
 def _tree(config: CarriedConfigRecord, file: str) -> Tree:
@@ -189,32 +180,22 @@ def _tables(contents: Mapping[str, bytes]) -> Iterator[Find]:
 # --- options of the command that the configuration does not tell ------------------------------------------------------
 
 
-def _asked(given: ResultsRecord, again: ResultsRecord) -> AskedReport:
-    """The options that a report tells, as far as the command takes them; what it does not take differs from what comes out now."""
-    only = given.report.only if again.mechanisms.keys() >= set(given.report.only) else []
-    return AskedReport(given.project.language, given.report.detail, tuple(dict.fromkeys(only)))
-
-
 def _options(given: ResultsRecord, again: ResultsRecord, asked: AskedReport) -> Found:
     """The options in words: what a report shows by them does not follow from its configuration."""
+    former = given.former
     told = [
         f"--language {asked.language}" if asked.language != again.project.language else "",
         f"--detail {asked.detail}" if asked.detail != again.report.detail else "",
         f"--only {','.join(asked.only)}" if asked.only else "",
         f"--template (SHA-256 {given.report.template_sha256[:SHORT]})" if given.report.template_sha256 else "",
-        f"--previous {_former_file(given)}" if given.changes else "",
+        f"--previous {f'{cell(former.file)} (SHA-256 {former.sha256[:SHORT]})' if former else '…'}"
+        if given.changes
+        else "",
     ]
     named = " ".join(filter(None, told))
-    if not named:
-        return phrase(
-            "none: the report shows what its configuration asks for, and no changes since a former revision"
-        ), True
-    return Phrase("made with {options}; all else follows from the configuration", options=named), True
-
-
-def _former_file(given: ResultsRecord) -> str:
-    former = given.former
-    return f"{cell(former.file)} (SHA-256 {former.sha256[:SHORT]})" if former else "…"
+    none = "none: the report shows what its configuration asks for, and no changes since a former revision"
+    words = "made with {options}; all else follows from the configuration"
+    return Phrase(words, options=named) if named else phrase(none), True
 
 
 # --- the former revision -----------------------------------------------------------------------------------------------
@@ -222,45 +203,26 @@ def _former_file(given: ResultsRecord) -> str:
 
 def _former(
     carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], previous: ResultsRecord | None
-) -> tuple[ResultsRecord | None, Found | None]:
-    """The results of the former revision, or what keeps the changes since then from being proved."""
+) -> tuple[ResultsRecord | None, str]:
+    """The results of the former revision, or in words what keeps the changes since then from being proved."""
     former = carried.results.former
     if previous is not None or not carried.results.changes:
-        return previous, None
+        return previous, ""
     if not former:
-        words = phrase(
+        words = (
             "not proved: the report does not carry the former configuration; --previous FILE names the former report"
         )
-        return None, (words, False)
+        return None, phrase(words)
     try:
         with _tables(carried.former_tables) as find:
             tree = _tree(former, f"{carried.path} (its former configuration)")
-            return Press.read(tree, discovery, tell, find=find).calculate().results, None
+            return Press.read(tree, discovery, tell, find=find).calculate().results, ""
     except UserError:
-        words = phrase(
-            "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
-        )
-        return None, (words, False)
-
-
-def _other_changes(given: ResultsRecord, again: ResultsRecord, previous: ResultsRecord | None) -> Iterator[Found]:
-    if previous is None and given.changes != again.changes:
-        words = "not those that come of the former configuration in the report; where another program calculated that, --previous FILE proves them"
-        yield phrase(words), False
+        words = "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
+        return None, phrase(words)
 
 
 # Whether a document is, byte for byte, what this program makes of the results in it, but for signatures.
-
-
-MADE = phrase("byte for byte what the program makes of these results")
-SIGNED = phrase("byte for byte what the program makes of these results, and after it the signatures")
-PAINTED = phrase(
-    "not what the program makes of these results: what was added later, with a signature, changes what the document shows or holds"
-)
-OTHERS = phrase(
-    "not what the program makes of these results: it was changed or saved by another program, or set with other libraries of "
-    "the system. The numbers above are those that it carries; what its pages show may be others"
-)
 
 
 def compared(
@@ -272,15 +234,22 @@ def compared(
     again = document(carried.results, [carried.form], discovery, tell, str(carried.path), house)
     made, content = again.contents[carried.form], carried.content
     if content == made:
-        return MADE, True
+        return phrase("byte for byte what the program makes of these results"), True
     if not (carried.form == "pdf" and content.startswith(made)):
-        return OTHERS, False
-    from diecut_report.exchange.later_changes import only_signed
-
+        words = (
+            "not what the program makes of these results: it was changed or saved by another program, or set with other libraries of "
+            "the system. The numbers above are those that it carries; what its pages show may be others"
+        )
+        return phrase(words), False
     if not signed or not all(each.holds for each in signed):
         words = "what the program makes of these results, with {more} bytes that were added later (a signature, a note)"
         return Phrase(words, more=len(content) - len(made)), False
-    return (SIGNED, True) if only_signed(made, content) else (PAINTED, False)
+    from diecut_report.exchange.later_changes import only_signed
+
+    if only_signed(made, content):
+        return phrase("byte for byte what the program makes of these results, and after it the signatures"), True
+    words = "not what the program makes of these results: what was added later, with a signature, changes what the document shows or holds"
+    return phrase(words), False
 
 
 def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
@@ -293,7 +262,6 @@ def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
     return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own)
 
 
-Data = Mapping[str, Any]
 VERSION = re.compile(r"\d[\w.+-]{0,40}", re.ASCII)  # of a library
 
 
@@ -335,29 +303,32 @@ def verify(
     are the results since which the report shows changes. UserError where its configuration cannot be calculated any more.
     """
     results = carried.results
-    signed = signatures(carried.content if carried.form == "pdf" else b"", trusted)
-    again = recalculated(carried, discovery, tell, previous)
-    program = _program(results, again.results)
-    plugins = list(_plugins(results, again.results))
-    numbers = agreement(_compared(results, again.results, program), _compared(again.results, again.results, program))
-    is_same = program[1] and not numbers.differences
-    shown = _pages(carried, signed, house, discovery, tell, is_same=is_same) if pages else None
-    return Verification(program, plugins, _config(carried), again.options, numbers, shown, again.broken, tuple(signed))
-
-
-def _pages(
-    carried: CarriedResults, signed: list[Signature], house: HouseStyle | None, discovery: Discovery, tell: Callable[[str], None],
-    *, is_same: bool,
-) -> Found | None:  # fmt: skip
-    if carried.form == "json":  # without pages, but it may tell of templates
+    signed = _signatures(carried, trusted)
+    again, broken, options = recalculated(carried, discovery, tell, previous)
+    program, plugins = _program(results, again), list(_plugins(results, again))
+    numbers = agreement(_compared(results, again, program), _compared(again, again, program))
+    shown: Found | None = None
+    if pages and carried.form == "json":  # without pages, but it may tell of templates
         reason = other_templates(carried, house)
-        return (reason, False) if reason else None
-    if not is_same:
-        return phrase("not compared, since the program or the numbers are others"), False
-    return compared(carried, signed, house, discovery, tell)
+        shown = (reason, False) if reason else None
+    elif pages and not (program[1] and not numbers.differences):
+        shown = phrase("not compared, since the program or the numbers are others"), False
+    elif pages:
+        shown = compared(carried, signed, house, discovery, tell)
+    return Verification(program, plugins, _config(carried), options, numbers, shown, broken, tuple(signed))
 
 
-def _compared(results: ResultsRecord, again: ResultsRecord, program: Found) -> Data:
+def _signatures(carried: CarriedResults, trusted: Path | None) -> list[Signature]:
+    """The signatures; the libraries that judge them are loaded where there is something to judge."""
+    whole = carried.content if carried.form == "pdf" else b""
+    if trusted is None and b"/ByteRange" not in whole:
+        return []
+    from diecut_report.exchange.signatures import signatures
+
+    return signatures(whole, trusted)
+
+
+def _compared(results: ResultsRecord, again: ResultsRecord, program: Found) -> Mapping[str, Any]:
     """What must come out again: all that the results hold, but what has a line of its own, as it tells of the code."""
     known = again.program.libraries
     libraries = {
@@ -377,18 +348,13 @@ def _program(first_results: ResultsRecord, again_results: ResultsRecord) -> Foun
     first, again = first_results.program, again_results.program
     named, old, new = f"{first.name} {first.version}", first.source_sha256, again.source_sha256
     if (first.version, old, first.extensions) == (again.version, new, again.extensions):
-        return Phrase(
-            "{named}, source {old}: the same{others}", named=named, old=old[:SHORT], others=_others(first, again)
-        ), True
+        words = "{named}, source {old}: the same{others}"
+        return Phrase(words, named=named, old=old[:SHORT], others=_others(first, again)), True
     if first.version != again.version:
         return Phrase("{named} made the report, this is {version}", named=named, version=again.version), False
     if old != new:
-        return Phrase(
-            "{named}, but its source is another one ({old} then, {new} now)",
-            named=named,
-            old=old[:SHORT],
-            new=new[:SHORT],
-        ), False
+        words = "{named}, but its source is another one ({old} then, {new} now)"
+        return Phrase(words, named=named, old=old[:SHORT], new=new[:SHORT]), False
     return Phrase("{named}, but its extensions are others", named=named), False
 
 
@@ -420,7 +386,6 @@ def _plugins(first: ResultsRecord, again: ResultsRecord) -> Iterator[Found]:
 
 
 def _codes(results: ResultsRecord) -> dict[str, set[tuple[str, str]]]:
-    """The versions and sources of each kind."""
     found: dict[str, set[tuple[str, str]]] = {}
     for data in results.calculated.values():
         found.setdefault(data.kind, set()).add((data.plugin_version, data.plugin_sha256))
@@ -440,17 +405,8 @@ def _config(carried: CarriedResults) -> Found:
     for name, content in contents.items():
         found = sha256(content).hexdigest()
         if found != hashes[name]:
-            words = Phrase(
-                "{name} is not the one that the report names (SHA-256 {hashes}, found {found})",
-                name=cell(name),
-                hashes=hashes[name][:SHORT],
-                found=found[:SHORT],
-            )
-            return words, False
+            words = "{name} is not the one that the report names (SHA-256 {hashes}, found {found})"
+            return Phrase(words, name=cell(name), hashes=hashes[name][:SHORT], found=found[:SHORT]), False
     told = {"files": ", ".join(map(cell, contents)), "digest": config.sha256[:SHORT]}
-    return Counted(
-        len(contents),
-        "{files}, SHA-256 {digest}: the one that the report names",
-        "{files}, SHA-256 {digest}: the ones that the report names",
-        told,
-    ), True
+    one = "{files}, SHA-256 {digest}: the one that the report names"
+    return Counted(len(contents), one, "{files}, SHA-256 {digest}: the ones that the report names", told), True

@@ -5,8 +5,7 @@ tables that agree, or more), ``left_out`` (what could not be confirmed) and one 
 
 - ``values``: a list in ascending order, with its ``range`` [first, last];
 - ``table``: a number for each name; as a series it gives its different values in order;
-- ``by``: for each name a ``values`` list with its ``range``, which may have ``sources`` and ``left_out`` of its own;
-- ``from``: another file's series of one decade, 1 … 10, laid over the powers of ten ``decades`` within ``range``.
+- ``by``: for each name a ``values`` list with its ``range``, which may have ``sources`` and ``left_out`` of its own.
 
 A fault of a file is a StandardFault, never a value left away in silence.
 """
@@ -14,13 +13,11 @@ A fault of a file is a StandardFault, never a value left away in silence.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from decimal import Decimal
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
 from diecut_report.standards.files import (
-    DecadesData,
     ListedData,
     NamedData,
     NamedValues,
@@ -29,7 +26,6 @@ from diecut_report.standards.files import (
     data_file,
     fault,
     form_of,
-    in_range,
     table_beside,
 )
 from diecut_report.standards.tables import (
@@ -50,7 +46,7 @@ DATA = Path(__file__).with_name("data")
 
 
 def standard_ids(form: str, folder: Path = DATA) -> tuple[str, ...]:
-    """Return the ids of the files of one form ("values", "table", "by", "from"), in order."""
+    """Return the ids of the files of one form ("values", "table", "by"), in order."""
     names = sorted(path.stem for path in folder.glob("*.json"))
     return tuple(name for name in names if form_of(data_file(name, folder)) == form)
 
@@ -65,8 +61,6 @@ def standard_series(id: str, folder: Path = DATA) -> StandardSeries:
             return _series(id, file, file.values)
         case TableData() as file:
             return _series(id, file, sorted(set(file.table.values())))
-        case DecadesData() as file:
-            return _series(id, file, _over_decades(id, file, folder))
 
 
 @cache
@@ -95,17 +89,3 @@ def _series(id: str, file: StandardData, values: Iterable[float]) -> StandardSer
 def _named(id: str, file: NamedData, part: NamedValues) -> StandardSeries:
     own = part.model_dump(include={"sources", "left_out"}, exclude_none=True)
     return _series(id, file.model_copy(update=own), part.values)
-
-
-def _over_decades(id: str, file: DecadesData, folder: Path) -> list[float]:
-    decade = standard_series(file.decade, folder).values
-    if (decade[0], decade[-1]) != (1.0, 10.0):
-        fault(id, Phrase("is made from {decade}, which does not run from 1 to 10", decade=file.decade))
-    first, last = file.range
-    everything = {float(Decimal(repr(value)).scaleb(power)) for power in file.decades for value in decade}
-    values = sorted(value for value in everything if first <= value <= last)
-    try:
-        in_range(values, file.range)
-    except ValueError as error:
-        fault(id, str(error), error)
-    return values

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Annotated, Any, NoReturn, Self
 
 import yaml
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError, model_validator
 
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import UnitError, unit
@@ -36,10 +36,12 @@ WANTED = {
 }
 
 
-class _Written(BaseModel):
-    """A table in a file: what ``own_table`` takes."""
-
+class _Keys(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class _Written(_Keys):
+    """A table in a file: what ``own_table`` takes."""
 
     title: str
     sources: list[str]
@@ -86,7 +88,6 @@ class _OddLine(Exception):
 
 
 def _key_fault(key: str, kind: str, *, is_csv: bool) -> str:
-    """What is wrong with a key of a table, and what it must be."""
     if not key:
         return phrase("it is not written as a table: title, sources and rows are needed")
     if kind == "missing":
@@ -111,13 +112,12 @@ def _from_yaml(text: str) -> tuple[Any, list[int], dict[str, int]]:
     pairs = node.value if isinstance(node, yaml.MappingNode) else []
     rows = [own for key, own in pairs if key.value == "rows"]
     keys = {str(key.value): key.start_mark.line + 1 for key, _ in pairs}
-    first = [
-        each[0] if isinstance(each, tuple) else each for own in rows for each in own.value if not isinstance(each, str)
-    ]
+    parts = [each for own in rows for each in own.value if not isinstance(each, str)]
+    first = [each[0] if isinstance(each, tuple) else each for each in parts]
     return _once(node), [each.start_mark.line + 1 for each in first], keys
 
 
-def _once(node: yaml.Node | None) -> Any:
+def _once(node: Any) -> Any:
     """Return a file's data; a key that stands twice is a fault, where YAML alone would take the last."""
     if isinstance(node, yaml.MappingNode):
         seen: dict[str, int] = {}
@@ -130,22 +130,12 @@ def _once(node: yaml.Node | None) -> Any:
         return {key.value: _once(value) for key, value in node.value}
     if isinstance(node, yaml.SequenceNode):
         return [_once(each) for each in node.value]
-    return None if node is None else _scalar(node)
-
-
-def _scalar(node: Any) -> Any:
-    """A number written as a decimal one; all else is text, so that neither 1:30 nor 010 becomes what nobody wrote."""
-    return node.value if node.style else _number_or_text(node.value)
+    # a number is one that is written as a decimal one; all else is text, so that neither 1:30 nor 010 becomes what nobody wrote
+    return None if node is None else node.value if node.style else _number_or_text(node.value)
 
 
 def _number_or_text(text: str) -> float | str:
     return float(text) if DECIMAL.fullmatch(text.strip()) else text
-
-
-def _headed(cell: str) -> tuple[str, str]:
-    """The name of a column and its unit."""
-    found = HEADED.fullmatch(cell)
-    return (found[1], found[2]) if found else (cell, "")
 
 
 def _from_csv(text: str) -> tuple[dict[str, Any], list[int], dict[str, int]]:
@@ -158,7 +148,8 @@ def _from_csv(text: str) -> tuple[dict[str, Any], list[int], dict[str, int]]:
     table = [(written[reader.line_num - 1][0], row) for row in reader]
     if not table:
         raise csv.Error(phrase("it has no line with the names of its columns"))
-    heads = [_headed(cell.strip()) for cell in table[0][1]]
+    cells = [(cell.strip(), HEADED.fullmatch(cell.strip())) for cell in table[0][1]]
+    heads = [(found[1], found[2]) if found else (cell, "") for cell, found in cells]  # names and units
     named = not heads[0][1]
     heads = heads[1:] if named else heads
     if len(dict(heads)) < len(heads):
@@ -195,7 +186,6 @@ WRITTEN = {  # what pydantic finds amiss: how the key is written instead
     "list_type": phrase("a list"),
     "dict_type": phrase("a table of names"),
     "float_type": "numbers",
-    "int_type": phrase("whole numbers"),
 }
 
 
@@ -236,10 +226,6 @@ Value = Annotated[float, BeforeValidator(_above_zero)]
 Range = Annotated[list[float], AfterValidator(_both_ends)]
 
 
-class _Keys(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-
 class StandardData(_Keys):
     """Hold what stands in every file: its title, the unit of its numbers, where they are from, and what is left out."""
 
@@ -255,7 +241,7 @@ class _Values(_Keys):
 
     @model_validator(mode="after")
     def _fit(self) -> Self:
-        in_range(self.values, self.range)
+        _judge_order(self.values, self.range)
         return self
 
 
@@ -282,19 +268,11 @@ class NamedData(StandardData):
     by: dict[str, NamedValues]
 
 
-class DecadesData(StandardData):
-    """Hold which series of one decade is laid over which powers of ten."""
-
-    decade: Annotated[str, Field(alias="from")]
-    decades: list[int]
-    range: Range
+AnyData = ListedData | TableData | NamedData
+FORMS: dict[str, type[AnyData]] = {"values": ListedData, "table": TableData, "by": NamedData}
 
 
-AnyData = ListedData | TableData | NamedData | DecadesData
-FORMS: dict[str, type[AnyData]] = {"values": ListedData, "table": TableData, "by": NamedData, "from": DecadesData}
-
-
-def in_range(values: Sequence[float], limits: list[float]) -> None:
+def _judge_order(values: Sequence[float], limits: list[float]) -> None:
     """Raise ValueError unless values ascend from the first limit to the last."""
     if not values:
         raise ValueError(phrase("has no values"))
@@ -303,15 +281,9 @@ def in_range(values: Sequence[float], limits: list[float]) -> None:
             words = "must ascend without repetition, but {after} follows {before}"
             raise ValueError(Phrase(words, after=format(after, "g"), before=format(before, "g")))
     if [values[0], values[-1]] != limits:
-        raise ValueError(
-            Phrase(
-                "runs from {first} to {last}, but its range is {low} to {high}",
-                first=format(values[0], "g"),
-                last=format(values[-1], "g"),
-                low=format(limits[0], "g"),
-                high=format(limits[1], "g"),
-            )
-        )
+        ends = zip(("first", "last", "low", "high"), (values[0], values[-1], *limits), strict=True)
+        told = {name: f"{value:g}" for name, value in ends}
+        raise ValueError(Phrase("runs from {first} to {last}, but its range is {low} to {high}", told))
 
 
 @cache

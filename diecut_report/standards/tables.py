@@ -107,9 +107,8 @@ class StandardTable:
         """Return the different values of a column in ascending order, as a standard series."""
         own = self.column(column)
         values = tuple(sorted(set(own.values)))
-        title = (
-            Phrase("{title}: {column}", title=phrase(self.title), column=phrase(own.name)) if own.name else self.title
-        )
+        named = Phrase("{title}: {column}", title=phrase(self.title), column=phrase(own.name))
+        title = named if own.name else self.title
         return StandardSeries(
             self.id, title, own.unit, values, self.sources, self.left_out, self.only_source, self.file
         )
@@ -130,15 +129,9 @@ Rows = Mapping[str, Any] | Sequence[Sequence[Any]]
 
 
 def own_table(
-    *,
-    title: str,
-    rows: Rows,
-    sources: Sequence[str],
-    unit: str = "",
-    columns: Mapping[str, str] | None = None,
-    left_out: str = "",
+    *, title: str, rows: Rows, sources: Sequence[str], unit: str = "", columns: Mapping[str, str] | None = None, left_out: str = "",
     only_source: str = "",
-) -> StandardTable:
+) -> StandardTable:  # fmt: skip
     """Return a table that an author brings, checked; StandardFault says what is wrong with it.
 
     ``rows`` are values by name, {"steel": 7850} in ``unit`` or {"6204": (20, 13.5)} in the units of ``columns``
@@ -152,10 +145,8 @@ def own_table(
     units = dict(columns) if columns else {"": unit}
     for number, (where, row) in enumerate(zip(names or cells, cells, strict=True)):
         _row(title, where, row, len(units), number)
-    made = [
-        Column(name, shown, tuple(float(v) for v in values))
-        for (name, shown), values in zip(units.items(), zip(*cells, strict=True), strict=True)
-    ]
+    by_column = zip(units.items(), zip(*cells, strict=True), strict=True)
+    made = [Column(name, shown, tuple(map(float, values))) for (name, shown), values in by_column]
     _units(title, made)
     if not names:
         _ascending(title, made)
@@ -223,23 +214,15 @@ def _units(title: str, columns: Iterable[Column]) -> None:
         try:
             unit(column.unit)
         except UnitError as error:
-            _fault(
-                title,
-                Phrase(
-                    "has no usable unit{where}: {error}",
-                    where=Phrase(" of {name}", name=column.name) if column.name else "",
-                    error=error,
-                ),
-                error,
-            )
+            where = Phrase(" of {name}", name=column.name) if column.name else ""
+            _fault(title, Phrase("has no usable unit{where}: {error}", where=where, error=error), error)
 
 
 def _ascending(title: str, columns: Sequence[Column], least: int = 2) -> None:
     """Check the first column; a table that goes by numbers needs two rows and a column of values."""
     if len(columns) < least:
-        _fault(
-            title, phrase("goes by the numbers of its first column and has no other; name its rows, or add a column")
-        )
+        words = "goes by the numbers of its first column and has no other; name its rows, or add a column"
+        _fault(title, phrase(words))
     if len(columns[0].values) < least:
         _fault(title, phrase("has too few values; give two rows at least") if least > 1 else phrase("has no values"))
     for number, (before, after) in enumerate(pairwise(columns[0].values), 1):

@@ -11,19 +11,17 @@ from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.testing.contract import ContractTest, check_contract
 from diecut_report.testing.machines import Refused, calculate, load
 from diecut_report.testing.values import (
-    CheckFound,
     ComparedValue,
     ComparedValues,
     CurveFound,
     MechanismFound,
     NotGiven,
-    PhaseFound,
     PrintedValue,
     QuantityFound,
     compare,
 )
 
 __all__ = [
-    "CheckFound", "ComparedValue", "ComparedValues", "ContractTest", "CurveFound", "MechanismFound", "NotGiven", "PhaseFound",
-    "PrintedValue", "QuantityFound", "Refused", "calculate", "check_contract", "check_mechanism", "compare", "load",
+    "ComparedValue", "ComparedValues", "ContractTest", "CurveFound", "MechanismFound", "NotGiven", "PrintedValue", "QuantityFound", "Refused",
+    "calculate", "check_contract", "check_mechanism", "compare", "load",
 ]  # fmt: skip

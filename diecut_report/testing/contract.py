@@ -33,17 +33,13 @@ from diecut_report.results.checks import check_results, checks_of, is_of_machine
 from diecut_report.results.document import document
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run, compute
-from diecut_report.testing import machines
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
-from diecut_report.testing.machines import Keys, MachineCase, configured, one_of, unlike
+from diecut_report.testing.machines import Keys, MachineCase, configured, one_of, picks, unlike
 from diecut_report.testing.plugin_words import PluginWords
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, built_in, file_beside, languages
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 from diecut_report.text.po_files import ChangedCatalogue, changed
 from diecut_report.time_limit import Overran, limited
-
-# What the contract test tells of each rule, and where in a plugin something stands.
-
 
 RuleStatus = Literal["pass", "note", "not_tried", "fail", "broke"]
 WORST_LAST = ("pass", "not_tried", "note", "fail", "broke")
@@ -86,11 +82,12 @@ class TriedRule:
     def short_list(self) -> tuple[str, ...]:
         """Return the first faults, and how many more there are."""
         left = len(self.faults) - MAX_LISTED
-        if left <= 0:
-            return self.faults
-        if self.status == "note":
-            return (*self.faults[:MAX_LISTED], Counted(left, "{n} more note", "{n} more notes"))
-        return (*self.faults[:MAX_LISTED], Counted(left, "{n} more fault", "{n} more faults"))
+        notes, faults = (
+            Counted(left, "{n} more note", "{n} more notes"),
+            Counted(left, "{n} more fault", "{n} more faults"),
+        )
+        more = [notes if self.status == "note" else faults] if left > 0 else []
+        return (*self.faults[:MAX_LISTED], *more)
 
 
 def rule(id: str, summary: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:
@@ -116,7 +113,11 @@ def constant(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str,
         tried += AT_ONCE
         if time.process_time() - began > CONSTANT_VERDICTS_LONGEST or all(len(held) == 2 for held in found.values()):
             break
-    yield from ((id, _constant_verdict(held.pop(), tried)) for id, held in found.items() if len(held) == 1)
+    for id, held in found.items():
+        if held == {True}:
+            yield id, Phrase("passes in all {n} machines far from the example; make sure that it can fail", n=tried)
+        elif held == {False}:
+            yield id, Phrase("fails in all {n} machines far from the example; make sure that it can pass", n=tried)
 
 
 def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str, set[bool]]]:
@@ -124,40 +125,29 @@ def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str
     calc = calculate(machine.mechanism, {**machine.values, **_varied(machine, count, seed)}, count)
     possible = np.array([i not in calc.flaws for i in range(count)])
     for check in checks_of(calc):
-        is_free = not (
-            check.presumed or is_sized(calc.given, check)
-        )  # the others hold by what the program chose or presumes
+        # the others hold by what the program chose or presumes
+        is_free = not (check.presumed or is_sized(calc.given, check))
         if is_free and is_of_machine(check) and is_made(calc, check):
             judgement = judged(calc, check)
             rows = judgement.governing(judgement.there) & possible
             yield check.id, set(judgement.governing(judgement.held)[rows].tolist())
 
 
-def _constant_verdict(holds: bool, count: int) -> Phrase:
-    words = (
-        "passes in all {n} machines far from the example; make sure that it can fail"
-        if holds
-        else "fails in all {n} machines far from the example; make sure that it can pass"
-    )
-    return Phrase(words, n=count)
-
-
 def _varied(machine: MachineCase, count: int, seed: int) -> dict[str, Array]:
     """The numbers of all machines: each has one, or all, far from the example's, as far as that is allowed."""
     draw, known = np.random.default_rng(seed), dict(fields(machine.mechanism.inputs))
-    numbers = [
-        name for name, value in machine.values.items() if isinstance(value, int | float) and not isinstance(value, bool)
+    numbers = {name for name, value in machine.values.items() if isinstance(value, int | float)}
+    numbers -= {name for name in numbers if isinstance(machine.values[name], bool) or name == "n_points"}
+    metas = [
+        (name, meta) for name in machine.values if name in numbers and isinstance(meta := known.get(name), Quantity)
     ]
-    metas = {name: known.get(name) for name in numbers}
-    names = [name for name, meta in metas.items() if isinstance(meta, Quantity) and name != "n_points"]
-    chosen = draw.integers(0, len(names) + 1, count)
+    chosen = draw.integers(0, len(metas) + 1, count)
     found = {}
-    for number, name in enumerate(names):
-        meta, value = metas[name], machine.values[name]
-        assert isinstance(meta, Quantity)
+    for number, (name, meta) in enumerate(metas):
+        value = machine.values[name]
         far = value * 10 ** draw.uniform(-CONSTANT_VERDICTS_FAR, CONSTANT_VERDICTS_FAR, count)
         far = np.round(far) if meta.integer else far
-        is_far = ((chosen == number) | (chosen == len(names))) & meta.holds(far)
+        is_far = ((chosen == number) | (chosen == len(metas))) & meta.holds(far)
         found[name] = np.where(is_far, far, value)
     return found
 
@@ -210,10 +200,8 @@ class ContractTest:
                 warnings.simplefilter("ignore", RuntimeWarning)  # of NumPy: what comes out is judged, not on the way
                 return tried()
         except Overran as cause:
-            words = Phrase(
-                "it did not finish within {seconds} s ({said})", seconds=f"{MAX_RULE_SECONDS:g}", said=said(cause)
-            )
-            return rule(id, "", [words], "broke")
+            words = "it did not finish within {seconds} s ({said})"
+            return rule(id, "", [Phrase(words, seconds=f"{MAX_RULE_SECONDS:g}", said=said(cause))], "broke")
         except UserError as refused:
             return rule(id, "", [str(problem) for problem in refused.problems])
         except (Exception, SystemExit) as cause:
@@ -234,13 +222,8 @@ class ContractTest:
 
     def dimensions(self) -> TriedRule:
         """Try whether the dimensions of the formulas balance, in each unit that holds by form."""
-        found = (
-            by_id(self.mechanism, text)
-            for form in forms(self.mechanism)
-            for text in quantities(form)
-            if " prints " not in text
-        )
-        return rule("dimensions", "", found)
+        texts = (text for form in forms(self.mechanism) for text in quantities(form) if " prints " not in text)
+        return rule("dimensions", "", (by_id(self.mechanism, text) for text in texts))
 
     def printed(self) -> TriedRule:
         """Try whether each formula prints what it computes."""
@@ -294,10 +277,10 @@ class ContractTest:
         told = Phrase("{count} machines at once, {alone} of them individually too", count=TOGETHER, alone=ALONE)
         try:
             found = list(unlike(self.case, TOGETHER, ALONE, SEED))
-            if machines.has_picks(self.case):
-                wide, changing, picks = machines.picks(self.case, SEED, TOGETHER)
+            wide, changing, count = picks(self.case, SEED, TOGETHER)
+            if count:
                 found += unlike(wide, TOGETHER, ALONE, SEED)
-                told += Phrase("; again where {changing} of {picks} picks change", changing=changing, picks=picks)
+                told += Phrase("; again where {changing} of {picks} picks change", changing=changing, picks=count)
         except Unproven:
             raise
         except Exception as cause:  # a refusal too, which refuses all for one of them
@@ -324,12 +307,10 @@ class ContractTest:
     def figures(self) -> TriedRule:
         """Try whether all figures are drawn, and set the chapter."""
         mechanism = self.results.mechanisms[self.name]
-        failed = [(each.id, each.error) for each in mechanism.figures if each.error]
-        failed += [(each.id, each.error) for each in mechanism.exports if each.error]
-        made = [at_place(self.mechanism, id, error) for id, error in failed]
-        drawn = self._rendered(self.language)
+        faults = [at_place(self.mechanism, each.id, each.error) for each in mechanism.figures if each.error]
+        faults += [at_place(self.mechanism, each.id, each.error) for each in mechanism.exports if each.error]
         told = Counted(len(mechanism.figures), "{n} figure", "{n} figures")
-        return rule("figures", told, [*made, *drawn])
+        return rule("figures", told, [*faults, *self._rendered(self.language)])
 
     def _rendered(self, language: str) -> list[str]:
         """Set the mechanism's chapter alone; what cannot be drawn."""
@@ -339,9 +320,8 @@ class ContractTest:
         page = rendering.html()
         if language == self.language:
             self.page = page
-        return [
-            at_place(self.mechanism, each.id, each.words) for each in rendering.faults if each.mechanism == self.name
-        ]
+        own = [each for each in rendering.faults if each.mechanism == self.name]
+        return [at_place(self.mechanism, each.id, each.words) for each in own]
 
     def languages(self) -> TriedRule:
         """Try whether the chapter can be set in each language, and note the texts that have no words in it."""
@@ -365,7 +345,6 @@ class ContractTest:
             yield Phrase(words, language=language, text=text)
 
     def _as_given(self, language: str) -> str:
-        """Which sources a report in a language leaves as they are."""
         found = self.words.sources_as_given(language)
         if not found:
             return ""
@@ -375,21 +354,17 @@ class ContractTest:
 
     def speed(self) -> TriedRule:
         """Tell how long a thousand variants take, as far as the mechanism itself is concerned."""
-        began = time.process_time()
+        began, count = time.process_time(), TIMED
         try:
             check_results(self.case.together(TIMED, SEED)[1])
         except Exception:  # of arrays, which another rule tells
-            began = time.process_time()
-            varied = self.case.varied(TIMED_ALONE, SEED)
-            for i in range(TIMED_ALONE):
+            began, count = time.process_time(), TIMED_ALONE
+            varied = self.case.varied(count, SEED)
+            for i in range(count):
                 with suppress(Impossible):  # a machine beside the example may be refused; that takes its time, too
                     calculate(self.mechanism, {**self.case.values, **one_of(varied, i)})
-            return rule("speed", _seconds((time.process_time() - began) * TIMED / TIMED_ALONE), [])
-        return rule("speed", _seconds(time.process_time() - began), [])
-
-
-def _seconds(time_taken: float) -> str:
-    return Phrase("{seconds} s", seconds=f"{time_taken:.2g}")
+        seconds = (time.process_time() - began) * TIMED / count
+        return rule("speed", Phrase("{seconds} s", seconds=f"{seconds:.2g}"), [])
 
 
 def check_contract(
@@ -404,9 +379,6 @@ def check_contract(
     test = ContractTest(mechanism, made.discovery, made.config, mechanism.kind)
     broken = [each for each in test.tried() if each.status in ("fail", "broke")]
     assert not broken, "\n".join(f"{each.title}: {fault}" for each in broken for fault in each.short_list)
-
-
-# Writes into a plugin's catalogues the texts that they lack, to be translated, and marks those that nothing says any more.
 
 
 MAX_CATALOGUE_BYTES = 10_000_000  # bytes of a catalogue

@@ -44,9 +44,8 @@ def extreme_values(quantity: Quantity) -> Iterator[float | int]:
     least, most = (end / quantity.parsed_unit.factor for end in quantity.sizes.ends)
     sizes = [least, least * (1 + BESIDE), most * (1 - BESIDE), most]
     if quantity.integer:
-        yield from sorted(
-            {round(each) for each in (*limits, *sizes, *(limit + step for limit in limits for step in (-1, 1)))}
-        )
+        near = [limit + step for limit in limits for step in (-1, 1)]
+        yield from sorted({round(each) for each in (*limits, *sizes, *near)})
         return
     beside = [limit + sign * BESIDE * (abs(limit) or 1) for limit in limits for sign in (-1, 1)]
     yield from (*limits, *beside, *sizes, *BEYOND, -0.0)
@@ -64,13 +63,6 @@ def numeric_inputs(model: type[Block], data: Mapping[str, Any], prefix: KeyPath)
             yield from numeric_inputs(block[0], given, key)
         elif isinstance(meta, Quantity):
             yield key, in_unit(meta, list(data))
-
-
-def extremes_of(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) -> Iterator[tuple[KeyPath, float | int]]:
-    """Yield each numeric input of a mechanism, but for the number of samples, with each of its extreme values."""
-    for path, quantity in numeric_inputs(model, data, prefix):
-        if path[-1] != "n_points":
-            yield from ((path, value) for value in dict.fromkeys(extreme_values(quantity)))
 
 
 def empty_lists(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) -> Iterator[tuple[KeyPath, list[Any]]]:
@@ -94,9 +86,8 @@ def alone_with_its_needs(config: Config, name: str) -> dict[str, Any]:
     data, needed, size = json.loads(json.dumps(config.tree.data, default=str)), {name}, 0
     while len(needed) > size:
         size = len(needed)
-        needed |= {
-            each.instance for node, target in config.links.items() if node[0] in needed for each in target.single
-        }
+        targets = [target for node, target in config.links.items() if node[0] in needed]
+        needed |= {each.instance for target in targets for each in target.single}
     data["mechanisms"] = {own: block for own, block in data["mechanisms"].items() if own in needed}
     return dict(data)
 
@@ -124,7 +115,8 @@ def outcome_of(text: str, discovery: Discovery, press: WarmPress, find: Find | N
         run = press.printed(Press.read(yaml.parse(text, "press.yaml"), discovery, find=find).config)
         results = results_text(document(run))
     except UserError as refusal:
-        odd = next((str(problem) for problem in refusal.problems if _odd(str(problem.message))), None)
+        told = {str(problem): str(problem.message) for problem in refusal.problems}
+        odd = next((problem for problem, words in told.items() if NOT_A_NUMBER.search(words) or not words), None)
         return Outcome(odd and Phrase("refused without a message: {problem}", problem=odd), is_refused=True)
     except Exception as cause:
         return Outcome(f"{type(cause).__name__}: {cause}")
@@ -157,7 +149,9 @@ class TriedExtremes:
         """Return the values that are tried, each with its input, and how many there are."""
         kind = self.config.kinds[self.name]
         of_it = self.discovery.mechanism(kind).inputs, self.data["mechanisms"][self.name], ("mechanisms", self.name)
-        numbers, lists = list(extremes_of(*of_it)), list(empty_lists(*of_it))
+        inputs = [(path, quantity) for path, quantity in numeric_inputs(*of_it) if path[-1] != "n_points"]
+        numbers = [(path, each) for path, quantity in inputs for each in dict.fromkeys(extreme_values(quantity))]
+        lists = list(empty_lists(*of_it))
         some = numbers if len(numbers) <= EXTREMES else random.Random(SEED).sample(numbers, EXTREMES)
         return [*lists, *some], len(lists) + len(numbers)
 
@@ -185,7 +179,3 @@ class TriedExtremes:
         told = Phrase(words, numbers=self.numbers, refused=self.refused)
         chosen, all = len(self.cases[0]), self.cases[1]
         return told + Phrase("; they are a sample of {all}", all=all) if chosen < all else told
-
-
-def _odd(words: str) -> bool:
-    return bool(NOT_A_NUMBER.search(words)) or not words

@@ -13,7 +13,7 @@ import numpy as np
 
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import UserError
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible, Unproven
 from diecut_report.machine.steps.run import calculate as many_machines_calculate
@@ -75,24 +75,24 @@ def unlike(machine: MachineCase, count: int, alone: int, seed: int) -> Iterator[
         values = {**machine.values, **one_of(varied, i)}
         if found := list(_unlike_alone(machine.mechanism, values, together, i)):
             moved = moved_by_rounding(machine.mechanism, values)
-            apart = _apart(machine.mechanism, values, together, i, {name for name, _ in found})
-            yield from ((name, words) for name, words in found if not apart[name] <= FURTHER * moved.get(name, -1.0))
+            yield from ((name, words) for name, words, apart in found if not apart <= FURTHER * moved.get(name, -1.0))
 
 
 def _unlike_alone(
     mechanism: Mechanism, values: Mapping[str, Any], together: Calculation, i: int
-) -> Iterator[tuple[str, str]]:
-    """What differs between one of many machines and the same alone."""
+) -> Iterator[tuple[str, str, float]]:
+    """What differs between one of many machines and the same alone, and how far numbers and curves are apart; zero of all else."""
     try:
         single = many_machines_calculate(mechanism, values)
     except Impossible as refused:
         if together.flaws.get(i) not in refused.reasons:
-            yield refused.key, _refused_alone(refused.message, together, i)
+            yield refused.key, _refused_alone(refused.message, together, i), 0.0
     except Unproven as refused:
         if together.flaws.get(i, ("", ""))[1] != str(refused):
-            yield "", _refused_alone(str(refused), together, i)
+            yield "", _refused_alone(str(refused), together, i), 0.0
     else:
-        yield from _differences(together, single, i)
+        for name, words in _differences(together, single, i):
+            yield name, words, _distance(together, i, single, name)
 
 
 def moved_by_rounding(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, float]:
@@ -110,21 +110,9 @@ def moved_by_rounding(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[s
         except (Impossible, Unproven) as refused:
             among = Calculation(mechanism, nudged, 1)
             among.flaws[0] = refused.reasons[0] if isinstance(refused, Impossible) else ("", str(refused))
-        names = {name for name, _ in _unlike_alone(mechanism, values, among, 0)}
-        apart = _apart(mechanism, values, among, 0, names)
-        moved |= {name: max(apart[name], moved.get(name, 0.0)) for name in names}
+        for name, _, apart in _unlike_alone(mechanism, values, among, 0):
+            moved[name] = max(apart, moved.get(name, 0.0))
     return moved
-
-
-def _apart(
-    mechanism: Mechanism, values: Mapping[str, Any], among: Calculation, i: int, names: set[str]
-) -> dict[str, float]:
-    """How far numbers and curves of one among others are from those of the same alone; zero of verdicts and refusals."""
-    try:
-        alone = many_machines_calculate(mechanism, values)
-    except (Impossible, Unproven):
-        return dict.fromkeys(names, 0.0)
-    return {name: _distance(among, i, alone, name) for name in names}
 
 
 def _distance(among: Calculation, i: int, alone: Calculation, name: str) -> float:
@@ -205,11 +193,8 @@ def unit_of(calc: Calculation, name: str) -> str:
 def scales(calc: Calculation) -> dict[str, float]:
     """Return the greatest number in each unit: a difference of such numbers is no more exact than they are."""
     found: dict[str, float] = {}
-    numbers = {
-        name: values
-        for name, values in calc.inputs.items()
-        if isinstance(calc.meta.get(name), Quantity) and isinstance(values, np.ndarray)
-    }
+    given = {name: values for name, values in calc.inputs.items() if isinstance(calc.meta.get(name), Quantity)}
+    numbers = {name: values for name, values in given.items() if isinstance(values, np.ndarray)}
     for name, values in (numbers | calc.values | {name: calc.curve_samples(name) for name in calc.curves}).items():
         if values.dtype != object and np.isfinite(values).any():
             unit = unit_of(calc, name)
@@ -269,12 +254,6 @@ class Refused(ValueError):
         super().__init__("\n".join(self.problems))
 
 
-def with_mechanism(mechanism: Mechanism, folders: Iterable[Path] = ()) -> Discovery:
-    """Return what knows the kinds that are here, and a mechanism that is in memory, which stands before any other of its kind."""
-    file, is_own = Path(mechanism.at.rpartition(":")[0]), built_in(mechanism.kind) is not None
-    return Discovery(folders, [Origin(mechanism.kind, str(file), lambda: mechanism, lambda: file, is_own)])
-
-
 def load(kind: str, folder: str | Path | None = None) -> Mechanism:
     """Return the mechanism of a kind: of a folder of plugins, or of those that are built in or installed.
 
@@ -299,7 +278,9 @@ def calculate(
     try:
         made = configured(mechanism, inputs, press, others, plugins).calculate()
     except UserError as error:
-        raise Refused(_problem_text(problem, mechanism.kind) for problem in error.problems) from None
+        own = f"mechanisms.{mechanism.kind}"
+        told = ((each.path.removeprefix(own).removeprefix("."), each.message) for each in error.problems)
+        raise Refused(": ".join(filter(None, each)) for each in told) from None
     if made.has_broken:
         raise made.broken[0]
     found = made.results.mechanisms[mechanism.kind]
@@ -318,24 +299,19 @@ def configured(
         "schema_version": 1, "project": {"title": mechanism.title}, "press": {"name": "-", **(press or {})}, "mechanisms": blocks,
     }  # fmt: skip
     text = json.dumps(whole, default=_plain, ensure_ascii=False)
-    made = Press.read(yaml.parse(text, FILE), with_mechanism(mechanism, map(Path, plugins)))
+    file, is_own = Path(mechanism.at.rpartition(":")[0]), built_in(mechanism.kind) is not None
+    origin = Origin(mechanism.kind, str(file), lambda: mechanism, lambda: file, is_own)  # it is in memory
+    made = Press.read(yaml.parse(text, FILE), Discovery(map(Path, plugins), [origin]))
     if broken := made.config.broken.get(mechanism.kind):
         raise broken
     return made
 
 
 def _plain(value: Any) -> Any:
-    """A number of NumPy as Python has it."""
     if isinstance(value, np.generic | np.ndarray):
         return value.tolist()
-    raise TypeError(
-        f"{value!r} is not what a configuration may hold: a number, a text, true or false, a list, keys with values"
-    )
-
-
-def _problem_text(problem: Problem, kind: str) -> str:
-    path = problem.path.removeprefix(f"mechanisms.{kind}").removeprefix(".")
-    return f"{path}: {problem.message}" if path else problem.message
+    allowed = "a number, a text, true or false, a list, keys with values"
+    raise TypeError(f"{value!r} is not what a configuration may hold: {allowed}")
 
 
 # Machines so unlike each other that they take other values of the series: a pick is tried where it changes.
@@ -347,7 +323,7 @@ WIDTHS = (1.2, 2.0, 5.0)  # by what numbers are multiplied and divided, until ea
 def picks(machine: MachineCase, seed: int, count: int) -> tuple[MachineCase, int, int]:
     """Return the machine with its numbers varied until its picks change, how many of them do then, and how many there are."""
     found, most, all_of_them = machine, 0, 0
-    for width in WIDTHS:
+    for width in WIDTHS if any(isinstance(step, Pick) for _, step in machine.mechanism.steps) else ():
         wide = replace(machine, widely={**_ranges(machine, width), **machine.widely})
         changing = list(_changing(wide.together(count, seed)[1]))
         all_of_them = max(all_of_them, len(changing))
@@ -356,11 +332,6 @@ def picks(machine: MachineCase, seed: int, count: int) -> tuple[MachineCase, int
         if all(changing):
             break
     return found, most, all_of_them
-
-
-def has_picks(machine: MachineCase) -> bool:
-    """Return whether something of the machine is taken from a series."""
-    return any(isinstance(step, Pick) for _, step in machine.mechanism.steps)
 
 
 def _changing(calc: Calculation) -> Iterator[bool]:
@@ -372,17 +343,11 @@ def _changing(calc: Calculation) -> Iterator[bool]:
 
 
 def _ranges(machine: MachineCase, width: float) -> Ranges:
-    """Limits of each single number, as far as both ends are allowed."""
     known, found = dict(fields(machine.mechanism.inputs)), dict[str, tuple[float, float]]()
     for name, value in machine.values.items():
         meta = known.get(name)
-        if (
-            isinstance(meta, Quantity)
-            and not meta.integer
-            and not meta.listed
-            and isinstance(value, float)
-            and value > 0
-        ):
+        is_free = isinstance(meta, Quantity) and not meta.integer and not meta.listed
+        if isinstance(meta, Quantity) and is_free and isinstance(value, float) and value > 0:
             ends = np.array([value / width, value * width])
             low, high = np.where(meta.holds(ends), ends, value)
             found[name] = float(low), float(high)

@@ -32,12 +32,8 @@ MAX_FILE_BYTES = 1_000_000  # bytes of a file that is looked through
 
 def named_machines(files: Iterable[Path], kind: str, discovery: Discovery) -> list[Machine]:
     """Return all machines of a kind in these configurations with their names; UserError where one of them is wrong."""
-    return [
-        (config, name)
-        for config in (Press.read(file, discovery).config for file in files)
-        for name, own in config.kinds.items()
-        if own == kind
-    ]
+    configs = [Press.read(file, discovery).config for file in files]
+    return [(config, name) for config in configs for name, own in config.kinds.items() if own == kind]
 
 
 def machines_beside(origin: Origin, discovery: Discovery) -> tuple[list[Machine], list[Problem]]:
@@ -46,11 +42,8 @@ def machines_beside(origin: Origin, discovery: Discovery) -> tuple[list[Machine]
     refused: list[Problem] = []
     names_it = re.compile(rf"\bkind:\s*[\"']?{re.escape(origin.kind)}\b")
     for file in (file for folder in _folders(origin) for file in sorted(folder.glob("*.yaml"))):
-        if (
-            file.is_file()
-            and file.stat().st_size < MAX_FILE_BYTES
-            and names_it.search(file.read_text("utf-8", "replace"))
-        ):
+        is_small = file.is_file() and file.stat().st_size < MAX_FILE_BYTES
+        if is_small and names_it.search(file.read_text("utf-8", "replace")):
             try:
                 found += named_machines([file], origin.kind, discovery)
             except UserError as error:  # of something else, which its user knows, if there is a sound one
@@ -100,11 +93,8 @@ def _merged(first: ContractTest, found: TriedRule, also: Sequence[tuple[Contract
     faults = list(found.faults)
     for test, own in also:
         words = "{file}, mechanism {name}: {fault}"
-        faults += [
-            Phrase(words, file=_file(test), name=test.name, fault=fault)
-            for fault in own.faults
-            if fault not in found.faults
-        ]
+        place = {"file": _file(test), "name": test.name}
+        faults += [Phrase(words, place, fault=fault) for fault in own.faults if fault not in found.faults]
     status = max((found, *(own for _, own in also)), key=lambda each: WORST_LAST.index(each.status)).status
     told = _machines([first, *(test for test, _ in also)]) if found.id == "example" and found.summary else found.summary
     if told and found.id != "example":
@@ -113,7 +103,6 @@ def _merged(first: ContractTest, found: TriedRule, also: Sequence[tuple[Contract
 
 
 def _machines(tests: Sequence[ContractTest]) -> str:
-    """Which machines it was tried on, by their files."""
     told = []
     for file, group in groupby(tests, key=_file):
         names = [test.name for test in group]
@@ -152,23 +141,10 @@ class CheckedPlugin:
     def data(self) -> dict[str, Any]:
         """Return it as plain data."""
         version = self.mechanism.version if self.mechanism else None
-        rules = [
-            {
-                "rule": each.id,
-                "status": each.status,
-                "told": said(each.summary),
-                "faults": [said(fault) for fault in each.faults],
-            }
-            for each in self.rules
-        ]
-        error = {"error": said(self.error)} if self.error else {}
-        return {
-            "kind": self.kind,
-            "version": version,
-            "from": said(self.origin),
-            "status": self.status,
-            "rules": rules,
-        } | error
+        rules = [{"rule": each.id, "status": each.status, "told": said(each.summary), "faults": [said(fault) for fault in each.faults]}
+                 for each in self.rules]  # fmt: skip
+        made = {"kind": self.kind, "version": version, "from": said(self.origin), "status": self.status, "rules": rules}
+        return made | ({"error": said(self.error)} if self.error else {})
 
 
 def meant(asked: str, folders: Sequence[Path]) -> tuple[Discovery, list[str]]:
@@ -187,15 +163,14 @@ def meant(asked: str, folders: Sequence[Path]) -> tuple[Discovery, list[str]]:
     for folder in (place, place / PLUGINS):
         if own := list(in_folder(folder)) if folder.is_dir() else []:
             return Discovery([folder, *folders], own), [origin.kind for origin in own]
-    raise refusal(
-        "There is no plugin in this folder: a plugin is NAME.py, or a folder NAME with an __init__.py.", asked
-    )
+    words = "There is no plugin in this folder: a plugin is NAME.py, or a folder NAME with an __init__.py."
+    raise refusal(words, asked)
 
 
 def checked(
     known: Discovery, kind: str, configs: Sequence[Path], language: str, *, write_po: bool = False
-) -> Iterator[TriedRule | CheckedPlugin]:
-    """Yield each rule when it was tried, and at last the whole; UserError where a configuration cannot be used.
+) -> CheckedPlugin:
+    """Return what the rules of the contract find of a kind; UserError where a configuration cannot be used.
 
     With ``write_po`` the plugin's catalogues get the texts that they lack, and what nothing says is marked, before its words are tried.
     """
@@ -208,8 +183,7 @@ def checked(
         found.mechanism = known.mechanism(kind)
     except (PluginError, DuplicateKind) as error:
         found.error = error.message if isinstance(error, PluginError) else str(error)
-        yield found
-        return
+        return found
     machines, refused = (named_machines(configs, kind, known), []) if configs else machines_beside(origin, known)
     if configs and not machines:
         raise refusal("There is no mechanism of the kind {kind} in it.", configs[0], kind=repr(kind))
@@ -217,8 +191,6 @@ def checked(
     test = ContractTest(found.mechanism, known, config, name, language, refused)
     if write_po:
         found.changed = write_missing(test, origin)
-    for rule in tried_on_each(test, machines[1:]):
-        found.rules.append(rule)
-        yield rule
+    found.rules += tried_on_each(test, machines[1:])
     found.page = test.page
-    yield found
+    return found

@@ -45,10 +45,9 @@ class PluginWords:
         """Yield the texts of the plugin's own catalogue that stand nowhere in its files, and that the program does not say."""
         known = self.catalogues(language)
         own = known.of(self.mechanism.kind)
-        said = {*(text for text, _ in self.said), *self._sources}
-        for text in own.english if own else ():
-            if text not in said and text not in known.program.english and text not in self._written:
-                yield text
+        constants, tables = self._written
+        said = {*(text for text, _ in self.said), *self._sources, *known.program.english, *constants}
+        yield from (text for text in (own.english if own else ()) if text not in said and text not in tables)
 
     def sources_as_given(self, language: str) -> list[str]:
         """Return the sources that are said in words, and stay so in a report: the plugin's catalogue does not have them as a whole."""
@@ -65,7 +64,6 @@ class PluginWords:
 
     @cached_property
     def _sources(self) -> list[str]:
-        """Where formulas, limits and tables come from."""
         steps = [step for _, step in self.mechanism.steps]
         tables = [each for step in steps for each in tables_of(step)]
         said = (*(step.source for step in steps), *(check.source for check in self.mechanism.checks))
@@ -73,28 +71,15 @@ class PluginWords:
         return [text for text in dict.fromkeys(found) if text]
 
     @cached_property
-    def _written(self) -> _WrittenTexts:
-        """What stands in the files of the plugin, and in those of its folder that it may import or read."""
+    def _written(self) -> tuple[set[str], str]:
+        """The texts in the code of the plugin and of what it may import, and what stands in the tables of its folder."""
         home = Path(self.mechanism.at.rpartition(":")[0]).parent
         code = {*files_around(self.mechanism), *home.glob("*.py")}
         found = home.rglob("*") if (home / "__init__.py").is_file() else home.glob("*")
         tables = (each for each in found if each.suffix in TABLES and each.is_file())
         small = (each for each in tables if each.stat().st_size < MAX_FILE_BYTES)
-        return _WrittenTexts(
-            {text for file in code for text in _constants(parsed(file))},
-            "\n".join(each.read_text("utf-8", "replace") for each in small),
-        )
-
-
-@dataclass(frozen=True)
-class _WrittenTexts:
-    """The constants of the code, and the tables."""
-
-    constants: set[str]
-    tables: str
-
-    def __contains__(self, text: str) -> bool:
-        return text in self.constants or text in self.tables
+        constants = {text for file in code for text in _constants(parsed(file))}
+        return constants, "\n".join(each.read_text("utf-8", "replace") for each in small)
 
 
 def _constants(module: ast.Module) -> Iterator[str]:

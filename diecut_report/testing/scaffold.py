@@ -32,25 +32,18 @@ def scaffold(name: str, folder: Path, *, as_package: bool, like: str = "parts") 
 
     Returns the files, the plugin's module first.
     """
-    refuse_name(name)
-    if folder.exists() or folder.is_symlink():
-        words = "This name already exists and is not overwritten. Name another folder with -o."
-        raise refusal(words, folder)
-    made = {
-        folder / place: content.encode() for place, content in contents(name, as_package=as_package, like=like).items()
-    }
-    write_all(made, keep=folder)
-    return list(made)
-
-
-def refuse_name(name: str) -> None:
-    """Refuse what cannot be the name of a kind: UserError says why, and what may."""
-    words = _wrong(name)
-    if words:
+    if words := _wrong(name):
         raise refusal(words)
+    if folder.exists() or folder.is_symlink():
+        raise refusal("This name already exists and is not overwritten. Name another folder with -o.", folder)
+    made = contents(name, as_package=as_package, like=like)
+    files = {folder / place: content.encode() for place, content in made.items()}
+    write_all(files, keep=folder)
+    return list(files)
 
 
 def _wrong(name: str) -> str:
+    """Why a name cannot be that of a kind, and what may; nothing where it can."""
     if not NAME.fullmatch(name) or len(name) > MAX_NAME_LENGTH:
         words = (
             "{name} cannot be the name of a kind: give small letters a to z, digits and underscores, a letter first, "
@@ -95,7 +88,6 @@ WHAT = {
 
 
 def _sources(name: str, home: str, like: str, *, as_package: bool) -> dict[str, str]:
-    """The template of each file."""
     table = TABLES.get(like)
     own = {
         f"{home}/__init__.py" if as_package else f"{home}/{name}.py": "plugin.py",
@@ -115,7 +107,6 @@ def _filled(source: str, told: Mapping[str, str]) -> str:
 
 
 def _imports(name: str, *, as_package: bool) -> str:
-    """How the tests come to the plugin."""
     if as_package:
         return textwrap.dedent(f"""\
             import pytest
@@ -135,7 +126,6 @@ def _imports(name: str, *, as_package: bool) -> str:
 
 
 def _commands(name: str, option: str, *, as_package: bool) -> str:
-    """What one does with it, in the order in which one does."""
     shown = [
         *(["pip install --editable ."] if as_package else []),
         f"diecut-report check-plugin {name}{option} -o build/chapter.html",

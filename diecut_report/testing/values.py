@@ -6,13 +6,10 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import pretty, to_display, unit
-from diecut_report.results.mechanism_record import MechanismRecord, PlaceRecord, QuantityRecord, ShownRecord
-
-Data = Mapping[str, Any]
+from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, PhaseRecord, QuantityRecord
 
 
 class NotGiven(LookupError):
@@ -57,29 +54,6 @@ class CurveFound:
         return tuple(in_unit(self.id, value, self.unit, other) for value in self.values)
 
 
-@dataclass(frozen=True)
-class CheckFound:
-    """Hold a check: its status (pass, warn, fail, not_checked), what it compares in SI, the share that is used, its message."""
-
-    id: str
-    status: str
-    demand: float | None
-    limit: float | None
-    unit: str
-    utilisation: float | None
-    message: str
-
-
-@dataclass(frozen=True)
-class PhaseFound:
-    """Hold a phase: what it is, and its intervals over its abscissa, SI."""
-
-    id: str
-    role: str
-    unit: str
-    intervals: tuple[tuple[float, float], ...]
-
-
 class MechanismFound:
     """Give what a mechanism's machine gave: ``found["force"]``, ``found.checks["stress"]``, ``found.phases["cutting"]``.
 
@@ -108,9 +82,9 @@ class MechanismFound:
         Where a result has the id of an input, that is ``inputs.ID``.
         """
         outputs = {**self.data.values, **self.data.outputs}
-        places = {f"{name}_at": _place(row, row.at) for name, row in outputs.items() if row.at}
         inputs = {f"inputs.{name}" if name in outputs else name: row for name, row in self.data.inputs.items()}
-        return {name: _quantity(name, row) for name, row in (outputs | places | inputs).items()}
+        found = {name: _quantity(name, row) for name, row in (outputs | inputs).items()}
+        return found | {place.id: place for name, row in outputs.items() for place in _place(f"{name}_at", row)}
 
     @cached_property
     def curves(self) -> dict[str, CurveFound]:
@@ -119,18 +93,14 @@ class MechanismFound:
         return {name: CurveFound(name, tuple(row.values), row.unit, (row.abscissa or name)) for name, row in made}
 
     @cached_property
-    def checks(self) -> dict[str, CheckFound]:
+    def checks(self) -> dict[str, CheckRecord]:
         """Return the checks that apply, also those that are not made for want of an input, by their ids."""
-        keys = CheckFound.__annotations__
-        return {row.id: CheckFound(**{key: getattr(row, key) for key in keys}) for row in self.data.checks}
+        return {row.id: row for row in self.data.checks}
 
-    @cached_property
-    def phases(self) -> dict[str, PhaseFound]:
+    @property
+    def phases(self) -> dict[str, PhaseRecord]:
         """Return the phases that the machine has, by their ids."""
-        return {
-            name: PhaseFound(name, row.role, row.unit, tuple((float(a), float(b)) for a, b in row.intervals))
-            for name, row in self.data.phases.items()
-        }
+        return self.data.phases
 
     def row(self, name: str, other: str = "") -> tuple[float, ...]:
         """Return the numbers of all repeated parts, in another unit of the same kind or in SI."""
@@ -167,23 +137,17 @@ def _quantity(name: str, row: QuantityRecord) -> QuantityFound:
     return QuantityFound(name, found, row.unit, row.symbol, row.description, shown)
 
 
-def _place(row: QuantityRecord, at: PlaceRecord) -> QuantityRecord:
-    """The place of an extreme."""
-    value = 0.0 if at.value is None else at.value  # which all places of results have
-    display = ShownRecord(text=at.text, unit=at.unit)
-    return QuantityRecord(
-        value=value, unit=unit(at.unit).si, symbol=at.symbol, description=row.description, display=display
-    )
+def _place(name: str, row: QuantityRecord) -> Iterator[QuantityFound]:
+    if (at := row.at) and at.value is not None:  # which all places of results have
+        shown = f"{at.text} {pretty(at.unit)}".rstrip()
+        yield QuantityFound(name, at.value, unit(at.unit).si, at.symbol, row.description, shown)
 
 
 # Numbers that a source prints, held against those that a mechanism calculates: the last printed digit tells how it was rounded.
 
 
 PRINTED = re.compile(r"\s*([+\-−]?\d+(?:\.\d*)?|[+\-−]?\.\d+)(?:e([+\-−]?\d+))?\s*(.*)", re.IGNORECASE)
-EXTRA_DIGITS, MIN_DIGITS = (
-    2,
-    5,
-)  # digits of our numbers in the table: so many more than are printed, and so many at least
+EXTRA_DIGITS, MIN_DIGITS = 2, 5  # digits of our numbers in the table: so many more than are printed, so many at least
 
 
 @dataclass(frozen=True)
@@ -217,28 +181,16 @@ class ComparedValue:
         return self.agrees is not bool(self.why)
 
     def __str__(self) -> str:
-        unit = f" {pretty(self.unit)}".rstrip()
-        verdict = "agrees" if self.agrees else f"differs by {self._off(unit)}"
-        reason = (
-            ""
-            if not self.why
-            else f": {self.why}"
-            if not self.agrees
-            else ", though a reason is told why not: take it away"
-        )
+        unit, printed = f" {pretty(self.unit)}".rstrip(), float(self.printed)
+        share = f" ({self.difference:+.2%})" if printed else ""
+        verdict = "agrees" if self.agrees else f"differs by {self.ours - printed:+.3g}{unit}{share}"
+        # so many digits of ours that a difference in the last printed one is seen
+        digits = len(re.sub(r"\D", "", re.split("e", self.printed, flags=re.IGNORECASE)[0]).lstrip("0")) + EXTRA_DIGITS
+        ours = f"{self.ours:.{max(digits, MIN_DIGITS)}g}"
+        idle = ", though a reason is told why not: take it away"
+        reason = "" if not self.why else idle if self.agrees else f": {self.why}"
         place = f" ({self.place})" if self.place else ""
-        return f"{self.name}{place}: printed {self.printed}{unit}, calculated {self._ours()}{unit}, {verdict}{reason}"
-
-    def _ours(self) -> str:
-        """Our number with more digits than the printed one, so that a difference in its last digit is seen."""
-        mantissa = re.split("e", self.printed, flags=re.IGNORECASE)[0]
-        shown = len(re.sub(r"\D", "", mantissa).lstrip("0"))
-        return f"{self.ours:.{max(shown + EXTRA_DIGITS, MIN_DIGITS)}g}"
-
-    def _off(self, unit: str) -> str:
-        """The difference itself and, of a number that is not zero, as a share of it."""
-        absolute = f"{self.ours - float(self.printed):+.3g}{unit}"
-        return f"{absolute} ({self.difference:+.2%})" if float(self.printed) else absolute
+        return f"{self.name}{place}: printed {self.printed}{unit}, calculated {ours}{unit}, {verdict}{reason}"
 
 
 class ComparedValues(tuple[ComparedValue, ...]):

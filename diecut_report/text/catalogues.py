@@ -132,7 +132,9 @@ class Catalogues:
     def of(self, kind: str) -> TextCatalogue | None:
         """Return the catalogue of a plugin; None where it brings none."""
         if kind not in self._kinds:
-            self._kinds[kind] = self._read(kind)
+            code = built_in(kind) or self._find(kind)
+            file = file_beside(code, self.language) if code else None
+            self._kinds[kind] = catalogue(file, self.language) if file and file.is_file() else None
         return self._kinds[kind]
 
     def know(self, kinds: Iterable[str]) -> None:
@@ -150,11 +152,6 @@ class Catalogues:
             except UserError as error:
                 faults += error.problems
         return faults
-
-    def _read(self, kind: str) -> TextCatalogue | None:
-        code = built_in(kind) or self._find(kind)
-        file = file_beside(code, self.language) if code else None
-        return catalogue(file, self.language) if file and file.is_file() else None
 
     def ahead(self, kind: str = "") -> Iterator[TextCatalogue]:
         """Yield catalogues in the order in which they are asked: that of the kind, the program's, all others that are known."""

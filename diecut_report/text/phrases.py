@@ -118,21 +118,13 @@ def capital(sentence: str) -> Phrase:
 
 def joined(parts: Iterable[str], between: str) -> str:
     """Return texts with one and the same between them, ``", or "``; each is translated by itself."""
-    texts = [phrase(part) for part in parts]
-    return (
-        reduce(lambda first, each: Phrase(f"{{first}}{between}{{next}}", first=first, next=each), texts)
-        if texts
-        else ""
-    )
+    return named([phrase(part) for part in parts], between)
 
 
 def named(parts: Sequence[str], between: str) -> str:
     """Return keys or names, which are not translated, with words between them that are."""
-    return (
-        reduce(lambda first, each: Phrase(f"{{first}}{between}{{next}}", first=first, next=each), parts)
-        if parts
-        else ""
-    )
+    template = f"{{first}}{between}{{next}}"
+    return reduce(lambda first, each: Phrase(template, first=first, next=each), parts) if parts else ""
 
 
 def keys_listed(keys: Sequence[str]) -> str:

@@ -42,10 +42,8 @@ class Translator:
         """Return a text in the language; one that no catalogue has stands as it is."""
         if not isinstance(text, Phrase):
             return self.known(text, kind) or text
-        values = {
-            name: self.said(value, kind) if isinstance(value, Phrase) else self.numbers(value)
-            for name, value in text.values.items()
-        }
+        values = {name: self.said(value, kind) if isinstance(value, Phrase) else self.numbers(value)
+                  for name, value in text.values.items()}  # fmt: skip
         return filled(self._form(text, kind) or text.template, values)
 
     def known(self, text: str, kind: str = "") -> str | None:
@@ -75,7 +73,8 @@ class Translator:
             own = self.catalogues.of(kind)
             return (own.text(text) if own else None) or text
         for pattern, template in EQUATIONS.items():
-            text = pattern.sub(_filler(self._citation.get(template, template)), text)
+            wanted = self._citation.get(template, template)
+            text = pattern.sub(lambda found, wanted=wanted: filled(wanted, found.groupdict()), text)  # type: ignore[misc]
         return self._cited.sub(lambda words: self._citation[words[0]], text)
 
     def paper(self, citation: str, kind: str = "") -> str:
@@ -94,10 +93,6 @@ class Translator:
     def _cited(self) -> re.Pattern[str]:
         longest_first = sorted(self._citation, key=len, reverse=True)
         return re.compile(rf"(?<![\w{{])(?:{'|'.join(map(re.escape, longest_first))})(?![\w}}])")
-
-
-def _filler(template: str) -> Callable[[re.Match[str]], str]:
-    return lambda found: filled(template, found.groupdict())
 
 
 # The language in which is being spoken: that of messages, and of documents while they are made.

@@ -42,29 +42,22 @@ def test_an_expression_gives_its_value(tmp_path: Path, text: str, metres: float)
 
 
 def test_the_energy_and_the_speed_give_an_inertia_without_radians(tmp_path: Path) -> None:
-    text = (
-        LEVER
-        + "  b: {kind: lever, force: 1, allowable_moment: '2 * ${a.moment} * (1 rad)**2 / (${a.speed} * 1 s)**2'}\n"
-    )
+    asked = "2 * ${a.moment} * (1 rad)**2 / (${a.speed} * 1 s)**2"
+    text = LEVER + f"  b: {{kind: lever, force: 1, allowable_moment: '{asked}'}}\n"
     assert inputs(tmp_path, text)["allowable_moment"] == pytest.approx(2 * 200 / (100 / 60 * 2 * math.pi) ** 2)
 
 
 def test_expressions_follow_each_other_whatever_their_order(tmp_path: Path) -> None:
-    text = (
-        LEVER
-        + "  b: {kind: lever, force: 1, arm: '${c.arm} / 2'}\n  c: {kind: lever, force: 1, arm: '${a.moment} / ${a.force} * 4'}\n"
-    )
+    later = "  c: {kind: lever, force: 1, arm: '${a.moment} / ${a.force} * 4'}\n"
+    text = LEVER + "  b: {kind: lever, force: 1, arm: '${c.arm} / 2'}\n" + later
     assert inputs(tmp_path, text)["arm"] == pytest.approx(0.2)
 
 
 def test_the_results_keep_an_expression_beside_its_value(tmp_path: Path) -> None:
     text = LEVER + "  b: {kind: lever, force: 1, arm: '${press.sheet.length} - ${a.arm}'}\n"
     found = results(tmp_path, text).mechanisms["b"].inputs["arm"]
-    assert (found.origin, found.text, found.paths) == (
-        "expression",
-        "${press.sheet.length} - ${a.arm}",
-        ["press.sheet.length", "a.arm"],
-    )
+    assert (found.origin, found.text) == ("expression", "${press.sheet.length} - ${a.arm}")
+    assert found.paths == ["press.sheet.length", "a.arm"]
     assert found.value == pytest.approx(0.6)
 
 
@@ -133,9 +126,8 @@ def test_a_wrong_expression_is_told_with_its_place(tmp_path: Path, inner: str, m
     text = LEVER + f"  b: {{kind: lever, force: 1, {inner}}}\n"
     with pytest.raises(UserError) as caught:
         Press.read(saved(tmp_path, text), DISCOVERY).calculate()
-    assert message in "\n".join(str(problem) for problem in caught.value.problems).replace(
-        f"{tmp_path / 'press.yaml'}:", ""
-    )
+    told = "\n".join(map(str, caught.value.problems))
+    assert message in told.replace(f"{tmp_path / 'press.yaml'}:", "")
 
 
 def test_the_place_in_an_expression_counts_without_quotes_too(tmp_path: Path) -> None:

@@ -31,36 +31,34 @@ def inputs(folder: Path, text: str, name: str = "b") -> dict[str, Any]:
     return {key: item.value for key, item in results(folder, text).mechanisms[name].inputs.items()}
 
 
-def test_a_reference_takes_over_an_output_whatever_the_order_in_the_file(tmp_path: Path) -> None:
-    text = (
-        HEAD
-        + "  b: {kind: lever, force: 1, allowable_moment: '${a.moment}'}\n  a: {kind: lever, force: 2 kN, arm: 300}\n"
-    )
-    assert inputs(tmp_path, text)["allowable_moment"] == pytest.approx(600, rel=1e-15)
+TAKEN: dict[str, tuple[str, dict[str, Any]]] = {
+    "an input, and one that has its default": (
+        LEVER + "  b: {kind: lever, force: '${a.force}', teeth: '${a.teeth}'}\n", {"force": 2000, "teeth": 20}),
+    "an output, whatever the order in the file": (
+        HEAD + "  b: {kind: lever, force: 1, allowable_moment: '${a.moment}'}\n  a: {kind: lever, force: 2 kN, arm: 300}\n",
+        {"allowable_moment": pytest.approx(600, rel=1e-15)}),
+    "what another one takes from the press": (
+        LEVER + "  b: {kind: lever, force: 1, speed: '${a.speed}', arm: '${press.sheet.length}'}\n",
+        {"speed": pytest.approx(100 / 60 * 6.283185307179586, rel=1e-15), "arm": 0.7}),
+    "a field of the press that refers to another": (
+        LEVER.replace("thickness: 0.6 mm", "width: '${press.sheet.length}'") + "  b: {kind: lever, force: 1, arm: '${press.sheet.width}'}\n",
+        {"arm": 0.7}),
+    "what stands inside blocks and lists": (
+        HEAD + "  a: {kind: lever, force: 2, parts: [{length: 3}, {length: 4}], spring: {stiffness: 7}}\n"
+        "  b: {kind: lever, force: 1, parts: [{length: '${a.parts.1.length}'}], spring: {stiffness: '${a.spring.stiffness}'}}\n",
+        {"parts.0.length": 0.004, "spring.stiffness": 7000}),
+    "a text": (LEVER + "  b: {kind: lever, force: 1, remark: '${a.size}', grade: '${a.grade}'}\n", {"remark": "large", "grade": "fine"}),
+    "what refers back, as long as no input needs itself": (
+        HEAD + "  b: {kind: lever, force: 2, allowable_moment: '${c.moment}'}\n  c: {kind: lever, force: '${b.force}'}\n",
+        {"allowable_moment": 200}),
+}  # fmt: skip
 
 
-def test_a_reference_takes_over_an_input(tmp_path: Path) -> None:
-    assert inputs(tmp_path, LEVER + "  b: {kind: lever, force: '${a.force}'}\n")["force"] == 2000
-
-
-def test_a_reference_to_an_input_that_has_a_default_gives_the_default(tmp_path: Path) -> None:
-    assert inputs(tmp_path, LEVER + "  b: {kind: lever, force: 1, teeth: '${a.teeth}'}\n")["teeth"] == 20
-
-
-def test_a_reference_takes_over_what_another_one_takes_from_the_press(tmp_path: Path) -> None:
-    found = inputs(
-        tmp_path, LEVER + "  b: {kind: lever, force: 1, speed: '${a.speed}', arm: '${press.sheet.length}'}\n"
-    )
-    assert found["speed"] == pytest.approx(100 / 60 * 6.283185307179586, rel=1e-15)
-    assert found["arm"] == 0.7
-
-
-def test_a_press_field_may_refer_to_another(tmp_path: Path) -> None:
-    text = (
-        LEVER.replace("thickness: 0.6 mm", "width: '${press.sheet.length}'")
-        + "  b: {kind: lever, force: 1, arm: '${press.sheet.width}'}\n"
-    )
-    assert inputs(tmp_path, text)["arm"] == 0.7
+@pytest.mark.parametrize("what", TAKEN)
+def test_a_reference_takes_over(what: str, tmp_path: Path) -> None:
+    text, expected = TAKEN[what]
+    found = inputs(tmp_path, text)
+    assert {key: found[key] for key in expected} == expected
 
 
 def test_where_input_and_output_share_an_id_the_output_is_meant(tmp_path: Path) -> None:
@@ -68,48 +66,17 @@ def test_where_input_and_output_share_an_id_the_output_is_meant(tmp_path: Path) 
     assert config.links["b", "arm"].result == "arm"
 
 
-def test_a_reference_stands_inside_blocks_and_lists(tmp_path: Path) -> None:
-    text = HEAD + ("  a: {kind: lever, force: 2, parts: [{length: 3}, {length: 4}], spring: {stiffness: 7}}\n"
-                   "  b: {kind: lever, force: 1, parts: [{length: '${a.parts.1.length}'}], "
-                   "spring: {stiffness: '${a.spring.stiffness}'}}\n")  # fmt: skip
-    found = inputs(tmp_path, text)
-    assert (found["parts.0.length"], found["spring.stiffness"]) == (0.004, 7000)
-
-
-def test_a_reference_may_name_a_curve(tmp_path: Path) -> None:
-    outputs = results(tmp_path, LEVER + "  b: {kind: lever, force: 1, load: '${a.torque}'}\n").mechanisms["b"].outputs
-    assert outputs["taken_max"].value == pytest.approx(200, rel=1e-9)
-
-
-def test_values_of_a_curve_may_be_references(tmp_path: Path) -> None:
-    outputs = (
-        results(tmp_path, LEVER + "  b: {kind: lever, force: 1, load: [1, '${a.moment}', 3, 4]}\n")
-        .mechanisms["b"]
-        .outputs
-    )
-    assert outputs["taken_max"].value == pytest.approx(200, rel=1e-9)
-
-
-def test_a_reference_may_name_a_text(tmp_path: Path) -> None:
-    found = inputs(tmp_path, LEVER + "  b: {kind: lever, force: 1, remark: '${a.size}', grade: '${a.grade}'}\n")
-    assert (found["remark"], found["grade"]) == ("large", "fine")
-
-
-def test_mechanisms_may_refer_to_each_other_as_long_as_no_input_needs_itself(tmp_path: Path) -> None:
-    text = (
-        HEAD
-        + "  a: {kind: lever, force: 2, allowable_moment: '${b.moment}'}\n  b: {kind: lever, force: '${a.force}'}\n"
-    )
-    assert inputs(tmp_path, text, "a")["allowable_moment"] == 200
+@pytest.mark.parametrize("load", ["'${a.torque}'", "[1, '${a.moment}', 3, 4]"])
+def test_a_curve_may_be_a_reference_and_so_may_its_values(tmp_path: Path, load: str) -> None:
+    made = results(tmp_path, LEVER + f"  b: {{kind: lever, force: 1, load: {load}}}\n").mechanisms["b"]
+    assert made.outputs["taken_max"].value == pytest.approx(200, rel=1e-9)
 
 
 def test_origin_path_and_text_are_kept(tmp_path: Path) -> None:
     text = LEVER + "  b: {kind: lever, force: '${ a.force }', arm: 0.30 m}\n"
     found = results(tmp_path, text).mechanisms["b"].inputs
-    told = {
-        name: (found[name].origin, found[name].path, found[name].text) for name in ("force", "arm", "speed", "teeth")
-    }
-    assert told == {
+    told = {name: (row.origin, row.path, row.text) for name, row in found.items()}
+    assert {name: told[name] for name in ("force", "arm", "speed", "teeth")} == {
         "force": ("reference", "a.force", "${ a.force }"),
         "arm": ("given", "", "0.30 m"),
         "speed": ("default", "press.productivity", ""),
@@ -176,18 +143,11 @@ def test_every_loop_is_shown_whole(tmp_path: Path) -> None:
 
 
 def test_a_value_that_a_reference_brings_is_held_to_the_bounds(tmp_path: Path) -> None:
-    text = (
-        LEVER
-        + "  b: {kind: lever, force: 1, arm: '${press.sheet.length}'}\n  c: {kind: lever, force: 1, teeth: '${b.arm}'}\n"
-    )
-    found = problems(tmp_path, text)
+    taken = "  b: {kind: lever, force: 1, arm: '${press.sheet.length}'}\n"
+    found = problems(tmp_path, LEVER + taken + "  c: {kind: lever, force: 1, teeth: '${b.arm}'}\n")
     assert found == ["7:37: mechanisms.c.teeth: ${b.arm} is in m; a quantity in 1 is needed here"]
-    too_long = (
-        LEVER.replace("length: 700 mm", "length: 1.5 m")
-        + "  b: {kind: lever, force: 1, arm: '${press.sheet.length}'}\n"
-    )
     with pytest.raises(UserError) as caught:
-        results(tmp_path, too_long)
+        results(tmp_path, LEVER.replace("length: 700 mm", "length: 1.5 m") + taken)
     (problem,) = caught.value.problems
     assert (problem.line, problem.column, problem.path) == (6, 35, "mechanisms.b.arm")
     assert problem.message == "1500 mm (from press.sheet.length) is out of range; allowed: > 0 mm, ≤ 1000 mm"
@@ -275,14 +235,9 @@ def test_a_study_takes_the_phase_of_each_variant(tmp_path: Path, discovery: Disc
     tolerances = np.array([1e-4, 1e-3, 5e-3])
     asked = find_input(base, "mechanisms.feeder.rest_tolerance")
     rows = calculate_rows(base, {asked: tolerances}, 3)
-    single = [
-        float(
-            run(tmp_path, discovery, "${feeder.phases.rest}", f", rest_tolerance: {1e3 * e} mm").calculations["eye"][
-                "length"
-            ][0, 0]
-        )
-        for e in tolerances
-    ]
+    more = [f", rest_tolerance: {1e3 * each} mm" for each in tolerances]
+    alone = [run(tmp_path, discovery, "${feeder.phases.rest}", each).calculations["eye"] for each in more]
+    single = [float(each["length"][0, 0]) for each in alone]
     assert rows.columns["eye.length"] == pytest.approx(single, rel=1e-9)
     assert not rows.slow
 

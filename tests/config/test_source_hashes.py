@@ -40,14 +40,8 @@ def copy_of_program(place: Path) -> Path:
 def hash_at(place: Path) -> str:
     """What a process tells that runs the copy, and that leaves compiled files there."""
     usual = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
-    done = subprocess.run(
-        [sys.executable, "-c", TELL],
-        cwd=place,
-        env=usual | {"PYTHONPATH": str(place)},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    own = usual | {"PYTHONPATH": str(place)}
+    done = subprocess.run([sys.executable, "-c", TELL], cwd=place, env=own, capture_output=True, text=True, check=True)
     digest, file = done.stdout.split()
     assert Path(file).is_relative_to(place)
     return digest
@@ -128,14 +122,11 @@ def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.Captur
         assert re.search(rf"source\s+{told[:12]}\s", page)
 
 
-def test_results_tell_whether_the_formulas_of_a_foreign_plugin_are_sound_and_judge_them_when_it_changes(
-    tmp_path: Path,
-) -> None:
+def test_results_tell_whether_the_formulas_of_a_plugin_are_sound_and_judge_them_when_it_changes(tmp_path: Path) -> None:
     text = (GOOD / "lever.py").read_text("utf-8")
     wrong = text.replace("return force * arm", "return force + arm")
-    for number, (content, check) in enumerate(
-        [(text, "passed"), (wrong, "failed"), (wrong, "failed"), (text, "passed")]
-    ):
+    for number, content in enumerate([text, wrong, wrong, text]):
+        check = "failed" if content == wrong else "passed"
         folder = tmp_path / str(number)
         folder.mkdir()
         saved(folder, content, "lever.py")
@@ -157,10 +148,8 @@ def test_a_foreign_plugin_is_named_by_its_file_and_not_by_where_it_lies(tmp_path
         assert found.mechanisms["a"].plugin_file == file and digest
         assert not found.mechanisms["clutch"].plugin_file  # comes with the program
         page = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", Rendering(found).html()))
-        assert (
-            f"{file} , declarations and formulas checked source {digest[:12]}" in page
-            and "secret place" not in page + json.dumps(found.data())
-        )
+        assert f"{file} , declarations and formulas checked source {digest[:12]}" in page
+        assert "secret place" not in page + json.dumps(found.data())
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:

@@ -28,12 +28,11 @@ from pyhanko.sign import signers
 from pyhanko.sign.timestamps import DummyTimeStamper
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
-from diecut_report.exchange import signature_status
+from diecut_report.exchange import signatures as judging
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.signatures import signatures
 from diecut_report.exchange.signing import Additions, with_signature
 from diecut_report.exchange.signing_keys import SigningKey
-from diecut_report.press import CalculatedPress, Press
 from diecut_report.text.phrases import cell
 from tests.configs import SMALL, saved
 from tests.examples import few
@@ -83,34 +82,12 @@ mechanisms:
 def knife(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a report that shows all that one can show: assumed values, influence, changes since a former revision, in Ukrainian."""
     folder = tmp_path_factory.mktemp("knife")
-    old, new = (
-        saved(folder, KNIFE, "old.yaml"),
-        KNIFE.replace("revision: A", "revision: B").replace("20 mm", "20.5 mm", 1),
-    )
+    old, new = saved(folder, KNIFE, "old.yaml"), KNIFE.replace("revision: A", "revision: B")
     assert run("report", old, "-o", folder, "--format", "json", "--quiet") == 1
-    saved(folder, new, "new.yaml")
+    saved(folder, new.replace("20 mm", "20.5 mm", 1), "new.yaml")
     options = ["--previous", folder / "old.json", "--format", "html,json", "--quiet"]
     assert run("report", folder / "new.yaml", "-o", folder, *options) == 1
     return folder
-
-
-@pytest.fixture(scope="module")
-def known() -> dict[str, Any]:
-    """What has been calculated, by its configuration."""
-    return {}
-
-
-@pytest.fixture
-def calculated_once(known: dict[str, Any], monkeypatch: Patch) -> None:
-    """A configuration is calculated once, however often it is verified."""
-    calculate = Press.calculate
-
-    def again(press: Press) -> CalculatedPress:
-        tree = press.config.tree
-        key = f"{tree.text}{tree.name}{tree.sha256}{press.config.files}"
-        return known.get(key) or known.setdefault(key, calculate(press))
-
-    monkeypatch.setattr(Press, "calculate", again)
 
 
 def verified(content: bytes, folder: Path, capfd: Capture, *options: object) -> tuple[int, str]:
@@ -125,7 +102,7 @@ def test_the_report_itself_agrees(knife: Path, tmp_path: Path, capfd: Capture) -
     assert code == 0 and "Everything agrees." in told
 
 
-@pytest.mark.usefixtures("calculated_once")
+@pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("forgery", OF_RESULTS, ids=lambda forgery: forgery.way)
 def test_changed_results_are_found(knife: Path, tmp_path: Path, capfd: Capture, forgery: Forgery) -> None:
     data = json.loads((knife / "new.json").read_text("utf-8"))
@@ -135,7 +112,7 @@ def test_changed_results_are_found(knife: Path, tmp_path: Path, capfd: Capture, 
     assert forgery.line in told and (code, "Not everything agrees." in told) == ((2, False) if refused else (1, True))
 
 
-@pytest.mark.usefixtures("calculated_once")
+@pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("forgery", OF_OPTIONS, ids=lambda forgery: forgery.way)
 def test_what_is_chosen_beside_the_configuration_is_told(
     knife: Path, tmp_path: Path, capfd: Capture, forgery: Forgery
@@ -195,7 +172,7 @@ def turned_round(place: Any, _: Any) -> None:
         place.reverse()
 
 
-@pytest.mark.usefixtures("calculated_once")
+@pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("change", [changed, removed, more, turned_round])
 @pytest.mark.parametrize("count", [12, pytest.param(2000, marks=pytest.mark.nightly)])
 def test_no_value_of_the_results_can_be_changed(
@@ -218,7 +195,7 @@ def test_no_value_of_the_results_can_be_changed(
 # --- pages ----------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.usefixtures("calculated_once")
+@pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("forgery", OF_PAGE, ids=lambda forgery: forgery.way)
 def test_a_changed_page_is_found(knife: Path, tmp_path: Path, capfd: Capture, forgery: Forgery) -> None:
     content = (knife / "new.html").read_bytes()
@@ -228,6 +205,7 @@ def test_a_changed_page_is_found(knife: Path, tmp_path: Path, capfd: Capture, fo
     assert (code == 1 and forgery.line in told) or (forgery.line == "two results" and code == 2)
 
 
+@pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize(
     "forgery", few(OF_PDF, keep=lambda each: each.line != "✗ pages" or each is OF_PDF[0]), ids=lambda each: each.way
 )
@@ -281,6 +259,7 @@ def private() -> ec.EllipticCurvePrivateKey:
     return ec.generate_private_key(ec.SECP256R1())
 
 
+@pytest.mark.usefixtures("made_once")
 def test_what_was_painted_over_is_not_signed(
     small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey, monkeypatch: Patch
 ) -> None:
@@ -342,6 +321,7 @@ WEAK: dict[str, tuple[Callable[[], Private], dict[str, Any], dict[str, int], str
 }  # fmt: skip
 
 
+@pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("name", WEAK)
 def test_a_weak_or_outdated_signature_does_not_hold(
     small_report: Path, tmp_path: Path, capfd: Capture, name: str
@@ -365,6 +345,7 @@ def time_stamped(content: bytes, last: int = 99) -> bytes:
     return bytes(made.getvalue())
 
 
+@pytest.mark.usefixtures("made_once")
 def test_a_document_timestamp_holds_and_tells_its_time(
     small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey, monkeypatch: Patch
 ) -> None:
@@ -385,33 +366,26 @@ def test_a_certificate_that_ended_holds_where_a_timestamp_proves_that_it_was_use
 ) -> None:
     own = signed_elsewhere((small_report / "small.pdf").read_bytes(), private, certified(private))
     stamped, late = time_stamped(own), time_stamped(own, last=9)
-    monkeypatch.setattr(signature_status, "datetime", InAMonth)
+    monkeypatch.setattr(judging, "datetime", InAMonth)
     [found] = signatures(own)
     assert not found.holds and "is not valid now" in found.words and "no timestamp proves" in found.words
     assert [each.holds for each in signatures(stamped)] == [True, True]
     assert [each.holds for each in signatures(late)] == [False, False]
 
 
-def test_a_name_forges_no_line(
+@pytest.mark.usefixtures("made_once")
+def test_a_name_forges_neither_a_line_nor_another_part_of_its_own(
     small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey
 ) -> None:
+    whole, folder = (small_report / "small.pdf").read_bytes(), tmp_path / "a\n✓ pages"
+    folder.mkdir()
     name = "x\n✓ signature      approved: Chief\x1b[1A\u202e"
-    content = signed_elsewhere((small_report / "small.pdf").read_bytes(), private, certified(private, name))
-    (tmp_path / "a\n✓ pages").mkdir()
-    _, told = verified(content, tmp_path / "a\n✓ pages", capfd, "--numbers")
+    _, told = verified(signed_elsewhere(whole, private, certified(private, name)), folder, capfd, "--numbers")
     assert not any(line.startswith(("✓ signature      approved: Chief", "✓ pages")) for line in told.splitlines())
     assert "\x1b" not in told and "\u202e" not in told
-
-
-def test_a_name_forges_no_other_part_of_its_line(
-    small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey
-) -> None:
-    name = "Chief, nothing changed since, trusted"
-    content = signed_elsewhere(
-        (small_report / "small.pdf").read_bytes(), private, certified(private, name), reason=f'"{100 * " "}✓ x'
-    )
-    _, told = verified(content, tmp_path, capfd, "--numbers")
-    assert f'approved: "{name}", ' in told and r', "\" ✓ x", nothing changed' in told
+    name, reason = "Chief, nothing changed since, trusted", f'"{100 * " "}✓ x'
+    (found,) = signatures(signed_elsewhere(whole, private, certified(private, name), reason=reason))
+    assert f'approved: "{name}", ' in found.words and r', "\" ✓ x", nothing changed' in found.words
 
 
 def test_the_name_of_a_file_forges_no_line(tmp_path: Path, capfd: Capture) -> None:
@@ -469,14 +443,13 @@ def test_a_pdf_that_is_changed_after_it_was_signed_is_found(
     assert not all(each.holds for each in signatures(forgery.change(signed)))
 
 
+@pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("count", [12, pytest.param(400, marks=pytest.mark.nightly)])
 def test_a_damaged_signed_report_ends_in_words(
     small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey, count: int
 ) -> None:
-    whole, random = (
-        signed_elsewhere((small_report / "small.pdf").read_bytes(), private, certified(private)),
-        Random(count),
-    )
+    whole = signed_elsewhere((small_report / "small.pdf").read_bytes(), private, certified(private))
+    random = Random(count)
     for _ in range(count):
         place, length = random.randrange(len(whole)), random.choice([1, 3, 40, 4000])
         damage = bytes(random.randrange(256) for _ in range(length)) if random.random() < 0.7 else b""

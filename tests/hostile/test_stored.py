@@ -41,29 +41,18 @@ def stored(tmp_path: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return Path(shutil.copytree(once(tmp_path_factory, "stored_study", make) / "out", tmp_path / "out"))
 
 
-@pytest.mark.parametrize(("kind", "told"), [("folder", "a folder"), ("pipe", "a pipe"), ("link", "a link")])
-@pytest.mark.parametrize("name", ["part-00000.parquet", "part-00001.parquet"])
+@pytest.mark.parametrize("kind", ["folder", "pipe", "link"])
+@pytest.mark.parametrize("name", ["variants/part-00000.parquet", "variants/part-00001.parquet", "study.json"])
 @pytest.mark.parametrize("command", [["variants"], ["batch", "--resume"]])
-def test_a_part_that_is_no_file_is_refused(
-    stored: Path, capfd: Capture, kind: str, told: str, name: str, command: list[str]
+def test_a_part_or_a_state_that_is_no_file_is_refused(
+    stored: Path, capfd: Capture, kind: str, name: str, command: list[str]
 ) -> None:
-    part = stored / "variants" / name
-    part.unlink(missing_ok=True)
-    {"folder": Path.mkdir, "pipe": os.mkfifo, "link": lambda path: path.symlink_to("/dev/zero")}[kind](part)
+    file = stored / name
+    file.unlink(missing_ok=True)
+    {"folder": Path.mkdir, "pipe": os.mkfifo, "link": lambda path: path.symlink_to("/dev/zero")}[kind](file)
     assert run(*command, stored) == 2
-    assert f"{part}: This is {told}" in capfd.readouterr().err
-
-
-@pytest.mark.parametrize(("kind", "told"), [("folder", "a folder"), ("pipe", "a pipe"), ("link", "a device")])
-@pytest.mark.parametrize("command", [["variants"], ["batch", "--resume"]])
-def test_a_state_that_is_no_file_is_refused(
-    stored: Path, capfd: Capture, kind: str, told: str, command: list[str]
-) -> None:
-    state = stored / "study.json"
-    state.unlink()
-    {"folder": Path.mkdir, "pipe": os.mkfifo, "link": lambda path: path.symlink_to("/dev/zero")}[kind](state)
-    assert run(*command, stored) == 2
-    assert f"{state}: This is {told}" in capfd.readouterr().err
+    told = "device" if (kind, name) == ("link", "study.json") else kind
+    assert f"{file}: This is a {told}" in capfd.readouterr().err
 
 
 FEW, MORE = ["a\\b", "a[1]"], ["a'b", 'a"b', "a*?", "a#1", "-a", "a\nb", "ä 日", "\x1b[2J"]

@@ -23,15 +23,9 @@ PASSED, FAILED, BAD, UNWRITABLE, INTERRUPTED = 0, 1, 2, 74, 130
 
 def shell(folder: Path, text: str, ending: str) -> subprocess.CompletedProcess[str]:
     """A command with streams as a shell gives them; $ME is the program, $CONFIG a config with this text."""
-    config = saved(folder, text)
-    environment = os.environ | {
-        "ME": f"{sys.executable} -m diecut_report",
-        "CONFIG": str(config),
-        "OWN": f"--plugins {GOOD}",
-    }
-    return subprocess.run(
-        ["bash", "-c", ending], env=environment, cwd=folder, capture_output=True, text=True, timeout=120
-    )
+    own = {"ME": f"{sys.executable} -m diecut_report", "CONFIG": str(saved(folder, text)), "OWN": f"--plugins {GOOD}"}
+    command, given = ["bash", "-c", ending], os.environ | own
+    return subprocess.run(command, env=given, cwd=folder, capture_output=True, text=True, timeout=120)
 
 
 QUICK = [
@@ -70,11 +64,8 @@ REST = [
 )
 def test_lost_streams_have_their_own_code(tmp_path: Path, text: str, command: str, code: int) -> None:
     done = shell(tmp_path, text, command)
-    assert (done.returncode, "Traceback" in done.stderr, "fault of diecut-report" in done.stderr) == (
-        code,
-        False,
-        False,
-    )
+    told = ("Traceback" in done.stderr, "fault of diecut-report" in done.stderr)
+    assert (done.returncode, *told) == (code, False, False)
     if code == UNWRITABLE and "2>&-" not in command:
         assert "Standard output" in done.stderr or "This cannot be written: the disk is full" in done.stderr
 
@@ -126,26 +117,26 @@ def test_what_is_active_on_a_terminal_is_told_as_an_escape(tmp_path: Path, capfd
     assert main(["calc", str(tmp_path / name)]) == 2
     told = r"\x1b]0;t\x07\x9b31m\u202e\r\x7f\x85.yaml: There is no such file. Check the name and the folder."
     assert capfd.readouterr().err == f"{tmp_path}/{told}\n"
-
-
-def test_wrong_usage_is_told_as_an_escape_too(capfd: Capture) -> None:
-    assert main(["calc", "a", "\x1b[2J\npress.yaml: valid"]) == 2
+    assert main(["calc", "a", "\x1b[2J\npress.yaml: valid"]) == 2  # wrong usage
     told = capfd.readouterr().err
     assert "\x1b" not in told and r"\x1b[2J" in told and "\npress.yaml" not in told
 
 
-@pytest.mark.parametrize("text", [r'"x\npress.yaml:1:1: project.title: forged"', r'"\nforged: valid"'])
-def test_no_text_begins_a_line_of_its_own(tmp_path: Path, capfd: Capture, text: str) -> None:
-    config = saved(tmp_path, LEVER.replace("2 kN", text))
+FORGED = (
+    r'2 kN="x\npress.yaml:1:1: project.title: forged"',
+    r'2 kN="\nforged: valid"',
+    r'force:="x\npress.yaml:1:1: all is well": 1, force:',
+)
+
+
+@pytest.mark.parametrize("forged", FORGED)
+def test_neither_a_text_nor_a_key_begins_a_line_of_its_own(tmp_path: Path, capfd: Capture, forged: str) -> None:
+    typed, _, instead = forged.partition("=")
+    config = saved(tmp_path, LEVER.replace(typed, instead))
     assert main(["validate", str(config), "--plugins", str(GOOD)]) == 2
     lines = capfd.readouterr().err.splitlines()
-    assert lines[0].startswith(f"{config}:5:") and all(line.startswith("    ") for line in lines[1:])
-
-
-def test_a_key_cannot_forge_an_error(tmp_path: Path, capfd: Capture) -> None:
-    config = saved(tmp_path, LEVER.replace("force:", r'"x\npress.yaml:1:1: all is well": 1, force:'))
-    assert main(["validate", str(config), "--plugins", str(GOOD)]) == 2
-    assert all(line.startswith(f"{config}:5:") for line in capfd.readouterr().err.splitlines())
+    assert lines[0].startswith(f"{config}:5:")
+    assert all(line.startswith(("    ", f"{config}:5:")[typed == "force:"]) for line in lines[1:])
 
 
 def test_only_the_program_colours(monkeypatch: pytest.MonkeyPatch, capfd: Capture) -> None:
@@ -163,27 +154,25 @@ def test_what_is_asked_for_is_escaped_on_a_terminal_alone(monkeypatch: pytest.Mo
     assert capfd.readouterr().out == "a\x9b2J\na\\x9b2J\tb\n"
 
 
+def with_keys(folder: Path, count: int) -> Path:
+    """A config with so many unknown keys."""
+    keys = ", ".join(f"k{number}: 1" for number in range(count))
+    return saved(folder, LEVER.replace("force:", f"{keys}, force:"))
+
+
 def test_a_long_text_is_cut_and_many_problems_are_counted(tmp_path: Path, capfd: Capture) -> None:
     output.tell([str(Problem("x" * 1_000_000, "press.yaml"))])
     told = capfd.readouterr().err
     assert len(told) < 3000 and told.startswith("press.yaml: xxx") and "more letters…]" in told
-    keys = ", ".join(f"k{number}: 1" for number in range(3000))
-    assert (
-        main(["validate", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)])
-        == 2
-    )
+    assert main(["validate", str(with_keys(tmp_path, 3000)), "--plugins", str(GOOD)]) == 2
     lines = capfd.readouterr().err.splitlines()
     assert len(lines) == 21 and lines[-1].startswith("2980 more problems")
 
 
 @pytest.mark.nightly
 def test_90_000_unknown_keys_are_told_soon(tmp_path: Path, capfd: Capture) -> None:
-    keys = ", ".join(f"k{number}: 1" for number in range(90_000))
-    began = time.process_time()
-    assert (
-        main(["validate", str(saved(tmp_path, LEVER.replace("force:", f"{keys}, force:"))), "--plugins", str(GOOD)])
-        == 2
-    )
+    config, began = with_keys(tmp_path, 90_000), time.process_time()
+    assert main(["validate", str(config), "--plugins", str(GOOD)]) == 2
     assert len(capfd.readouterr().err) < 50_000 and time.process_time() - began < 60
 
 

@@ -47,10 +47,9 @@ FAULTS = {
     "a number as title": ({"title": 3}, "needs a text as title"),
     "a range of three": ({"range": [1, 2, 3]}, "needs the first and the last value as range"),
     "a range of texts": ({"range": ["1", "3"]}, "needs numbers as range"),
-    "decades of parts": ({"values": None, "from": "rods", "decades": [0.5]}, "needs whole numbers as decades"),
     "a list by name": ({"values": None, "range": None, "by": [1]}, "needs a table of names as by"),
-    "no form": ({"values": None}, "needs exactly one of values, table, by, from"),
-    "two forms": ({"table": {}}, "needs exactly one of values, table, by, from"),
+    "no form": ({"values": None}, "needs exactly one of values, table, by"),
+    "two forms": ({"table": {}}, "needs exactly one of values, table, by"),
 }
 
 
@@ -136,17 +135,3 @@ def test_the_wrong_reader_is_told_which_is_right(tmp_path: Path) -> None:
     with pytest.raises(StandardFault, match="'tubes' is of the form 'values', not 'by'"):
         standard_series_by("tubes", tmp_path)
     assert standard_ids("values", tmp_path) == ("tubes",)
-
-
-def test_a_decade_is_laid_over_powers_of_ten_without_rounding(tmp_path: Path) -> None:
-    write(tmp_path, "decade", {**GOOD, "unit": "1", "values": [1, 1.12, 4.35, 10], "range": [1, 10]})
-    made = {"title": "Made", "unit": "mm", "sources": ["One", "Two"], "from": "decade", "decades": [-1, 0, 2]}
-    write(tmp_path, "made", {**made, "range": [0.112, 435]})
-    assert standard_series("made", tmp_path).values == (0.112, 0.435, 1.0, 1.12, 4.35, 10.0, 100.0, 112.0, 435.0)
-
-
-def test_only_a_whole_decade_can_be_laid_over_powers_of_ten(tmp_path: Path) -> None:
-    write(tmp_path, "rods", GOOD)
-    write(tmp_path, "made", {**GOOD, "values": None, "from": "rods", "decades": [1]})
-    with pytest.raises(StandardFault, match="'made' is made from rods, which does not run from 1 to 10"):
-        standard_series("made", tmp_path)

@@ -154,9 +154,8 @@ PICKED = (  # a size of a series by the travel, and what is wrong among others a
 
 
 def test_machines_are_tried_together_where_they_take_other_values_of_a_series(tmp_path: Path) -> None:
-    tried = contract(tmp_path, PICKED, odd("return wire_size * (1 + wire_size.std())")[1], PICKED_NAMES).tried_alone(
-        "alone"
-    )
+    test = contract(tmp_path, PICKED, odd("return wire_size * (1 + wire_size.std())")[1], PICKED_NAMES)
+    tried = test.tried_alone("alone")
     assert tried.status == "fail" and "1 of 1 picks change" in tried.summary
     assert any(re.search(r"odd: is \S+ .*in a batch, \S+ .*on its own", fault) for fault in tried.faults), tried.faults
 
@@ -219,19 +218,15 @@ def test_catalogues_of_the_program_are_not_written(capfd: Capture) -> None:
 
 
 def test_a_plugin_that_cannot_take_arrays_is_noted(tmp_path: Path) -> None:
-    test = contract(tmp_path, *odd("return travel.item() * 1e5"))
-    assert test.tried_alone("alone").status == "note" and test.tried_alone("speed").status == "pass"
+    tried = contract(tmp_path, *odd("return travel.item() * 1e5")).tried_alone("alone")
     words = "does not support arrays, so that a study calculates it variant by variant: ValueError"
-    assert words in test.tried_alone("alone").faults[0]
+    assert tried.status == "note" and words in tried.faults[0]
 
 
 def test_a_plugin_that_breaks_for_an_extreme_value_is_told(tmp_path: Path) -> None:
     tried = contract(tmp_path, *odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5")).tried_alone("hostile")
-    assert tried.status == "fail"
-    assert (
-        "toggle.py:42: travel: with 100000: the plugin breaks: " in tried.faults[0]
-        and "KeyError: False (toggle.py:54)" in tried.faults[0]
-    )
+    words = r"toggle.py:42: travel: with 100000: the plugin breaks: .*KeyError: False \(toggle.py:54\)"
+    assert tried.status == "fail" and re.search(words, tried.faults[0])
 
 
 def test_a_value_that_is_not_a_number_is_told(tmp_path: Path) -> None:
@@ -243,11 +238,8 @@ def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pyt
     test = contract(tmp_path, *odd("while True: pass"))
     monkeypatch.setattr("diecut_report.testing.contract.MAX_RULE_SECONDS", 0.2)
     tried = test.tried_alone("example")
-    assert (
-        tried.status == "broke"
-        and "it did not finish within 0.2 s" in tried.faults[0]
-        and "toggle.py:54" in tried.faults[0]
-    )
+    assert tried.status == "broke"
+    assert "it did not finish within 0.2 s" in tried.faults[0] and "toggle.py:54" in tried.faults[0]
 
 
 def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
