@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.record import TextRole
@@ -19,24 +18,15 @@ def numbered(results: ResultsRecord) -> ResultsRecord:
     papers = {id: f"[{number}]" for number, id in enumerate(sorted(filter(PAPER.fullmatch, ids)), 1)}
     if not papers:
         return results
-    text = _Numbered(papers).text
+    named = re.compile(rf"(?<![\w.,\u202f\u2009\u00a0−-])(?<!\d )(?:{'|'.join(papers)})(?![\w\u202f\u2009\u00a0]|\.\d)")
+
+    def text(role: TextRole, text: str) -> str:
+        """Name papers by their numbers; what follows digits is no paper: 10 000 h. A text that names none stays, so that it can be translated."""
+        made = named.sub(lambda found: papers[found[0]], text) if role in CITING else text
+        return text if made == text else BRACKETS.sub(r"\1", made)
+
     return results.with_(
         mechanisms={name: data.with_texts(text) for name, data in results.mechanisms.items()},
         comparisons={name: data.with_texts(text) for name, data in results.comparisons.items()},
         changes=results.changes and results.changes.with_texts(text),
     )
-
-
-class _Numbered:
-    """Names papers by their numbers, in whatever text; what follows digits is no paper: 10 000 h."""
-
-    def __init__(self, papers: Mapping[str, str]) -> None:
-        self.papers = papers
-        self.named = re.compile(
-            rf"(?<![\w.,\u202f\u2009\u00a0−-])(?<!\d )(?:{'|'.join(papers)})(?![\w\u202f\u2009\u00a0]|\.\d)"
-        )
-
-    def text(self, role: TextRole, text: str) -> str:
-        """Return a text with the papers that it names by their numbers; one that names none as it is, so that it can be translated."""
-        made = self.named.sub(lambda found: self.papers[found[0]], text) if role in CITING else text
-        return text if made == text else BRACKETS.sub(r"\1", made)

@@ -52,6 +52,7 @@ from diecut_report.results.figure_record import (
 
 
 Array = NDArray[Any]
+Place = tuple[float, float]
 HATCH_STEP = 5.0  # points between the strokes
 
 
@@ -123,6 +124,11 @@ def hatching(loops: list[Array], step: float = HATCH_STEP, *, falling: bool = Fa
         places.append(level * across + reach[:, None] * along)
     points = np.concatenate(places)
     return points[::2], points[1::2]
+
+
+def strokes(starts: Array, ends: Array) -> Array:
+    """Many short lines as one path."""
+    return np.stack([starts, ends, np.full_like(starts, np.nan)], axis=1).reshape(-1, 2)
 
 
 # How large a drawing is on paper: its scale, and the size of the text in its boxes.
@@ -292,29 +298,18 @@ class DrawingSheet:
         self.lines.append((points, THIN if look["linewidth"] < 0.6 else THICK))
 
     def draw(self, shape: Shape) -> None:
-        """Draw a shape."""
-        raise NotImplementedError
+        """Draw a shape, by the method of a subclass that is named after its kind."""
+        getattr(self, f"_{shape.shape}")(shape)
 
     def _head(
-        self,
-        tip: Array,
-        along: Array,
-        length: float = ARROW,
-        slender: float = SLENDER,
-        color: str = INK,
-        zorder: float = 2.6,
-    ) -> None:
+        self, tip: Array, along: Array, length: float = ARROW, slender: float = SLENDER, color: str = INK, zorder: float = 2.6,
+    ) -> None:  # fmt: skip
         """The head of an arrow."""
         across = np.array([-along[1], along[0]]) * length * slender
         corners = np.array([tip, tip - length * along + across, tip - length * along - across])
         self.axes.fill(*corners.T, color=color, linewidth=0, zorder=zorder)
 
-    def _later(
-        self,
-        text: str,
-        proposed: Callable[[tuple[float, float]], Iterable[tuple[float, float]]],
-        leader: tuple[float, float] | None = None,
-    ) -> None:
+    def _later(self, text: str, proposed: Callable[[Place], Iterable[Place]], leader: Place | None = None) -> None:
         """A text that finds its place when all shapes are drawn, in two or three lines where it has none in one.
 
         Far from its ``leader`` it gets a line to it.
@@ -342,14 +337,11 @@ class DrawingSheet:
         power = 10.0 ** np.floor(np.log10(target))
         length = max(step * power for step in (1, 2, 5) if step * power <= target)
         left, bottom = min(box[0] for box in self.boxes), min(box[1] for box in self.boxes) - 16
-        right, middle = left + length * factor * scale, left + 0.5 * length * factor * scale
-        self.axes.fill([left, middle, middle, left], [bottom, bottom, bottom + 3, bottom + 3], color=INK, linewidth=0)
-        self.axes.plot(
-            [left, right, right, left, left], [bottom, bottom, bottom + 3, bottom + 3, bottom], color=INK, linewidth=0.5
-        )
-        text = joined(
-            number(significant(length, 1) if length < 1 else f"{length:.0f}", self.words["decimal"]), pretty(self.unit)
-        )
+        right, middle, top = left + length * factor * scale, left + 0.5 * length * factor * scale, bottom + 3
+        self.axes.fill([left, middle, middle, left], [bottom, bottom, top, top], color=INK, linewidth=0)
+        self.axes.plot([left, right, right, left, left], [bottom, bottom, top, top, bottom], color=INK, linewidth=0.5)
+        shown = significant(length, 1) if length < 1 else f"{length:.0f}"
+        text = joined(number(shown, self.words["decimal"]), pretty(self.unit))
         self.axes.text(right + 5, bottom + 1.5, text, va="center", ha="left", size=8)
         self.axes.text(left, bottom + 6, "0", va="bottom", ha="center", size=0.1, alpha=0)
         self.boxes.append((left, bottom - 3, right + 5 + text_size(text, 8)[0], bottom + 8))
@@ -426,10 +418,6 @@ def _look(shape: PolylineRecord | CircleRecord | ArcRecord | ArrowRecord | BoxRe
 class Shapes(DrawingSheet):
     """A sheet with a way to draw each kind of shape."""
 
-    def draw(self, shape: Shape) -> None:
-        """Draw a shape."""
-        getattr(self, f"_{shape.shape}")(shape)
-
     def _polyline(self, shape: PolylineRecord) -> None:
         points = self._points(shape.points)
         if shape.closed:
@@ -448,8 +436,7 @@ class Shapes(DrawingSheet):
 
     def _strokes(self, starts: Array, ends: Array, look: dict[str, Any]) -> None:
         """Many short lines as one path."""
-        points = np.stack([starts, ends, np.full_like(starts, np.nan)], axis=1).reshape(-1, 2)
-        self.axes.plot(points[:, 0], points[:, 1], **look)
+        self.axes.plot(*strokes(starts, ends).T, **look)
 
     def _circle(self, shape: CircleRecord) -> None:
         bow = self._bow(shape, 0.0, 2 * np.pi)
@@ -526,9 +513,8 @@ class Shapes(DrawingSheet):
         self.axes.add_patch(Rectangle(center - size / 2, *size, facecolor=face, **look | {"zorder": 4.2}))
         for index, line in enumerate(lines):
             y = center[1] + self.scale.text * LINE * ((len(lines) - 1) / 2 - index)
-            self.axes.text(
-                center[0], y, marked(line), size=self.scale.text, ha="center", va="center_baseline", zorder=7
-            )
+            look = {"size": self.scale.text, "ha": "center", "va": "center_baseline", "zorder": 7}
+            self.axes.text(center[0], y, marked(line), **look)
         self.solid.append((*(center - size / 2 - 1.5), *(center + size / 2 + 1.5)))
         self.boxes.append(self.solid[-1])
 

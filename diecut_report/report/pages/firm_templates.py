@@ -47,45 +47,11 @@ from diecut_report.time_limit import Overran, limited
 # reached but data: an attribute is a field or property of a data class, a value is a number, a text, a container of those or a data class.
 
 
-TEXT = frozenset(
-    [
-        "capitalize",
-        "casefold",
-        "count",
-        "endswith",
-        "find",
-        "index",
-        "isalnum",
-        "isalpha",
-        "isascii",
-        "isdecimal",
-        "isdigit",
-        "islower",
-        "isnumeric",
-        "isspace",
-        "istitle",
-        "isupper",
-        "join",
-        "lower",
-        "lstrip",
-        "partition",
-        "removeprefix",
-        "removesuffix",
-        "replace",
-        "rfind",
-        "rindex",
-        "rpartition",
-        "rsplit",
-        "rstrip",
-        "split",
-        "splitlines",
-        "startswith",
-        "strip",
-        "swapcase",
-        "title",
-        "upper",
-    ]
-)
+TEXT = frozenset({
+    "capitalize", "casefold", "count", "endswith", "find", "index", "isalnum", "isalpha", "isascii", "isdecimal", "isdigit", "islower", "isnumeric",
+    "isspace", "istitle", "isupper", "join", "lower", "lstrip", "partition", "removeprefix", "removesuffix", "replace", "rfind", "rindex",
+    "rpartition", "rsplit", "rstrip", "split", "splitlines", "startswith", "strip", "swapcase", "title", "upper",
+})  # fmt: skip
 METHODS: Mapping[type, frozenset[str]] = {
     str: TEXT,
     dict: frozenset({"get", "items", "keys", "values"}),
@@ -226,13 +192,8 @@ class HouseStyle:
 
     def _picture(self, name: str) -> str:
         if name not in self.pictures:
-            raise ValueError(
-                Phrase(
-                    "{name} is not a picture of the folder{nearest}",
-                    name=repr(name),
-                    nearest=nearest(name, self.pictures),
-                )
-            )
+            told = {"name": repr(name), "nearest": nearest(name, self.pictures)}
+            raise ValueError(Phrase("{name} is not a picture of the folder{nearest}", **told))
         return self.pictures[name]
 
     def path(self, name: str) -> str:
@@ -257,15 +218,12 @@ def problems(house: HouseStyle, programs: Path) -> list[Problem]:
     """Return what is wrong with a firm's templates before any is filled: their syntax, names that nothing asks for, what would be fetched."""
     known = sorted(path.name for path in programs.glob(f"*{ENDING}"))
     environment = Environment(loader=FileSystemLoader(programs), **OPTIONS)
-    found = [
-        problem for name, text in house.templates.items() for problem in _judged(house, name, text, known, environment)
-    ]
-    return found + [
-        Problem(Phrase("{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write "
-"them as data: addresses.", what=what),
-                house.path(CSS), line)
-        for what, line in fetched_by_css(house.css)
-    ]  # fmt: skip
+    found = [each for name, text in house.templates.items() for each in _judged(house, name, text, known, environment)]
+    for what, line in fetched_by_css(house.css):
+        words = Phrase("{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write "
+                       "them as data: addresses.", what=what)  # fmt: skip
+        found.append(Problem(words, house.path(CSS), line))
+    return found
 
 
 def _judged(house: HouseStyle, name: str, text: str, known: list[str], environment: Environment) -> Iterator[Problem]:
@@ -285,25 +243,18 @@ def _judged(house: HouseStyle, name: str, text: str, known: list[str], environme
     except (RecursionError, ValueError) as error:  # brackets in brackets, a number of thousands of digits
         yield Problem(Phrase("The template cannot be read: {error}.", error=error), house.path(name))
         return
-    extended = [each.template.value for each in asked_for if isinstance(each.template, nodes.Const)]
-    for asked in extended:
-        if str(asked).removeprefix(OWN) not in known:
-            yield Problem(
-                Phrase(
-                    "{asked} is not a template of the program{nearest}.",
-                    asked=repr(asked),
-                    nearest=nearest(str(asked).removeprefix(OWN), known),
-                ),
-                house.path(name),
+    for asked in [each.template.value for each in asked_for if isinstance(each.template, nodes.Const)]:
+        program = str(asked).removeprefix(OWN)
+        if program not in known:
+            words = Phrase(
+                "{asked} is not a template of the program{nearest}.", asked=repr(asked), nearest=nearest(program, known)
             )
-        elif not str(asked).startswith(OWN) and asked == name:
-            yield Problem(
-                Phrase('A template cannot extend itself. Write {% extends "{name}" %}.', name=f"{OWN}{name}"),
-                house.path(name),
-                1,
-            )
+            yield Problem(words, house.path(name))
+        elif asked == name:
+            words = Phrase('A template cannot extend itself. Write {% extends "{name}" %}.', name=f"{OWN}{name}")
+            yield Problem(words, house.path(name), 1)
         else:
-            yield from _unknown_blocks(house, name, tree, blocks(str(asked).removeprefix(OWN), environment))
+            yield from _unknown_blocks(house, name, tree, blocks(program, environment))
 
 
 def _unknown_blocks(house: HouseStyle, name: str, tree: nodes.Template, known: list[str]) -> Iterator[Problem]:

@@ -39,7 +39,7 @@ class Cell(NamedTuple):
     @property
     def shown(self) -> list[str]:
         """The text in lines that fit."""
-        return list(self._fitted[0])
+        return self._fitted[0]
 
     @property
     def style(self) -> str:
@@ -59,7 +59,7 @@ class Cell(NamedTuple):
         return self.height - self._top - 2 * SIDE
 
     @property
-    def _fitted(self) -> tuple[tuple[str, ...], float]:
+    def _fitted(self) -> tuple[list[str], float]:
         text = {"sheet": "000 of 000", "page": "000", "sheets": "000", "logo": ""}.get(self.kind, self.text)
         face = BOLD if self.bold else REGULAR
         return fitted(text, self.width - 2 * PAD, self._room, self.largest, LEAST, face)

@@ -22,19 +22,9 @@ with no_compiler():
     from weasyprint.urls import FatalURLFetchingError, URLFetcher
 
 __all__ = [
-    "HTML",
-    "UA_STYLESHEET",
-    "Array",
-    "Attachment",
-    "Dictionary",
-    "ElementWrapper",
-    "Object",
-    "Stream",
-    "String",
-    "URLFetcher",
-    "block_layout",
-    "told_of_page",
-]
+    "HTML", "UA_STYLESHEET", "Array", "Attachment", "Dictionary", "ElementWrapper", "Object", "Stream", "String", "URLFetcher",
+    "block_layout", "told_of_page",
+]  # fmt: skip
 
 
 @contextmanager
@@ -45,11 +35,8 @@ def told_of_page(folder: str) -> Iterator[None]:
     except FatalURLFetchingError as error:  # no Exception: it would pass by all who tell of faults
         if not folder:
             raise RuntimeError(str(error)) from error
-        raise UserError(
-            Problem(
-                Phrase("{error}: a report fetches nothing. Put what it needs into the folder.", error=error), folder
-            )
-        ) from error
+        words = Phrase("{error}: a report fetches nothing. Put what it needs into the folder.", error=error)
+        raise UserError(Problem(words, folder)) from error
     except (OSError, UserError):
         raise
     except Exception as error:  # of any kind: a template or a style may ask for anything
@@ -83,20 +70,12 @@ FREE = "f"
 class SaidObject(Object):  # type: ignore[misc]  # the page engine has no types
     """An object that is said already; the page engine says each twice, for the file and for its identifier."""
 
+    data = compressible = None  # which are properties of the page engine's objects
+
     def __init__(self, object_: Any, said: bytes, *, is_stream: bool) -> None:
         super().__init__()
         self.number, self.generation, self.free = object_.number, object_.generation, object_.free
-        self.said, self.is_stream = said, is_stream
-
-    @property
-    def data(self) -> bytes:
-        """The object as it stands in the file."""
-        return self.said
-
-    @property
-    def compressible(self) -> bool:
-        """Whether it may be packed together with others."""
-        return not self.is_stream
+        self.data, self.compressible = said, not is_stream  # those of one stream are not packed with others
 
 
 def say_once(pdf: Any) -> None:
@@ -104,10 +83,10 @@ def say_once(pdf: Any) -> None:
     with ThreadPoolExecutor(max_workers=cpu_count()) as pool:
         bodies = {each.number: body for each, body in _packed(pdf.objects, pool)}
         for place, each in enumerate(pdf.objects):
-            if isinstance(each, Stream):
-                pdf.objects[place] = SaidObject(each, _stream(each, bodies[each.number].result()), is_stream=True)
-            elif each.free != FREE:
-                pdf.objects[place] = SaidObject(each, each.data, is_stream=False)
+            is_stream = isinstance(each, Stream)
+            if is_stream or each.free != FREE:
+                said = _stream(each, bodies[each.number].result()) if is_stream else each.data
+                pdf.objects[place] = SaidObject(each, said, is_stream=is_stream)
 
 
 def _packed(objects: list[Any], pool: Executor) -> Iterator[tuple[Any, Future[bytes]]]:

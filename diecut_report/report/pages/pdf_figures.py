@@ -8,17 +8,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
-from importlib import import_module
 from math import cos, radians, sin
-from pathlib import Path
 from textwrap import wrap
 from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
-from fontTools.ttLib import TTFont
-
 from diecut_report.report.mathematics import OperatorPen
 from diecut_report.report.pages.pdf_math import unseen
+from diecut_report.report.symbols import font
 
 SVG, HREF = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
 PIXELS = 4 / 3  # to a point
@@ -234,18 +231,12 @@ def _placed(node: ElementTree.Element, style: Style) -> Iterator[str]:
 
 
 @cache
-def _font(name: str) -> TTFont:
-    folder = Path(import_module("diecut_report.templates").__path__[0]) / "fonts"
-    return TTFont(folder / f"{FONTS[name]}.ttf")
-
-
-@cache
 def _glyph(letter: str, family: str) -> _Glyph:
     """A letter of a family, or of another one that has it."""
     for name in (family, *FONTS):
-        if name in FONTS and ord(letter) in _font(name).getBestCmap():
-            glyphs, called = _font(name).getGlyphSet(), _font(name).getBestCmap()[ord(letter)]
+        if name in FONTS and ord(letter) in font(FONTS[name]).getBestCmap():
+            glyphs, called = font(FONTS[name]).getGlyphSet(), font(FONTS[name]).getBestCmap()[ord(letter)]
             pen = OperatorPen(glyphs)
             glyphs[called].draw(pen)
-            return _Glyph(" ".join(pen.operators), glyphs[called].width, _font(name)["head"].unitsPerEm)
+            return _Glyph(" ".join(pen.operators), glyphs[called].width, font(FONTS[name])["head"].unitsPerEm)
     raise NotDrawn(letter)
