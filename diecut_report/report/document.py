@@ -289,7 +289,6 @@ def former(old: ChangedDocumentRecord, new: ChangedDocumentRecord, words: Catalo
 def _contents(
     chapters: list[PrintedChapter], words: Catalogue, detail: str, results: ResultsRecord
 ) -> Iterator[tuple[str, str, str, int]]:
-    """Anchor, number, title and depth of all that has a heading."""
     yield "summary", "1", words["summary"], 1
     if changes := results.changes:
         yield "changes", "", former(changes.old, changes.new, words), 1
@@ -346,7 +345,6 @@ class Backdrop:
 
 
 def _across(text: str) -> str:
-    """The words along the sheet's diagonal, as outlines."""
     width = measured(text, BOLD)
     size = min(ACROSS * (WIDTH**2 + HEIGHT**2) ** 0.5 / width, HIGHEST)
     along, up = size * cos(SLOPE), size * sin(SLOPE)

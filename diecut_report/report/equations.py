@@ -119,7 +119,6 @@ class Equations:
         return Equation(row.latex(), row.text(), (row,))
 
     def _links(self, item: ItemRecord) -> list[Link]:
-        """What stands behind the symbol: the formula, the numbers in it, and the result."""
         result = self._result(item.outcome)
         if item.type == "reduction":
             return [*self._reduced(item), result]
@@ -171,7 +170,6 @@ class Equations:
         return Link(latex, text, ["integral", curve.form, by.form, end.form])
 
     def _place(self, item: ItemRecord) -> Link:
-        """Where a curve's numbers are shown, or where an extreme lies."""
         at = item.at
         if not at:
             return Link()
@@ -180,7 +178,6 @@ class Equations:
         return Link(latex, f" {word} {at.symbol} = {place.text}", ["place", word, ["sym", at.symbol], place.form])
 
     def _rows(self, whole: EquationRow) -> list[EquationRow]:
-        """The formula in the first row, the numbers in it and the result in the second, or each in its own."""
         *formulas, result = whole.links
         if not formulas:
             return [whole]

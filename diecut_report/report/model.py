@@ -274,14 +274,12 @@ def in_lines(rows: Sequence[ValueRow]) -> list[tuple[ValueRow, str]]:
 
 
 def _said(row: ValueRow) -> float:
-    """How wide what is said of a row is, mm."""
     letters = sum(len(new.striptags()) + len(old.striptags()) + 10 for new, old in row.letters)
     behind = len(row.refers) + 7 + letters if row.refers else len(row.source) + 1
     return LETTER * (len(row.description) + REFERENCE * (behind + len(row.note)))
 
 
 def _value(row: ValueRow) -> float:
-    """How wide its symbol and value are, mm."""
     place = len(row.at.striptags()) + 4 if row.at else 0
     return LETTER * (len(row.symbol.striptags()) * REFERENCE + len(row.value) + place + 3)
 
@@ -311,7 +309,6 @@ def under_heading(absent: Sequence[AbsentRecord], heading: str) -> list[AbsentRe
 
 
 def _left_out_said(item: ItemRecord | None) -> str:
-    """What a note says of its step, without its name; nothing of any other step."""
     if item is None or item.type != "note" or not item.text.startswith(name := f"{item.description}: "):
         return ""
     return item.text.removeprefix(name) if item.description else ""

@@ -87,7 +87,6 @@ def profile_drawing(curves: Mapping[str, CurveRecord], export: ExportRecord) -> 
 
 
 def _points(curves: Mapping[str, CurveRecord], x: str, y: str) -> list[Point]:
-    """Samples of two curves as points in millimetres."""
     strange = [name for name in (x, y) if unit(curves[name].unit).kind != MM.kind]
     if strange:
         raise ValueError(f"{strange[0]} is not a length and cannot be drawn")

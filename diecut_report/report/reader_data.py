@@ -137,7 +137,6 @@ def _shape(shape: MovingShape, pool: ReaderRows, shown: str) -> Data:
 
 
 def _rows(shape: MovingShape) -> Points:
-    """A shape's numbers at each place, of one that stands still at one: points, a centre and radius, a shift and angle; shape (places, numbers)."""
     match shape:
         case MovedRecord():
             return np.array(shape.moves)
@@ -166,7 +165,6 @@ def _room(shapes: Sequence[MovingShape]) -> list[float | None]:
 
 
 def _letter(shapes: Sequence[MovingShape]) -> float:
-    """The size of labels."""
     ends = np.concatenate([end for shape in shapes for end in _ends(shape)])
     return LETTER * float((ends.max(axis=0) - ends.min(axis=0)).max())
 
@@ -275,7 +273,6 @@ def _panel(panel: PanelData, raw: Panel, words: Catalogue, pool: ReaderRows) -> 
 
 
 def _line(line: Line, pool: ReaderRows) -> Data:
-    """A line with the rows of its numbers; where it breaks it keeps its place, and has no height."""
     known = np.maximum.accumulate(np.where(np.isfinite(line.x), np.arange(len(line.x)), 0))
     heights = np.where(np.isfinite(line.x), line.y, np.nan)
     return {"label": tidy(line.label), "x": pool.row(line.x[known], X_DIGITS), "y": pool.row(heights, Y_DIGITS)}

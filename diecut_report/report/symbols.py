@@ -162,7 +162,6 @@ def symbol_rows(mechanism: MechanismRecord) -> list[SymbolRow]:
 
 
 def _quantities(mechanism: MechanismRecord) -> list[tuple[str, QuantityRecord | CurveRecord]]:
-    """Its inputs, curves, outputs and what lies between, by their names."""
     groups = (mechanism.inputs, mechanism.curves, mechanism.outputs, mechanism.values)
     return [pair for group in groups for pair in group.items()]
 
@@ -184,7 +183,6 @@ def _lines(row: SymbolRow) -> int:
 
 
 def _in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
-    """The rows in columns, of about as many lines each."""
     columns: list[list[SymbolRow]] = [[] for _ in rows[:COLUMNS]]
     share, above = ceil(sum(map(_lines, rows)) / len(columns)), 0
     for row in rows:
@@ -272,7 +270,6 @@ def drawn(text: str, face: str = REGULAR) -> str:
 
 
 def _letters_lines(text: str, width: float, face: str) -> Iterator[str]:
-    """A text in lines of so many em; a word that is longer is parted."""
     line = ""
     for word in text.split():
         longer = f"{line} {word}".lstrip()

@@ -352,7 +352,6 @@ def _date(given: str | None) -> str | None:
 
 
 def _mechanism(words: Translator, data: MechanismRecord, results: ResultsRecord) -> MechanismRecord:
-    """A mechanism, or a comparison, whose sources are those of what it compares."""
     kinds = [results.mechanisms[name].kind for name in data.between]
     home = kinds[-1] if kinds and all(map(built_in, kinds)) else data.kind
     texts = _MechanismTexts(words, data.kind, given_names(data, results.mechanisms), home)

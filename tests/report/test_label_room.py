@@ -9,7 +9,6 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.backends.backend_svg import RendererSVG
@@ -18,10 +17,9 @@ from matplotlib.text import Text
 from diecut_report.config.plugins import Discovery
 from diecut_report.press import Press
 from diecut_report.report.chapters.steps import placed, rows_of
-from diecut_report.report.figures.by_type import build
-from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line, Note, PanelData, SpanData, framed
-from diecut_report.report.figures.style import SizesSize, load_fonts, text_size, wrapped
-from diecut_report.report.figures.style import style as style_of
+from diecut_report.report.figures.by_type import DRAW
+from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line, Note, PanelData, SpanData
+from diecut_report.report.figures.style import SizesSize, styled, text_size, wrapped
 from diecut_report.report.text import Catalogue, translated
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism_record import CurveRecord, MechanismRecord
@@ -58,9 +56,8 @@ def _boxes(
             drawn[self] = None
         draw(self, renderer)
 
-    load_fonts()
-    with mpl.rc_context(style_of("x")), pytest.MonkeyPatch.context() as patch:  # type: ignore[arg-type]
-        sheet = build(figure, curves, Catalogue(language), size)
+    with styled("x"), pytest.MonkeyPatch.context() as patch:
+        sheet = DRAW[figure.type](figure, curves, Catalogue(language), size)
         patch.setattr(Text, "draw", noted)
         sheet.set_dpi(72)
         renderer = RendererSVG(*(side * 72 for side in sheet.get_size_inches()), StringIO())
@@ -159,7 +156,7 @@ def _crowded(line_count: int = 3) -> LabelLayout:
     marks = [Note(5.0 + 0.2 * n, 5.0, f"place {n} of five 1.234") for n in range(5)]
     panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=lines, marks=marks,
                       levels=[Note(0.0, 5.0, "allowed")], spans=[SpanData(2.0, 8.0, "stroke")])  # fmt: skip
-    return LabelLayout(panel, framed(panel, 400.0, 90.0))
+    return LabelLayout(panel, 400.0, 90.0)
 
 
 @pytest.mark.usefixtures("style")
@@ -183,12 +180,12 @@ def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
     panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.02, 0.9), lines=[Line(x, 0.4 / (x + 0.4), "")],
                       marks=[Note(0.4444, 0.4 / 0.8444, "this machine 0.2727 (0.4444)")],
                       verticals=[Note(0.54, 0.0, "return too short"), Note(0.6, 0.0, "no return")])  # fmt: skip
-    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
+    layout = LabelLayout(panel, 182.0, 96.0)
     curve = np.concatenate(layout.lines)
     for text in layout.texts:
         wide, high = text_size(text.text, text.size)
         assert not ((np.abs(curve[:, 0] - text.x) < wide / 2) & (np.abs(curve[:, 1] - text.y) < high / 2)).any()
-    assert len(layout.texts) + len(layout.told_marks) + len(layout.told_uprights) == 3
+    assert len(layout.texts) + len(layout.told) == 3
 
 
 @pytest.mark.usefixtures("style")
@@ -198,8 +195,8 @@ def test_the_name_of_a_level_hides_no_mark_and_cuts_no_line_across(what: str, he
     notes = [Note(x, y, "") for x in np.linspace(0.5, 9.5, 6) for y in heights]
     panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=[Line(np.array([0.0, 10.0]), np.array([0.0, 10.0]), "")],
                       levels=[Note(0.0, 5.0, "allowed level")], **{what: notes})  # fmt: skip
-    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
-    assert layout.told_levels == [0] and not layout.texts
+    layout = LabelLayout(panel, 182.0, 96.0)
+    assert layout.told == [("levels", 0)] and not layout.texts
 
 
 @pytest.mark.usefixtures("style")
@@ -222,8 +219,7 @@ def test_a_diagram_with_many_names_is_as_wide_as_the_sheet() -> None:
 @pytest.mark.usefixtures("style")
 def test_a_name_that_has_no_room_beside_the_lines_stands_in_the_legend_and_covers_none() -> None:
     layout = _crowded()
-    assert layout.told_marks == [0, 1, 2, 3, 4]
-    assert layout.told_levels == [0]
+    assert layout.told == [*(("marks", n) for n in range(5)), ("levels", 0)]
     assert [text.text for text in layout.texts] == ["stroke"]
 
 
@@ -251,7 +247,7 @@ def test_a_name_does_not_cover_other_marks() -> None:
     marks = [Note(x, y, "notch 2 (keyseat end mill) 45.43 MPa (43.32 MPa)" if y > 40 else "") for x, y in places]
     panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 148.0), lines=[Line(148 * np.cos(turn), 86 * np.sin(turn), "")],
                       marks=marks)  # fmt: skip
-    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
+    layout = LabelLayout(panel, 182.0, 96.0)
     points = np.array([layout.frame.points(note.x, note.y) for note in marks])
     for text in layout.texts:
         wide, high = text_size(text.text, text.size)
@@ -271,7 +267,7 @@ def test_the_name_of_an_area_covers_no_line_within_it() -> None:
         lines=lines,
         fills=[Line(x, 0 * x + 9.0, "whole tension")],
     )
-    assert LabelLayout(panel, framed(panel, 182.0, 96.0)).outside == [0]
+    assert LabelLayout(panel, 182.0, 96.0).outside == [0]
 
 
 def test_a_symbol_does_not_stand_alone_on_the_last_line_of_a_title() -> None:

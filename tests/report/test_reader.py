@@ -133,7 +133,7 @@ def test_no_text_breaks_out_of_the_data(plain: dict[str, Any]) -> None:
     )
     drawn["sections"] = []
     drawn["figures"] = [{"id": "x", "title": "Hostile", "caption": "", "type": "chart", "panels": [panel], "shows": []}]
-    material = Rendering(typed(plain)).material
+    material = Rendering(typed(plain))
     material.__dict__["figures"] = {number: None for part in material.document.chapters for number, _ in part.figures}
     text = reader_data(material)  # drawn or not: no font has all of these characters
     assert not set("<>&\u2028") & set(text)

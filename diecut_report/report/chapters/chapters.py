@@ -109,8 +109,6 @@ def chapter(
 
 
 class _Filler:
-    """Fills a chapter in the order of the printed page, so that all numbers count up."""
-
     def __init__(
         self, part: PrintedChapter, equations: Equations, words: Catalogue, stem: str, told: ToldBefore
     ) -> None:  # fmt: skip
@@ -177,7 +175,6 @@ class _Filler:
         return heading
 
     def _results(self, outputs: Mapping[str, QuantityRecord]) -> None:
-        """Outputs line by line, those of repeated parts as tables: all, or those that no step has printed; the key ones."""
         part, rows = self.part, self._rows(outputs)
         printed = set() if self.is_full else {*self._printed()}
         told = {
@@ -192,7 +189,6 @@ class _Filler:
             self._head("results")
 
     def _rows(self, outputs: Mapping[str, QuantityRecord]) -> dict[str, QuantityRow]:
-        """All outputs as lines, those of repeated parts counted."""
         nth = counted(outputs)
         return {
             name: quantity_row(row, self.decimal, self._nth(row.description, nth.get(name)), self.tables.names)
@@ -238,7 +234,6 @@ class _Filler:
         return description if number is None else self.words.say("nth", text=description, n=number)
 
     def _files(self) -> Iterator[File]:
-        """The files beside the report."""
         mechanism = self.mechanism
         for export in mechanism.exports:
             if export.error:
@@ -284,7 +279,6 @@ class _Filler:
         )
 
     def _side(self, display: ShownRecord | None) -> str:
-        """One side of a check; a dash where it is not known."""
         return "–" if display is None else quantity(display.text, display.unit, self.decimal)
 
     def _used(self, check: CheckRecord) -> str:

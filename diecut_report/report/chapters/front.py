@@ -349,7 +349,6 @@ def assumed_groups(results: ResultsRecord, words: Catalogue) -> list[AssumedGrou
 
 
 def _valued(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> Iterator[tuple[str, str, str]]:
-    """Key and value of each, and what it moves."""
     first = list(dict.fromkeys(each.check for each in values if each.check))
     for each, moves in _runs(results, words, sorted(values, key=lambda one: [*first, ""].index(one.check))):
         _, key, row = _input(results, each.path)
@@ -366,7 +365,6 @@ def _runs(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> It
 
 
 def _check_title(results: ResultsRecord, check: str) -> str:
-    """How the reader knows a check."""
     name, _, own = check.partition(".")
     data = results.mechanisms.get(name)
     return next((each.title for each in data.checks if each.id == own), own) if data else check

@@ -53,7 +53,6 @@ class SaidOnce:
             yield f"{self.words['where']} {self.words.listed(new)}"
 
     def _new(self, texts: Iterable[str]) -> Iterator[str]:
-        """Those of the texts that were not said; they are now."""
         for text in texts:
             if text not in self.said:
                 yield text
@@ -153,7 +152,6 @@ def _are_same(one: ItemRecord, other: ItemRecord) -> bool:
 
 
 def _shape(item: ItemRecord) -> tuple[str, tuple[str, ...]]:
-    """A formula with its letters numbered, and the letters; nothing of one that stands for several."""
     tree = item.equation
     if item.type != "formula" or not tree or item.where:
         return "", ()
@@ -172,7 +170,6 @@ def _numbered(tree: Any, places: Mapping[str, int]) -> Any:
 
 
 def _operations(tree: Any) -> int:
-    """How many operations a tree holds."""
     if not isinstance(tree, list) or tree[:1] in (["sym"], ["num"], ["qty"]):
         return 0
     return (isinstance(tree[0], str) if tree else 0) + sum(_operations(part) for part in tree)
@@ -229,7 +226,6 @@ def gathered(
 
 
 def _tables(rows: Mapping[str, QuantityRecord]) -> list[Parts]:
-    """Return the quantities of each family in one table."""
     tables: dict[tuple[str, bool], Parts] = {}
     for name, row in rows.items():
         if not row.part:
@@ -277,7 +273,6 @@ def _is_flat(panel: Panel, curves: Mapping[str, CurveRecord]) -> bool:
 
 
 def _noted(sections: Sequence[SectionRecord], notes: Sequence[tuple[FigureRecord, ItemRecord]]) -> list[SectionRecord]:
-    """The sections with each note behind the last step that its figure shows."""
     items = [list(section.items) for section in sections]
     for figure, note in notes:
         places = [(own, index + 1) for own in items for index, item in enumerate(own) if item.id in figure.shows]

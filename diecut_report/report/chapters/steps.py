@@ -103,7 +103,6 @@ def _is_narrow(figure: FigureRecord) -> bool:
 
 
 def _labels(*parts: Sequence[Any]) -> list[str]:
-    """The names of parts of a diagram."""
     return [each.label for several in parts for each in several if each.label]
 
 
@@ -179,7 +178,6 @@ class PrintedSteps:
             yield self._formula(item, notes, number)
 
     def _formula(self, item: ItemRecord, notes: set[str], number: str) -> _PrintedStep:
-        """A step with its formula, unless that stands elsewhere."""
         refers = self.told.find(item)
         if refers is None:
             self.told.keep(item, number)
@@ -193,7 +191,6 @@ class PrintedSteps:
         return _PrintedStep(Item("note"), row, is_told=True)
 
     def _said_beside(self, item: ItemRecord, notes: set[str]) -> Iterator[str]:
-        """The rows of a table between which a number lies, and a note."""
         yield from filter(None, [item.table_rows])
         if item.series and item.note.startswith(item.series):  # which is told once for all chapters of a kind
             yield from self.told.new([item.note])

@@ -88,7 +88,6 @@ def _move_on(items: list[ItemRecord | None], place: int, title: str) -> None:
 
 
 def _joined(one: ItemRecord, other: ItemRecord, title: str) -> ItemRecord:
-    """Two tables side by side, each column once."""
     known = [(column.title, column.symbol) for column in one.columns]
     new = [k for k, column in enumerate(other.columns) if (column.title, column.symbol) not in known]
     columns = [*one.columns, *(other.columns[k] for k in new)]
@@ -325,13 +324,11 @@ class Tables:
         return PartsTable(self._number(), check.title, "", columns, lines)
 
     def _side(self, check: CheckRecord, side: str) -> PrintedColumn:
-        """The head of a side's column: its own words where all parts share them."""
         labels = {getattr(part, f"{side}_label") for part in check.parts if part.status}
         title = labels.pop() if len(labels) == 1 else self.words[side]
         return PrintedColumn(title, Markup(""), pretty(getattr(check, f"{side}_display").unit), "", "")
 
     def _judged(self, check: CheckRecord, part: CheckPartRecord) -> list[TableCell]:
-        """Both sides of a part, its utilisation and its verdict; a part that has no such quantity has none."""
         if part.status is None:
             return [TableCell("–")] * 4
         mixed = len({other.demand_label for other in check.parts if other.status}) > 1

@@ -113,7 +113,6 @@ def _named_once(drawn: list[Diagram]) -> list[Diagram]:
 def _of_curves(
     panel: PlotPanelRecord, curves: Mapping[str, CurveRecord], over: CurveRecord, words: Catalogue
 ) -> PanelData:
-    """A panel of curves, over a whole turn where the abscissa is one."""
     shown, across = panel.unit, over.display_unit
     period = period_of(over)
     end = over.values[0] + period if period else over.values[-1]
@@ -136,7 +135,6 @@ def _of_curves(
 
 
 def _of_lines(panel: ChartPanelRecord, words: Catalogue) -> PanelData:
-    """A panel of lines of its own, as far across as they reach."""
     shown, over = panel.unit, panel.x
     across = over.unit
     lines, fills = ([_line(line, across, shown) for line in lines] for lines in (panel.lines, panel.fills))
@@ -164,13 +162,11 @@ def _line(line: LineRecord, across: str, shown: str) -> Line:
 
 
 def _mark(mark: MarkRecord, across: str, shown: str, words: Catalogue) -> Note:
-    """A marked point: its name, its value, and its place."""
     text = f"{marked(mark.label)} {_value(mark.y, shown, words)} ({_value(mark.x, across, words)})"
     return Note(mark.x / unit(across).factor, mark.y / unit(shown).factor, text if mark.label else "")
 
 
 def _level(level: LevelRecord, shown: str, words: Catalogue) -> Note:
-    """A level: its name and its value."""
     text = f"{marked(level.label)} {_value(level.value, shown, words)}"
     return Note(0.0, level.value / unit(shown).factor, text)
 
@@ -216,7 +212,6 @@ def _rows(groups: Sequence[BarGroupRecord], width: float) -> list[list[BarGroupR
 
 
 def _names(group: BarGroupRecord) -> float:
-    """How wide the names of a group's bars are, points."""
     return max(text_size(plain(bar.label))[0] for bar in group.bars) + 8
 
 
@@ -311,7 +306,6 @@ def _emptiest(axes: Axes) -> float:
 
 
 def _radial(value: float, greatest: float, shown: str, words: Catalogue) -> str:
-    """The number at a circle, at the greatest one with its unit."""
     text = number(f"{value:.10g}", words["decimal"])
     return "" if value == 0 else joined(text, pretty(shown)) if value == greatest else text
 

@@ -73,8 +73,8 @@ class Diagram:
 
     def __init__(self, panel: PanelData, width: float, height: float) -> None:
         self.panel = panel
-        self.frame = Frame(width, height, (panel.across.low, panel.across.high), panel.heights)
-        self.names = LabelLayout(panel, self.frame)
+        self.names = LabelLayout(panel, width, height)
+        self.frame = self.names.frame
         self.tags = self.names.tags if len(panel.lines) > 1 else []
         self.areas = [marked(panel.fills[index].label) for index in self.names.outside]
         notes = [getattr(panel, kind)[index].text for kind, index in self.names.told]
@@ -134,7 +134,6 @@ class Diagram:
                       color=INK, zorder=6, bbox=halo)  # fmt: skip
 
     def _title(self) -> str:
-        """What stands upwards, and its unit; with its symbol where there is one curve."""
         lines = self.panel.lines
         label = marked(lines[0].label) if len(lines) == 1 else ""
         parts = [plain(self.panel.title)] + ([label] if "$" in label else [])
@@ -154,7 +153,6 @@ class Diagram:
         )  # fmt: skip
 
     def _lines(self, axes: Axes) -> list[Line2D]:
-        """The lines, the first one on top; those that the legend names."""
         handles = []
         for index, line in enumerate(self.panel.lines):
             colour, dashes, width = STROKES[index % len(STROKES)]

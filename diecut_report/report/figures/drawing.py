@@ -218,7 +218,6 @@ def folded(text: str, width: float, size: float = FONT_SIZE) -> list[str]:
 
 
 def _gathered(parts: list[str], width: float, size: float) -> list[str]:
-    """Parts of a text, as many in a line as fit it, though not all in one."""
     lines = [parts[0]]
     for part in parts[1:]:
         longer = f"{lines[-1]} {part}"
@@ -279,7 +278,6 @@ class DrawingSheet:
         self.crowded += sum(overlap(one, other) for one, other in combinations(self.solid, 2))
 
     def _labels(self) -> Labels:
-        """Where texts may stand: clear of all lines and boxes, and on the page."""
         lines = [(sampled(line), weight) for line, weight in self.lines]
         weights = np.concatenate([np.zeros(0), *(np.full(len(line), weight) for line, weight in lines)])
         points = np.concatenate([np.empty((0, 2)), *(line for line, _ in lines)])
@@ -304,7 +302,6 @@ class DrawingSheet:
     def _head(
         self, tip: Array, along: Array, length: float = ARROW, slender: float = SLENDER, color: str = INK, zorder: float = 2.6,
     ) -> None:  # fmt: skip
-        """The head of an arrow."""
         across = np.array([-along[1], along[0]]) * length * slender
         corners = np.array([tip, tip - length * along + across, tip - length * along - across])
         self.axes.fill(*corners.T, color=color, linewidth=0, zorder=zorder)
@@ -348,7 +345,6 @@ class DrawingSheet:
 
 
 def _folds(text: str) -> list[list[str]]:
-    """A text whole, and in ever narrower lines."""
     wide = text_size(marked(text))[0]
     found = [[text]]
     for share in (0.62, 0.4):
@@ -409,7 +405,6 @@ def _shares(figure: FigureRecord, size: SizesSize) -> tuple[float, ...]:
 
 
 def _look(shape: PolylineRecord | CircleRecord | ArcRecord | ArrowRecord | BoxRecord) -> dict[str, Any]:
-    """The look of a shape's role; ValueError where there is no such role."""
     if shape.role not in ROLES:
         raise ValueError(f"{shape.role!r} is not a role of a {shape.shape}; known: {', '.join(ROLES)}")
     return ROLES[shape.role]
@@ -430,12 +425,10 @@ class Shapes(DrawingSheet):
             self._ground(points)
 
     def _ground(self, points: Array) -> None:
-        """Short strokes below a line that stands still."""
         feet = sampled(points, 6.0)[1:-1]
         self._strokes(feet, feet - 4.5, THIN_LINE)
 
     def _strokes(self, starts: Array, ends: Array, look: dict[str, Any]) -> None:
-        """Many short lines as one path."""
         self.axes.plot(*strokes(starts, ends).T, **look)
 
     def _circle(self, shape: CircleRecord) -> None:
@@ -498,7 +491,6 @@ class Shapes(DrawingSheet):
             self._later(shape.text, lambda size: labels.by_arrow(tail, tip, size), leader=tuple((tail + tip) / 2))
 
     def _outside(self, tail: Array, tip: Array) -> tuple[Array, Array]:
-        """An arrow without what lies in the boxes of its ends."""
         for shape in self.shapes:
             if isinstance(shape, BoxRecord):
                 center, half = self._points(shape.center)[0], filled(shape, self.scale)[1] / 2
@@ -506,7 +498,6 @@ class Shapes(DrawingSheet):
         return tail, tip
 
     def _box(self, shape: BoxRecord) -> None:
-        """A box with lines of text."""
         center, (lines, size) = self._points(shape.center)[0], filled(shape, self.scale)
         look = {"edgecolor" if key == "color" else key: value for key, value in _look(shape).items()}
         face = BODY if shape.role == "body" else "white"

@@ -276,8 +276,9 @@ class LabelLayout:
     ``told`` are marks, levels and vertical lines whose names have no room, and stand in the legend: the list of the panel, the place in it.
     """
 
-    def __init__(self, panel: PanelData, frame: Frame) -> None:
-        self.panel, self.frame = panel, frame
+    def __init__(self, panel: PanelData, width: float, height: float) -> None:
+        self.panel = panel
+        self.frame = frame = Frame(width, height, (panel.across.low, panel.across.high), panel.heights)
         self.texts: list[LabelText] = []
         self.lines = [sampled(frame.points(line.x, line.y)) for line in panel.lines]
         marks, notes = self._marks(), self._noted()
@@ -304,7 +305,6 @@ class LabelLayout:
         return np.concatenate([np.empty((0, 2)), *map(sampled, [*uprights, *marks])])
 
     def _noted(self) -> Array:
-        """Points of levels and edges of areas."""
         frame, panel = self.frame, self.panel
         levels = [np.array([[0, y], [frame.width, y]]) for y in (frame.points(0, note.y)[1] for note in panel.levels)]
         edges = [frame.points(area.x, area.y) for area in panel.fills]
@@ -365,7 +365,6 @@ class LabelLayout:
 
     # names of lines
     def _tags(self) -> list[str]:
-        """The lines' names as the legend gives them: with numbers that stand at the lines, where dashes alone do not do."""
         labels = [marked(line.label) for line in self.panel.lines]
         if len(labels) <= DASHES_DIFFER:
             return labels
@@ -391,7 +390,6 @@ class LabelLayout:
         return True
 
     def _on_line(self, index: int, size: tuple[float, float]) -> Iterator[tuple[float, float, float]]:
-        """Places on a line with the gap to all other lines, texts and the frame."""
         wide, high = size[0] / 2, size[1] / 2
         others = np.concatenate([self.notes, *(line for place, line in enumerate(self.lines) if place != index)])
         own = self.lines[index]

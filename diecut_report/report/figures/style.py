@@ -125,7 +125,6 @@ class TextCanvas(FigureCanvasSVG):
 
 
 def _spans(letters: list[Letter], size: float) -> Iterator[tuple[dict[str, str], str, str]]:
-    """Yield letters in a row that look the same, with their places."""
     for (y, own, face), row in groupby(letters, lambda each: (each.y, each.size, each.face)):
         same = list(row)
         place = {"x": " ".join(_short(each.x * size) for each in same), "y": _short(y * size)}
@@ -134,7 +133,6 @@ def _spans(letters: list[Letter], size: float) -> Iterator[tuple[dict[str, str],
 
 @cache
 def _face(file: str) -> str:
-    """The style of a font's letters; their size is to be filled in."""
     found = ttfFontProperty(get_font(file))
     slant = "font-style: italic; " if found.style == "italic" else ""
     return f"{slant}font-size: {{}}px; font-family: '{found.name}'"

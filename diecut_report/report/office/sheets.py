@@ -129,7 +129,6 @@ def sheets(material: Material) -> list[WorkSheet]:
 
 
 def _summary(material: Material) -> WorkSheet:
-    """What is calculated, the verdict, and how each mechanism fares."""
     document, words = material.document, material.words
     project = [(words[key], document.project[name]) for key, name in PROJECT.items() if document.project[name]]
     project += [(words["status"], document.block.status)]
@@ -176,7 +175,6 @@ def _inputs(results: ResultsRecord, words: Catalogue) -> WorkSheet:
 
 
 def _quantity(row: QuantityRecord) -> list[Cell]:
-    """Return description, symbol, value, unit, and value and unit as calculated."""
     cell, named = shown(row.value, row.display), [row.description, row.symbol]
     if isinstance(cell, CellNumber) and isinstance(row.value, int | float):
         return [*named, cell, pretty(row.display.unit), CellNumber(row.value), pretty(row.unit)]
@@ -245,7 +243,6 @@ def _phases(results: ResultsRecord, words: Catalogue) -> WorkSheet:
 
 
 def _curves(name: str, data: MechanismRecord, words: Catalogue) -> WorkSheet:
-    """The samples of all curves, each beside its abscissa: names with units above, what they are below."""
     columns = list(_columns(data.curves))
     heads = [[f"{key} [{pretty(curve.display_unit) or '1'}]" for key, curve in columns]]
     heads.append([f"{curve.description} {curve.symbol}".strip() for _, curve in columns])
@@ -256,7 +253,6 @@ def _curves(name: str, data: MechanismRecord, words: Catalogue) -> WorkSheet:
 
 
 def _columns(curves: Mapping[str, CurveRecord]) -> Iterator[tuple[str, CurveRecord]]:
-    """Give the curves in groups, each behind its abscissa."""
     axes = dict.fromkeys(curve.abscissa for curve in curves.values() if curve.abscissa)
     for axis in axes:
         yield axis, curves[axis]

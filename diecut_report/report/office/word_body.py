@@ -215,7 +215,6 @@ class WordBody:
 
 
 def _named(title: str, symbol: Markup, unit: str) -> Inline:
-    """The head of a column: its title, its symbol, its unit."""
     return rich(prose(title)) + (run(" ") + rich(symbol) if symbol else "") + run(f", {unit}" if unit else "")
 
 

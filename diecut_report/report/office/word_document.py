@@ -135,7 +135,6 @@ def _verdict_lines(body: WordBody, document: ReportDocument) -> Iterator[Inline]
 
 
 def _assumed(body: WordBody, document: ReportDocument) -> None:
-    """On what is assumed the verdict rests."""
     words, line = document.words, document.assumed
     if document.assumed_groups:
         body.subheading(words["assumed_values"])
@@ -155,7 +154,6 @@ def _named(body: WordBody, row: CheckRow) -> Inline:
 
 
 def _governing(body: WordBody, document: ReportDocument) -> None:
-    """What governs each mechanism, and how many of its checks fail, warn, pass and are not made."""
     columns = body.heads("mechanism:4 governing_check:5 utilisation:2.2>")
     columns += [*(TableColumn(run(MARKS[status]), 0.7, True) for status in STATUSES), *body.heads("verdict:2")]
     rows = []
@@ -292,7 +290,6 @@ def _head(body: WordBody, heading: Heading | None) -> None:
 
 
 def _given(body: WordBody, part: PrintedChapter) -> None:
-    """Purpose, assumptions, inputs."""
     if part.between:
         compared = body.words.listed([f"{other.letter} {other.title}" for other in part.between])
         body.tell(f"{body.words['comparison']} {compared}")
@@ -319,7 +316,6 @@ def _given(body: WordBody, part: PrintedChapter) -> None:
 
 
 def _default(row: QuantityRow) -> Inline:
-    """An input that is left alone: its key where it is a choice, else its symbol."""
     name = rich(prose(row.description)) + run(" ")
     if row.wordy:
         return name + key(row.key) + run(" ") + rich(own_words(row.value))
@@ -348,7 +344,6 @@ def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:
 
 
 def _outcome(body: WordBody, part: PrintedChapter) -> None:
-    """Results and phases."""
     _head(body, part.parts.get("results"))
     body.quantities(part.outputs)
     for table in part.output_parts:
@@ -381,7 +376,6 @@ def _checks(body: WordBody, part: PrintedChapter, document: ReportDocument) -> N
 
 
 def _rest(body: WordBody, part: PrintedChapter) -> None:
-    """Files beside the report, and what is not calculated."""
     _head(body, part.parts.get("files"))
     files = [[key(each.name), rich(prose(each.content))] for each in part.files]
     body.table(body.heads("file:3 content:5"), files)

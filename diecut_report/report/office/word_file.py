@@ -76,7 +76,6 @@ def set_styles(made: Document, language: str) -> None:
 
 
 def _set_letters(style: Any, size: float, colour: str = "") -> None:
-    """Set a style's font, which python-docx's template takes from a theme."""
     from docx.shared import Pt, RGBColor
 
     for fonts in style.element.xpath("./w:rPr/w:rFonts"):
@@ -88,7 +87,6 @@ def _set_letters(style: Any, size: float, colour: str = "") -> None:
 
 
 def _styles() -> Iterator[str]:
-    """The styles of paragraphs and of letters."""
     for key, (name, base, form, letters) in _PARAGRAPHS.items():
         head = f'<w:style w:type="paragraph" w:customStyle="1" w:styleId="{key}"><w:name w:val="{name}"/>'
         yield f'{head}<w:basedOn w:val="{base}"/><w:qFormat/><w:pPr>{form}</w:pPr><w:rPr>{letters}</w:rPr></w:style>'
@@ -174,7 +172,6 @@ def word_file(material: Material) -> bytes:
 
 
 def _write(body: WordBody, material: Material) -> None:
-    """Write all parts in the order of the printed report."""
     document = material.document
     word.title_block(body, document)
     if document.detail != BRIEF:

@@ -264,7 +264,6 @@ class OfficeMath(Linear):
         return piece._replace(text=_applied(self.name(tree[1]), piece.text))
 
     def _logic(self, tree: Tree) -> Piece:
-        """What is taken of curves, beside what formulas hold."""
         match tree:
             case ["derivative", curve, by]:
                 over, under = (Piece(omml_run("d") + self(each), PRODUCT) for each in (curve, by))
@@ -280,7 +279,6 @@ class OfficeMath(Linear):
 
 
 def _applied(name: str, text: str) -> str:
-    """A function with its argument, as an editor of formulas knows it."""
     return f"<m:func><m:fName>{name}</m:fName><m:e>{text.removeprefix(name)}</m:e></m:func>"
 
 

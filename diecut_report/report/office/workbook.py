@@ -81,8 +81,6 @@ def workbook(material: Material) -> bytes:
 
 
 class _Filled:
-    """Writes a sheet from above to below, as it must be where no cell is kept."""
-
     def __init__(self, into: WriteOnlyWorksheet, sheet: WorkSheet) -> None:
         from openpyxl.styles import Alignment, Font, PatternFill
 
@@ -160,7 +158,6 @@ def closed(book: Workbook) -> Iterator[None]:
 
 
 def _name_cells(book: Workbook, name: str, sheet: WorkSheet) -> None:
-    """Give cells their names."""
     from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
     from openpyxl.workbook.defined_name import DefinedName
 
@@ -170,7 +167,6 @@ def _name_cells(book: Workbook, name: str, sheet: WorkSheet) -> None:
 
 
 def _describe(book: Workbook, material: Material) -> None:
-    """Say whose it is and what it holds, where programs and archives look for it."""
     project, document = material.document.project, material.document
     told = book.properties
     told.title, told.subject = holdable(document.title), holdable(project["document_number"])

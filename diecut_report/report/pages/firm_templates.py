@@ -145,7 +145,6 @@ def _rounded(value: float, precision: int = 0, method: str = "common") -> float:
 
 
 def _names(obj: Any) -> frozenset[str]:
-    """Return the methods and attributes that may be read of an object that is no data class."""
     return next((names for kind, names in METHODS.items() if isinstance(obj, kind)), frozenset())
 
 

@@ -95,7 +95,6 @@ def sheet_blocks(block: TitleBlock, words: Catalogue, *, has_logo: bool) -> Shee
 
 
 def _row(y: float, height: float, cells: list[tuple[float, Cell]], x: float = 0.0) -> Iterator[Cell]:
-    """Boxes side by side, each of its width."""
     for width, cell in cells:
         yield cell._replace(x=x, y=y, width=width, height=height)
         x += width
@@ -201,7 +200,6 @@ def _form_2(block: TitleBlock, words: Catalogue, has_logo: bool) -> Iterator[Cel
 
 
 def _form_2a(block: TitleBlock, words: Catalogue) -> Iterator[Cell]:
-    """The following sheets: designation, and the sheet's number."""
     p = block.project
     yield Cell(65, 0, 110, 7, text=p["document_number"], largest=12, bold=True, middle=True)
     yield Cell(65, 7, 110, 4, text=p["title"], largest=7, middle=True)
@@ -303,7 +301,6 @@ def _is_waited_for(context: Any) -> bool:
 
 
 def _figure(ordinary: Callable[..., Laid], context: Any, box: Any, place: BlockPlace) -> Laid:
-    """A figure, or the empty block in its place where it waits."""
     sheets, sheet = _sheets(context), context.current_page
     before = _before(sheets.waiting.get(sheet, []), box)
     laid = (*NO_ROOM, place.most) if before else ordinary(context, box, *place)
@@ -326,7 +323,6 @@ def _before(waiting: list[_Waiting], box: Any) -> list[_Waiting]:
 
 
 def _height(ordinary: Callable[..., Laid], context: Any, box: Any, place: BlockPlace) -> float:
-    """How high a figure is, whether it has room or not."""
     laid = ordinary(context, box, *place._replace(bottom=-math.inf, is_empty=True))
     _forget(context, laid, place)
     return float(laid[0].margin_height())
@@ -349,7 +345,6 @@ def _is_kept_with(around: Any, box: Any) -> bool:
 
 
 def _body(ordinary: Callable[..., Laid], context: Any, box: Any, place: BlockPlace) -> Laid:
-    """What stands on a sheet: the figure that waited, and what follows it."""
     sheets, sheet = _sheets(context), context.current_page
     sheets.top, sheets.waiting[sheet] = box.position_y, []
     laid = _below(ordinary, context, box, place, _heads(ordinary, context, box, place))

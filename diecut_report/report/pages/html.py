@@ -166,7 +166,6 @@ def _read(name: str) -> str:
 
 @cache
 def _font_faces(faces: tuple[tuple[tuple[str, int, str], str], ...], form: str = "woff2") -> str:
-    """The fonts as embedded data."""
     rules, ending = [], {"woff2": "woff2", "truetype": "ttf"}[form]
     for (family, weight, style), name in faces:
         data = base64.b64encode((folder() / "fonts" / f"{name}.{ending}").read_bytes()).decode()

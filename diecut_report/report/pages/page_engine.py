@@ -99,7 +99,6 @@ def _packed(objects: list[Any], pool: Executor) -> Iterator[tuple[Any, Future[by
 
 
 def _stream(stream: Any, body: bytes) -> bytes:
-    """A stream with its head."""
     packing = {"Filter": "/FlateDecode"} if stream.compress else {}
     head = Dictionary({**stream.extra, **packing, "Length": len(body)})
     # the line before the end is \r\n: behind a body that ends with \r, \n alone is taken as \r\n, and the body as too short
@@ -107,7 +106,6 @@ def _stream(stream: Any, body: bytes) -> bytes:
 
 
 def _bytes(item: Any) -> bytes:
-    """A line of a stream."""
     if isinstance(item, bytes):
         return item
     said: bytes = item.encode("ascii") if isinstance(item, str) else Array([item]).data[1:-1]

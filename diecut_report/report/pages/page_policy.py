@@ -68,7 +68,6 @@ def _lower(element: Any, name: str) -> str:
 
 
 def _fetched(tree: Any) -> Iterator[str]:
-    """Yield what a page would fetch or run."""
     for element in tree.iter():
         if not isinstance(element.tag, str):
             continue  # a comment

@@ -56,7 +56,6 @@ class Archive:
                 each["S"] = "/Formula"
 
     def _field(self, pdf: Any, name: str, number: int, page: Any) -> None:
-        """An empty field for a signature in its box."""
         x1, y1, x2, y2 = (each * POINT for each in page.anchors[ANCHOR + name])
         height = page.height * POINT
         box = x1 + INSET, height - y2 + INSET, x2 - INSET, height - y1 - INSET
@@ -85,7 +84,6 @@ def _declare_accessible(pdf: Any) -> None:
 
 
 def _tag(pdf: Any, field: Any, sheet: bytes) -> None:
-    """Put a field into the tree of the document's structure."""
     root = _object(pdf, pdf.catalog["StructTreeRoot"])
     whole, numbers = _object(pdf, root["K"][0]), _object(pdf, root["ParentTree"])["Nums"]
     place = Dictionary({"Type": "/OBJR", "Obj": field.reference, "Pg": sheet})
@@ -100,7 +98,6 @@ def _tag(pdf: Any, field: Any, sheet: bytes) -> None:
 
 
 def _shared(pdf: Any) -> Any:
-    """What the sheets use, one and the same for all."""
     return _object(pdf, _object(pdf, pdf.page_references[0])["Resources"])
 
 

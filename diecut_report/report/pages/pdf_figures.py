@@ -115,12 +115,10 @@ class _SvgOperators:
         self._paint(_transform(node) + _fill(style) + " ".join(letters), style)
 
     def _paint(self, operators: str, style: Style) -> None:
-        """Keep the operators, apart in their opacity."""
         opacity = float(style["opacity"])
         self.pieces += [f"q {operators} Q"] if opacity == 1 else ["q", opacity, operators, "Q"]
 
     def _clip(self, node: ElementTree.Element) -> str:
-        """The rectangle or path within which an element shows."""
         if not node.get("clip-path"):
             return ""
         [shape] = self.named[node.get("clip-path", "")[5:-1]]
@@ -148,7 +146,6 @@ def _styled(node: ElementTree.Element, style: Style) -> Style:
 
 
 def _route(path: str) -> str:
-    """The operators of a path, each of whose commands has its places behind it."""
     steps = []
     for way, places in _COMMAND.findall(path):
         if way not in WAYS or len(places.split()) != WAYS[way][1]:
@@ -163,7 +160,6 @@ def _painting(style: Style) -> str:
 
 
 def _state(style: Style) -> str:
-    """Colours and the stroke's width, ends and dashes."""
     dashes = style["stroke-dasharray"].replace(",", " ")
     line = f"{_colour(style['stroke'])} RG {style['stroke-width']} w {CAPS[style['stroke-linecap']]} J {JOINS[style['stroke-linejoin']]} j "
     line += f"[{dashes}] {style['stroke-dashoffset']} d " if dashes != "none" else ""
@@ -184,7 +180,6 @@ def _colour(name: str) -> str:
 
 
 def _transform(node: ElementTree.Element) -> str:
-    """The operators of an element's transform; a turn is about a place."""
     found = ""
     for name, numbers in _STEP.findall(node.get("transform") or ""):
         values = [float(each) for each in numbers.replace(",", " ").split()]
@@ -213,7 +208,6 @@ def _parts(node: ElementTree.Element) -> Iterable[ElementTree.Element]:
 
 
 def _placed(node: ElementTree.Element, style: Style) -> Iterator[str]:
-    """The letters of a text: in a line from its place, or those of its parts, each where it says."""
     for part in _parts(node):
         look = _styled(part, style)
         size, letters = float(look["font-size"].removesuffix("px")), part.text or ""
