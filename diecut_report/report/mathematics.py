@@ -86,6 +86,10 @@ class Linear:
         """A function's name."""
         return NAMES.get(function, function)
 
+    def called(self, function: str, argument: str) -> str:
+        """A function with its argument."""
+        return self.name(function) + argument
+
     def word(self, text: str, before: str = " ", behind: str = " ") -> str:
         """A word between formulas, with its spaces."""
         return f"{before}{text}{behind}"
@@ -195,14 +199,11 @@ class Linear:
         follows = trees[index + 1] if index + 1 < len(trees) else None
         bare = tree[0] == "call" and piece.level == CALL
         if bare and follows is not None and follows[0] != "call":
-            return self._closed_call(tree)
+            return Piece(self.called(tree[1], self.bracket(self(tree[2]))), POWER)
         if piece.level < PRODUCT and (not piece.negative or index > 0 or tree[0] in "+-"):
             is_value = piece.quantity or tree[0] == "num"
             return Piece(self.bracket(piece.text), ATOM, quantity=is_value, digit=tree[0] in ("num", "qty"))
         return piece
-
-    def _closed_call(self, tree: Tree) -> Piece:
-        return Piece(self.name(tree[1]) + self.bracket(self(tree[2])), POWER)
 
     def _exponent(self, tree: Tree) -> str:
         """An exponent whose fraction is set in the line."""
@@ -216,8 +217,8 @@ class Linear:
         if name in BRACKETS:
             return Piece(self.bracket(args[0].text, *BRACKETS[name]), ATOM)
         if len(args) == 1 and args[0].level == ATOM and not args[0].digit:
-            return Piece(f"{self.name(name)} {args[0].text}", CALL)
-        return Piece(self.name(name) + self.bracket(self.comma.join(a.text for a in args)), POWER)
+            return Piece(self.called(name, f" {args[0].text}"), CALL)
+        return Piece(self.called(name, self.bracket(self.comma.join(a.text for a in args))), POWER)
 
 
 def dotted(left: Piece, right: Piece) -> bool:

@@ -193,16 +193,13 @@ def _in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
 
 def symbols_at(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[str, str]) -> list[SymbolRow]:
     """The rows with the place of each symbol: the step that gives it, else the inputs; by their names."""
-    return [
-        row._replace(stands=steps.get(row.name) or inputs.get(row.name, ""), is_step=row.name in steps) for row in rows
-    ]
+    at = {row.name: steps.get(row.name) or inputs.get(row.name, "") for row in rows}
+    return [row._replace(stands=at[row.name], is_step=row.name in steps) for row in rows]
 
 
 def _row(row: QuantityRecord | CurveRecord) -> SymbolRow:
-    unit, meaning = (
-        row.display_unit if isinstance(row, CurveRecord) else row.display.unit,
-        row.description.partition(";")[0],
-    )
+    unit = row.display_unit if isinstance(row, CurveRecord) else row.display.unit
+    meaning = row.description.partition(";")[0]
     return SymbolRow(symbol(row.symbol), meaning, pretty(unit), symbol(row.source_symbol), row.symbol)
 
 

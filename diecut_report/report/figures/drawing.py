@@ -421,15 +421,9 @@ class Shapes(DrawingSheet):
             self.axes.fill(points[:, 0], points[:, 1], color=BODY, linewidth=0, zorder=1)
         if shape.role != "shade":
             self._line(points, **_look(shape))
-        if shape.role == "ground":
-            self._ground(points)
-
-    def _ground(self, points: Array) -> None:
-        feet = sampled(points, 6.0)[1:-1]
-        self._strokes(feet, feet - 4.5, THIN_LINE)
-
-    def _strokes(self, starts: Array, ends: Array, look: dict[str, Any]) -> None:
-        self.axes.plot(*strokes(starts, ends).T, **look)
+        if shape.role == "ground":  # short strokes below a line that stands still
+            feet = sampled(points, 6.0)[1:-1]
+            self.axes.plot(*strokes(feet, feet - 4.5).T, **THIN_LINE)
 
     def _circle(self, shape: CircleRecord) -> None:
         bow = self._bow(shape, 0.0, 2 * np.pi)
@@ -450,7 +444,7 @@ class Shapes(DrawingSheet):
         loops = [np.vstack([loop, loop[:1]]) for loop in loops]
         outline = Path.make_compound_path(*(Path(loop, closed=True) for loop in loops))
         self.axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=INK, linewidth=1.2, zorder=2.2))
-        self._strokes(*hatching(loops), {"color": SOFT, "linewidth": 0.35, "zorder": 1.2})
+        self.axes.plot(*strokes(*hatching(loops)).T, color=SOFT, linewidth=0.35, zorder=1.2)
         self.lines += [(loop, THICK) for loop in loops]
 
     def _point(self, shape: PointRecord) -> None:

@@ -24,10 +24,8 @@ SPACES = {
     "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
     "pic": "http://schemas.openxmlformats.org/drawingml/2006/picture",
 }
-SVG_SPACE, SVG_EXTENSION = (
-    "http://schemas.microsoft.com/office/drawing/2016/SVG/main",
-    "{96DAC541-7B7A-43D3-8B79-37D633B846F1}",
-)
+SVG_SPACE = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
+SVG_EXTENSION = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"
 TEXT_WIDTH = 9638  # twentieths of a point: A4 with margins of 20 mm
 EMU = 12700  # to a point
 WIDEST, HIGHEST = TEXT_WIDTH / 20, 620.0  # of a picture, points
@@ -255,13 +253,8 @@ class OfficeMath(Linear):
         lines = "".join(f"<m:mr><m:e>{value}</m:e><m:e>{condition}</m:e></m:mr>" for value, condition in rows)
         return self.bracket(f"<m:m><m:mPr><m:mcs>{column}</m:mcs></m:mPr>{lines}</m:m>", "{", "")
 
-    def _call(self, name: str, args: list[Piece]) -> Piece:
-        piece, said = super()._call(name, args), self.name(name)
-        return piece._replace(text=_applied(said, piece.text)) if piece.text.startswith(said) else piece
-
-    def _closed_call(self, tree: Tree) -> Piece:
-        piece = super()._closed_call(tree)
-        return piece._replace(text=_applied(self.name(tree[1]), piece.text))
+    def called(self, function: str, argument: str) -> str:
+        return f"<m:func><m:fName>{self.name(function)}</m:fName><m:e>{argument}</m:e></m:func>"
 
     def _logic(self, tree: Tree) -> Piece:
         match tree:
@@ -276,10 +269,6 @@ class OfficeMath(Linear):
             case ["place", word, symbol, value]:
                 return Piece(f"{omml_run(f'{WIDE}{word} ', '')}{self(symbol)} = {self(value)}", ATOM)
         return super()._logic(tree)
-
-
-def _applied(name: str, text: str) -> str:
-    return f"<m:func><m:fName>{name}</m:fName><m:e>{text.removeprefix(name)}</m:e></m:func>"
 
 
 def _nary(sign: str, inner: str, below: str = "", above: str = "") -> str:

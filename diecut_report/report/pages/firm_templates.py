@@ -125,8 +125,12 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
         of_class = getattr(type(obj), attr, None)
         if attr in _names(obj) or (callable(of_class) and of_class in self.functions):
             return True
+        if not _is_record(obj):
+            return False
+        of_data = [each.name for each in fields(obj)] if is_dataclass(obj) else getattr(obj, "_fields", ())
+        names = type(obj).model_fields if isinstance(obj, Record) else of_data
         is_own = isinstance(of_class, property | cached_property) and not hasattr(BaseModel, attr)
-        return _is_record(obj) and (attr in _field_names(obj) or is_own)
+        return attr in names or is_own
 
     def _is_shown(self, value: Any) -> bool:
         return isinstance(value, (*PLAIN, *OF_JINJA)) or _is_record(value) or self.is_safe_callable(value)
@@ -151,12 +155,6 @@ def _names(obj: Any) -> frozenset[str]:
 def _is_record(obj: Any) -> bool:
     """Whether an object is of a class of plain data: a data class, a named tuple, or a part of the results."""
     return not isinstance(obj, type) and (is_dataclass(obj) or isinstance(obj, Record) or hasattr(type(obj), "_fields"))
-
-
-def _field_names(obj: Any) -> Collection[str]:
-    if isinstance(obj, Record):
-        return type(obj).model_fields
-    return [each.name for each in fields(obj)] if is_dataclass(obj) else obj._fields
 
 
 OWN = "program/"  # before the name of a template: the program's, whatever the firm has
@@ -284,8 +282,11 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
         raise
     except Exception as cause:  # of any kind: a template may call, divide, index whatever it likes
         files = {house.path(name) for name in house.templates} if house else set()
-        places = [frame for frame in traceback.extract_tb(cause.__traceback__) if frame.filename in files]
-        if house and files and (isinstance(cause, RecursionError | MemoryError) or _is_of_jinja(cause)):
+        frames = traceback.extract_tb(cause.__traceback__)
+        places = [frame for frame in frames if frame.filename in files]
+        # what Jinja makes of a template or joins of its texts, whose lines tell nothing
+        is_of_jinja = frames[-1].filename in (jinja_compiler.__file__, jinja_environment.__file__)
+        if house and files and (isinstance(cause, RecursionError | MemoryError) or is_of_jinja):
             places = places or [traceback.FrameSummary(house.folder, None, "")]
         if not places:
             raise
@@ -294,12 +295,6 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
             said = Phrase("{name} is not a template of the folder or the program", name=repr(cause.name))
         words = Phrase("The template cannot be filled: {reason}.", reason=said.rstrip(".") or type(cause).__name__)
         raise UserError(Problem(words, places[-1].filename, places[-1].lineno)) from cause
-
-
-def _is_of_jinja(cause: Exception) -> bool:
-    """Whether it went wrong in what Jinja makes of a template or joins of its texts, whose lines tell nothing."""
-    *_, last = traceback.extract_tb(cause.__traceback__)
-    return last.filename in (jinja_compiler.__file__, jinja_environment.__file__)
 
 
 # How long a firm's templates may take, and how much memory: what strangers wrote need not end.
