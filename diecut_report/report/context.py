@@ -7,14 +7,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from diecut_report.report.chapters.front import CarriedFile, PrintedChanges, carried_files, marked, printed_changes
-from diecut_report.report.chapters.sources import numbered
 from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations, Typesetter
 from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.report.scope import BRIEF, FULL, parts
 from diecut_report.report.symbols import declared_letters
-from diecut_report.report.text import Catalogue, translated
+from diecut_report.report.text import Catalogue, numbered, translated
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import Catalogues
 

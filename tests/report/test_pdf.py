@@ -22,7 +22,7 @@ from weasyprint.urls import URLFetcher
 
 from diecut_report.report.equations import Typesetter
 from diecut_report.report.pages.html import filled
-from diecut_report.report.pages.page_reading import read_page, well_formed
+from diecut_report.report.pages.page_engine import read_page, well_formed
 from diecut_report.report.pages.pdf import Paper
 from diecut_report.report.pages.pdf_math import Letters, operators
 from diecut_report.report.rendering import Rendering

@@ -47,7 +47,8 @@ def reached(value: Any, path: str, seen: set[int]) -> Iterator[tuple[str, Any]]:
             yield from reached(each, f"{path}[{key!r}]", seen)
     elif is_dataclass(value) or isinstance(value, Record) or hasattr(type(value), "_fields"):
         for name in names_of(value):
-            yield from reached(getattr(value, name), f"{path}.{name}", seen)
+            if name != "outcome" or value.result:  # which tables and notes have not
+                yield from reached(getattr(value, name), f"{path}.{name}", seen)
     if isinstance(value, (list, tuple, set, frozenset)):
         for index, each in enumerate(value):
             yield from reached(each, f"{path}[{index}]", seen)

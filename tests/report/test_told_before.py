@@ -8,10 +8,10 @@ from typing import Any
 from diecut_report.report.chapters.repetition import Reference, ToldBefore
 from diecut_report.report.chapters.steps import Place, Placed, rows_of
 from diecut_report.report.chapters.tables import brought_together, is_in_line
-from diecut_report.report.model import Item, PrintedChapter
+from diecut_report.report.model import Item, PrintedChapter, gathered_notes, under_heading
 from diecut_report.report.rendering import Rendering
 from diecut_report.results.figure_record import FigureRecord
-from diecut_report.results.mechanism_record import ItemRecord, SectionRecord
+from diecut_report.results.mechanism_record import AbsentRecord, ItemRecord, SectionRecord
 from tests.records import filled
 from tests.report.made_results import typed
 
@@ -230,3 +230,33 @@ def test_chapters_of_one_title_are_told_apart_by_their_names(plain: Data) -> Non
     chapters = {part.name: part for part in Rendering(typed(plain)).document.chapters}
     assert chapters["second"].title.endswith(": second") and chapters["cylinder"].title.endswith(": cylinder")
     assert chapters["drive"].title == plain["mechanisms"]["drive"]["title"]
+
+
+# Steps that do not apply to a machine: told once for all that follow each other.
+
+
+def _note(name: str, said: str = "does not apply to this machine.") -> ItemRecord:
+    return ItemRecord(type="note", id=name, description=name, text=f"{name}: {said}")
+
+
+def test_what_does_not_apply_stands_in_one_sentence() -> None:
+    formula = ItemRecord(type="formula", description="Its square root")
+    found = gathered_notes([_note("Step"), _note("Root"), formula, _note("Share")])
+    assert found[0] == ItemRecord(type="note", text="Does not apply to this machine: Step; Root.")
+    assert found[1:] == [None, formula, _note("Share")]  # each step keeps its place, by which figures stand
+
+
+def test_notes_of_another_kind_stay_as_they_are() -> None:
+    notes = [_note("Angle", "there is none."), _note("Step"), ItemRecord(type="note", text="A remark."), None]
+    assert gathered_notes(notes) == notes
+
+
+def test_what_is_left_out_for_one_reason_stands_in_one_line() -> None:
+    reasons = [
+        ("Cam 1", "arm_length not given"),
+        ("Torque", "conveyor_mass not given"),
+        ("Cam 2", "arm_length not given"),
+    ]
+    absent = [AbsentRecord(title=title, text=f"not calculated: {text}") for title, text in reasons]
+    found = [(part.title, part.text) for part in under_heading(absent, "Not calculated")]
+    assert found == [("Cam 1; Cam 2", "arm_length not given"), ("Torque", "conveyor_mass not given")]

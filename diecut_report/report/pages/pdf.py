@@ -18,8 +18,7 @@ from diecut_report.report.equations import Equation
 from diecut_report.report.model import Item
 from diecut_report.report.pages.frames import sheet_blocks, waiting_figures
 from diecut_report.report.pages.html import Screen, filled
-from diecut_report.report.pages.page_engine import Attachment, URLFetcher, block_layout, told_of_page
-from diecut_report.report.pages.page_reading import read_page
+from diecut_report.report.pages.page_engine import Attachment, URLFetcher, block_layout, read_page, told_of_page
 from diecut_report.report.pages.pdf_archive import Archive
 from diecut_report.report.pages.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pages.pdf_math import Letters, Picture
