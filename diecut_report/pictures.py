@@ -110,8 +110,6 @@ def _judge_png(content: bytes) -> None:
 
 
 class _SvgJudge:
-    """Goes through an SVG without building anything of it."""
-
     def __init__(self) -> None:
         self.depth = self.count = self.clips = 0  # clips: elements of clipping paths that are open
         self.parts = self.most_parts = self.rules = 0  # elements since the last definition began; rules of styles

@@ -91,7 +91,7 @@ def test_the_results_text_is_strict_json_with_exact_floats() -> None:
 
 
 def test_equal_inputs_give_equal_bytes_in_every_process(example: Example) -> None:
-    """Of reports too: tests/hostile/test_surroundings.py, tests/report/test_again.py."""
+    """Of reports too: tests/hostile/test_surroundings.py, tests/report/test_html.py."""
     assert (example.code, example.told) == (1, Press.read(EXAMPLE, Discovery([])).calculate().text)
 
 

@@ -106,12 +106,10 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
 
 
 def _text(text: object, kind: str) -> str:
-    """A text of a plugin of this kind as the page shows it."""
     return tidy(localised(said(text if isinstance(text, str) else "", kind)))
 
 
 def _inputs(name: str, machine: LiveMachine) -> list[DesignInput]:
-    """What may be changed of a mechanism, in the order of the file."""
     every = [*machine.inputs.values(), *machine.choices.values()]
     own = (each for each in every if each.asked.instance == name)
     return sorted(own, key=lambda each: machine.config.tree.position(each.stands))
@@ -240,7 +238,6 @@ def _pictures_of_run_shown(machine: LiveMachine, mechanism: str, index: int) -> 
 def _in_words(
     machine: LiveMachine, mechanism: str, figure: FigureRecord
 ) -> tuple[FigureRecord, dict[str, CurveRecord]]:
-    """The figure and the curves of its mechanism, in the language that is spoken."""
     curves, catalogues = machine.run.curves(mechanism), catalogues_spoken()
     if catalogues is None:
         return figure, curves

@@ -90,7 +90,6 @@ class LiveApplication:
         self._tell()
 
     async def _done(self, work: Callable[[], Found]) -> Found:
-        """Let the one thread do it: the session and the figures know only one."""
         self._waiting += 1
         try:
             return await self._begun(work)
@@ -135,7 +134,6 @@ class LiveApplication:
             changed.set()
 
     async def _state(self) -> tuple[int, bytes]:
-        """The state as the page gets it; made once for all pages that look."""
 
         def made() -> tuple[int, bytes]:
             if self._told[0] != self.session.serial:
@@ -149,7 +147,6 @@ class LiveApplication:
         return StreamingResponse(self._stream(), media_type="text/event-stream")
 
     async def _stream(self) -> AsyncIterator[bytes]:
-        """The state now, and again whenever it changes."""
         serial, changed = -1, asyncio.Event()
         self._streams.add(changed)
         try:
@@ -202,7 +199,6 @@ class LiveApplication:
         return JSONResponse(await self._done(self._of_last(make)))
 
     def _of_last(self, make: Callable[[LiveMachine], dict[str, Any]]) -> Callable[[], dict[str, Any]]:
-        """What is made of the last machine that could be calculated."""
 
         def made() -> dict[str, Any]:
             machine = self.session.machine

@@ -85,7 +85,6 @@ class LiveSession:
         self._calculate()
 
     def _marks(self) -> dict[Path, object]:
-        """What tells one content of the files from another."""
         found: dict[Path, object] = {}
         for file in self.files:
             try:
@@ -162,7 +161,6 @@ class LiveSession:
         return number if is_bare or asked.unit == "1" else f"{number} {asked.unit}"
 
     def _calculate(self) -> None:
-        """Calculate the file with the changes over it; what is wrong is kept in ``faults``, and the last machine stays."""
         if self.tree is None:
             return
         try:
@@ -203,7 +201,6 @@ def in_time(file: Path) -> Iterator[None]:
 
 
 def _chosen(asked: DesignInput, typed: str) -> str:
-    """One of the values that a choice has; UserError with them where it is another."""
     if typed not in asked.options:
         words = "{given} is not a value of {name}; allowed: {options}."
         raise refusal(words, given=repr(typed[:MAX_TYPED_LENGTH]), name=asked.name, options=", ".join(asked.options))

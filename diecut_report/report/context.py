@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from diecut_report.report.chapters.front import CarriedFile, PrintedChanges, carried_files, marked, printed_changes
-from diecut_report.report.chapters.sources import numbered
 from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations, Typesetter
-from diecut_report.report.model import Drawn, Item
+from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.report.scope import BRIEF, FULL, parts
-from diecut_report.report.symbols import DeclaredLetters, declared_letters
-from diecut_report.report.text import Catalogue, translated
-from diecut_report.results.figure_record import FigureRecord
-from diecut_report.results.mechanism_record import CurveRecord
+from diecut_report.report.symbols import declared_letters
+from diecut_report.report.text import Catalogue, numbered, translated
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import Catalogues
 
@@ -28,22 +25,12 @@ Drawing = TypeVar("Drawing")
 
 
 class DrawingFault(NamedTuple):
-    """A figure that could not be drawn: its mechanism, number and data, and what went wrong."""
+    """A figure that could not be drawn: its mechanism, number and id, and what went wrong."""
 
     mechanism: str
     number: str
-    figure: Drawn
-    cause: Exception
-
-    @property
-    def id(self) -> str:
-        """Its id."""
-        return self.figure.id if isinstance(self.figure, FigureRecord) else self.number
-
-    @property
-    def words(self) -> str:
-        """What went wrong."""
-        return f"{self.cause}" if isinstance(self.cause, ValueError) else f"{type(self.cause).__name__}: {self.cause}"
+    id: str
+    words: str
 
 
 class Material:
@@ -69,7 +56,7 @@ class Material:
         return numbered(translated(self.results, self.catalogues))
 
     @cached_property
-    def letters(self) -> DeclaredLetters:
+    def letters(self) -> tuple[set[str], set[str]]:
         """The lone letters that are symbols, and the configuration's own names."""
         return declared_letters(self.results)
 
@@ -104,43 +91,37 @@ class Material:
         return self._drawn(raster)
 
     def _drawn(self, draw: Callable[..., Drawing]) -> dict[str, Drawing]:
-        found: dict[str, Drawing] = {}
-        calculated = dict(parts(self.said))
-        for chapter in self.document.chapters:
-            for number, figure in chapter.figures:
-                if figure.error:
-                    continue
-                try:
-                    found[number] = self._sized(draw, number, figure, calculated[chapter.name].curves)
-                except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
-                    if all(fault.number != number for fault in self.faults):
-                        self.faults.append(DrawingFault(chapter.name, number, figure, cause))
-            for number in _left_alone(chapter.pairs, found):
-                curves = calculated[chapter.name].curves
-                found[number] = draw(dict(chapter.figures)[number], curves, self.words, number, self._whole)
-        for number, tornado in self.document.influence.figures if self.document.influence else ():
-            found[number] = self._sized(draw, number, tornado, {})
-        return found
-
-    def _sized(
-        self, draw: Callable[..., Drawing], number: str, figure: Drawn, curves: Mapping[str, CurveRecord]
-    ) -> Drawing:
-        """A figure in the size of its place; one whose texts take more than half the width has it alone."""
+        """All figures; two side by side have room over half the width, or each gets all of it."""
         from diecut_report.report.figures.style import WIDEST_HALF
         from diecut_report.report.figures.style import SizesSize as Size
 
-        if number in self.document.halves:
-            made: Any = draw(figure, curves, self.words, number, Size.HALF)
-            if made.width <= WIDEST_HALF:
-                return made  # type: ignore[no-any-return]
-        return draw(figure, curves, self.words, number, self._whole)
+        found: dict[str, Any] = {}
+        whole = {BRIEF: Size.SKETCH, FULL: Size.LARGE}.get(self.document.detail, Size.LOW)
+        for chapter in self.document.chapters:
+            halves = {number for pair in chapter.pairs for number in pair}
+            found |= self._made(draw, chapter, [number for number, _ in chapter.figures if number not in halves], whole)
+            for pair in chapter.pairs:
+                made: dict[str, Any] = self._made(draw, chapter, pair, Size.HALF)
+                is_wide = any(each.width > WIDEST_HALF for each in made.values())
+                found |= self._made(draw, chapter, list(made), whole) if is_wide else made
+        for number, tornado in self.document.influence.figures if self.document.influence else ():
+            found[number] = draw(tornado, {}, self.words, number, whole)
+        return found
 
-    @property
-    def _whole(self) -> SizesSize:
-        """The size of a figure that stands alone."""
-        from diecut_report.report.figures.style import SizesSize as Size
-
-        return {BRIEF: Size.SKETCH, FULL: Size.LARGE}.get(self.document.detail, Size.LOW)
+    def _made(
+        self, draw: Callable[..., Drawing], chapter: PrintedChapter, numbers: Iterable[str], size: SizesSize
+    ) -> dict[str, Drawing]:
+        """These figures of a chapter, but those that cannot be drawn."""
+        found, curves, figures = {}, dict(parts(self.said))[chapter.name].curves, dict(chapter.figures)
+        for number in numbers:
+            try:
+                if not figures[number].error:
+                    found[number] = draw(figures[number], curves, self.words, number, size)
+            except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
+                if all(fault.number != number for fault in self.faults):
+                    told = f"{cause}" if isinstance(cause, ValueError) else f"{type(cause).__name__}: {cause}"
+                    self.faults.append(DrawingFault(chapter.name, number, figures[number].id, told))
+        return found
 
     def are_abreast(self, pair: tuple[Item, ...]) -> bool:
         """Whether two figures have room side by side."""
@@ -156,12 +137,3 @@ class Material:
         """Why a figure that could not be drawn could not."""
         figure = dict(pair for chapter in self.document.chapters for pair in chapter.figures)[number]
         return figure.error or next(fault.words for fault in self.faults if fault.number == number)
-
-
-def _left_alone(pairs: Sequence[tuple[str, ...]], drawn: Mapping[str, Any]) -> Iterator[str]:
-    """The figures drawn over half the width of which the other one of a pair has no room beside it."""
-    from diecut_report.report.figures.style import WIDEST_HALF
-
-    for pair in pairs:
-        narrow = [number for number in pair if number in drawn and drawn[number].width <= WIDEST_HALF]
-        yield from narrow if len(narrow) < len([number for number in pair if number in drawn]) else ()

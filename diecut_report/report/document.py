@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from math import cos, radians, sin
 from pathlib import PurePath
 from typing import Any
@@ -25,14 +26,13 @@ from diecut_report.report.equations import Equations
 from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
 from diecut_report.report.symbols import BOLD, drawn, measured
-from diecut_report.report.text import Catalogue
+from diecut_report.report.text import Catalogue, sentence
 from diecut_report.results.conclusion import conclusion, is_open
 from diecut_report.results.model import (
     ChangedDocumentRecord,
     ConfigRecord,
     PressRecord,
     ProgramRecord,
-    ProjectRecord,
     ResultsRecord,
 )
 from diecut_report.text.translation import said, speaking
@@ -72,11 +72,12 @@ class TitleBlock:
 
 def title_block(results: ResultsRecord, words: Catalogue) -> TitleBlock:
     """Return what the sheets of a report say of it."""
-    asked = results.report
-    is_held = held(results)
-    status = asked.status
+    project, status, is_held = results.project, results.report.status, held(results)
+    texts: dict[str, Any] = {key: getattr(project, key) or "" for key in FIELDS}
+    texts["document_type"] = project.document_type or words["calculation"]
+    texts["revisions"] = [{key: getattr(row, key) or "" for key in REVISION} for row in project.revisions]
     shown = words["not_released"] if is_held and status == RELEASED else words[f"status_{status}"]
-    return TitleBlock(_texts(results.project, words), results.press.name, asked.frame, shown, is_held)
+    return TitleBlock(texts, results.press.name, results.report.frame, shown, is_held)
 
 
 def held(results: ResultsRecord) -> bool:
@@ -84,13 +85,6 @@ def held(results: ResultsRecord) -> bool:
     parts = results.calculated.values()
     is_left = any(check.status == "not_checked" for data in parts for check in data.checks)
     return is_left or any(data.is_doubtful for data in parts) or results.status not in ("pass", "warn")
-
-
-def _texts(project: ProjectRecord, words: Catalogue) -> Data:
-    """The project's texts; what is not given is empty, but for the type of the document."""
-    revisions = [{key: getattr(row, key) or "" for key in REVISION} for row in project.revisions]
-    found = {key: getattr(project, key) or "" for key in FIELDS}
-    return found | {"document_type": project.document_type or words["calculation"], "revisions": revisions}
 
 
 def machine_named(name: str, words: Catalogue) -> str:
@@ -113,32 +107,83 @@ class ReportDocument:
     """A whole report."""
 
     block: TitleBlock
-    press: PressRecord
-    status: str
+    results: ResultsRecord
+    detail: str
+    chapters: list[PrintedChapter]
+    words: Catalogue
     verdict: str
-    is_open: bool
     counts: list[str]
-    governing: CheckRow | None
-    checks: list[CheckRow]
-    failures: list[CheckRow]
-    unchecked: list[CheckRow]
     notes: list[str]
     press_rows: list[QuantityRow]
-    chapters: list[PrintedChapter]
-    sources: list[tuple[str, str]]
-    program: ProgramRecord
-    config: ConfigRecord
-    words: Catalogue
-    assumed: AssumedLine | None = None
-    detail: str = FULL
-    assumed_groups: list[AssumedGroup] = field(default_factory=list)
-    contents: list[tuple[str, str, str, int]] = field(default_factory=list)
-    influence: PrintedInfluence | None = None
+    assumed: AssumedLine | None
+    assumed_groups: list[AssumedGroup]
+    contents: list[tuple[str, str, str, int]]
+    influence: PrintedInfluence | None
+
+    @property
+    def press(self) -> PressRecord:
+        """The press."""
+        return self.results.press
+
+    @property
+    def program(self) -> ProgramRecord:
+        """What calculated it."""
+        return self.results.program
+
+    @property
+    def config(self) -> ConfigRecord:
+        """The configuration."""
+        return self.results.config
+
+    @property
+    def status(self) -> str:
+        """The verdict."""
+        return self.results.status
+
+    @cached_property
+    def checks(self) -> list[CheckRow]:
+        """The checks that are made of the machine, the most important first."""
+        rows = (row for part in self.chapters for row in part.checks if row.is_made)
+        return sorted(rows, key=lambda row: row.order)
+
+    @property
+    def failures(self) -> list[CheckRow]:
+        """What fails, first what the machine does not do that it is for, then what breaks."""
+        failed = (row for row in self.checks if row.status == "fail")
+        return sorted(failed, key=lambda row: row.check_class != "function")
+
+    @property
+    def unchecked(self) -> list[CheckRow]:
+        """The checks that are not made."""
+        return [row for part in self.chapters for row in part.checks if row.status == "not_checked"]
+
+    @property
+    def sized(self) -> list[CheckRow]:
+        """The checks of what the program sized to their limits."""
+        return [row for row in self.checks if row.is_sized]
 
     @property
     def self_tests(self) -> list[CheckRow]:
         """The self-tests of the calculation."""
         return [row for part in self.chapters for row in part.checks if row.is_self_test]
+
+    @property
+    def governing(self) -> CheckRow | None:
+        """The check that governs the whole."""
+        named = self.results.governing
+        return next(
+            (row for row in self.checks if named and (row.mechanism, row.id) == (named.mechanism, named.check)), None
+        )
+
+    @property
+    def sources(self) -> list[tuple[str, str]]:
+        """All sources of the mechanisms, each once, with its ids; several papers of one volume share an id."""
+        found: dict[str, set[str]] = {}
+        for _, data in parts(self.results):
+            for source in data.sources:
+                found.setdefault(source.citation, set()).add(source.id)
+        named = ((", ".join(sorted(ids)), citation) for citation, ids in found.items())
+        return sorted(named, key=lambda source: (not source[0].startswith("["), source[0].casefold(), source[1]))
 
     @property
     def errata(self) -> list[tuple[str, str, str]]:
@@ -148,31 +193,20 @@ class ReportDocument:
     @property
     def columns(self) -> list[list[tuple[str, str, str, int]]]:
         """The contents in columns of about equal length; of a long report its chapters alone."""
-        lines = (
-            self.contents if len(self.contents) <= MOST_CONTENTS else [line for line in self.contents if line[3] == 1]
-        )
+        is_long = len(self.contents) > MOST_CONTENTS
+        lines = [line for line in self.contents if line[3] == 1 or not is_long]
         size = -(-len(lines) // CONTENTS_COLUMNS)
         return [lines[start : start + size] for start in range(0, len(lines), size)]
 
     @property
     def face(self) -> str:
         """The verdict as it is shown: one that passes, but leaves something open, is incomplete."""
-        return "incomplete" if self.status == "pass" and self.is_open else self.status
+        return "incomplete" if self.status == "pass" and is_open(self.results) else self.status
 
     @property
     def faces(self) -> Data:
         """The verdicts of the chapters as they are shown, by the anchors of the chapters."""
         return {part.anchor: part.face for part in self.chapters}
-
-    @property
-    def halves(self) -> frozenset[str]:
-        """The numbers of the figures that stand side by side."""
-        return frozenset(number for part in self.chapters for pair in part.pairs for number in pair)
-
-    @property
-    def sized(self) -> list[CheckRow]:
-        """The checks of what the program sized to their limits."""
-        return [row for row in self.checks if row.is_sized]
 
     @property
     def project(self) -> Data:
@@ -188,46 +222,21 @@ class ReportDocument:
 def document(results: ResultsRecord, equations: Equations, words: Catalogue) -> ReportDocument:
     """The report of the results."""
     whole, block = scope(results), title_block(results, words)
-    results = whole.results
+    results, is_brief = whole.results, whole.detail == BRIEF
     chapters = _chapters(whole, equations, words)
-    every = [row for part in chapters for row in part.checks]
-    checks = sorted((row for row in every if row.is_made), key=lambda row: row.order)
-    decimal = words["decimal"]
-    return ReportDocument(
-        block=block,
-        press=results.press,
-        status=results.status,
-        verdict=_verdict(results, words),
-        is_open=is_open(results),
-        counts=_begun([*_counts(every, words), *_left_out(results)]),
-        governing=_governing(results, checks),
-        checks=checks,
-        unchecked=[row for row in every if row.status == "not_checked"],
-        notes=[
-            *_doubts(chapters, words),
-            *_shown(whole, words),
-            *_notes(every, words),
-            *followed_line(results, words, every),
-        ],
-        failures=_failures(checks),
-        press_rows=[rested(quantity_row(row, decimal), row, words) for row in results.press.fields],
-        chapters=chapters,
-        sources=_sources(results),
-        program=results.program,
-        config=results.config,
-        words=words,
-        assumed=assumed_line(results, words),
-        detail=whole.detail,
-        assumed_groups=assumed_groups(results, words) if whole.detail == BRIEF else [],
-        contents=list(_contents(chapters, words, whole.detail, results)),
-        influence=None if whole.detail == BRIEF else printed_influence(results, words),
-    )
-
-
-def _verdict(results: ResultsRecord, words: Catalogue) -> str:
-    """The first line on the whole."""
+    rows = [rested(quantity_row(row, words["decimal"]), row, words) for row in results.press.fields]
     with speaking(words.language):
-        return said(conclusion(results))
+        verdict = said(conclusion(results))
+    return ReportDocument(
+        block, results, whole.detail, chapters, words, verdict,
+        counts=_counts(results, chapters, words),
+        notes=[*_notes(whole, chapters, words)],
+        press_rows=rows,
+        assumed=assumed_line(results, words),
+        assumed_groups=assumed_groups(results, words) if is_brief else [],
+        contents=list(_contents(chapters, words, whole.detail, results)),
+        influence=None if is_brief else printed_influence(results, words),
+    )  # fmt: skip
 
 
 def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[PrintedChapter]:
@@ -240,93 +249,46 @@ def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[Prin
         known = told.setdefault(kind, ToldBefore())
         chapters.append(chapter(letter, name, data, equations, words, stem, whole.detail, known))
         told[kind] = known.next(letter)
-    _tell_apart(chapters)
+    shared = Counter(part.title for part in chapters)
     mechanisms = {part.name: part for part in chapters[: len(results.mechanisms)]}
-    for part, (_, data) in zip(chapters, parts(results), strict=True):
-        part.between = [mechanisms[name] for name in data.between]
+    for part in chapters:
+        part.is_named = shared[part.title] > 1
+        part.title = f"{part.title}: {part.name}" if part.is_named else part.title
+        part.between = [mechanisms[name] for name in part.record.between]
     return chapters
 
 
-def _tell_apart(chapters: list[PrintedChapter]) -> None:
-    """Put the names of mechanisms behind the titles that several of them share."""
-    shared = Counter(part.title for part in chapters)
-    for part in chapters:
-        part.is_named = shared[part.title] > 1
-    for part in chapters:
-        part.title = f"{part.title}: {part.name}" if part.is_named else part.title
+def _counts(results: ResultsRecord, chapters: list[PrintedChapter], words: Catalogue) -> list[str]:
+    """How many checks pass, as a sentence begins (the first line has told what does not), and which comparisons are not made."""
+    count, left = sum(part.count("pass") for part in chapters), results.comparisons_left_out
+    counts = [words.say("count_pass", n=count)] if count else []
+    counts += [left.message.removesuffix(".")] if left else []
+    return [sentence(text) if not k else text for k, text in enumerate(counts)]
 
 
-def _begun(counts: list[str]) -> list[str]:
-    """The counts as they begin a sentence."""
-    return [counts[0][:1].upper() + counts[0][1:], *counts[1:]] if counts else counts
-
-
-def _counts(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
-    """How many checks pass; the first line has told what does not."""
-    if count := sum(row.status == "pass" and not row.is_self_test for row in checks):
-        yield words.say("count_pass", n=count)
-
-
-def _failures(checks: list[CheckRow]) -> list[CheckRow]:
-    """Return what fails, first what the machine does not do that it is for, then what breaks."""
-    return sorted((row for row in checks if row.status == "fail"), key=lambda row: row.check_class != "function")
-
-
-def _notes(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
-    """What stands below the verdict: the self-tests that hold."""
-    held = sum(row.is_self_test and row.status == "pass" for row in checks)
-    if held:
-        yield words.say("self_tests", n=held)
-
-
-def _doubts(chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
-    """Which plugins have faults in their formulas."""
-    for kind in dict.fromkeys(part.kind for part in chapters if part.is_doubtful):
+def _notes(whole: Scope, chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
+    """What stands below the verdict: plugins with faults in their formulas, what the report does not show, the self-tests that hold, advice."""
+    for kind in dict.fromkeys(part.record.kind for part in chapters if part.record.is_doubtful):
         yield words.say("doubtful_plugin", kind=kind)
-
-
-def _shown(whole: Scope, words: Catalogue) -> Iterator[str]:
-    """That mechanisms are left out of the report, and the verdict of the whole press."""
     if whole.is_part:
         told = {"n": len(whole.results.mechanisms), "total": whole.total, "status": words[whole.status]}
         yield words.say("only_part", **told)
-
-
-def _left_out(results: ResultsRecord) -> Iterator[str]:
-    """Words on the comparisons that are not made."""
-    if results.comparisons_left_out:
-        yield results.comparisons_left_out.message.removesuffix(".")
-
-
-def _governing(results: ResultsRecord, checks: list[CheckRow]) -> CheckRow | None:
-    named = results.governing
-    if not named:
-        return None
-    return next(row for row in checks if (row.mechanism, row.id) == (named.mechanism, named.check))
-
-
-def _sources(results: ResultsRecord) -> list[tuple[str, str]]:
-    """All sources of the mechanisms, each once, with its ids; several papers of one volume share an id."""
-    found: dict[str, dict[str, None]] = {}
-    for _, data in parts(results):
-        for source in data.sources:
-            found.setdefault(source.citation, {})[source.id] = None
-    named = ((", ".join(sorted(ids)), citation) for citation, ids in found.items())
-    return sorted(named, key=lambda source: (not source[0].startswith("["), source[0].casefold(), source[1]))
+    rows = [row for part in chapters for row in part.checks]
+    if held := sum(row.is_self_test and row.status == "pass" for row in rows):
+        yield words.say("self_tests", n=held)
+    yield from followed_line(whole.results, words, rows)
 
 
 def former(old: ChangedDocumentRecord, new: ChangedDocumentRecord, words: Catalogue) -> str:
     """The title of what changed since the former document, which its revision names, or its file."""
-    is_revision = old.revision and old.revision != new.revision
-    return words.say(
-        "changes_since_revision" if is_revision else "changes_since", name=old.revision if is_revision else old.file
-    )
+    if old.revision and old.revision != new.revision:
+        return words.say("changes_since_revision", name=old.revision)
+    return words.say("changes_since", name=old.file)
 
 
 def _contents(
     chapters: list[PrintedChapter], words: Catalogue, detail: str, results: ResultsRecord
 ) -> Iterator[tuple[str, str, str, int]]:
-    """Anchor, number, title and depth of all that has a heading."""
     yield "summary", "1", words["summary"], 1
     if changes := results.changes:
         yield "changes", "", former(changes.old, changes.new, words), 1
@@ -364,7 +326,10 @@ class Backdrop:
     """An image as WeasyPrint wants it (``get_intrinsic_size``, ``draw``) of what lies behind a sheet; false where that is nothing."""
 
     def __init__(self, frame: str, across: str) -> None:
-        self.operators = " ".join(filter(None, (_across(across), _frame(frame))))
+        self.operators = _across(across) if across else ""
+        if frame in FRAMES:
+            left, top, right, bottom = FRAMES[frame]
+            self.operators += f" {LINE} {left} {bottom} {WIDTH - left - right} {HEIGHT - top - bottom} re S"
 
     def __bool__(self) -> bool:
         return bool(self.operators)
@@ -379,17 +344,7 @@ class Backdrop:
         stream.stream.append(self.operators)
 
 
-def _frame(frame: str) -> str:
-    if frame not in FRAMES:
-        return ""
-    left, top, right, bottom = FRAMES[frame]
-    return f"{LINE} {left} {bottom} {WIDTH - left - right} {HEIGHT - top - bottom} re S"
-
-
 def _across(text: str) -> str:
-    """The words along the sheet's diagonal, as outlines."""
-    if not text:
-        return ""
     width = measured(text, BOLD)
     size = min(ACROSS * (WIDTH**2 + HEIGHT**2) ** 0.5 / width, HIGHEST)
     along, up = size * cos(SLOPE), size * sin(SLOPE)

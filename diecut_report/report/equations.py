@@ -32,12 +32,11 @@ class Equation(NamedTuple):
 
 
 class Link(NamedTuple):
-    """One side of an equality in both forms, the tree by which it may be broken, and the tree by which any other form is printed."""
+    """One side of an equality in both forms, and the tree by which it may be broken, and any other form is printed."""
 
     latex: str = ""
     text: str = ""
-    tree: Tree | None = None
-    form: Tree | None = None
+    form: Tree = BLANK
 
 
 class EquationRow(NamedTuple):
@@ -63,22 +62,20 @@ class EquationRow(NamedTuple):
 
 def _without_copies(links: list[Link], result: Link, symbol: str) -> list[Link]:
     """What stands between a symbol and its result, each once: 0, 0 rad and 0° say the same, as do numbers of a lone symbol and the result."""
-    of_copy = (
-        len(links) > 1 and links[0].form is not None and links[0].form[0] == "sym" and _unit(links[1]) == _unit(result)
-    )
-    kept = links[:1] if of_copy else links
-    nothing = _text(result) == "0"
-    kept = [link for link in kept if link.text not in (result.text, symbol) and not (nothing and _text(link) == "0")]
+    if (
+        len(links) > 1
+        and links[0].form[0] == "sym"
+        and links[1].form[0] == "qty"
+        and links[1].form[2] == result.form[2]
+    ):
+        links = links[:1]
+    told = (result.text, symbol)
+    kept = [link for link in links if link.text not in told and not (_is_nought(link) and _is_nought(result))]
     return [link for before, link in zip([Link(), *kept], kept, strict=False) if link.text != before.text]
 
 
-def _text(link: Link) -> str | None:
-    """The text of a link that is a number alone."""
-    return str(link.form[1]) if link.form is not None and link.form[0] in ("num", "qty") else None
-
-
-def _unit(link: Link) -> str | None:
-    return str(link.form[2]) if link.form is not None and link.form[0] == "qty" else None
+def _is_nought(link: Link) -> bool:
+    return link.form[0] in ("num", "qty") and link.form[1] == "0"
 
 
 class Equations:
@@ -102,7 +99,7 @@ class Equations:
             return None
         whole = EquationRow(head, links, place)
         if self.measure(whole.latex()) <= ONE_LINE:
-            return Equation(whole.latex(), whole.text(), (whole,))
+            return self._single(whole)
         return self._stacked(self._rows(whole))
 
     def condition(self, item: ItemRecord) -> Equation | None:
@@ -116,34 +113,30 @@ class Equations:
     def definitions(self, item: ItemRecord) -> list[Equation]:
         """What the names stand for by which the item's formula calls others: where k_t(x) = …"""
         rows = [EquationRow(self._link(each.defined), [self._link(each.stands_for)]) for each in item.where]
-        return [
-            Equation(row.latex(), row.text(), (row,))
-            if self.measure(row.latex()) <= self.width
-            else self._stacked([row])
-            for row in rows
-        ]
+        return [self._single(row) if self.measure(row.latex()) <= self.width else self._stacked([row]) for row in rows]
+
+    def _single(self, row: EquationRow) -> Equation:
+        return Equation(row.latex(), row.text(), (row,))
 
     def _links(self, item: ItemRecord) -> list[Link]:
-        """What stands behind the symbol: the formula, the numbers in it, and the result."""
         result = self._result(item.outcome)
         if item.type == "reduction":
             return [*self._reduced(item), result]
         trees = [tree for tree in (item.equation, item.substituted) if tree]
-        links = [self._link(tree) for tree in trees]
-        links += [self._result(item.bridge)] if item.bridge else []
+        links = [*map(self._link, trees), *([self._result(item.bridge)] if item.bridge else [])]
         links = _without_copies(links, result, item.symbol)
         return [*links, result] if trees or item.type in ("found", "lookup") else []
 
     def _link(self, tree: Tree) -> Link:
         tree = with_units(tree)
-        return Link(self.latex(tree), self.linear(tree), tree, tree)
+        return Link(self.latex(tree), self.linear(tree), tree)
 
     def _result(self, result: ShownRecord | PlaceRecord) -> Link:
         text, unit = result.text, result.unit
-        return Link(self.latex.quantity(text, unit), self.linear.quantity(text, unit), form=["qty", text, unit])
+        return Link(self.latex.quantity(text, unit), self.linear.quantity(text, unit), ["qty", text, unit])
 
     def _symbol(self, name: str) -> Link:
-        return Link(self.latex.symbol(name), self.linear.symbol(name), form=["sym", name]) if name else Link()
+        return Link(self.latex.symbol(name), self.linear.symbol(name), ["sym", name]) if name else Link()
 
     def _reduced(self, item: ItemRecord) -> list[Link]:
         """What is taken of a curve or of repeated parts: max V, mean M …"""
@@ -152,16 +145,15 @@ class Equations:
             return []
         curve, plain, of = self.latex.symbol(name), self.linear.symbol(name), ["sym", name]
         if operation == "abs_max":
-            form = ["call", "max", ["call", "abs", of]]
-            return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|", form=form)]
+            return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|", ["call", "max", ["call", "abs", of]])]
         if item.over or operation in ("derivative", "accumulated"):
             return [self._of_calculus(item, self._symbol(name))]
         word = SIGNS.get(operation, operation)
         if operation in OPERATORS:
             form = ["nary", SIGNS[operation], of] if operation in SIGNS else ["call", operation, of]
-            return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}", form=form)]
+            return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}", form)]
         word = self.words[operation]
-        return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}", form=["call", word, of])]
+        return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}", ["call", word, of])]
 
     def _of_calculus(self, item: ItemRecord, curve: Link) -> Link:
         """The derivative of a curve, or its integral: up to the place that is shown, or over all of its abscissa."""
@@ -170,28 +162,22 @@ class Equations:
         by = self._symbol(place.symbol)
         differential = rf"\mathrm{{d}}{by.latex}"
         if item.operation == "derivative":
-            form = ["derivative", curve.form, by.form]
-            return Link(
-                rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}", f"d{curve.text}/d{by.text}", form=form
-            )
+            latex = rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}"
+            return Link(latex, f"d{curve.text}/d{by.text}", ["derivative", curve.form, by.form])
         end = self._result(item.over) if item.over else by
         latex = rf"\int_{{0}}^{{{end.latex}}} {curve.latex}\,{differential}"
-        form = ["integral", curve.form, by.form, end.form]
-        bounds = self.words["from_nought"].format(end=end.text)
-        return Link(latex, f"∫ {curve.text} d{by.text} {bounds}", form=form)
+        text = f"∫ {curve.text} d{by.text} {self.words['from_nought'].format(end=end.text)}"
+        return Link(latex, text, ["integral", curve.form, by.form, end.form])
 
     def _place(self, item: ItemRecord) -> Link:
-        """Where a curve's numbers are shown, or where an extreme lies."""
         at = item.at
         if not at:
             return Link()
         place, word = self._result(at), self.words["at"]
         latex = rf"\quad\text{{{escaped(word)} }}{self.latex.symbol(at.symbol)} = {place.latex}"
-        form = ["place", word, ["sym", at.symbol], place.form]
-        return Link(latex, f" {word} {at.symbol} = {place.text}", form=form)
+        return Link(latex, f" {word} {at.symbol} = {place.text}", ["place", word, ["sym", at.symbol], place.form])
 
     def _rows(self, whole: EquationRow) -> list[EquationRow]:
-        """The formula in the first row, the numbers in it and the result in the second, or each in its own."""
         *formulas, result = whole.links
         if not formulas:
             return [whole]
@@ -210,8 +196,8 @@ class Equations:
 
     def _fitted(self, row: EquationRow) -> list[tuple[str, EquationRow]]:
         """A row's lines; one that cannot be broken stays whole and is made smaller on the page."""
-        tree = row.links[0].tree
-        if self.measure(row.latex()) <= self.width or tree is None or len(row.links) > 1:
+        tree = row.links[0].form
+        if self.measure(row.latex()) <= self.width or tree[0] not in ("+", "-", "*") or len(row.links) > 1:
             return [(row.latex("&"), row)]
         first, *others = self._chunks(tree, self.width - self.measure(f"{row.head.latex} = "))
         begin, sign = row._replace(links=[first]), "" if len(terms(tree)) > 1 else "·"
@@ -256,7 +242,7 @@ SHALLOW = 2000  # letters, in which no formula is nested too deep
 
 
 class Outline(NamedTuple):
-    """A formula as outlines: SVG, its viewbox (1000 units an em), and how far it reaches below the line, em (negative)."""
+    """A formula as SVG, its viewbox (1000 units an em), and how far it reaches below the line, em (negative)."""
 
     svg: str
     left: float
@@ -293,9 +279,9 @@ class Typesetter:
         """The formula as MathML."""
         key = latex, display
         if key not in self._mathml:
-            if len(latex) > SHALLOW:
-                self.outline(
-                    latex, display=display
-                )  # refuses what is nested so deep that the other library would overrun its stack
+            if (
+                len(latex) > SHALLOW
+            ):  # this refuses what is nested so deep that the other library would overrun its stack
+                self.outline(latex, display=display)
             self._mathml[key] = self._core.convert_with_local_state(latex, displaystyle=display)
         return self._mathml[key]

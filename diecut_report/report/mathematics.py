@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from fontTools.pens.basePen import BasePen
@@ -14,8 +14,8 @@ from diecut_report.report.text import MINUS, grouped, parts, quantity
 
 # The order of operations in print: which part of an expression stands in brackets, and what stands between factors.
 #
-# A tree is the nested lists of the results: ``["+", a, b]``, ``["sym", "R_b"]``, ``["qty", "40", "mm"]`` … Both printed forms
-# (``formulas.Latex``, ``formulas.Linear``) put brackets by these rules; they differ in how a fraction or a root looks.
+# A tree is the nested lists of the results: ``["+", a, b]``, ``["sym", "R_b"]``, ``["qty", "40", "mm"]`` … All printed forms
+# put brackets by these rules; they differ in how a fraction or a root looks.
 
 
 Tree = list[Any]
@@ -28,6 +28,8 @@ NAMES = {
 SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
 OPPOSITE = {"+": "-", "-": "+"}
 LEVEL = ("min", "max", "minimum", "maximum")  # of as many arguments as there are
+POWERS = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
+RAISED, _LOWERED = str.maketrans("0123456789", POWERS[:10]), str.maketrans(POWERS, "0123456789-")
 BRACKETS = {"abs": ("|", "|"), "ceil": ("⌈", "⌉"), "floor": ("⌊", "⌋")}
 
 
@@ -52,63 +54,66 @@ class Piece(NamedTuple):
     fraction: bool = False
 
 
-class Printer:
-    """What both forms have in common: the order of operations and its brackets."""
+class Linear:
+    """Expressions as one line of text. Other forms print the same trees by the same order of operations and brackets."""
+
+    times, dot, comma = "·", " · ", ", "
+    signs: Mapping[str, str] = SIGNS
+    minus = MINUS
 
     def __init__(self, words: Mapping[str, str] = WORDS, decimal: str = ".") -> None:
         self.words = words
         self.decimal = decimal
 
-    # what a form must say
+    # what forms say in their own way
     def number(self, text: str) -> str:
         """A number's text."""
-        raise NotImplementedError
+        return quantity(text, "1", self.decimal)
 
     def quantity(self, text: str, unit: str) -> str:
         """A number with its unit."""
-        raise NotImplementedError
+        return quantity(text, unit, self.decimal).replace("\u00a0", " ")
 
     def symbol(self, name: str) -> str:
         """A symbol with its subscript."""
-        raise NotImplementedError
+        return name
 
     def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
         """A text in brackets."""
-        raise NotImplementedError
+        return f"{left}{text}{right}"
 
     def name(self, function: str) -> str:
         """A function's name."""
-        raise NotImplementedError
+        return NAMES.get(function, function)
 
-    def function(self, name: str) -> str:
-        """The name of a formula that is called by it: a letter with its subscript, or a word as functions have it."""
-        return self.name(name) if len(name) > 1 and name.isalpha() else self.symbol(name)
+    def called(self, function: str, argument: str) -> str:
+        """A function with its argument."""
+        return self.name(function) + argument
 
     def word(self, text: str, before: str = " ", behind: str = " ") -> str:
         """A word between formulas, with its spaces."""
-        raise NotImplementedError
+        return f"{before}{text}{behind}"
 
     def root(self, inner: Piece) -> Piece:
         """A square root."""
-        raise NotImplementedError
+        return Piece(f"√{inner.text if inner.level == ATOM else self.bracket(inner.text)}", POWER)
 
     def fraction(self, over: Piece, under: Piece) -> Piece:
         """A fraction."""
-        raise NotImplementedError
+        upper = over.text if over.level >= PRODUCT or (over.negative and over.level > SUM) else self.bracket(over.text)
+        lower = under.text if under.level >= CALL else self.bracket(under.text)
+        return Piece(f"{upper}/{lower}", PRODUCT, over.negative and over.level >= PRODUCT, over.digit, fraction=True)
 
     def power(self, base: str, exponent: Tree) -> str:
         """A base, brackets included, with its exponent."""
-        raise NotImplementedError
+        text = self(exponent)
+        return base + text.translate(RAISED) if text.isdecimal() else f"{base}^({text})"
 
     def cases(self, rows: list[tuple[str, str]]) -> str:
         """Values, each with its condition."""
-        raise NotImplementedError
+        return "{" + "; ".join(f"{value} {condition}" for value, condition in rows) + "}"
 
-    times = dot = comma = ""
-    signs: Mapping[str, str] = SIGNS
-    minus = "-"
-
-    # what is the same in both
+    # what is the same in all
     def __call__(self, tree: Tree) -> str:
         """The whole tree as text."""
         return self.piece(tree).text
@@ -131,13 +136,16 @@ class Printer:
             case ["/", over, under]:
                 return self.fraction(self.piece(over), self.piece(under))
             case ["^", base, exponent]:
-                return self._power(base, exponent)
+                is_number = base[0] in ("num", "qty")
+                text = self.power(self._held(base, ATOM), exponent)
+                return Piece(text, POWER, digit=is_number, quantity=is_number)
             case ["call", name, *args]:
                 return self._call(name, [self.piece(a) for a in _nested(name, args)])
             case ["at", symbol, *place]:
                 return Piece(self(symbol) + self.bracket(f" {self.signs['==']} ".join(map(self, place))), POWER)
             case ["apply", name, *args]:
-                return Piece(self.function(name) + self.bracket(self.comma.join(map(self, args))), POWER)
+                said = self.name(name) if len(name) > 1 and name.isalpha() else self.symbol(name)
+                return Piece(said + self.bracket(self.comma.join(map(self, args))), POWER)
         return self._logic(tree)
 
     def _logic(self, tree: Tree) -> Piece:
@@ -150,14 +158,11 @@ class Printer:
             case ["not", inner]:
                 return Piece(f"{self.word(self.words['not'], before='')}{self.bracket(self(inner))}", POWER)
             case ["cases", *branches]:
-                return Piece(self.cases([self._branch(branch) for branch in branches]), OR)
+                otherwise = self.word(self.words["otherwise"], before="", behind="")
+                if_ = self.word(self.words["if"], before="")
+                rows = [(self(value), f"{if_}{self(when[0])}" if when else otherwise) for value, *when in branches]
+                return Piece(self.cases(rows), OR)
         raise ValueError(f"no expression: {tree!r}")
-
-    def _branch(self, branch: Tree) -> tuple[str, str]:
-        value = self(branch[0])
-        if len(branch) == 1:
-            return value, self.word(self.words["otherwise"], before="", behind="")
-        return value, f"{self.word(self.words['if'], before='')}{self(branch[1])}"
 
     def _numeric(self, text: str, printed: str, unit: str) -> Piece:
         found = parts(text)
@@ -194,24 +199,17 @@ class Printer:
         follows = trees[index + 1] if index + 1 < len(trees) else None
         bare = tree[0] == "call" and piece.level == CALL
         if bare and follows is not None and follows[0] != "call":
-            return self._closed_call(tree)
+            return Piece(self.called(tree[1], self.bracket(self(tree[2]))), POWER)
         if piece.level < PRODUCT and (not piece.negative or index > 0 or tree[0] in "+-"):
-            return Piece(
-                self.bracket(piece.text),
-                ATOM,
-                quantity=piece.quantity or tree[0] == "num",
-                digit=tree[0] in ("num", "qty"),
-            )
+            is_value = piece.quantity or tree[0] == "num"
+            return Piece(self.bracket(piece.text), ATOM, quantity=is_value, digit=tree[0] in ("num", "qty"))
         return piece
 
-    def _closed_call(self, tree: Tree) -> Piece:
-        return Piece(self.name(tree[1]) + self.bracket(self(tree[2])), POWER)
-
-    def _power(self, base: Tree, exponent: Tree) -> Piece:
-        piece = self.piece(base)
-        numeric = base[0] in ("num", "qty")
-        text = piece.text if piece.level == ATOM else self.bracket(piece.text)
-        return Piece(self.power(text, exponent), POWER, digit=numeric, quantity=numeric)
+    def _exponent(self, tree: Tree) -> str:
+        """An exponent whose fraction is set in the line."""
+        if tree[0] != "/":
+            return self(tree)
+        return f"{self._held(tree[1], PRODUCT)}/{self._held(tree[2], POWER)}"
 
     def _call(self, name: str, args: list[Piece]) -> Piece:
         if name == "sqrt":
@@ -219,8 +217,8 @@ class Printer:
         if name in BRACKETS:
             return Piece(self.bracket(args[0].text, *BRACKETS[name]), ATOM)
         if len(args) == 1 and args[0].level == ATOM and not args[0].digit:
-            return Piece(f"{self.name(name)} {args[0].text}", CALL)
-        return Piece(self.name(name) + self.bracket(self.comma.join(a.text for a in args)), POWER)
+            return Piece(self.called(name, f" {args[0].text}"), CALL)
+        return Piece(self.called(name, self.bracket(self.comma.join(a.text for a in args))), POWER)
 
 
 def dotted(left: Piece, right: Piece) -> bool:
@@ -246,15 +244,9 @@ def _nested(name: str, args: list[Tree]) -> list[Tree]:
     """The arguments of a function; those of the same function within it stand beside them: min(min(a, b), c) is min(a, b, c)."""
     if name not in LEVEL:
         return args
-    return [
-        inner
-        for each in args
-        for inner in (
-            _nested(name, each[2:])
-            if each[0] == "call" and NAMES.get(each[1], each[1]) == NAMES.get(name, name)
-            else [each]
-        )
-    ]
+    own = NAMES.get(name, name)
+    within = [_nested(name, a[2:]) if a[0] == "call" and NAMES.get(a[1], a[1]) == own else [a] for a in args]
+    return [inner for several in within for inner in several]
 
 
 def terms(tree: Tree) -> list[tuple[str, Tree]]:
@@ -273,35 +265,50 @@ def factors(tree: Tree) -> list[Tree]:
     return [tree]
 
 
+def letters_of(tree: Any) -> Iterator[str]:
+    """The symbols of a tree, from left to right."""
+    match tree:
+        case ["sym", name]:
+            yield name
+        case list():
+            for part in tree:
+                yield from letters_of(part)
+
+
 PRIMES = "′'"
 
 
-class Latex(Printer):
+class Latex(Linear):
     """Expressions as LaTeX, of the small part that math-core and mathra both read."""
 
     times, dot, comma = r"\,", r" \cdot ", r",\, "
     signs: Mapping[str, str] = {"<": "<", "<=": r"\le", ">": ">", ">=": r"\ge", "==": "=", "!=": r"\ne"}
-    fences: Mapping[str, str] = {
-        "(": "(",
-        ")": ")",
-        "|": "|",
-        "⌈": r"\lceil ",
-        "⌉": r"\rceil ",
-        "⌊": r"\lfloor ",
-        "⌋": r"\rfloor ",
+    minus = "-"
+    fences: Mapping[str, str] = {"⌈": r"\lceil ", "⌉": r"\rceil ", "⌊": r"\lfloor ", "⌋": r"\rfloor "}
+    known: Collection[str] = {
+        "sin",
+        "cos",
+        "tan",
+        "arcsin",
+        "arccos",
+        "arctan",
+        "sinh",
+        "cosh",
+        "tanh",
+        "exp",
+        "ln",
+        "lg",
+        "min",
+        "max",
     }
-    known = frozenset(
-        ["sin", "cos", "tan", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "exp", "ln", "lg", "min", "max"]
-    )
 
     def number(self, text: str) -> str:
         found = parts(text)
         if found is None:
             return rf"\text{{{escaped(text)}}}"
         sign, whole, decimals, power = found
-        body = grouped(whole, r"\,") + (
-            ("." if self.decimal == "." else f"{{{self.decimal}}}") + decimals if decimals else ""
-        )
+        sign_of_decimals = "." if self.decimal == "." else f"{{{self.decimal}}}"
+        body = grouped(whole, r"\,") + (sign_of_decimals + decimals if decimals else "")
         return f"{sign.replace('+', '')}{body}" + (rf" \times 10^{{{power}}}" if power else "")
 
     def quantity(self, text: str, unit: str) -> str:
@@ -322,7 +329,7 @@ class Latex(Printer):
 
     def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
         tall = left == "|" or any(part in text for part in (r"\frac", r"\sqrt", r"\begin"))
-        opening, closing = self.fences[left], self.fences[right]
+        opening, closing = self.fences.get(left, left), self.fences.get(right, right)
         return rf"\left{opening} {text} \right{closing}" if tall else f"{opening}{text}{closing}"
 
     def name(self, function: str) -> str:
@@ -336,82 +343,28 @@ class Latex(Printer):
         return Piece(rf"\sqrt{{{inner.text}}}", POWER)
 
     def fraction(self, over: Piece, under: Piece) -> Piece:
-        return Piece(
-            rf"\frac{{{over.text}}}{{{under.text}}}", PRODUCT, quantity=over.quantity and under.quantity, fraction=True
-        )
+        text = rf"\frac{{{over.text}}}{{{under.text}}}"
+        return Piece(text, PRODUCT, quantity=over.quantity and under.quantity, fraction=True)
 
     def power(self, base: str, exponent: Tree) -> str:
         held = base if _PLAIN_BASE.fullmatch(base) else f"{{{base}}}"
-        return f"{held}^{{{self(exponent) if exponent[0] != '/' else self._slashed(exponent)}}}"
-
-    def _slashed(self, exponent: Tree) -> str:
-        return f"{self._held(exponent[1], PRODUCT)}/{self._held(exponent[2], POWER)}"
+        return f"{held}^{{{self._exponent(exponent)}}}"
 
     def cases(self, rows: list[tuple[str, str]]) -> str:
         lines = r" \\ ".join(f"{value} & {condition}" for value, condition in rows)
         return rf"\begin{{cases}} {lines} \end{{cases}}"
 
 
-class Linear(Printer):
-    """Expressions as one line of text."""
-
-    times, dot, comma = "·", " · ", ", "
-    minus = MINUS
-    raised = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-    def number(self, text: str) -> str:
-        return quantity(text, "1", self.decimal)
-
-    def quantity(self, text: str, unit: str) -> str:
-        return quantity(text, unit, self.decimal).replace("\u00a0", " ")
-
-    def symbol(self, name: str) -> str:
-        return name
-
-    def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
-        return f"{left}{text}{right}"
-
-    def name(self, function: str) -> str:
-        return NAMES.get(function, function)
-
-    def word(self, text: str, before: str = " ", behind: str = " ") -> str:
-        return f"{before}{text}{behind}"
-
-    def root(self, inner: Piece) -> Piece:
-        return Piece(f"√{inner.text if inner.level == ATOM else self.bracket(inner.text)}", POWER)
-
-    def fraction(self, over: Piece, under: Piece) -> Piece:
-        upper = over.text if over.level >= PRODUCT or (over.negative and over.level > SUM) else self.bracket(over.text)
-        lower = under.text if under.level >= CALL else self.bracket(under.text)
-        return Piece(f"{upper}/{lower}", PRODUCT, over.negative and over.level >= PRODUCT, over.digit, fraction=True)
-
-    def power(self, base: str, exponent: Tree) -> str:
-        text = self(exponent)
-        return base + text.translate(self.raised) if text.isdecimal() else f"{base}^({text})"
-
-    def cases(self, rows: list[tuple[str, str]]) -> str:
-        return "{" + "; ".join(f"{value} {condition}" for value, condition in rows) + "}"
-
-
 _PLAIN_BASE = re.compile(r"[^\W_](_\{.*\})?")  # a letter, whose exponent stands above its subscript
 
-_SPECIAL = {
-    "\\": r"\backslash ",
-    "{": r"\{",
-    "}": r"\}",
-    "$": r"\$",
-    "&": r"\&",
-    "#": r"\#",
-    "%": r"\%",
-    "_": r"\_",
-    "~": r"\sim ",
-    "^": r"\hat{}",
-}
+_SPECIAL = str.maketrans({
+    "\\": r"\backslash ", "~": r"\sim ", "^": r"\hat{}", **{sign: rf"\{sign}" for sign in "{}$&#%_"},
+})  # fmt: skip
 
 
 def escaped(text: str) -> str:
     """A text for ``\\text{…}``."""
-    return "".join(_SPECIAL.get(character, character) for character in text)
+    return text.translate(_SPECIAL)
 
 
 def subscript_latex(text: str) -> str:
@@ -430,12 +383,9 @@ def unit_latex(unit: str) -> str:
     printed = pretty(unit)
     if not printed:
         return ""
-    raised = re.sub(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: f"^{{{m[0].translate(_LOWERED)}}}", printed)
+    raised = re.sub(f"[{POWERS}]+", lambda found: f"^{{{found[0].translate(_LOWERED)}}}", printed)
     upright = re.sub(r"[^\W\d]+|%", lambda m: r"\%" if m[0] == "%" else rf"\mathrm{{{m[0]}}}", raised)
     return upright.replace("·", r"{\cdot}")
-
-
-_LOWERED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 
 
 # Paths as the operators of a PDF.
@@ -449,17 +399,16 @@ class OperatorPen(BasePen):  # type: ignore[misc]  # fontTools has no types
         self.operators: list[str] = []
 
     def _moveTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*pt)} m")
+        self._add("m", pt)
 
     def _lineTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*pt)} l")
+        self._add("l", pt)
 
     def _curveToOne(self, *points: tuple[float, float]) -> None:  # noqa: N802
-        self.operators.append(f"{_number(*(n for point in points for n in point))} c")
+        self._add("c", *points)
 
     def _closePath(self) -> None:  # noqa: N802
         self.operators.append("h")
 
-
-def _number(*values: float) -> str:
-    return " ".join(f"{value:g}" for value in values)
+    def _add(self, operator: str, *points: tuple[float, float]) -> None:
+        self.operators.append(" ".join([*(f"{value:g}" for point in points for value in point), operator]))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
-from typing import Any, NamedTuple
+from typing import Any
 
 from markupsafe import Markup
 
@@ -17,7 +17,7 @@ from diecut_report.report.equations import Equation
 from diecut_report.report.symbols import SymbolRow, symbol
 from diecut_report.report.text import is_words, joined, number, quantity, value_in_words
 from diecut_report.results.figure_record import FigureRecord
-from diecut_report.results.mechanism_record import AbsentRecord, ItemRecord, QuantityRecord
+from diecut_report.results.mechanism_record import AbsentRecord, ItemRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import MovedBarRecord
 
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
@@ -35,15 +35,6 @@ class TornadoFigure:
 
 
 Drawn = FigureRecord | TornadoFigure
-
-
-class ListedNumbers(NamedTuple):
-    """A table of one quantity of parts that have numbers alone, which is set in a line."""
-
-    table: ItemRecord
-
-
-Step = ItemRecord | ListedNumbers
 
 
 @dataclass(frozen=True)
@@ -174,17 +165,8 @@ class PrintedChapter:
     name: str
     anchor: str
     title: str
-    kind: str
-    version: str
-    status: str
-    source_sha256: str = ""
-    source_file: str = ""
-    source_check: str = ""  # of a foreign plugin: passed or failed
-    is_doubtful: bool = False  # whether the formulas of its plugin have faults
-    error: str = ""
-    summary: str = ""
+    record: MechanismRecord
     assumptions: list[str] = field(default_factory=list)
-    warnings: list[str] = field(default_factory=list)
     between: list[PrintedChapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
     defaults: list[QuantityRow] = field(default_factory=list)  # inputs that a standard report tells in a paragraph
@@ -215,7 +197,7 @@ class PrintedChapter:
     @property
     def lost(self) -> bool:
         """Whether it could not be calculated."""
-        return self.status in ("error", "skipped")
+        return self.record.status in ("error", "skipped")
 
     def count(self, status: str) -> int:
         """How many checks of the machine have a status."""
@@ -229,8 +211,8 @@ class PrintedChapter:
     @property
     def face(self) -> str:
         """The verdict as it is shown: one that passes, but not in all or by formulas with faults, is incomplete."""
-        is_left = self.is_doubtful or self.count("not_checked")
-        return "incomplete" if self.status == "pass" and is_left else self.status
+        is_left = self.record.is_doubtful or self.count("not_checked")
+        return "incomplete" if self.record.status == "pass" and is_left else self.record.status
 
 
 def quantity_row(row: QuantityRecord, decimal: str, description: str = "", names: Collection[str] = ()) -> QuantityRow:
@@ -293,14 +275,12 @@ def in_lines(rows: Sequence[ValueRow]) -> list[tuple[ValueRow, str]]:
 
 
 def _said(row: ValueRow) -> float:
-    """How wide what is said of a row is, mm."""
     letters = sum(len(new.striptags()) + len(old.striptags()) + 10 for new, old in row.letters)
     behind = len(row.refers) + 7 + letters if row.refers else len(row.source) + 1
     return LETTER * (len(row.description) + REFERENCE * (behind + len(row.note)))
 
 
 def _value(row: ValueRow) -> float:
-    """How wide its symbol and value are, mm."""
     place = len(row.at.striptags()) + 4 if row.at else 0
     return LETTER * (len(row.symbol.striptags()) * REFERENCE + len(row.value) + place + 3)
 
@@ -308,12 +288,16 @@ def _value(row: ValueRow) -> float:
 # Steps that do not apply to a machine: those that stand one after the other in one sentence, not in a line each.
 
 
-def gathered_notes(items: Sequence[Step | None]) -> list[Step | None]:
+def gathered_notes(items: Sequence[ItemRecord | None]) -> list[ItemRecord | None]:
     """Return the steps in their places; the notes of one kind that follow each other stand as one in the first's place."""
-    found: list[Step | None] = []
+    found: list[ItemRecord | None] = []
     for said, group in groupby(items, key=_left_out_said):
         run = list(group)
-        found += list(_as_one(said, run)) if said and len(run) > 1 else run
+        if said and len(run) > 1:
+            start, names = said.rstrip("."), "; ".join(note.description for note in run if note)
+            note = ItemRecord(type="note", text=f"{start[:1].upper()}{start[1:]}: {names}.")
+            run = [note, *[None] * (len(run) - 1)]
+        found += run
     return found
 
 
@@ -325,16 +309,7 @@ def under_heading(absent: Sequence[AbsentRecord], heading: str) -> list[AbsentRe
     return [AbsentRecord(title="; ".join(named), text=text) for text, named in titles.items()]
 
 
-def _left_out_said(item: Step | None) -> str:
-    """What a note says of its step, without its name; nothing of any other step."""
-    if not isinstance(item, ItemRecord) or item.type != "note" or not item.description:
+def _left_out_said(item: ItemRecord | None) -> str:
+    if item is None or item.type != "note" or not item.text.startswith(name := f"{item.description}: "):
         return ""
-    name, text = f"{item.description}: ", str(item.text)
-    return text.removeprefix(name) if text.startswith(name) else ""
-
-
-def _as_one(said: str, notes: Sequence[Step | None]) -> Iterator[Step | None]:
-    names = "; ".join(note.description for note in notes if isinstance(note, ItemRecord))
-    start = said.rstrip(".")
-    yield ItemRecord(type="note", text=f"{start[:1].upper()}{start[1:]}: {names}.")
-    yield from (None for _ in notes[1:])
+    return item.text.removeprefix(name) if item.description else ""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from diecut_report.quantities.units import unit
 from diecut_report.report.chapters.tables import period_of
 from diecut_report.report.scope import suffixes
-from diecut_report.results.mechanism_record import CurveRecord, ExportRecord, MechanismRecord
+from diecut_report.results.mechanism_record import CurveRecord, ExportRecord
 from diecut_report.results.model import ResultsRecord
 
 if TYPE_CHECKING:
@@ -29,16 +29,11 @@ MM = unit("mm")
 Fault = tuple[str, ExportRecord, Exception]  # the mechanism's name, the export, and what went wrong
 
 
-def exports(results: ResultsRecord) -> dict[str, bytes]:
-    """All files that the results ask for: what follows the report's name in theirs, and their content."""
-    files, faults = written(results)
-    for *_, cause in faults:
-        raise cause
-    return files
-
-
 def written(results: ResultsRecord) -> tuple[dict[str, bytes], list[Fault]]:
-    """Return the files of all exports, and those exports that cannot be written; one that failed before is left out."""
+    """Return the files of all exports, by what follows the report's name in theirs, and those exports that cannot be written.
+
+    One that failed before is left out.
+    """
     files: dict[str, bytes] = {}
     faults: list[Fault] = []
     for name, mechanism in results.calculated.items():
@@ -46,17 +41,13 @@ def written(results: ResultsRecord) -> tuple[dict[str, bytes], list[Fault]]:
             if export.error:
                 continue
             try:
-                files |= _files(name, mechanism, export)
+                curves = {column: mechanism.curves[column] for column in (export.abscissa, *export.columns)}
+                own = suffixes(name, export)
+                drawing = {own["dxf"]: profile_drawing(curves, export)} if export.type == "profile" else {}
+                files |= drawing | {own["csv"]: table(curves)}
             except Exception as cause:
                 faults.append((name, export, cause))
     return files, faults
-
-
-def _files(name: str, mechanism: MechanismRecord, export: ExportRecord) -> dict[str, bytes]:
-    curves = {column: mechanism.curves[column] for column in (export.abscissa, *export.columns)}
-    files = suffixes(name, export)
-    drawn = {files["dxf"]: profile_drawing(curves, export)} if export.type == "profile" else {}
-    return drawn | {files["csv"]: table(curves)}
 
 
 def table(curves: Mapping[str, CurveRecord]) -> bytes:
@@ -88,11 +79,14 @@ def profile_drawing(curves: Mapping[str, CurveRecord], export: ExportRecord) -> 
         radius = AXIS * max(math.hypot(*point) for point in paths[0])
         drawing.modelspace().add_circle((0.0, 0.0), radius, dxfattribs={"layer": CENTER})
         _zoom(drawing, [point for points in paths for point in points])
-        return _written(drawing)
+        for kind in sorted(drawing.entitydb.dxf_types_in_use()):  # of itself ezdxf takes them in the order of a set
+            drawing.classes.add_class(kind)
+        text = io.StringIO()
+        drawing.write(text)
+        return text.getvalue().encode(drawing.output_encoding)
 
 
 def _points(curves: Mapping[str, CurveRecord], x: str, y: str) -> list[Point]:
-    """Samples of two curves as points in millimetres."""
     strange = [name for name in (x, y) if unit(curves[name].unit).kind != MM.kind]
     if strange:
         raise ValueError(f"{strange[0]} is not a length and cannot be drawn")
@@ -107,14 +101,6 @@ def _zoom(drawing: Drawing, points: list[Point]) -> None:
     space.dxf.extmin, space.dxf.extmax = (*low, 0.0), (*high, 0.0)
     middle = (low[0] + high[0]) / 2, (low[1] + high[1]) / 2
     drawing.set_modelspace_vport(1.1 * max(high[0] - low[0], high[1] - low[1]), middle)
-
-
-def _written(drawing: Drawing) -> bytes:
-    for kind in sorted(drawing.entitydb.dxf_types_in_use()):  # of itself ezdxf takes them in the order of a set
-        drawing.classes.add_class(kind)
-    text = io.StringIO()
-    drawing.write(text)
-    return text.getvalue().encode(drawing.output_encoding)
 
 
 @contextmanager

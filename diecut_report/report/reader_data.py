@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -74,17 +74,12 @@ class ReaderRows:
 
 
 def rounded(values: Any, digits: int = Y_DIGITS) -> list[float | None]:
-    """Return numbers rounded to so many digits of their greatest, None for what is not finite."""
+    """Return numbers rounded to so many digits of their greatest, whole ones without ``.0``, None for what is not finite."""
     found = np.asarray(values, dtype=float)
     greatest = float(np.abs(found[np.isfinite(found)]).max(initial=0.0))
     decimals = digits - 1 - int(np.floor(np.log10(greatest))) if greatest else 0
-    kept = np.round(found, decimals) + 0.0  # no minus before a zero
-    return [short(value) if math.isfinite(value) else None for value in kept.tolist()]
-
-
-def short(value: float) -> float:
-    """Return a number as JSON writes it shortest: a whole one without ``.0``."""
-    return int(value) if value.is_integer() else value
+    kept = (np.round(found, decimals) + 0.0).tolist()  # no minus before a zero
+    return [(int(value) if value.is_integer() else value) if math.isfinite(value) else None for value in kept]
 
 
 # The drawings that move with the cursor of their curves, as the page's scripts take them.
@@ -112,36 +107,36 @@ def moving_data(
         "places": pool.row(places / unit(shown).factor, X_DIGITS),
         "room": _room(moving.shapes),
         "letter": rounded([_letter(moving.shapes)])[0],
-        "shapes": [{**_shape(shape, pool), **_during(shape, shown)} for shape in moving.shapes],
+        "shapes": [_shape(shape, pool, shown) for shape in moving.shapes],
     }  # fmt: skip
 
 
-def _shape(shape: MovingShape, pool: ReaderRows) -> Data:
-    """A shape: its own numbers where it stands still, else those at each place, one that does not change once."""
+def _shape(shape: MovingShape, pool: ReaderRows, shown: str) -> Data:
+    """A shape: its own numbers where it stands still, else those at each place, one that does not change once.
+
+    ``during`` says between which places of the abscissa it is filled.
+    """
     kept: dict[str, Any] = {key: value for key in KEPT if (value := getattr(shape, key, ""))}
     if isinstance(shape, LabelRecord):
         kept["text"] = tidy(shape.text)
     if isinstance(shape, RigidRecord | MovedRecord) and shape.shape == "rigid":
-        kept["shapes"] = [_shape(own, pool) for own in shape.shapes]
-    if isinstance(shape, RigidRecord):
-        return kept | {"numbers": [*rounded(shape.at), *rounded([math.degrees(shape.turned)])]}
+        kept["shapes"] = [_shape(own, pool, shown) for own in shape.shapes]
     rows = _rows(shape)
-    if not isinstance(shape, MovedRecord):
-        return kept | {"numbers": rounded(rows[0])}
-    if shape.shape == "rigid":
-        rows[:, 2] = np.degrees(rows[:, 2])
-    columns = rows.T.copy()
-    return kept | {"rows": [pool.row(row[:1] if (row == row[0]).all() else row, Y_DIGITS) for row in columns]}
-
-
-def _during(shape: MovingShape, shown: str) -> Data:
-    """Between which places of the abscissa a shape is filled."""
-    during = getattr(shape, "during", None)
-    return {"during": [to_display(end, shown) for end in during]} if during else {}
+    if isinstance(shape, RigidRecord):
+        kept["numbers"] = [*rounded(shape.at), *rounded([math.degrees(shape.turned)])]
+    elif isinstance(shape, MovedRecord):
+        if shape.shape == "rigid":
+            rows[:, 2] = np.degrees(rows[:, 2])
+        columns = rows.T.copy()
+        kept["rows"] = [pool.row(row[:1] if (row == row[0]).all() else row, Y_DIGITS) for row in columns]
+    else:
+        kept["numbers"] = rounded(rows[0])
+    if during := getattr(shape, "during", None):
+        kept["during"] = [to_display(end, shown) for end in during]
+    return kept
 
 
 def _rows(shape: MovingShape) -> Points:
-    """A shape's numbers at each place, of one that stands still at one: points, a centre and radius, a shift and angle; shape (places, numbers)."""
     match shape:
         case MovedRecord():
             return np.array(shape.moves)
@@ -157,24 +152,21 @@ def _rows(shape: MovingShape) -> Points:
 def _room(shapes: Sequence[MovingShape]) -> list[float | None]:
     """Left, top, width and height (downwards) of all that is drawn at any place, with some air."""
     size = _letter(shapes)
-    labels = [_written(shape, size) for shape in shapes if isinstance(shape, LabelRecord)]
-    ends = np.concatenate([*(end for shape in shapes for end in _ends(shape)), *labels])
-    low, high = ends.min(axis=0), ends.max(axis=0)
+    ends = [end for shape in shapes for end in _ends(shape)]
+    for label in shapes:
+        if isinstance(label, LabelRecord):  # whose corners count
+            wide, (x, y) = WIDE * size * len(label.text), label.at
+            left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[label.anchor] * wide
+            ends.append(np.array([[left, y - size / 2], [left + wide, y + size / 2]]))
+    every = np.concatenate(ends)
+    low, high = every.min(axis=0), every.max(axis=0)
     air = AIR * float((high - low).max())
     return rounded([low[0] - air, -high[1] - air, *(high - low + 2 * air)])
 
 
 def _letter(shapes: Sequence[MovingShape]) -> float:
-    """The size of labels."""
     ends = np.concatenate([end for shape in shapes for end in _ends(shape)])
     return LETTER * float((ends.max(axis=0) - ends.min(axis=0)).max())
-
-
-def _written(label: LabelRecord, size: float) -> Points:
-    """The corners of a label."""
-    wide, (x, y) = WIDE * size * len(label.text), label.at
-    left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[label.anchor] * wide
-    return np.array([[left, y - size / 2], [left + wide, y + size / 2]])
 
 
 def _ends(shape: MovingShape) -> list[Points]:
@@ -198,9 +190,20 @@ SAFE = str.maketrans({mark: f"\\u{ord(mark):04x}" for mark in "<>&\u2028\u2029"}
 
 def reader_data(material: Material) -> str:
     """Return all that the page's scripts use as JSON, in which no character opens or closes anything of HTML."""
-    pool = ReaderRows()
-    figures = {number: made for number, made in _figures(material, pool) if made}
-    moving = list(_moving(material, pool))
+    pool, figures, moving = ReaderRows(), {}, []
+    calculated = dict(parts(material.said))
+    drawn = [
+        (part.name, *each)
+        for part in material.document.chapters
+        for each in part.figures
+        if each[0] in material.figures
+    ]
+    for name, number, figure in drawn:
+        if figure.type in READ and (made := _figure(name, figure, calculated[name].curves, material.words, pool)):
+            figures[number] = made
+    for name, number, figure in drawn:
+        if figure.moving:
+            moving.append(moving_data(name, number, figure.title, figure.moving, calculated[name].curves, pool))
     data = {
         "decimal": material.words["decimal"],
         "rows": pool.rows,
@@ -220,35 +223,20 @@ def figure_readings(
     return None if found is None else {**found, "rows": pool.rows}
 
 
-def _figures(material: Material, pool: ReaderRows) -> Iterable[tuple[str, Data | None]]:
-    """The figures by their numbers with what can be read in them; None where nothing can."""
-    calculated = dict(parts(material.said))
-    for chapter in material.document.chapters:
-        for number, figure in chapter.figures:
-            if figure.type in READ and number in material.figures:
-                yield number, _figure(chapter.name, figure, calculated[chapter.name].curves, material.words, pool)
-
-
-def _moving(material: Material, pool: ReaderRows) -> Iterator[Data]:
-    """The drawings that move with the cursor of their curves."""
-    calculated = dict(parts(material.said))
-    for chapter in material.document.chapters:
-        for number, figure in chapter.figures:
-            if figure.moving and number in material.figures:
-                curves = calculated[chapter.name].curves
-                yield moving_data(chapter.name, number, figure.title, figure.moving, curves, pool)
-
-
 def _figure(
     name: str, figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, pool: ReaderRows
 ) -> Data | None:
     from diecut_report.report.figures.charts import diagrams  # with matplotlib, which takes half a second
 
     if figure.type == "polar":
-        found = _figure(name, _unrolled(figure), curves, words, pool)
+        # its curves as a diagram over its angle, which is read beside it
+        whole = PlotPanelRecord(
+            title=figure.title, unit=figure.unit, series=figure.series, levels=[], marks=[], spans=[]
+        )
+        found = _figure(name, figure.with_(type="plot", panels=[whole]), curves, words, pool)
         return found and {**found, "beside": True}
     panels = diagrams(figure, curves, words)
-    if not all(_is_readable(panel) for panel in panels):
+    if not all(map(_is_readable, panels)):
         return None
     made = []
     for panel, raw in zip(panels, figure.panels, strict=True):
@@ -258,20 +246,12 @@ def _figure(
     return {"title": tidy(figure.title), "panels": made}
 
 
-def _unrolled(figure: FigureRecord) -> FigureRecord:
-    """A polar figure's curves as a diagram over its angle, which is read beside it."""
-    panel = PlotPanelRecord(title=figure.title, unit=figure.unit, series=figure.series, levels=[], marks=[], spans=[])
-    return figure.with_(type="plot", panels=[panel])
-
-
 def _is_readable(panel: PanelData) -> bool:
     """Whether each line has one height at a place: it runs from left to right, and there is one at all."""
     lines = (*panel.lines, *panel.fills)
-    return bool(lines) and all(len(line.x) >= LEAST and not (np.diff(_finite(line.x)) < 0).any() for line in lines)
-
-
-def _finite(values: Any) -> Any:
-    return values[np.isfinite(values)]
+    return bool(lines) and all(
+        len(line.x) >= LEAST and not (np.diff(line.x[np.isfinite(line.x)]) < 0).any() for line in lines
+    )
 
 
 def _panel(panel: PanelData, raw: Panel, words: Catalogue, pool: ReaderRows) -> dict[str, Any]:
@@ -293,7 +273,6 @@ def _panel(panel: PanelData, raw: Panel, words: Catalogue, pool: ReaderRows) -> 
 
 
 def _line(line: Line, pool: ReaderRows) -> Data:
-    """A line with the rows of its numbers; where it breaks it keeps its place, and has no height."""
     known = np.maximum.accumulate(np.where(np.isfinite(line.x), np.arange(len(line.x)), 0))
     heights = np.where(np.isfinite(line.x), line.y, np.nan)
     return {"label": tidy(line.label), "x": pool.row(line.x[known], X_DIGITS), "y": pool.row(heights, Y_DIGITS)}

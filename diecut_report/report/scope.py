@@ -7,15 +7,16 @@ import logging
 import os
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from diecut_report.results.conclusion import RANK, conclusion, governing, summary
 from diecut_report.results.mechanism_record import ExportRecord, MechanismRecord
-from diecut_report.results.model import MoveRecord, ResultsRecord, SummaryRecord
+from diecut_report.results.model import ResultsRecord
 
 BRIEF, STANDARD, FULL = "brief", "standard", "full"
 
@@ -38,10 +39,9 @@ class Scope:
 
 def scope(results: ResultsRecord) -> Scope:
     """Return what the results ask to be reported (``report``: its detail, and the mechanisms that alone are shown)."""
-    asked = results.report
     letters = {name: letter(index) for index, (name, _) in enumerate(parts(results))}
-    shown = _only(results, asked.only) if asked.only else results
-    return Scope(shown, asked.detail, letters, len(results.mechanisms), results.status)
+    shown = _only(results, results.report.only) if results.report.only else results
+    return Scope(shown, results.report.detail, letters, len(results.mechanisms), results.status)
 
 
 def parts(results: ResultsRecord) -> Iterator[tuple[str, MechanismRecord]]:
@@ -60,28 +60,23 @@ def _only(results: ResultsRecord, names: list[str]) -> ResultsRecord:
     mechanisms = {name: data for name, data in results.mechanisms.items() if name in names}
     compared = results.comparisons
     comparisons = {name: data for name, data in compared.items() if set(data.between) <= mechanisms.keys()}
-    checks = {name: data.checks for name, data in mechanisms.items()}
-    assumed, moves = _assumed(results.summary, mechanisms)
+    checks, whole = {name: data.checks for name, data in mechanisms.items()}, results.summary
+    assumed = [path for path in whole.assumed if _is_of(path, mechanisms)]
+    moves = [each for each in whole.moves if _is_of(each.path, mechanisms) and each.check.split(".")[0] in mechanisms]
     found = results.with_(
         mechanisms=mechanisms,
         comparisons=comparisons,
         comparisons_left_out=None,
         governing=governing(checks),
         status=max((data.status for data in mechanisms.values()), key=RANK.__getitem__),
-        summary=summary(checks, assumed).with_(moves=moves),
+        summary=summary(checks, [*assumed, *_taken(mechanisms, assumed)]).with_(moves=moves),
     )
     return found.with_(summary=found.summary.with_(conclusion=conclusion(found)))
 
 
-def _assumed(whole: SummaryRecord, mechanisms: Mapping[str, MechanismRecord]) -> tuple[list[str], list[MoveRecord]]:
-    """What is assumed of some mechanisms and of the press, and which of their checks that moves."""
-
-    def is_shown(path: str) -> bool:
-        return not path.startswith("mechanisms.") or path.split(".")[1] in mechanisms
-
-    moves = [each for each in whole.moves if is_shown(each.path) and each.check.split(".")[0] in mechanisms]
-    assumed = [path for path in whole.assumed if is_shown(path)]
-    return [*assumed, *_taken(mechanisms, assumed)], moves
+def _is_of(path: str, mechanisms: Collection[str]) -> bool:
+    """Whether an input is of these mechanisms, or of the press."""
+    return not path.startswith("mechanisms.") or path.split(".")[1] in mechanisms
 
 
 def _taken(mechanisms: Mapping[str, MechanismRecord], assumed: list[str]) -> Iterator[str]:
@@ -111,30 +106,20 @@ def settings_of_its_own() -> Iterator[None]:
     assert spec is not None and spec.submodule_search_locations
     own = Path(spec.submodule_search_locations[0]) / "mpl-data"
     before = {name: os.environ.get(name) for name in ("MPLBACKEND", "MPLCONFIGDIR")}
+    temporary = tempfile.tempdir
     logger = logging.getLogger("matplotlib")
     level = logger.level
     os.environ["MPLBACKEND"] = "agg"
     logger.setLevel(logging.ERROR)
     try:
-        with _inside(own), _without_temporary_files():
+        with _inside(own), TemporaryDirectory(prefix="diecut-report-") as tempfile.tempdir:
             yield
     finally:
         logger.setLevel(level)
+        tempfile.tempdir = temporary
         for name, value in before.items():
             os.environ.pop(name, None)
             os.environ |= {} if value is None else {name: value}
-
-
-@contextmanager
-def _without_temporary_files() -> Iterator[None]:
-    """Remove at the end what is put among the temporary files meanwhile."""
-    before = tempfile.tempdir
-    with tempfile.TemporaryDirectory(prefix="diecut-report-") as folder:
-        tempfile.tempdir = folder
-        try:
-            yield
-        finally:
-            tempfile.tempdir = before
 
 
 @contextmanager
@@ -157,15 +142,11 @@ def no_compiler() -> Iterator[None]:
     """
     search = ctypes.util.find_library
     if sys.platform == "linux":
-        ctypes.util.find_library = _not_searched
+        ctypes.util.find_library = lambda name: None
     try:
         yield
     finally:
         ctypes.util.find_library = search
-
-
-def _not_searched(name: str) -> str | None:
-    return None
 
 
 # Files that are written beside a report, by what the results say of them.

@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
 from importlib import import_module
-from itertools import accumulate
 from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,7 +18,7 @@ from markupsafe import Markup, escape
 
 from diecut_report.quantities.units import pretty
 from diecut_report.report.chapters.printed_tables import WIDE
-from diecut_report.report.mathematics import OperatorPen
+from diecut_report.report.mathematics import OperatorPen, letters_of
 from diecut_report.report.scope import parts
 from diecut_report.report.text import given_names, tidy
 from diecut_report.results.mechanism_record import CurveRecord, MechanismRecord, QuantityRecord, SectionRecord
@@ -58,10 +57,8 @@ def symbol(name: str) -> Markup:
     if found is None and not _OF_LETTERS.fullmatch(name):
         return escape(name)
     if found is None:
-        return Markup("").join(
-            Markup("<i class=sy>{}</i>").format(part) if part.isalpha() else escape(part)
-            for part in re.split(r"([^\W\d_]+)", name)
-        )
+        letters, parts = Markup("<i class=sy>{}</i>"), re.split(r"([^\W\d_]+)", name)
+        return Markup("").join(letters.format(part) if part.isalpha() else escape(part) for part in parts)
     below = Markup("<sub>{}</sub>").format(found["below"].replace("_", "\u2009")) if found["below"] else Markup("")
     return Markup("{}<i class=sy>{}</i>{}{}").format(found["before"], found["base"], below, found["after"])
 
@@ -70,10 +67,8 @@ def pieces(typed: str, *, narrow: bool = False) -> Markup:
     """What was typed, with the places where a line may break: between its words, behind the dots of a path, ``narrow`` behind its low lines."""
     joints = r"(?<=\.)(?=[^\W\d])|(?<=[^\W_]_)(?=[^\W_])" if narrow else r"(?<=\.)(?=[^\W\d])"
     words = [re.split(joints, word) for word in typed.split(" ")]
-    joint = Markup("<wbr/>")
-    return Markup(" ").join(
-        joint.join(Markup('<span class="whole">{}</span>').format(part) for part in word) for word in words
-    )
+    joint, whole = Markup("<wbr/>"), Markup('<span class="whole">{}</span>')
+    return Markup(" ").join(joint.join(whole.format(part) for part in word) for word in words)
 
 
 def cited(source: str) -> Markup:
@@ -86,14 +81,8 @@ def cited(source: str) -> Markup:
     return prose(f"{kept} · {rest}" if rest else kept)
 
 
-class _Letters(NamedTuple):
-    """The lone letters that a report declares as symbols, and what finds its own names that hold such letters."""
-
-    symbols: frozenset[str]
-    names: re.Pattern[str] | None
-
-
-_letters: ContextVar[_Letters | None] = ContextVar("letters", default=None)
+_letters: ContextVar[tuple[Collection[str], re.Pattern[str] | None] | None] = ContextVar("letters", default=None)
+"""The lone letters that a report declares as symbols, and what finds its own names that hold such letters."""
 
 
 @contextmanager
@@ -101,7 +90,7 @@ def letters_declared(symbols: Collection[str], names: Collection[str]) -> Iterat
     """Set within sentences no other lone letters as symbols than these, and none within these names; without this, all that look like one."""
     own = sorted((re.escape(name) for name in names if re.search(_LETTER, name)), key=len, reverse=True)
     found = re.compile(rf"(?<!\w)(?:{'|'.join(own)})(?!\w)") if own else None
-    token = _letters.set(_Letters(frozenset(symbols), found))
+    token = _letters.set((symbols, found))
     try:
         yield
     finally:
@@ -122,14 +111,12 @@ def own_words(text: str) -> Markup:
 def prose(sentence: str) -> Markup:
     """A sentence as HTML, its symbols set as symbols."""
     text = _SUM.sub("\\1\u00a0\\2\u00a0\\3", _EQUAL.sub("\u00a0\\1\u00a0", tidy(sentence)))
-    letters = _letters.get()
-    taken = [found.span() for found in _UNITS.finditer(text)]
-    taken += [found.span() for found in letters.names.finditer(text)] if letters and letters.names else []
+    declared, names = _letters.get() or (None, None)
+    taken = [found.span() for each in (_UNITS, names) if each for found in each.finditer(text)]
     parts, start = [], 0
     for found in _IN_TEXT.finditer(text):
-        if found[7] and any(first <= found.start() < end for first, end in taken):
-            continue
-        if found[7] and letters and found[7] not in letters.symbols:
+        is_within = any(first <= found.start() < end for first, end in taken)
+        if found[7] and (is_within or (declared is not None and found[7] not in declared)):
             continue
         base = next(filter(None, (found[1], *found.groups()[2:])))
         parts += [escape(text[start : found.start()]), symbol(f"{base}_{found[2]}" if found[2] else base)]
@@ -165,16 +152,16 @@ def symbol_rows(mechanism: MechanismRecord) -> list[SymbolRow]:
     """The symbols that stand in a chapter's formulas, in the order of the alphabet, Latin letters first."""
     used = set(used_symbols(mechanism.sections))
     printed = {item.id for section in mechanism.sections for item in section.items if item.id}
-    rows = _quantities(mechanism)
     known: dict[str, QuantityRecord | CurveRecord] = {}
-    for _, row in sorted(rows, key=lambda each: each[0] not in printed):  # what a step prints, before a chart's curves
+    for _, row in sorted(
+        _quantities(mechanism), key=lambda each: each[0] not in printed
+    ):  # what a step prints, before a chart's curves
         if row.symbol in used and any(map(str.isalpha, row.symbol)):
             known.setdefault(row.symbol, row)
     return [_row(known[name]) for name in sorted(known, key=_order)]
 
 
 def _quantities(mechanism: MechanismRecord) -> list[tuple[str, QuantityRecord | CurveRecord]]:
-    """Its inputs, curves, outputs and what lies between, by their names."""
     groups = (mechanism.inputs, mechanism.curves, mechanism.outputs, mechanism.values)
     return [pair for group in groups for pair in group.items()]
 
@@ -196,34 +183,24 @@ def _lines(row: SymbolRow) -> int:
 
 
 def _in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
-    """The rows in columns, of about as many lines each."""
-    lines = [_lines(row) for row in rows]
-    count = min(COLUMNS, len(rows))
-    share = ceil(sum(lines) / count)
-    before = [0, *accumulate(lines)]
-    columns: list[list[SymbolRow]] = [[] for _ in range(count)]
-    for row, above, height in zip(rows, before, lines, strict=False):
-        columns[min(int((above + height / 2) / share), count - 1)].append(row)
+    columns: list[list[SymbolRow]] = [[] for _ in rows[:COLUMNS]]
+    share, above = ceil(sum(map(_lines, rows)) / len(columns)), 0
+    for row in rows:
+        columns[min(int((above + _lines(row) / 2) / share), len(columns) - 1)].append(row)
+        above += _lines(row)
     return columns
 
 
 def symbols_at(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[str, str]) -> list[SymbolRow]:
     """The rows with the place of each symbol: the step that gives it, else the inputs; by their names."""
-    return [
-        row._replace(stands=steps.get(row.name) or inputs.get(row.name, ""), is_step=row.name in steps) for row in rows
-    ]
+    at = {row.name: steps.get(row.name) or inputs.get(row.name, "") for row in rows}
+    return [row._replace(stands=at[row.name], is_step=row.name in steps) for row in rows]
 
 
 def _row(row: QuantityRecord | CurveRecord) -> SymbolRow:
     unit = row.display_unit if isinstance(row, CurveRecord) else row.display.unit
-    in_source = row.source_symbol
-    return SymbolRow(
-        symbol(row.symbol),
-        row.description.partition(";")[0],
-        pretty(unit),
-        symbol(in_source) if in_source else Markup(""),
-        row.symbol,
-    )
+    meaning = row.description.partition(";")[0]
+    return SymbolRow(symbol(row.symbol), meaning, pretty(unit), symbol(row.source_symbol), row.symbol)
 
 
 def _order(name: str) -> tuple[bool, str, str]:
@@ -239,19 +216,8 @@ def used_symbols(sections: list[SectionRecord]) -> Iterator[str]:
                 yield item.symbol
             if len(columns := item.columns) >= WIDE:
                 yield from (column.symbol for column in columns if column.symbol)
-            for tree in (item.equation, item.relation, item.condition):
-                yield from _leaves(tree)
-            for each in item.where:
-                yield from _leaves(each.stands_for)
-
-
-def _leaves(tree: Any) -> Iterator[str]:
-    if isinstance(tree, list):
-        if len(tree) == 2 and tree[0] == "sym":
-            yield tree[1]
-        else:
-            for part in tree:
-                yield from _leaves(part)
+            for tree in (item.equation, item.relation, item.condition, *(each.stands_for for each in item.where)):
+                yield from letters_of(tree)
 
 
 # Widths and outlines of letters in the report's own fonts: what must fit into a box is measured before it is set.
@@ -265,25 +231,23 @@ REGULAR, BOLD = "report-sans-regular", "report-sans-bold"
 MISSING = ".notdef"
 
 
-class FittedText(NamedTuple):
-    """A text in lines that fit into a box, and the size of its letters in points."""
+def fitted(
+    text: str, width: float, height: float, largest: float, smallest: float, face: str = REGULAR
+) -> tuple[list[str], float]:
+    """Return a text in lines that fit into a box of so many millimetres, and the size of its letters in points: as large as it may be.
 
-    lines: tuple[str, ...]
-    size: float
-
-
-def fitted(text: str, width: float, height: float, largest: float, smallest: float, face: str = REGULAR) -> FittedText:
-    """Return a text as large as it may be in a box of so many millimetres; at its smallest it is cut where it still has no room."""
+    At its smallest it is cut where it still has no room.
+    """
     size = largest
     while True:
         lines = list(_letters_lines(text, width * MILLIMETRE / size / LETTERS_ROOM, face))
         most = max(int(height * MILLIMETRE / (LINE * size) + 1e-6), 1)
         if len(lines) <= most:
-            return FittedText(tuple(lines), size)
+            return lines, size
         if size <= smallest:
             kept = lines[:most]
             kept[-1] = f"{kept[-1][: max(len(kept[-1]) - 2, 0)].rstrip()}…"
-            return FittedText(tuple(kept), size)
+            return kept, size
         size = max(size - STEP, smallest)
 
 
@@ -294,7 +258,7 @@ def measured(text: str, face: str = REGULAR) -> float:
 
 def drawn(text: str, face: str = REGULAR) -> str:
     """Return the operators that draw a text in a PDF, in em from its baseline's start, y upwards."""
-    glyphs, x, scale = _font(face).getGlyphSet(), 0.0, 1 / _font(face)["head"].unitsPerEm
+    glyphs, x, scale = font(face).getGlyphSet(), 0.0, 1 / font(face)["head"].unitsPerEm
     pen = OperatorPen(glyphs)
     for letter in text:
         glyphs[_named(letter, face)].draw(TransformPen(pen, (scale, 0, 0, scale, x, 0)))
@@ -303,7 +267,6 @@ def drawn(text: str, face: str = REGULAR) -> str:
 
 
 def _letters_lines(text: str, width: float, face: str) -> Iterator[str]:
-    """A text in lines of so many em; a word that is longer is parted."""
     line = ""
     for word in text.split():
         longer = f"{line} {word}".lstrip()
@@ -328,51 +291,33 @@ def _parts(word: str, width: float, face: str) -> list[str]:
 
 
 @cache
-def _font(face: str) -> TTFont:
+def font(face: str) -> TTFont:
+    """Return one of the report's own fonts."""
     return TTFont(Path(import_module("diecut_report.templates").__path__[0]) / "fonts" / f"{face}.ttf")
 
 
 def _named(letter: str, face: str) -> str:
     """What the font calls a letter; another font's letter counts as the one for what is missing."""
-    name: str = _letters_letters(face).get(ord(letter), MISSING)
-    return name
-
-
-@cache
-def _letters_letters(face: str) -> dict[int, str]:
-    found: dict[int, str] = _font(face).getBestCmap()
-    return found
+    return str(font(face).getBestCmap().get(ord(letter), MISSING))
 
 
 @cache
 def _widths(face: str) -> Any:
-    font = _font(face)
-    metrics, units = font["hmtx"], font["head"].unitsPerEm
+    metrics, units = font(face)["hmtx"], font(face)["head"].unitsPerEm
     return cache(lambda letter: metrics[_named(letter, face)][0] / units)
 
 
 # Which letters a report declares as symbols, and which names its configuration gives: sentences hold both.
 
 
-class DeclaredLetters(NamedTuple):
-    """Letters that are symbols, alone or with an index (a sentence may speak of the k of k_a), and the names that a configuration gives."""
-
-    symbols: frozenset[str]
-    names: frozenset[str]
-
-
-def declared_letters(results: ResultsRecord) -> DeclaredLetters:
-    """Return those of all mechanisms of a report and of what compares them."""
+def declared_letters(results: ResultsRecord) -> tuple[set[str], set[str]]:
+    """Return letters that are symbols, alone or with an index (a sentence may speak of the k of k_a), and the names that a configuration gives."""
     mechanisms = results.mechanisms
     own = {name for data in mechanisms.values() for name in given_names(data, mechanisms)}
-    found = (SYMBOL.fullmatch(name) for _, data in parts(results) for name in _symbols(data))
+    every = [name for _, data in parts(results) for name in used_symbols(data.sections)]
+    every += [row.symbol for _, data in parts(results) for _, row in _quantities(data)]
+    found = map(SYMBOL.fullmatch, every)
     symbols = {each["base"] for each in found if each and len(each["base"].rstrip("′'")) == 1}
     for data in mechanisms.values():  # what was found wrong in a source speaks of the source's letters
         symbols.update(letter for each in data.errata for letter in lone_letters(each.text))
-    return DeclaredLetters(frozenset(symbols), frozenset(own | set(mechanisms)))
-
-
-def _symbols(mechanism: MechanismRecord) -> Iterator[str]:
-    """What its quantities and formulas are written with."""
-    yield from (row.symbol for _, row in _quantities(mechanism))
-    yield from used_symbols(mechanism.sections)
+    return symbols, own | set(mechanisms)

@@ -11,7 +11,7 @@ from diecut_report.quantities.formatting import shown
 from diecut_report.quantities.units import pretty
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism_record import CurveRecord, MechanismRecord, QuantityRecord
-from diecut_report.results.model import ChangesRecord, ProjectRecord, ResultsRecord
+from diecut_report.results.model import ChangesRecord, ResultsRecord
 from diecut_report.results.record import TextRole
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, built_in, program_catalogue
 from diecut_report.text.phrases import worded
@@ -150,11 +150,8 @@ class Catalogue(Mapping[str, str]):
 
     def __init__(self, language: str) -> None:
         self.language = language
-        self._own = program_catalogue(language) if language != "en" else None
-        self._texts = {key: self._said(key) for key in ENGLISH}
-
-    def _said(self, key: str) -> str:
-        return (self._own and self._own.text(one(key), key)) or ENGLISH[key]
+        self._own = own = program_catalogue(language) if language != "en" else None
+        self._texts = {key: (own and own.text(one(key), key)) or text for key, text in ENGLISH.items()}
 
     def __getitem__(self, key: str) -> str:
         return self._texts[key]
@@ -167,14 +164,11 @@ class Catalogue(Mapping[str, str]):
 
     def say(self, key: str, **parts: object) -> str:
         """A sentence with its parts filled in, in the form that goes with their number ``n``."""
-        return self._form(key, parts.get("n")).format(**parts)
-
-    def _form(self, key: str, count: object) -> str:
-        if key not in COUNTED or not isinstance(count, int):
-            return self[key]
-        if self._own and (found := self._own.plural(one(key), count, key)):
-            return found
-        return one(key) if count == 1 else ENGLISH[key]
+        text, count = self[key], parts.get("n")
+        if key in COUNTED and isinstance(count, int):
+            own = self._own.plural(one(key), count, key) if self._own else ""
+            text = own or (one(key) if count == 1 else ENGLISH[key])
+        return text.format(**parts)
 
     def listed(self, parts: Sequence[str]) -> str:
         """Several things in a sentence."""
@@ -276,12 +270,12 @@ def sentence(text: str) -> str:
 
 def given_names(mechanism: MechanismRecord, mechanisms: Collection[str]) -> frozenset[str]:
     """Return the names among the inputs of a mechanism: those of its parts, and of the ``mechanisms`` that it takes."""
+    given = [(row, text) for row in mechanism.inputs.values() for text in _texts(row.value)]
+    # a word that was typed, such as a role, is no mechanism, though one may be called so
     return frozenset(
-        text
-        for row in mechanism.inputs.values()
-        for text in _texts(row.value)
-        if is_name(row) or (text in mechanisms and not _is_choice(row, text))
-    )
+        text for row, text in given
+        if is_name(row) or (text in mechanisms and not (row.origin == "given" and row.text == text))
+    )  # fmt: skip
 
 
 def is_name(row: QuantityRecord) -> bool:
@@ -301,14 +295,8 @@ def in_words(text: str, names: Collection[str]) -> str:
     return text if text in names else worded(text)
 
 
-def _is_choice(row: QuantityRecord, text: str) -> bool:
-    """Whether an input is a word that was typed, such as a role, and no mechanism, though one may be called so."""
-    return row.origin == "given" and row.text == text
-
-
 def _texts(value: Any) -> list[str]:
-    several = value if isinstance(value, list) else [value]
-    return [each for each in several if isinstance(each, str)]
+    return [each for each in (value if isinstance(value, list) else [value]) if isinstance(each, str)]
 
 
 # Results in another language: the same numbers and keys, with the texts translated for print.
@@ -323,10 +311,11 @@ def translated(results: ResultsRecord, catalogues: Catalogues) -> ResultsRecord:
         return results
     for data in results.calculated.values():
         catalogues.of(data.kind)
-    words = _translator(catalogues)
+    words, project = _translator(catalogues), results.project
     rest, changes = _MechanismTexts(words, ""), results.changes
+    lines = [line.with_(date=_date(line.date)) for line in project.revisions]
     return results.with_(
-        project=_dated(results.project),
+        project=project.with_(date=_date(project.date), revisions=lines),
         press=results.press.with_texts(rest.text),
         mechanisms={name: _mechanism(words, data, results) for name, data in results.mechanisms.items()},
         comparisons={name: _mechanism(words, data, results) for name, data in results.comparisons.items()},
@@ -356,19 +345,13 @@ def _translator(catalogues: Catalogues) -> Translator:
     return Translator(catalogues, Catalogue(catalogues.language)["decimal"])
 
 
-def _dated(project: ProjectRecord) -> ProjectRecord:
-    """The project with its dates as they are written in documents: 22.11.2026."""
-    lines = [line.with_(date=_date(line.date)) for line in project.revisions]
-    return project.with_(date=_date(project.date), revisions=lines)
-
-
 def _date(given: str | None) -> str | None:
+    """A date as it is written in documents: 22.11.2026."""
     found = DATE.fullmatch(given) if given else None
     return ".".join(reversed(found.groups())) if found else given
 
 
 def _mechanism(words: Translator, data: MechanismRecord, results: ResultsRecord) -> MechanismRecord:
-    """A mechanism, or a comparison, whose sources are those of what it compares."""
     kinds = [results.mechanisms[name].kind for name in data.between]
     home = kinds[-1] if kinds and all(map(built_in, kinds)) else data.kind
     texts = _MechanismTexts(words, data.kind, given_names(data, results.mechanisms), home)
@@ -396,6 +379,34 @@ class _MechanismTexts:
         return self.words.known(worded(text), self.kind) or self.words.said(text, self.kind)
 
 
+# Papers that plugins call by a number of their own, by their place in the report's list of sources: 002 eq. 6 as [2] eq. 6.
+
+
+PAPER = re.compile(r"\d{3}")
+BRACKETS = re.compile(r"\((\[\d+\])\)")  # about the brackets of a number
+CITING = (TextRole.TEXT, TextRole.DRAWN, TextRole.SOURCE)
+
+
+def numbered(results: ResultsRecord) -> ResultsRecord:
+    """Return the results with each paper named by its number in the list of sources, in brackets."""
+    ids = {source.id for data in results.calculated.values() for source in data.sources}
+    papers = {id: f"[{number}]" for number, id in enumerate(sorted(filter(PAPER.fullmatch, ids)), 1)}
+    if not papers:
+        return results
+    named = re.compile(rf"(?<![\w.,\u202f\u2009\u00a0−-])(?<!\d )(?:{'|'.join(papers)})(?![\w\u202f\u2009\u00a0]|\.\d)")
+
+    def text(role: TextRole, text: str) -> str:
+        """Name papers by their numbers; what follows digits is no paper: 10 000 h. A text that names none stays, so that it can be translated."""
+        made = named.sub(lambda found: papers[found[0]], text) if role in CITING else text
+        return text if made == text else BRACKETS.sub(r"\1", made)
+
+    return results.with_(
+        mechanisms={name: data.with_texts(text) for name, data in results.mechanisms.items()},
+        comparisons={name: data.with_texts(text) for name, data in results.comparisons.items()},
+        changes=results.changes and results.changes.with_texts(text),
+    )
+
+
 # Columns of numbers aligned on their decimal sign: how much room a number leaves behind itself.
 
 
@@ -419,10 +430,4 @@ def rooms(texts: Sequence[str]) -> list[str]:
     """The class of each text of a column: ``f2`` leaves room for two digits, ``w2`` for these and the decimal sign."""
     found = [decimals(text) for text in texts]
     most = max((count for count in found if count is not None), default=0)
-    return [_room(count, most) for count in found]
-
-
-def _room(count: int | None, most: int) -> str:
-    if count is None or count == most:
-        return ""
-    return f"{'f' if count else 'w'}{min(most - count, MOST)}"
+    return ["" if n in (None, most) else f"{'f' if n else 'w'}{min(most - (n or 0), MOST)}" for n in found]

@@ -172,6 +172,11 @@ class CheckResult(OfRecord):
         return f"{self.mechanism}.{self.record.id}"
 
     @property
+    def utilisation(self) -> float | None:
+        """Return the demand as a share of the limit."""
+        return self.record.utilisation
+
+    @property
     def demand(self) -> QuantityValue | None:
         """Return what is needed."""
         return self._side(self.record.demand, self.record.demand_display)

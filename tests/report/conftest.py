@@ -9,11 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
 import pytest
 
-from diecut_report.report.figures.style import load_fonts
-from diecut_report.report.figures.style import style as style_of
+from diecut_report.report.figures.style import styled
 from diecut_report.report.rendering import Rendering
 from tests.report.made_results import sample, typed
 from tests.shared import once
@@ -54,8 +52,7 @@ def html(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
 @pytest.fixture
 def style() -> Iterator[None]:
     """The report's fonts and settings, for what is drawn or measured apart from a whole figure."""
-    load_fonts()
-    with mpl.rc_context(style_of("x")):  # type: ignore[arg-type]
+    with styled("x"):
         yield
 
 
@@ -88,11 +85,11 @@ def printed(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
         rendering: Rendering = request.getfixturevalue("rendering")
         rendering.html()
         handler, logger = Records(), logging.getLogger("weasyprint")
-        known = len(rendering.material.typesetter._outlines)
+        known = len(rendering.typesetter._outlines)
         logger.addHandler(handler)
         (folder / "sample.pdf").write_bytes(rendering.pdf())
         logger.removeHandler(handler)
-        anew = len(rendering.material.typesetter._outlines) - known
+        anew = len(rendering.typesetter._outlines) - known
         told = {"warnings": handler.messages, "set_for_html": known, "set_anew": anew}
         (folder / "told.json").write_text(json.dumps(told))
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report.report.model import Item, PrintedChapter
-from diecut_report.report.profile_files import CENTER, PITCH_CURVE, PROFILE, exports
+from diecut_report.report.profile_files import CENTER, PITCH_CURVE, PROFILE, written
 from diecut_report.report.rendering import Rendering
 from tests.report.made_results import SOURCE, check, export, mechanism, sample, typed
 
@@ -19,7 +19,7 @@ Data = dict[str, Any]
 @pytest.fixture(scope="session")
 def chapters(rendering: Rendering) -> dict[str, PrintedChapter]:
     """The sample's chapters by their name."""
-    return {chapter.name: chapter for chapter in rendering.material.document.chapters}
+    return {chapter.name: chapter for chapter in rendering.document.chapters}
 
 
 def _words(html: str) -> str:
@@ -35,7 +35,7 @@ def test_what_is_absent_does_not_say_the_words_of_its_heading_again() -> None:
     absent = [{"title": "Bending", "text": "not calculated: bearing_span is not given"}]
     found["mechanisms"] = {"first": mechanism("Shaft", absent=absent)}
     found |= {"comparisons": {}, "governing": None}
-    [part] = Rendering(typed(found)).material.document.chapters
+    [part] = Rendering(typed(found)).document.chapters
     assert [told.text for told in part.absent] == ["bearing_span is not given"]
 
 
@@ -130,7 +130,7 @@ def test_pick_names_its_series(chapters: dict[str, PrintedChapter]) -> None:
 def test_series_is_named_once_where_a_note_tells_its_sources(plain: Data) -> None:
     pick = next(item for item in plain["mechanisms"]["train"]["sections"][0]["items"] if item.get("series"))
     pick["note"] = f"{pick['series']}: a standard; a catalogue"
-    section = Rendering(typed(plain)).material.document.chapters[4].sections[0]
+    section = Rendering(typed(plain)).document.chapters[4].sections[0]
     notes = next(item.notes for item in section.items if item.description == "Rating")
     assert sum("Ratings of motors" in note for note in notes) == 1
 
@@ -157,7 +157,7 @@ def test_comparison_is_a_chapter_of_its_own_after_the_mechanisms(
 
 
 def test_comparison_stands_in_contents_sources_and_checks(rendering: Rendering) -> None:
-    document = rendering.material.document
+    document = rendering.document
     assert ("m-F", "F", "Both drives compared", 1) in document.contents
     assert ("[3]", "A source of the comparison alone.") in document.sources
     assert ("F", "compared") in [(row.chapter, row.id) for row in document.checks]
@@ -165,7 +165,7 @@ def test_comparison_stands_in_contents_sources_and_checks(rendering: Rendering) 
 
 def test_check_of_a_comparison_may_govern(plain: Data) -> None:
     plain["governing"] = {"mechanism": "compared-cylinder-train", "check": "compared"}
-    governing = Rendering(typed(plain)).material.document.governing
+    governing = Rendering(typed(plain)).document.governing
     assert governing is not None and governing.chapter == "F"
 
 
@@ -188,7 +188,7 @@ def test_comparison_between_three(plain: Data) -> None:
 
 
 def test_figures_of_a_comparison_are_drawn(rendering: Rendering) -> None:
-    assert "F.1" in rendering.material.figures
+    assert "F.1" in rendering.figures
 
 
 def test_results_without_comparisons_have_none(plain: Data) -> None:
@@ -201,7 +201,7 @@ def test_results_without_comparisons_have_none(plain: Data) -> None:
 # files
 def test_files_beside_the_report_are_named(chapters: dict[str, PrintedChapter], results: Data, html: str) -> None:
     files = chapters["train"].files
-    assert {file.name for file in files} == {f"press.{suffix}" for suffix in exports(typed(results))}
+    assert {file.name for file in files} == {f"press.{suffix}" for suffix in written(typed(results))[0]}
     drawing, table = files
     assert all(layer in drawing.content for layer in (PROFILE, PITCH_CURVE, CENTER)) and "72 points" in drawing.content
     assert table.content == "Cam 1 as a table of 72 rows: disc_angle, cam_1_x, cam_1_y, cam_1_pitch_x, cam_1_pitch_y"
@@ -210,7 +210,7 @@ def test_files_beside_the_report_are_named(chapters: dict[str, PrintedChapter], 
 
 def test_profile_without_a_pitch_curve_names_no_layer_of_it(plain: Data) -> None:
     plain["mechanisms"]["train"]["exports"] = [export("cam_1_x", "cam_1_y")]
-    files = Rendering(typed(plain)).material.document.chapters[4].files
+    files = Rendering(typed(plain)).document.chapters[4].files
     assert PITCH_CURVE not in files[0].content and PROFILE in files[0].content
 
 
@@ -222,5 +222,5 @@ def test_sources_stand_by_the_alphabet_whatever_their_capitals(plain: Data) -> N
     plain["mechanisms"]["cylinder"]["sources"] = [
         {"id": name, "citation": name} for name in ("Shigley", "iwis", "Hertz")
     ]
-    names = [name for name, _ in Rendering(typed(plain)).material.document.sources]
+    names = [name for name, _ in Rendering(typed(plain)).document.sources]
     assert [name for name in names if name in ("Hertz", "iwis", "Shigley")] == ["Hertz", "iwis", "Shigley"]

@@ -14,7 +14,7 @@ from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.charts import _of_curves, _of_lines, diagrams
 from diecut_report.report.figures.charts import chart as sheet_of
 from diecut_report.report.figures.diagram import STROKES, Diagram, legend
-from diecut_report.report.figures.labels import LabelLayout, PanelData, framed, pieces
+from diecut_report.report.figures.labels import LabelLayout, PanelData, pieces
 from diecut_report.report.figures.style import SizesSize, overlap, text_size
 from diecut_report.report.text import Catalogue
 from diecut_report.results.figure_record import FigureRecord, LevelRecord, PlotPanelRecord
@@ -41,7 +41,7 @@ def _panels(figure: FigureRecord) -> list[PanelData]:
 
 def _names(figure: FigureRecord, index: int = 0) -> LabelLayout:
     drawn = _panels(figure)[index]
-    return LabelLayout(drawn, framed(drawn, 430, 205))
+    return LabelLayout(drawn, 430, 205)
 
 
 # what is written
@@ -67,7 +67,7 @@ def test_mark_without_a_name_is_only_marked() -> None:
 @pytest.mark.parametrize("build", CHARTS)
 def test_texts_keep_clear_of_each_other_and_inside(build: Any) -> None:
     for each in _panels(build()):
-        names = LabelLayout(each, framed(each, 430, 150))
+        names = LabelLayout(each, 430, 150)
         boxes = []
         for text in names.texts:
             wide, high = (side / 2 for side in text_size(text.text, text.size))
@@ -79,7 +79,7 @@ def test_texts_keep_clear_of_each_other_and_inside(build: Any) -> None:
 @pytest.mark.parametrize("build", [wedge, block])
 def test_notes_keep_clear_of_lines(build: Any) -> None:
     for each in _panels(build()):
-        names = LabelLayout(each, framed(each, 430, 150))
+        names = LabelLayout(each, 430, 150)
         points = np.concatenate([*names.lines, names.notes])
         for text in names.texts:
             if text.solid or text.text == "absorbed energy 75 J":  # on its line, or in its area

@@ -19,7 +19,8 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.press import AskedReport, Press
 from diecut_report.report.chapters.steps import BEFORE, Place, placed, sketch
-from diecut_report.report.context import Material, _left_alone
+from diecut_report.report.context import Material
+from diecut_report.report.figures.style import SizesSize
 from diecut_report.report.pages import html
 from diecut_report.report.rendering import Rendering
 from diecut_report.report.scope import scope
@@ -142,7 +143,7 @@ def test_formulas_have_the_same_numbers_in_standard_and_full(pages: dict[str, st
 
 def test_a_result_that_its_step_prints_stands_in_no_table_of_standard(plain: Data) -> None:
     plain["report"] = {"detail": "standard"}
-    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).document.chapters}
     items = [item for s in plain["mechanisms"]["cylinder"]["sections"] for item in s["items"]]
     steps = {item["id"]: item["result"]["text"] for item in items if "result" in item and "id" in item}
     outputs = plain["mechanisms"]["cylinder"]["outputs"]
@@ -153,7 +154,7 @@ def test_a_result_that_its_step_prints_stands_in_no_table_of_standard(plain: Dat
 def test_contents_come_before_the_summary_on_paper(plain: Data) -> None:
     from diecut_report.report.pages.pdf import Paper
 
-    material = Rendering(typed(plain)).material
+    material = Rendering(typed(plain))
     page = html.filled(material, Paper(material), "print")
     assert page.index("toc-title") < page.index('id="summary"') < page.index('id="press"') < page.index('id="m-A"')
 
@@ -163,7 +164,7 @@ def test_keys_that_checks_miss_are_said_on_paper_in_the_summary_alone(plain: Dat
 
     plain["report"] = {"detail": "standard"}
     plain["mechanisms"]["cylinder"]["checks"][0] |= {"status": "not_checked", "missing": ["allowable_load"]}
-    material = Rendering(typed(plain)).material
+    material = Rendering(typed(plain))
     missing = {key for row in material.document.unchecked for key in row.missing}
     said = {kind: re.findall(r'(?s)class="left-out">.*?</p>', page) for kind, page in
             (("print", html.filled(material, Paper(material), "print")), ("screen", html.page(material)))}  # fmt: skip
@@ -197,7 +198,7 @@ def test_unknown_details_are_refused_in_words(tmp_path: Path, capfd: pytest.Capt
 # mechanisms alone
 def test_a_report_of_one_mechanism_keeps_its_letter_and_has_a_verdict_of_its_own(plain: Data) -> None:
     plain["report"]["only"] = ["drive"]
-    document = Rendering(typed(plain)).material.document
+    document = Rendering(typed(plain)).document
     assert [(part.name, part.letter) for part in document.chapters] == [("drive", "B")]
     assert {row.mechanism for row in document.checks} <= {"drive"}
     assert document.status == plain["mechanisms"]["drive"]["status"]
@@ -393,13 +394,17 @@ def _reach(sheet: Path) -> float:
     return 0.0 if box is None else box[3] / body.height
 
 
-def test_of_a_pair_without_room_beside_each_other_each_has_the_whole_width() -> None:
-    drawn = {
-        "A.1": SimpleNamespace(width=200.0),
-        "A.2": SimpleNamespace(width=400.0),
-        "A.3": SimpleNamespace(width=200.0),
-    }
-    assert list(_left_alone([("A.1", "A.2"), ("A.3", "A.4")], drawn)) == ["A.1"]
+def test_of_a_pair_without_room_beside_each_other_each_has_the_whole_width(results: Data) -> None:
+    material = Rendering(typed(results))
+    chapter = next(part for part in material.document.chapters if len(part.figures) > 1)
+    first, second = (number for number, _ in chapter.figures[:2])
+    chapter.pairs = ((first, second),)
+
+    def draw(figure: FigureRecord, curves: Any, words: Any, number: str, size: SizesSize) -> Any:
+        return SimpleNamespace(width=400.0 if number == second else 200.0, size=size)
+
+    drawn = material._drawn(draw)
+    assert drawn[first].size is drawn[second].size is SizesSize.LARGE
 
 
 @pytest.mark.parametrize(

@@ -26,10 +26,10 @@ AGAIN = """
 import sys
 from pathlib import Path
 from hashlib import sha256
-from diecut_report.report.profile_files import exports
+from diecut_report.report.profile_files import written
 from diecut_report.results.model import ResultsRecord
 results = ResultsRecord.model_validate_json(Path(sys.argv[1]).read_bytes())
-for name, content in exports(results).items():
+for name, content in written(results)[0].items():
     print(name, sha256(content).hexdigest())
 """
 
@@ -41,8 +41,11 @@ def _results(*columns: str, samples: int = 72) -> Data:
 
 
 def exports(results: Data) -> dict[str, bytes]:
-    """Return the files beside the report of these results."""
-    return profile_files.exports(typed(results))
+    """Return the files beside the report of these results; raise what one of them is refused with."""
+    files, faults = profile_files.written(typed(results))
+    for *_, cause in faults:
+        raise cause
+    return files
 
 
 def _drawing(content: bytes) -> Drawing:
@@ -176,6 +179,6 @@ def test_unknown_type_is_refused() -> None:
 def test_the_library_is_imported_only_when_a_profile_is_drawn() -> None:
     code = (
         "import sys, diecut_report.report.profile_files as e; from tests.report.made_results import typed;"
-        "e.exports(typed({'mechanisms': {}})); print('ezdxf' in sys.modules)"
+        "e.written(typed({'mechanisms': {}})); print('ezdxf' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"

@@ -186,6 +186,12 @@ def _equations(language: str = "en") -> tuple[Equations, Typesetter]:
     return Equations(Catalogue(language), typesetter.measure), typesetter
 
 
+def _said(item: ItemRecord, language: str = "en") -> str:
+    """The equation of an item as linear text."""
+    equation = _equations(language)[0].of(item)
+    return "" if equation is None else equation.text
+
+
 def _item(**more: Any) -> ItemRecord:
     formula = {"type": "formula", "symbol": "c", "equation": ["+", A, B], "result": {"text": "5", "unit": "mm"}}
     return ItemRecord.model_validate(formula | more)
@@ -203,15 +209,11 @@ def test_short_equation_stands_in_one_line() -> None:
 
 
 def test_place_of_a_curve_is_said() -> None:
-    equation = _equations()[0].of(_item(at={"symbol": "φ", "text": "181.2", "unit": "deg"}))
-    assert equation is not None
-    assert equation.text == "c = a + b = 5 mm at φ = 181.2°"
+    assert _said(_item(at={"symbol": "φ", "text": "181.2", "unit": "deg"})) == "c = a + b = 5 mm at φ = 181.2°"
 
 
 def test_formula_that_is_the_result_itself_is_not_repeated() -> None:
-    equation = _equations()[0].of(_item(equation=["sym", "c"], substituted=["qty", "5", "mm"]))
-    assert equation is not None
-    assert equation.text == "c = 5 mm"
+    assert _said(_item(equation=["sym", "c"], substituted=["qty", "5", "mm"])) == "c = 5 mm"
 
 
 def test_wide_sum_is_broken_before_its_signs_and_nothing_is_lost() -> None:
@@ -252,9 +254,7 @@ def test_a_number_does_not_stand_alone_before_a_wide_factor() -> None:
 
 def test_found_value_shows_its_relation() -> None:
     item = _item(type="found", equation=None, relation=["cmp", "==", ["*", TWO, ["sym", "c"]], A])
-    equation = _equations()[0].of(item)
-    assert equation is not None
-    assert equation.text == "2·c = a\nc = 5 mm"
+    assert _said(item) == "2·c = a\nc = 5 mm"
 
 
 @pytest.mark.parametrize(("operation", "text"), [
@@ -262,20 +262,15 @@ def test_found_value_shows_its_relation() -> None:
     ("integral", "c = ∫ V = 5 mm"), ("sum", "c = ∑ V = 5 mm"), ("product", "c = ∏ V = 5 mm"), ("pick", "c = 5 mm"),
 ])  # fmt: skip
 def test_reductions(operation: str, text: str) -> None:
-    equation = _equations()[0].of(_item(type="reduction", operation=operation, of="V"))
-    assert equation is not None
-    assert equation.text == text
+    assert _said(_item(type="reduction", operation=operation, of="V")) == text
 
 
 def test_an_integral_tells_over_what_it_is_taken() -> None:
     over = {"symbol": "φ", "text": "360", "unit": "deg"}
-    equation = _equations()[0].of(_item(type="reduction", operation="integral", of="V", over=over))
-    assert equation is not None
-    assert equation.text == "c = ∫ V dφ from 0 to 360° = 5 mm"
-    assert equation.latex.startswith(r"c = \int_{0}^{360°} V\,\mathrm{d}φ = ")
-    said = _equations("uk")[0].of(_item(type="reduction", operation="integral", of="V", over=over))
-    assert said is not None
-    assert said.text == "c = ∫ V dφ від 0 до 360° = 5 mm"
+    item = _item(type="reduction", operation="integral", of="V", over=over)
+    assert _said(item) == "c = ∫ V dφ from 0 to 360° = 5 mm" and _said(item, "uk") == "c = ∫ V dφ від 0 до 360° = 5 mm"
+    equation = _equations()[0].of(item)
+    assert equation and equation.latex.startswith(r"c = \int_{0}^{360°} V\,\mathrm{d}φ = ")
 
 
 def test_condition_is_shown_in_symbols_and_with_numbers() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -15,6 +16,7 @@ from diecut_report.report.rendering import Rendering
 from diecut_report.results.model import ProgramRecord, ResultsRecord
 from diecut_report.results.record import Record
 from diecut_report.text.catalogues import UnknownLanguage
+from tests.examples import few
 from tests.report.made_results import typed
 
 BAD = "<script>alert(1)</script>"
@@ -176,3 +178,20 @@ def test_figures_on_a_screen_have_texts_of_one_size(html: str) -> None:
     assert len(sizes) > 2
     for natural, small, shown in sizes:
         assert float(shown) / float(natural) == pytest.approx(1.35, abs=1e-3) and bool(small) == (float(natural) < 300)
+
+
+# A report can be made again from a results file alone.
+
+
+@pytest.mark.parametrize("ending", few(["html", "pdf"], keep=lambda ending: ending == "html"))
+def test_the_report_of_a_results_file_is_the_report(small_report: Path, ending: str) -> None:
+    file = small_report / "small.json"
+    again = Rendering(ResultsRecord.model_validate_json(file.read_bytes()))
+    made = again.html().encode() if ending == "html" else again.pdf()
+    assert made == file.with_suffix(f".{ending}").read_bytes()
+
+
+@pytest.mark.wheel
+def test_a_report_is_made_with_all_that_is_installed(small_report: Path) -> None:
+    assert {path.suffix for path in small_report.iterdir()} == {".html", ".pdf", ".json"}
+    assert "<svg" in (small_report / "small.html").read_text(encoding="utf-8")

@@ -9,7 +9,6 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.backends.backend_svg import RendererSVG
@@ -18,10 +17,9 @@ from matplotlib.text import Text
 from diecut_report.config.plugins import Discovery
 from diecut_report.press import Press
 from diecut_report.report.chapters.steps import placed, rows_of
-from diecut_report.report.figures.by_type import build
-from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line, Note, PanelData, SpanData, framed
-from diecut_report.report.figures.style import SizesSize, load_fonts, text_size, wrapped
-from diecut_report.report.figures.style import style as style_of
+from diecut_report.report.figures.by_type import DRAW
+from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line, Note, PanelData, SpanData
+from diecut_report.report.figures.style import SizesSize, styled, text_size, wrapped
 from diecut_report.report.text import Catalogue, translated
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism_record import CurveRecord, MechanismRecord
@@ -58,9 +56,8 @@ def _boxes(
             drawn[self] = None
         draw(self, renderer)
 
-    load_fonts()
-    with mpl.rc_context(style_of("x")), pytest.MonkeyPatch.context() as patch:  # type: ignore[arg-type]
-        sheet = build(figure, curves, Catalogue(language), size)
+    with styled("x"), pytest.MonkeyPatch.context() as patch:
+        sheet = DRAW[figure.type](figure, curves, Catalogue(language), size)
         patch.setattr(Text, "draw", noted)
         sheet.set_dpi(72)
         renderer = RendererSVG(*(side * 72 for side in sheet.get_size_inches()), StringIO())
@@ -138,6 +135,14 @@ def test_a_diagram_of_many_lines_is_as_wide_as_the_sheet() -> None:
     assert [len(row.figures) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
 
 
+def _layout(
+    lines: list[Line], width: float = 182.0, height: float = 96.0, reach: float = 10.0, **more: Any
+) -> LabelLayout:
+    """The texts of a diagram from 0 to ``reach``, so many points large."""
+    across = Across("x", "x", "1", 0.0, reach)
+    return LabelLayout(PanelData(title="T", unit="1", across=across, lines=lines, **more), width, height)
+
+
 @pytest.mark.usefixtures("style")
 def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
     """Two long titles and a legend in rows, in the narrowest size."""
@@ -157,9 +162,9 @@ def _crowded(line_count: int = 3) -> LabelLayout:
     x = np.linspace(0.0, 10.0, 400)
     lines = [Line(x, 5 + 5 * np.sin(8 * x + phase), "") for phase in (0.0, 1.0, 2.0)[:line_count]]
     marks = [Note(5.0 + 0.2 * n, 5.0, f"place {n} of five 1.234") for n in range(5)]
-    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=lines, marks=marks,
-                      levels=[Note(0.0, 5.0, "allowed")], spans=[SpanData(2.0, 8.0, "stroke")])  # fmt: skip
-    return LabelLayout(panel, framed(panel, 400.0, 90.0))
+    return _layout(
+        lines, 400.0, 90.0, marks=marks, levels=[Note(0.0, 5.0, "allowed")], spans=[SpanData(2.0, 8.0, "stroke")]
+    )
 
 
 @pytest.mark.usefixtures("style")
@@ -180,15 +185,13 @@ def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
 def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
     """A falling curve, above it the names of two verticals: a mark's name has room across both of them, or in the legend."""
     x = np.linspace(0.02, 0.9, 200)
-    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.02, 0.9), lines=[Line(x, 0.4 / (x + 0.4), "")],
-                      marks=[Note(0.4444, 0.4 / 0.8444, "this machine 0.2727 (0.4444)")],
-                      verticals=[Note(0.54, 0.0, "return too short"), Note(0.6, 0.0, "no return")])  # fmt: skip
-    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
+    layout = _layout([Line(x, 0.4 / (x + 0.4), "")], reach=0.9, marks=[Note(0.4444, 0.4 / 0.8444, "this machine 0.2727 (0.4444)")],
+                     verticals=[Note(0.54, 0.0, "return too short"), Note(0.6, 0.0, "no return")])  # fmt: skip
     curve = np.concatenate(layout.lines)
     for text in layout.texts:
         wide, high = text_size(text.text, text.size)
         assert not ((np.abs(curve[:, 0] - text.x) < wide / 2) & (np.abs(curve[:, 1] - text.y) < high / 2)).any()
-    assert len(layout.texts) + len(layout.told_marks) + len(layout.told_uprights) == 3
+    assert len(layout.texts) + len(layout.told) == 3
 
 
 @pytest.mark.usefixtures("style")
@@ -196,10 +199,9 @@ def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
 def test_the_name_of_a_level_hides_no_mark_and_cuts_no_line_across(what: str, heights: tuple[float, ...]) -> None:
     """Where these stand so near to each other that it has no room between them it stands in the legend."""
     notes = [Note(x, y, "") for x in np.linspace(0.5, 9.5, 6) for y in heights]
-    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=[Line(np.array([0.0, 10.0]), np.array([0.0, 10.0]), "")],
-                      levels=[Note(0.0, 5.0, "allowed level")], **{what: notes})  # fmt: skip
-    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
-    assert layout.told_levels == [0] and not layout.texts
+    rising = Line(np.array([0.0, 10.0]), np.array([0.0, 10.0]), "")
+    layout = _layout([rising], levels=[Note(0.0, 5.0, "allowed level")], **{what: notes})
+    assert layout.told == [("levels", 0)] and not layout.texts
 
 
 @pytest.mark.usefixtures("style")
@@ -222,8 +224,7 @@ def test_a_diagram_with_many_names_is_as_wide_as_the_sheet() -> None:
 @pytest.mark.usefixtures("style")
 def test_a_name_that_has_no_room_beside_the_lines_stands_in_the_legend_and_covers_none() -> None:
     layout = _crowded()
-    assert layout.told_marks == [0, 1, 2, 3, 4]
-    assert layout.told_levels == [0]
+    assert layout.told == [*(("marks", n) for n in range(5)), ("levels", 0)]
     assert [text.text for text in layout.texts] == ["stroke"]
 
 
@@ -249,9 +250,7 @@ def test_a_name_does_not_cover_other_marks() -> None:
     turn = np.linspace(0, np.pi / 2, 91)
     places = [(0.0, 0.0), (20.0, 0.0), (30.0, 10.0), (60.0, 18.0), (73.0, 27.0), (43.1, 34.0), (43.3, 45.4)]
     marks = [Note(x, y, "notch 2 (keyseat end mill) 45.43 MPa (43.32 MPa)" if y > 40 else "") for x, y in places]
-    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 148.0), lines=[Line(148 * np.cos(turn), 86 * np.sin(turn), "")],
-                      marks=marks)  # fmt: skip
-    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
+    layout = _layout([Line(148 * np.cos(turn), 86 * np.sin(turn), "")], reach=148.0, marks=marks)
     points = np.array([layout.frame.points(note.x, note.y) for note in marks])
     for text in layout.texts:
         wide, high = text_size(text.text, text.size)
@@ -261,17 +260,9 @@ def test_a_name_does_not_cover_other_marks() -> None:
 @pytest.mark.usefixtures("style")
 def test_the_name_of_an_area_covers_no_line_within_it() -> None:
     x = np.linspace(0.0, 10.0, 100)
-    lines = [Line(x, 5 + 4 * np.sin(3 * x) * share, "") for share in (0.2, 0.4, 0.6, 0.8)] + [
-        Line(x, 0 * x + level, "") for level in (1, 2, 3, 4)
-    ]
-    panel = PanelData(
-        title="T",
-        unit="1",
-        across=Across("x", "x", "1", 0.0, 10.0),
-        lines=lines,
-        fills=[Line(x, 0 * x + 9.0, "whole tension")],
-    )
-    assert LabelLayout(panel, framed(panel, 182.0, 96.0)).outside == [0]
+    lines = [Line(x, 5 + 4 * np.sin(3 * x) * share, "") for share in (0.2, 0.4, 0.6, 0.8)]
+    lines += [Line(x, 0 * x + level, "") for level in (1, 2, 3, 4)]
+    assert _layout(lines, fills=[Line(x, 0 * x + 9.0, "whole tension")]).outside == [0]
 
 
 def test_a_symbol_does_not_stand_alone_on_the_last_line_of_a_title() -> None:

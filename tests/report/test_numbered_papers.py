@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.report.chapters.sources import numbered
+from diecut_report.report.text import numbered
 from diecut_report.results.mechanism_record import ItemRecord
 from diecut_report.results.model import ChangedQuantityRecord, ResultsRecord
 from tests.records import filled

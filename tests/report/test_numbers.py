@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.report.text import displayed, number, quantity, significant, tidy
+from diecut_report.report.text import displayed, number, quantity, rooms, significant, tidy
 
 THIN = "\u202f"
 NARROW = "\u2009"
@@ -100,3 +100,21 @@ def test_sentences(sentence: str, printed: str) -> None:
 )
 def test_a_sentence_has_its_numbers_as_a_table_has_them(text: str, printed: str) -> None:
     assert tidy(text) == printed
+
+
+# Columns aligned on the decimal sign.
+
+
+@pytest.mark.parametrize(
+    ("column", "classes"),
+    [
+        (["1.25", "10", "−0.5", "12\u202f000"], ["", "w2", "f1", "w2"]),
+        (["1,25", "10,5"], ["", "f1"]),
+        (["1", "20"], ["", ""]),
+        (["–", "1.5", "as given", "1.2 × 10⁻⁵", "3"], ["", "", "", "", "w1"]),
+        (["0.1234567890", "1"], ["", "w8"]),
+        ([], []),
+    ],
+)  # fmt: skip
+def test_a_number_leaves_room_for_the_decimals_of_its_column(column: list[str], classes: list[str]) -> None:
+    assert rooms(column) == classes

@@ -22,7 +22,7 @@ from weasyprint.urls import URLFetcher
 
 from diecut_report.report.equations import Typesetter
 from diecut_report.report.pages.html import filled
-from diecut_report.report.pages.page_reading import read_page, well_formed
+from diecut_report.report.pages.page_engine import read_page, well_formed
 from diecut_report.report.pages.pdf import Paper
 from diecut_report.report.pages.pdf_math import Letters, operators
 from diecut_report.report.rendering import Rendering
@@ -214,7 +214,7 @@ def _same(one: Any, other: Any) -> bool:
 @pytest.mark.parametrize("detail", ["brief", "full"])
 def test_the_print_page_reads_the_same_as_xml_and_as_html(plain: dict[str, Any], detail: str) -> None:
     rendering = Rendering(typed(plain | {"report": {"detail": detail}}))
-    source = filled(rendering.material, Paper(rendering.material), "print")
+    source = filled(rendering, Paper(rendering), "print")
     assert _same(fromstring(well_formed(source)), tinyhtml5.parse(source, namespace_html_elements=False))
 
 

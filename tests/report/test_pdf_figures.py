@@ -37,8 +37,8 @@ def _drawn(tmp_path: Path, source: str, cache: dict[str, Any]) -> Any:
 
 def _chosen(rendering: Rendering) -> list[Svg]:
     """A plot with a legend, marks and shades, and a drawing with hatching, dimensions and symbols."""
-    kinds = {number: figure.type for part in rendering.material.document.chapters for number, figure in part.figures}
-    figures = rendering.material.figures
+    kinds = {number: figure.type for part in rendering.document.chapters for number, figure in part.figures}
+    figures = rendering.figures
     return [
         next(figures[number] for number in figures if kinds[number] == kind) for kind in ("plot", "drawing", "polar")
     ]
@@ -76,7 +76,7 @@ def test_words_of_a_figure_are_told() -> None:
 def test_what_cannot_be_drawn_is_left_to_the_page_engine(body: str, plain: dict[str, Any]) -> None:
     with pytest.raises(NotDrawn):
         FigurePicture(_svg(body), 100, 50)
-    material = Rendering(typed(plain)).material
+    material = Rendering(typed(plain))
     material.__dict__["figures"] = {"A.1": Svg(_svg(body), 100, 50)}
     assert 'src="data:image/svg+xml;base64,' in Paper(material).figure("A.1", "Title")
 

@@ -27,7 +27,7 @@ def printed(request: pytest.FixtureRequest, example: Example) -> ReportDocument:
         report=results.report.with_(detail="standard"),
         mechanisms={name: data.with_(figures=[]) for name, data in results.mechanisms.items()},
     )
-    return Rendering(results).material.document
+    return Rendering(results).document
 
 
 def items(chapter: PrintedChapter) -> Iterator[Item]:

@@ -7,12 +7,14 @@ import json
 import math
 import re
 from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from diecut_report.api import chart_panel, line
+from diecut_report.cli.main import main
 from diecut_report.report.figures.labels import Across, Line, PanelData
 from diecut_report.report.pages.html import SCRIPTS, folder
 from diecut_report.report.reader_data import (
@@ -29,6 +31,8 @@ from diecut_report.report.rendering import Rendering
 from diecut_report.report.text import Catalogue
 from diecut_report.results.figure_record import CircleRecord, FigureRecord, MovedRecord
 from diecut_report.results.mechanism_record import CurveRecord
+from tests.docs.pages import ROOT
+from tests.hostile.test_pages import CHROMIUM, browsed
 from tests.records import filled
 from tests.report.made_results import typed
 
@@ -133,7 +137,7 @@ def test_no_text_breaks_out_of_the_data(plain: dict[str, Any]) -> None:
     )
     drawn["sections"] = []
     drawn["figures"] = [{"id": "x", "title": "Hostile", "caption": "", "type": "chart", "panels": [panel], "shows": []}]
-    material = Rendering(typed(plain)).material
+    material = Rendering(typed(plain))
     material.__dict__["figures"] = {number: None for part in material.document.chapters for number, _ in part.figures}
     text = reader_data(material)  # drawn or not: no font has all of these characters
     assert not set("<>&\u2028") & set(text)
@@ -222,10 +226,10 @@ def test_a_moving_drawing_has_the_numbers_of_its_shapes_at_each_place() -> None:
     spoke = {"shape": "polyline", "points": [[0.0, 0.0], [2.0, 0.0]], "closed": False, "role": "body"}
     pool = ReaderRows()
     moves = [[0.0, 0.0, *pin] for pin in pins]
-    crank = _shape(MovedRecord(shape="polyline", role="link", closed=False, moves=moves), pool)
+    crank = _shape(MovedRecord(shape="polyline", role="link", closed=False, moves=moves), pool, "deg")
     moves = [[0.0, 5.0, a - math.pi / 2] for a in angles]
-    wheel = _shape(MovedRecord(shape="rigid", shapes=[spoke], moves=moves), pool)
-    still = _shape(CircleRecord(shape="circle", center=[1.0, 2.0], radius=0.123456789, role="ghost"), pool)
+    wheel = _shape(MovedRecord(shape="rigid", shapes=[spoke], moves=moves), pool, "deg")
+    still = _shape(CircleRecord(shape="circle", center=[1.0, 2.0], radius=0.123456789, role="ghost"), pool, "deg")
     assert [pool.rows[row] for row in crank["rows"]] == [[0], [0], [1, 0, -1], [0, 1, 0]]
     assert [pool.rows[row] for row in wheel["rows"]] == [[0], [5], [-90, 0, 90]]
     assert wheel["shapes"][0]["numbers"] == [0, 0, 2, 0] and still["numbers"] == [1, 2, 0.1235]
@@ -238,3 +242,30 @@ def test_a_moving_drawing_has_room_for_all_that_it_ever_reaches() -> None:
     roller = MovedRecord(shape="circle", role="mark", moves=[[0.0, 3.0, 1.0], [0.0, 1.0, 1.0]])
     left, top, width, height = _room([wheel, roller])
     assert np.allclose([left, top, width, height], [-1.18, -4.18, 4.36, 6.36])
+
+
+# A drawing that moves, as a browser draws it.
+
+
+PAGE = ROOT / "docs" / "how-to" / "moving-drawings.md"
+PRESS = """\
+schema_version: 1
+project: {title: Cam}
+press: {name: Press}
+mechanisms:
+  cam: {kind: cam_drive}
+"""
+
+
+@pytest.mark.nightly
+@pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium")
+def test_the_frame_has_its_strokes_on_a_screen_too(tmp_path: Path) -> None:
+    code = re.search(r"<!-- file my_plugins/cam_drive.py -->\n```python\n(.*?)```", PAGE.read_text("utf-8"), re.DOTALL)
+    assert code
+    (tmp_path / "cam_drive.py").write_text(code[1], "utf-8")
+    (tmp_path / "cam.yaml").write_text(PRESS, "utf-8")
+    command = ["report", tmp_path / "cam.yaml", "--plugins", tmp_path, "--format", "html", "-o", tmp_path, "--quiet"]
+    assert main([*map(str, command)]) == 0
+    shown = browsed(tmp_path, (tmp_path / "cam.html").read_text("utf-8"), "--dump-dom").stdout
+    ways = re.findall(r'class="m-ground" d="([^"]*)"', shown)
+    assert ways and all(way.startswith("M-0.06 0.06l0.12 0M") and way.count("l") > 15 for way in ways)

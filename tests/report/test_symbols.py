@@ -3,10 +3,25 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import pytest
+from markupsafe import Markup
 
-from diecut_report.report.symbols import declared_letters, letters_declared, own_words, prose, symbol
+from diecut_report.report.symbols import (
+    SymbolRow,
+    cited,
+    declared_letters,
+    in_blocks,
+    letters_declared,
+    own_words,
+    pieces,
+    prose,
+    symbol,
+    symbol_rows,
+)
+from diecut_report.results.mechanism_record import MechanismRecord
+from tests.records import filled
 from tests.report.made_results import sample, typed
 
 
@@ -86,13 +101,123 @@ def test_only_declared_letters_are_symbols_and_none_of_a_name() -> None:
 
 def test_letters_of_a_report_are_those_of_its_quantities_with_or_without_index() -> None:
     results = sample()
-    letters = declared_letters(typed(results))
+    symbols, names = declared_letters(typed(results))
     declared = {row["symbol"] for data in results["mechanisms"].values() for row in data.get("outputs", {}).values()}
-    assert {symbol[:1] for symbol in declared if symbol[1:2] in ("", "_") and symbol[:1].isalpha()} <= letters.symbols
-    assert set(results["mechanisms"]) <= letters.names
+    assert {symbol[:1] for symbol in declared if symbol[1:2] in ("", "_") and symbol[:1].isalpha()} <= symbols
+    assert set(results["mechanisms"]) <= names
 
 
 def test_no_line_breaks_within_a_ratio_or_a_sum_in_brackets() -> None:
     text = re.sub("<[^>]*>", "", prose("The angle |dθ/dφ|, and/or r·cos(φ + τ) of crank/rocker."))
     assert "dθ/\u2060dφ" in text and "(φ\u00a0+\u00a0τ)" in text
     assert "and/or" in text and "crank/rocker" in text
+
+
+# Where a line may break in what was typed, and which letters of a sentence are symbols.
+
+
+@pytest.mark.parametrize(
+    ("typed", "whole"),
+    [
+        ("${cylinder.cutting_arc_fraction}", ["${cylinder.", "cutting_arc_fraction}"]),
+        ("2 * ${drive.energy} / 1.5", ["2", "*", "${drive.", "energy}", "/", "1.5"]),
+        ("60 1/h", ["60", "1/h"]),
+    ],
+)
+def test_a_path_breaks_behind_its_dots_and_nowhere_else(typed: str, whole: list[str]) -> None:
+    assert re.findall(r"<span class=\"whole\">(.*?)</span>", pieces(typed)) == whole
+    assert re.sub(r"<.*?>", "", pieces(typed)) == typed  # what is copied is what was typed
+
+
+@pytest.mark.parametrize(
+    ("sentence", "symbols"),
+    [
+        ("where z = 60 1/h = 0.01667 1/s", ["z"]),
+        ("where L_10h = 752 356 h = 2.7e9 s", ["L"]),
+        ("where n_crit = 40 568 r/min = 4248 rad/s", ["n"]),
+        ("set n_points or crank_speed, at least 3 h", []),
+    ],
+)
+def test_a_unit_is_not_a_symbol_and_a_long_subscript_is_one(sentence: str, symbols: list[str]) -> None:
+    assert re.findall(r"<i class=sy>(.*?)</i>", prose(sentence)) == symbols
+
+
+def test_the_number_of_a_source_stays_with_it() -> None:
+    assert cited("ISO 6336-3:2006, 6") == "ISO\u00a06336-3:2006,\u00a06"
+    assert cited("this method · the knife is in its cut") == "this\u00a0method · the knife is in its cut"
+    assert cited("000, after eq. 19") == "000,\u00a0after\u00a0eq.\u00a019"  # short: whole
+
+
+def test_in_a_narrow_column_a_path_breaks_behind_its_low_lines_too() -> None:
+    found = re.findall(r"<span class=\"whole\">(.*?)</span>", pieces("${drive.crank_speed}", narrow=True))
+    assert found == ["${drive.", "crank_", "speed}"]
+
+
+# The list of symbols of a chapter.
+
+
+Data = dict[str, Any]
+
+
+def row(symbol: str, description: str, unit: str = "mm", **more: Any) -> Data:
+    """A quantity of the results."""
+    return {"symbol": symbol, "description": description, "display": {"text": "1", "unit": unit}} | more
+
+
+def mechanism() -> Data:
+    """Results in which ω and b stand in formulas, a of the source's letter is a result, and c is never printed."""
+    formula = {"type": "formula", "symbol": "a_c", "equation": ["*", ["sym", "ω"], ["/", ["sym", "b"], ["num", "2"]]]}
+    return {
+        "inputs": {"width": row("b", "Width; without it the length"), "idle": row("c", "Clearance")},
+        "curves": {"speed": {"symbol": "ω", "description": "Speed", "display_unit": "rpm"}},
+        "outputs": {"acceleration": row("a_c", "Acceleration", "m/s**2", source_symbol="W")},
+        "values": {"again": row("b", "Another width")},
+        "sections": [{"items": [formula, {"type": "note", "text": "a note"}]}],
+    }
+
+
+def rows_of(data: Data) -> list[SymbolRow]:
+    """The list of symbols of these results."""
+    return symbol_rows(filled(MechanismRecord, data))
+
+
+def test_a_symbol_of_a_formula_stands_once_with_meaning_and_unit_by_the_alphabet() -> None:
+    rows = rows_of(mechanism())
+    assert [(each.meaning, each.unit) for each in rows] == [
+        ("Acceleration", "m/s²"), ("Width", "mm"), ("Speed", "r/min"),
+    ]  # fmt: skip
+    assert "ω" in rows[2].symbol
+
+
+def test_the_list_tells_the_letter_of_the_source() -> None:
+    first, *others = rows_of(mechanism())
+    assert "W" in first.in_source and not any(each.in_source for each in others)
+
+
+def test_the_arrow_before_a_choice_in_words_is_no_symbol() -> None:
+    made = mechanism()
+    made["values"]["chosen"] = row("→", "Drive that is taken", "1")
+    made["sections"][0]["items"].append({"symbol": "→", "type": "choice"})
+    assert all("→" not in each.symbol for each in rows_of(made))
+
+
+def test_a_lone_symbol_stands_in_the_first_column() -> None:
+    row = SymbolRow(Markup("φ"), "Cycle angle", "°", Markup(""))
+    assert in_blocks([row]) == [[[row]]]
+
+
+def test_a_long_list_is_cut_into_blocks_that_stay_whole_on_a_sheet() -> None:
+    rows = [SymbolRow(Markup("a"), f"Number {nth}", "mm", Markup("")) for nth in range(100)]
+    blocks = in_blocks(rows)
+    assert [row for block in blocks for column in block for row in column] == rows
+    assert len(blocks) == 3 and all(len(column) <= 14 for block in blocks for column in block)
+    assert not in_blocks([])
+
+
+def test_a_letter_means_what_its_step_prints_and_not_what_a_chart_draws_with_it() -> None:
+    made = mechanism()
+    made["curves"] = {
+        "drawn": {"symbol": "a_c", "description": "Acceleration with another law", "display_unit": "1"}
+    } | made["curves"]
+    made["sections"][0]["items"][0]["id"] = "acceleration"
+    assert rows_of(made)[0].meaning == "Acceleration"

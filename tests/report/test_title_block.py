@@ -100,8 +100,8 @@ def test_a_title_that_has_room_is_not_cut(results: Data) -> None:
 
 
 def test_a_text_without_room_at_its_smallest_ends_in_an_ellipsis() -> None:
-    found = fitted(LONG, 20, 3, 8, 4.5)
-    assert len(found.lines) == 1 and found.lines[0].endswith("…") and found.size == 4.5
+    [line], size = fitted(LONG, 20, 3, 8, 4.5)
+    assert line.endswith("…") and size == 4.5
 
 
 def test_a_letter_that_the_font_lacks_is_measured_too() -> None:

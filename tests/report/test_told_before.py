@@ -7,11 +7,11 @@ from typing import Any
 
 from diecut_report.report.chapters.repetition import Reference, ToldBefore
 from diecut_report.report.chapters.steps import Place, Placed, rows_of
-from diecut_report.report.chapters.tables import brought_together
-from diecut_report.report.model import Item, ListedNumbers, PrintedChapter
+from diecut_report.report.chapters.tables import brought_together, is_in_line
+from diecut_report.report.model import Item, PrintedChapter, gathered_notes, under_heading
 from diecut_report.report.rendering import Rendering
 from diecut_report.results.figure_record import FigureRecord
-from diecut_report.results.mechanism_record import ItemRecord, SectionRecord
+from diecut_report.results.mechanism_record import AbsentRecord, ItemRecord, SectionRecord
 from tests.records import filled
 from tests.report.made_results import typed
 
@@ -81,7 +81,7 @@ def test_a_chapter_of_a_kind_that_stood_before_has_values_with_the_places_of_the
     plain["report"] = {"detail": "standard"}
     twin = copy.deepcopy(plain["mechanisms"]["cylinder"])
     plain["mechanisms"]["second"] = twin
-    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).document.chapters}
     first, second = chapters["cylinder"], chapters["second"]
     numbers = [number for item in _items(first) for number in _numbers(item)]
     again = [row for item in _items(second) for row in item.rows]
@@ -94,7 +94,7 @@ def test_a_chapter_of_a_kind_that_stood_before_has_values_with_the_places_of_the
 def test_a_full_report_prints_every_formula(plain: Data) -> None:
     plain["report"] = {"detail": "full"}
     plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
-    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).document.chapters}
     one, two = ([item.equation for item in _items(chapters[name])] for name in ("cylinder", "second"))
     assert one == two and not any(item.rows or item.pair for item in _items(chapters["second"]))
 
@@ -128,7 +128,7 @@ def test_tables_of_the_same_parts_are_one_where_the_last_of_them_stood() -> None
     length = step("length", "l", ["*", ["sym", "a"], ["sym", "b"]])
     items = [table("Width", [["1", "5"], ["2", "6"]], "b"), length, table("Length", [["1", "7"], ["2", "8"]], "l")]
     found = brought_together(section("Sizes", items), set())
-    assert found[0] is None and found[1] is length and isinstance(found[2], ItemRecord)
+    assert found[0] is None and found[1] is length and found[2] is not None
     assert found[2].rows == [["1", "5", "7"], ["2", "6", "8"]] and found[2].title == "Sizes"
 
 
@@ -137,9 +137,9 @@ def test_a_column_that_a_full_table_tells_is_not_told_again() -> None:
     later = table("Sizes", [["1", "a", "5"], ["2", "h", "6"]], "t", "s")
     third = table("Sizes", [["1", "a"], ["2", "h"]], "t")
     told = brought_together(section("", [first, later, third]), set())
-    assert told[0] == first and told[2] is None and isinstance(told[1], ListedNumbers)
-    assert [column.symbol for column in told[1].table.columns] == ["", "s"]
-    assert told[1].table.rows == [["1", "5"], ["2", "6"]]
+    assert told[0] == first and told[2] is None and told[1] is not None and is_in_line(told[1])
+    assert [column.symbol for column in told[1].columns] == ["", "s"]
+    assert told[1].rows == [["1", "5"], ["2", "6"]]
 
 
 def test_tables_of_other_parts_stay_apart() -> None:
@@ -157,7 +157,7 @@ def test_a_table_of_the_one_part_that_the_formula_shows_is_left_out() -> None:
 
 def test_one_quantity_of_numbered_parts_stands_in_a_line() -> None:
     [found] = brought_together(section("", [table("Length", [["1", "7"], ["2", "8"]], "l")]), set())
-    assert isinstance(found, ListedNumbers)
+    assert found is not None and is_in_line(found)
 
 
 def test_a_table_holds_no_column_that_an_earlier_one_of_the_same_lines_has() -> None:
@@ -166,9 +166,9 @@ def test_a_table_holds_no_column_that_an_earlier_one_of_the_same_lines_has() -> 
     again = table("Width", [["1", "5", "9"], ["2", "6", "8"]], "b", "c")
     brought_together(section("", [first]), told)
     [found] = brought_together(section("", [again]), told)
-    assert isinstance(found, ListedNumbers)
-    assert [column.symbol for column in found.table.columns] == ["", "c"]
-    assert found.table.rows == [["1", "9"], ["2", "8"]]
+    assert found is not None and is_in_line(found)
+    assert [column.symbol for column in found.columns] == ["", "c"]
+    assert found.rows == [["1", "9"], ["2", "8"]]
     assert brought_together(section("", [again]), told) == [None]
 
 
@@ -184,7 +184,7 @@ def test_of_a_single_part_its_quantity_stands_in_a_line() -> None:
     head, ratio, product = so_far.columns
     so_far = so_far.with_(columns=[head, ratio.with_(title="Ratio"), product])
     [found] = brought_together(section("", [so_far]), set())
-    assert isinstance(found, ListedNumbers) and found.table.rows == [["1", "3"]]
+    assert found is not None and is_in_line(found) and found.rows == [["1", "3"]]
 
 
 # figures
@@ -219,7 +219,7 @@ def test_what_only_names_its_formula_is_named_alike_in_the_next_chapter() -> Non
 def test_defaults_and_symbols_of_an_earlier_chapter_are_not_told_again(plain: Data) -> None:
     plain["report"] = {"detail": "standard"}
     plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
-    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).document.chapters}
     first, second = chapters["cylinder"], chapters["second"]
     assert first.symbols and not second.symbols
     assert not second.defaults and second.are_defaults_told == bool(first.defaults)
@@ -227,6 +227,36 @@ def test_defaults_and_symbols_of_an_earlier_chapter_are_not_told_again(plain: Da
 
 def test_chapters_of_one_title_are_told_apart_by_their_names(plain: Data) -> None:
     plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
-    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).document.chapters}
     assert chapters["second"].title.endswith(": second") and chapters["cylinder"].title.endswith(": cylinder")
     assert chapters["drive"].title == plain["mechanisms"]["drive"]["title"]
+
+
+# Steps that do not apply to a machine: told once for all that follow each other.
+
+
+def _note(name: str, said: str = "does not apply to this machine.") -> ItemRecord:
+    return ItemRecord(type="note", id=name, description=name, text=f"{name}: {said}")
+
+
+def test_what_does_not_apply_stands_in_one_sentence() -> None:
+    formula = ItemRecord(type="formula", description="Its square root")
+    found = gathered_notes([_note("Step"), _note("Root"), formula, _note("Share")])
+    assert found[0] == ItemRecord(type="note", text="Does not apply to this machine: Step; Root.")
+    assert found[1:] == [None, formula, _note("Share")]  # each step keeps its place, by which figures stand
+
+
+def test_notes_of_another_kind_stay_as_they_are() -> None:
+    notes = [_note("Angle", "there is none."), _note("Step"), ItemRecord(type="note", text="A remark."), None]
+    assert gathered_notes(notes) == notes
+
+
+def test_what_is_left_out_for_one_reason_stands_in_one_line() -> None:
+    reasons = [
+        ("Cam 1", "arm_length not given"),
+        ("Torque", "conveyor_mass not given"),
+        ("Cam 2", "arm_length not given"),
+    ]
+    absent = [AbsentRecord(title=title, text=f"not calculated: {text}") for title, text in reasons]
+    found = [(part.title, part.text) for part in under_heading(absent, "Not calculated")]
+    assert found == [("Cam 1; Cam 2", "arm_length not given"), ("Torque", "conveyor_mass not given")]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import gzip
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
 from hashlib import sha256
@@ -18,11 +18,10 @@ from diecut_report.quantities.formatting import number_text
 from diecut_report.report.model import CheckRow, TornadoFigure, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, joined, number, quantity
-from diecut_report.results.mechanism_record import CheckRecord, ItemRecord, MechanismRecord, QuantityRecord
+from diecut_report.results.mechanism_record import ItemRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
     ChanceRecord,
     ChangedCheckRecord,
-    ChangedCodeRecord,
     ChangedDocumentRecord,
     ChangedQuantityRecord,
     ChangesRecord,
@@ -51,8 +50,7 @@ class PrintedTornado:
     rest: str
 
 
-@dataclass(frozen=True)
-class ChanceRow:
+class ChanceRow(NamedTuple):
     """Hold a check, how probable it is that it holds, with its interval, and in how many machines it did."""
 
     title: str
@@ -82,7 +80,7 @@ def printed_influence(results: ResultsRecord, words: Catalogue) -> PrintedInflue
     found = results.influence
     if not found:
         return None
-    lead, drawn = words.say("influence_lead", by=_percent(found.by, words)), found.tolerances
+    lead, drawn = words.say("influence_lead", by=_told(100 * found.by, "%", words)), found.tolerances
     tornados = [_tornado(results, each, index, words) for index, each in enumerate(found.tornados, 1)]
     if not drawn:
         return PrintedInfluence(lead, tornados)
@@ -99,19 +97,14 @@ def _tornado(results: ResultsRecord, found: TornadoRecord, index: int, words: Ca
          _told(bar.high, unit, words))
         for bar in found.bars
     ]  # fmt: skip
-    said = title + (f" ({_unit(unit)})" if _unit(unit) else "")
-    figure = TornadoFigure(words.say("influence_on", what=said), found.today, found.bars)
-    now = words.say("influence_today", value=_told(found.today, unit, words))
-    return PrintedTornado(title, NUMBER.format(n=index), figure, rows, " ".join([now, *_rest(found, words)]))
-
-
-def _rest(found: TornadoRecord, words: Catalogue) -> Iterator[str]:
-    if found.more:
-        yield words.say("influence_more", n=found.more)
-    if found.still:
-        yield words.say("influence_still", n=found.still)
-    if found.at_default:
-        yield words.say("influence_at_default", n=found.at_default)
+    shown = "" if unit == "1" else quantity("", unit).strip()
+    figure = TornadoFigure(
+        words.say("influence_on", what=f"{title} ({shown})" if shown else title), found.today, found.bars
+    )
+    rest = [words.say("influence_today", value=_told(found.today, unit, words))]
+    counts = {"more": found.more, "still": found.still, "at_default": found.at_default}
+    rest += [words.say(f"influence_{key}", n=count) for key, count in counts.items() if count]
+    return PrintedTornado(title, NUMBER.format(n=index), figure, rows, " ".join(rest))
 
 
 def _title(results: ResultsRecord, name: str, words: Catalogue) -> str:
@@ -120,21 +113,19 @@ def _title(results: ResultsRecord, name: str, words: Catalogue) -> str:
     data = results.mechanisms.get(home)
     if data is None:
         return name
-    check = next((each for each in data.checks if own == f"checks.{each.id}.utilisation"), None)
-    if check is not None:
-        return f"{data.title} · {check.title}: {words['influence_utilisation']}"
+    if own.startswith("checks.") and own.endswith(".utilisation"):
+        check = own.removeprefix("checks.").removesuffix(".utilisation")
+        return f"{data.title} · {_check_title(results, f'{home}.{check}')}: {words['influence_utilisation']}"
     row = data.outputs.get(own) or data.inputs.get(own)
     return f"{data.title} · {row.description}" if row else name
 
 
 def _chance(results: ResultsRecord, found: ChanceRecord, words: Catalogue) -> ChanceRow:
-    home, _, own = found.check.partition(".")
-    data = results.mechanisms.get(home)
-    check = next((each.title for each in data.checks if each.id == own), own) if data else ""
-    title = f"{data.title} · {check}" if data else words["influence_all"]
-    interval = f"{_percent(found.low, words)} … {_percent(found.high, words)}"
-    of_all = words.say("influence_of", n=found.held, total=found.count)
-    return ChanceRow(title, _percent(found.probability, words), interval, of_all)
+    data = results.mechanisms.get(found.check.partition(".")[0])
+    title = f"{data.title} · {_check_title(results, found.check)}" if data else words["influence_all"]
+    low, high, probability = (_told(100 * share, "%", words) for share in (found.low, found.high, found.probability))
+    held = words.say("influence_of", n=found.held, total=found.count)
+    return ChanceRow(title, probability, f"{low} … {high}", held)
 
 
 def _scatter(drawn: TolerancesRecord, words: Catalogue) -> str:
@@ -149,14 +140,6 @@ def _told(value: float | None, unit: str, words: Catalogue) -> str:
     if value is None:
         return words["influence_none"]
     return quantity(number_text(value, DIGITS), unit, words["decimal"])
-
-
-def _percent(share: float, words: Catalogue) -> str:
-    return quantity(number_text(100 * share, DIGITS), "%", words["decimal"])
-
-
-def _unit(unit: str) -> str:
-    return "" if unit == "1" else quantity("", unit).strip()
 
 
 # The changes between two results documents with printed numbers, ready for a page, a report or a terminal.
@@ -228,18 +211,24 @@ def printed_changes(changes: ChangesRecord, words: Mapping[str, str]) -> Printed
         [made for row, made in inputs if not row.follows],
         [made for row, made in inputs if row.follows],
         [_row(row, words) for row in changes.outputs],
-        list(_code(changes.code)),
+        [
+            (row.name, f"{row.old[0]} ({row.old[1][:SHORT]})", f"{row.new[0]} ({row.new[1][:SHORT]})")
+            for row in changes.code
+        ],
     )
 
 
 def _row(row: ChangedQuantityRecord, words: Mapping[str, str]) -> ChangedRow:
-    note = words["follows"].format(path=row.follows) if row.follows else _bases(row, words)
+    bases = [side.basis if side else "" for side in (row.old, row.new)]
+    note = f"{words[bases[0]]} → {words[bases[1]]}" if all(bases) and bases[0] != bases[1] else ""
+    if row.follows:
+        note = words["follows"].format(path=row.follows)
     old, new = (_value(side, words["decimal"]) for side in (row.old, row.new))
     change = relative(row.relative, words["decimal"])
     return ChangedRow(row.path, row.description, symbol(row.symbol), old, new, change, note)
 
 
-def _value(side: QuantitySideRecord | None, decimal: str) -> str:
+def _value(side: QuantitySideRecord | None, decimal: str = ".") -> str:
     return DASH if side is None else quantity(side.display.text, side.display.unit, decimal) or DASH
 
 
@@ -247,22 +236,10 @@ def relative(share: float | None, decimal: str) -> str:
     """Return a change in per cent with its sign, or as a factor where it is beyond tenfold; nothing where there is none."""
     if share is None or share == 0:
         return ""
-    if 100 * share >= MOST_PER_CENT:
-        return f"× {number(_rounded(1 + share), decimal)}"
-    sign = "+" if share > 0 else ""
-    return joined(sign + number(_rounded(100 * share), decimal), "%")
-
-
-def _rounded(value: float) -> str:
-    return f"{float(f'{value:.3g}'):g}"
-
-
-def _bases(row: ChangedQuantityRecord, words: Mapping[str, str]) -> str:
-    """What a value rested on and rests on, where that changed."""
-    bases = [side.basis if side else "" for side in (row.old, row.new)]
-    if not all(bases) or bases[0] == bases[1]:
-        return ""
-    return f"{words[bases[0]]} → {words[bases[1]]}"
+    is_factor = 100 * share >= MOST_PER_CENT
+    value = 1 + share if is_factor else 100 * share
+    printed = number(f"{float(f'{value:.3g}'):g}", decimal)
+    return f"× {printed}" if is_factor else joined(f"{'+' if share > 0 else ''}{printed}", "%")
 
 
 def _check(row: ChangedCheckRecord, words: Mapping[str, str]) -> ChangedCheck:
@@ -275,12 +252,6 @@ def _check(row: ChangedCheckRecord, words: Mapping[str, str]) -> ChangedCheck:
 
 def _used(side: CheckSideRecord | None, decimal: str) -> str:
     return "" if side is None or side.utilisation is None else utilisation(side.utilisation, side.status, decimal)
-
-
-def _code(rows: Sequence[ChangedCodeRecord]) -> Iterator[tuple[str, str, str]]:
-    for row in rows:
-        old, new = (f"{version} ({digest[:SHORT]})" for version, digest in (row.old, row.new))
-        yield row.name, old, new
 
 
 def marked(results: ResultsRecord) -> ResultsRecord:
@@ -300,7 +271,7 @@ class Marks:
     """What stood before at each place that changed, in words for a mark in the margin."""
 
     def __init__(self, changes: ChangesRecord) -> None:
-        self.quantities = {row.path: _before(row.old) for row in (*changes.inputs, *changes.outputs)}
+        self.quantities = {row.path: _value(row.old) for row in (*changes.inputs, *changes.outputs)}
         self.checks = {(row.mechanism, row.id): _status_before(row.old) for row in changes.checks}
 
     def row(self, path: str, row: Row) -> Row:
@@ -312,20 +283,14 @@ class Marks:
         return data.with_(
             inputs={key: self.row(f"{name}.{key}", row) for key, row in data.inputs.items()},
             outputs={key: self.row(f"{name}.{key}", row) for key, row in data.outputs.items()},
-            checks=[self._check(name, check) for check in data.checks],
+            checks=[
+                check.marked(self.checks[name, check.id]) if (name, check.id) in self.checks else check for check in data.checks
+            ],
             sections=[
                 section.with_(items=[self.row(f"{name}.{item.id}", item) for item in section.items])
                 for section in data.sections
             ],
-        )
-
-    def _check(self, name: str, check: CheckRecord) -> CheckRecord:
-        before = self.checks.get((name, check.id))
-        return check if before is None else check.marked(before)
-
-
-def _before(side: QuantitySideRecord | None) -> str:
-    return DASH if side is None else quantity(side.display.text, side.display.unit) or DASH
+        )  # fmt: skip
 
 
 def _status_before(side: CheckSideRecord | None) -> str:
@@ -342,7 +307,8 @@ def followed_line(results: ResultsRecord, words: Catalogue, rows: Iterable[Check
     advice = results.summary.advice
     if not advice:
         return
-    changes = ", ".join(f"{each.path} {_local(each.value, words)}" for each in advice.changes)
+    parted = [(each.path, *each.value.partition(" ")) for each in advice.changes]
+    changes = ", ".join(f"{path} {number(text, words['decimal'])} {unit}".rstrip() for path, text, _, unit in parted)
     if advice.error:
         yield words.say("advice_impossible", changes=changes)
     elif advice.failing:
@@ -353,12 +319,6 @@ def followed_line(results: ResultsRecord, words: Catalogue, rows: Iterable[Check
         yield words.say("advice_passes", changes=changes)
 
 
-def _local(value: str, words: Catalogue) -> str:
-    """A value as it is typed, its number in the language's form."""
-    text, _, unit = value.partition(" ")
-    return " ".join(filter(None, (number(text, words["decimal"]), unit)))
-
-
 # The line of page 1 on what the calculation rests on that is assumed.
 
 
@@ -366,8 +326,7 @@ TOLD = 3  # paths on page 1: all stand in the tables of inputs
 _TYPED = re.compile(r"(?<=\d) (?=\S+$)")  # between a number and its unit that were typed as a text
 
 
-@dataclass(frozen=True)
-class AssumedLine:
+class AssumedLine(NamedTuple):
     """Hold the words, the paths that are told (behind the last of a run what each of it moves), and how many more there are."""
 
     head: str
@@ -375,8 +334,7 @@ class AssumedLine:
     more: str
 
 
-@dataclass(frozen=True)
-class AssumedGroup:
+class AssumedGroup(NamedTuple):
     """Hold the assumed values of the press or of a mechanism: key, value, and behind the last of a run what each of it moves."""
 
     name: str
@@ -389,18 +347,15 @@ def assumed_groups(results: ResultsRecord, words: Catalogue) -> list[AssumedGrou
     found = {each.path: each for each in ordered(results.summary)}
     for path in results.summary.assumed:
         groups.setdefault(_input(results, path)[0], []).append(found[path])
-    return [AssumedGroup(name, _valued(results, words, values)) for name, values in groups.items()]
+    return [AssumedGroup(name, [*_valued(results, words, values)]) for name, values in groups.items()]
 
 
-def _valued(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> list[tuple[str, str, str]]:
-    """Key and value of each, and what it moves."""
+def _valued(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> Iterator[tuple[str, str, str]]:
     first = list(dict.fromkeys(each.check for each in values if each.check))
-    told = []
     for each, moves in _runs(results, words, sorted(values, key=lambda one: [*first, ""].index(one.check))):
         _, key, row = _input(results, each.path)
         shown = quantity(row.display.text, row.display.unit, words["decimal"]) if row else ""
-        told.append((key, _TYPED.sub("\u00a0", shown), moves))
-    return told
+        yield key, _TYPED.sub("\u00a0", shown), moves
 
 
 def _runs(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> Iterator[tuple[MoveRecord, str]]:
@@ -408,14 +363,13 @@ def _runs(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) ->
     for check, run in groupby(values, lambda each: each.check):
         *others, last = run
         yield from ((each, "") for each in others)
-        yield last, words.say("move_each" if others else "moves", check=_assumed_title(results, check)) if check else ""
+        yield last, words.say("move_each" if others else "moves", check=_check_title(results, check)) if check else ""
 
 
-def _assumed_title(results: ResultsRecord, check: str) -> str:
-    """How the reader knows a check."""
+def _check_title(results: ResultsRecord, check: str) -> str:
     name, _, own = check.partition(".")
     data = results.mechanisms.get(name)
-    return next((each.title for each in (data.checks if data else ()) if each.id == own), check)
+    return next((each.title for each in data.checks if each.id == own), own) if data else check
 
 
 def _input(results: ResultsRecord, path: str) -> tuple[str, str, QuantityRecord | None]:

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from diecut_report.quantities.formatting import is_nothing
 from diecut_report.report.equations import Equation, Equations
+from diecut_report.report.mathematics import letters_of
 from diecut_report.report.text import Catalogue, quantity
 from diecut_report.results.figure_record import FigureRecord, Panel
 from diecut_report.results.mechanism_record import (
-    ConversionRecord,
     CurveRecord,
     ItemRecord,
     MechanismRecord,
-    PartRecord,
     QuantityRecord,
     SectionRecord,
 )
@@ -28,68 +27,44 @@ class SaidOnce:
 
     def __init__(self, equations: Equations, words: Catalogue) -> None:
         self.equations, self.words = equations, words
-        self.defined: set[str] = set()
+        self.said: set[str] = set()
 
     def definitions(self, item: ItemRecord) -> Iterator[Equation]:
         """What names in the formula stand for, where that was not said already."""
-        for equation in self.equations.definitions(item):
-            if equation.text not in self.defined:
-                self.defined.add(equation.text)
-                yield equation
+        found = {equation.text: equation for equation in self.equations.definitions(item)}
+        yield from (found[text] for text in self._new(found))
 
     def condition(self, item: ItemRecord) -> Equation | None:
         """Return the condition of the branch taken, with its numbers, where it says something and the chapter has not shown it already."""
-        if item.words and _says_nothing(item.condition_substituted):
-            return None
+        match item.condition_substituted:
+            case ["cmp", "==", ["qty" | "num", left, *_], ["qty" | "num", right, *_]] if item.words and left == right:
+                return None  # a flag that is 1
         equation = self.equations.condition(item)
-        told = "" if equation is None else f"{(item.words or '')}: {equation.text}"
-        if not told or (told in self.defined and item.words):
-            return None
-        self.defined.add(told)
-        return equation
+        is_new = equation and [*self._new([f"{item.words}: {equation.text}"])]
+        return equation if is_new or not item.words else None
 
     def conversions(self, item: ItemRecord) -> Iterator[str]:
         """How numbers of the formula follow from what stands elsewhere in another unit, where that was not said already."""
-        told = [self._converted(each) for each in item.conversions]
-        new = [each for each in told if each not in self.defined]
-        self.defined.update(new)
-        if new:
+        decimal, told = self.words["decimal"], []
+        for each in item.conversions:
+            own, converted = (quantity(side.text, side.unit, decimal) for side in (each.shown, each.converted))
+            told.append(f"{each.symbol} = {own} = {converted}")
+        if new := [*self._new(told)]:
             yield f"{self.words['where']} {self.words.listed(new)}"
 
-    def _converted(self, conversion: ConversionRecord) -> str:
-        """A quantity in its own unit, and in the formula's."""
-        sides = (conversion.shown, conversion.converted)
-        texts = [quantity(side.text, side.unit, self.words["decimal"]) for side in sides]
-        return " = ".join((conversion.symbol, *texts))
-
-
-def _says_nothing(condition: Any) -> bool:
-    """Whether a condition is, with its numbers, that a number equals itself: a flag that is 1."""
-    match condition:
-        case ["cmp", "==", ["qty" | "num", left, *_], ["qty" | "num", right, *_]]:
-            return bool(left == right)
-    return False
+    def _new(self, texts: Iterable[str]) -> Iterator[str]:
+        for text in texts:
+            if text not in self.said:
+                yield text
+            self.said.add(text)
 
 
 # What a reader has been told already: formulas of this chapter, and all of an earlier chapter of the same kind. Nothing is printed twice.
 
 
 SAME = (
-    "type",
-    "symbol",
-    "equation",
-    "relation",
-    "condition",
-    "words",
-    "operation",
-    "of",
-    "method",
-    "key",
-    "column",
-    "table",
-    "by",
-    "where",
-)
+    "type", "symbol", "equation", "relation", "condition", "words", "operation", "of", "method", "key", "column", "table", "by", "where",
+)  # fmt: skip
 FEWEST = 5  # operations of a formula that is rather named than printed again with other letters
 MANY = 7  # formulas of one form in a section, of which a short one, too, is printed once: the ratios of drives that are compared
 MOST_LETTERS = 4  # that differ
@@ -102,23 +77,22 @@ class Reference(NamedTuple):
     letters: tuple[tuple[str, str], ...] = ()
 
 
-class _KnownFormula(NamedTuple):
-    number: str
-    item: ItemRecord
-    letters: tuple[str, ...]  # of its tree, each once, in their order
+_Known = tuple[str, ItemRecord, tuple[str, ...]]  # a formula's number, its step, its letters in their order
 
 
 @dataclass
 class ToldBefore:
-    """Remembers the formulas, texts and symbols of a chapter; ``letter`` is that of the earlier chapter of the same kind."""
+    """Remembers the formulas, texts and symbols of a chapter; ``letter`` is that of the earlier chapter of the same kind.
+
+    In a report with all (``is_full``) everything is told again.
+    """
 
     letter: str = ""
-    steps: dict[str, _KnownFormula] = field(default_factory=dict)
-    named: dict[str, tuple[ItemRecord, Reference]] = field(
-        default_factory=dict
-    )  # steps that only name where their formula stands
+    is_full: bool = False
+    steps: dict[str, _Known] = field(default_factory=dict)
+    named: dict[str, tuple[ItemRecord, Reference]] = field(default_factory=dict)  # steps that only name their formula
     texts: set[str] = field(default_factory=set)
-    shapes: dict[str, _KnownFormula] = field(default_factory=dict)
+    shapes: dict[str, _Known] = field(default_factory=dict)
     repeated: set[str] = field(default_factory=set)  # forms of short formulas that fill the section
 
     def begin(self, items: Sequence[ItemRecord]) -> None:
@@ -128,32 +102,32 @@ class ToldBefore:
 
     def next(self, letter: str) -> ToldBefore:
         """What is known when another chapter of this kind begins; ``letter`` is this one's."""
-        return ToldBefore(self.letter or letter, dict(self.steps), dict(self.named), set(self.texts))
+        return ToldBefore(self.letter or letter, self.is_full, dict(self.steps), dict(self.named), set(self.texts))
 
     def find(self, item: ItemRecord) -> Reference | None:
         """Where the same step of an earlier chapter stands, or the same formula of this one."""
-        name = item.id
-        before, named = self.steps.get(name), self.named.get(name)
-        if before and _are_same(before.item, item):
-            return Reference(before.number)
+        if self.is_full:
+            return None
+        before, named = self.steps.get(item.id), self.named.get(item.id)
+        if before and _are_same(before[1], item):
+            return Reference(before[0])
         if named and _are_same(named[0], item):
             return named[1]
         shape, letters = self._named_form(item)
-        known = self.shapes.get(shape) if shape else None
-        if known is None:
+        if shape not in self.shapes:
             return None
-        differing = tuple(pair for pair in zip(letters, known.letters, strict=True) if pair[0] != pair[1])
+        number, _, known = self.shapes[shape]
+        differing = tuple(pair for pair in zip(letters, known, strict=True) if pair[0] != pair[1])
         is_plain = not {new for new, _ in differing} & {old for _, old in differing}  # no letters change places
-        return Reference(known.number, differing) if is_plain and len(differing) <= MOST_LETTERS else None
+        return Reference(number, differing) if is_plain and len(differing) <= MOST_LETTERS else None
 
     def keep(self, item: ItemRecord, number: str) -> None:
         """Remember a step that is printed."""
         shape, letters = self._named_form(item)
-        formula = _KnownFormula(number, item, letters)
         if item.id:
-            self.steps.setdefault(item.id, formula)
+            self.steps.setdefault(item.id, (number, item, letters))
         if shape:
-            self.shapes.setdefault(shape, formula)
+            self.shapes.setdefault(shape, (number, item, letters))
 
     def _named_form(self, item: ItemRecord) -> tuple[str, tuple[str, ...]]:
         """The form of a formula and its letters, where it is rather named than printed again."""
@@ -168,7 +142,7 @@ class ToldBefore:
 
     def new(self, texts: Sequence[str]) -> list[str]:
         """Those of the texts that were not told; they are now."""
-        found = [text for text in texts if text not in self.texts]
+        found = [text for text in texts if self.is_full or text not in self.texts]
         self.texts.update(texts)
         return found
 
@@ -178,36 +152,25 @@ def _are_same(one: ItemRecord, other: ItemRecord) -> bool:
 
 
 def _shape(item: ItemRecord) -> tuple[str, tuple[str, ...]]:
-    """A formula with its letters numbered, and the letters; nothing of one that stands for several."""
     tree = item.equation
     if item.type != "formula" or not tree or item.where:
         return "", ()
-    letters = tuple(dict.fromkeys(_letters(tree)))
+    letters = tuple(dict.fromkeys(letters_of(tree)))
     places = {letter: index for index, letter in enumerate(letters)}
     return json.dumps(_numbered(tree, places), ensure_ascii=False), letters
 
 
-def _is_letter(tree: Any) -> bool:
-    return isinstance(tree, list) and len(tree) == 2 and tree[0] == "sym"
-
-
-def _letters(tree: Any) -> Iterator[str]:
-    if _is_letter(tree):
-        yield tree[1]
-    elif isinstance(tree, list):
-        for part in tree:
-            yield from _letters(part)
-
-
 def _numbered(tree: Any, places: Mapping[str, int]) -> Any:
-    if _is_letter(tree):
-        return places[tree[1]]
-    return [_numbered(part, places) for part in tree] if isinstance(tree, list) else tree
+    match tree:
+        case ["sym", letter]:
+            return places[letter]
+        case list():
+            return [_numbered(part, places) for part in tree]
+    return tree
 
 
 def _operations(tree: Any) -> int:
-    """How many operations a tree holds."""
-    if not isinstance(tree, list) or _is_letter(tree) or tree[:1] in (["num"], ["qty"]):
+    if not isinstance(tree, list) or tree[:1] in (["sym"], ["num"], ["qty"]):
         return 0
     return (isinstance(tree[0], str) if tree else 0) + sum(_operations(part) for part in tree)
 
@@ -240,38 +203,29 @@ class Parts:
 
     def add(self, name: str, row: QuantityRecord) -> None:
         """Put a row of the results into its place."""
-        part, number = _part_of(row), number_of(row)
-        quantity = part.quantity or part.family
-        self.columns.setdefault(quantity, {})[number] = (name, row)
+        assert row.part is not None, "only what is of repeated parts is gathered"
+        number = number_of(row)
+        self.columns.setdefault(row.part.quantity or row.part.family, {})[number] = (name, row)
         self.numbers = sorted({*self.numbers, number})
 
 
 def number_of(row: QuantityRecord) -> int:
     """Return the number of a row's part in print: the one in its name, or of a list counted from 1."""
-    part = _part_of(row)
-    return part.index + 1 if part.number is None else part.number
-
-
-def _part_of(row: QuantityRecord) -> PartRecord:
-    assert row.part is not None, "only what is of repeated parts is gathered"
-    return row.part
+    assert row.part is not None, "only what is of repeated parts has a number"
+    return row.part.index + 1 if row.part.number is None else row.part.number
 
 
 def gathered(
     rows: Mapping[str, QuantityRecord], fewest: int = REPEATED_PARTS_FEWEST
 ) -> tuple[dict[str, QuantityRecord], list[Parts]]:
     """Return the lone quantities, and tables of those of at least so many repeated parts, of a single quantity of at least three."""
-    tables = [
-        table
-        for table in _tables(rows)
-        if len(table.numbers) >= (fewest if len(table.columns) > 1 else REPEATED_PARTS_FEWEST)
-    ]
+    least = max(fewest, REPEATED_PARTS_FEWEST)
+    tables = [table for table in _tables(rows) if len(table.numbers) >= (fewest if len(table.columns) > 1 else least)]
     told = {name for table in tables for column in table.columns.values() for name, _ in column.values()}
     return {name: row for name, row in rows.items() if name not in told}, tables
 
 
 def _tables(rows: Mapping[str, QuantityRecord]) -> list[Parts]:
-    """Return the quantities of each family in one table."""
     tables: dict[tuple[str, bool], Parts] = {}
     for name, row in rows.items():
         if not row.part:
@@ -319,7 +273,6 @@ def _is_flat(panel: Panel, curves: Mapping[str, CurveRecord]) -> bool:
 
 
 def _noted(sections: Sequence[SectionRecord], notes: Sequence[tuple[FigureRecord, ItemRecord]]) -> list[SectionRecord]:
-    """The sections with each note behind the last step that its figure shows."""
     items = [list(section.items) for section in sections]
     for figure, note in notes:
         places = [(own, index + 1) for own in items for index, item in enumerate(own) if item.id in figure.shows]

@@ -9,14 +9,14 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from diecut_report.quantities.formatting import is_nothing
-from diecut_report.report.chapters.repetition import Reference, SaidOnce, ToldBefore
-from diecut_report.report.chapters.tables import SectionTablesColumn, Tables, brought_together
+from diecut_report.report.chapters.repetition import SaidOnce, ToldBefore
+from diecut_report.report.chapters.tables import SectionTablesColumn, Tables, brought_together, is_in_line
 from diecut_report.report.chapters.value_tables import ValueRow, listed_row, value_row
 from diecut_report.report.equations import Equations
-from diecut_report.report.model import Heading, Item, ListedNumbers, PrintedSection, Step, gathered_notes
+from diecut_report.report.model import Heading, Item, PrintedSection, gathered_notes
 from diecut_report.report.text import Catalogue, in_words, is_words, quantity
-from diecut_report.results.figure_record import FigureRecord, Panel
-from diecut_report.results.mechanism_record import ItemRecord, MechanismRecord, PlaceRecord, SectionRecord, ShownRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import ItemRecord, MechanismRecord, SectionRecord
 from diecut_report.text.phrases import worded
 
 # Where the figures of a chapter stand: after the step that gives what they show, numbered in that order.
@@ -82,7 +82,7 @@ def rows_of(figures: list[Placed], *, paired: bool) -> list[Row]:
     waiting: Placed | None = None
     for each in figures:
         is_narrow = paired and _is_narrow(each.figure)
-        if waiting and is_narrow and _are_near(waiting.place, each.place):
+        if waiting and is_narrow and each.place.section - waiting.place.section <= NEAR:
             found.append(Row(each.place, (waiting, each)))
             waiting = None
             continue
@@ -94,47 +94,22 @@ def rows_of(figures: list[Placed], *, paired: bool) -> list[Row]:
 
 def _is_narrow(figure: FigureRecord) -> bool:
     """Whether a figure can be drawn half as wide as a sheet: it has few diagrams, no bars, no scheme of boxes, no long legend, few names within."""
-    names = [sum(map(len, _labels(panel.lines, panel.fills, panel.series))) for panel in figure.panels]
-    marked = [sum(len(label) + VALUE for label in _labels(panel.marks)) for panel in figure.panels]
-    is_large = len(figure.panels) >= MANY or _most_lines(figure) > MOST_LINES
-    if figure.type == "bars" or figure.schematic or is_large:
-        return False
-    longest, most = max([*names, *marked], default=0), max(map(_notes, figure.panels), default=0)
-    return longest <= LONGEST_LEGEND and most <= MOST_NOTES
-
-
-def _most_lines(figure: FigureRecord) -> int:
-    """How many lines a diagram of the figure has that a legend names."""
-    return max((len(_labels(panel.lines, panel.series)) for panel in figure.panels), default=0)
-
-
-def _notes(panel: Panel) -> int:
-    """How many names stand within a diagram, beside those of its lines."""
-    return len(_labels(panel.marks, panel.levels, panel.verticals, panel.fills))
+    longest = [sum(map(len, _labels(panel.lines, panel.fills, panel.series))) for panel in figure.panels]
+    longest += [sum(len(label) + VALUE for label in _labels(panel.marks)) for panel in figure.panels]
+    lines = [len(_labels(panel.lines, panel.series)) for panel in figure.panels]  # that a legend names
+    notes = [len(_labels(panel.marks, panel.levels, panel.verticals, panel.fills)) for panel in figure.panels]
+    is_small = len(figure.panels) < MANY and max(lines, default=0) <= MOST_LINES and max(notes, default=0) <= MOST_NOTES
+    return is_small and figure.type != "bars" and not figure.schematic and max(longest, default=0) <= LONGEST_LEGEND
 
 
 def _labels(*parts: Sequence[Any]) -> list[str]:
-    """The names of parts of a diagram."""
     return [each.label for several in parts for each in several if each.label]
-
-
-def _are_near(one: Place, other: Place) -> bool:
-    return other.section - one.section <= NEAR
-
-
-def figures_at(rows: Sequence[Row], place: Place) -> Iterator[Item]:
-    """The figures that stand at a place."""
-    for row in rows:
-        if row.place == place:
-            yield row_item(row)
 
 
 def row_item(row: Row) -> Item:
     """A figure, or two, among the steps."""
-    items = tuple(
-        Item("figure", number=each.number, title=each.figure.title, caption=each.figure.caption) for each in row.figures
-    )
-    return items[0] if len(items) == 1 else Item("pair", pair=items)
+    items = [Item("figure", number=n, title=each.title, caption=each.caption) for _, n, each in row.figures]
+    return items[0] if len(items) == 1 else Item("pair", pair=tuple(items))
 
 
 def sketch(figures: list[Placed]) -> list[Placed]:
@@ -158,11 +133,10 @@ class _PrintedStep(NamedTuple):
 
 
 class PrintedSteps:
-    """Prints sections; where ``told`` is given nothing is printed twice, and what has no formula stands in lines."""
+    """Prints sections; but in a report with all nothing is printed twice, and what has no formula stands in lines."""
 
     def __init__(
-        self, letter: str, equations: Equations, words: Catalogue, tables: Tables, figures: Sequence[Row],
-        told: ToldBefore | None,
+        self, letter: str, equations: Equations, words: Catalogue, tables: Tables, figures: Sequence[Row], told: ToldBefore
     ) -> None:  # fmt: skip
         self.letter, self.equations, self.words, self.tables = letter, equations, words, tables
         self.figures, self.told = figures, told
@@ -176,31 +150,25 @@ class PrintedSteps:
     def section(self, index: int, section: SectionRecord, heading: Heading) -> PrintedSection:
         """A section with its figures."""
         notes: set[str] = set()
-        if self.told is not None:
-            self.told.begin(section.items)
-        steps = [_PrintedStep(item) for item in figures_at(self.figures, Place(index, BEFORE))]
-        for place, item in enumerate(
-            section.items if self.told is None else gathered_notes(brought_together(section, self.columns))
-        ):
+        self.told.begin(section.items)
+        steps = self._figures(Place(index, BEFORE))
+        items = section.items if self.told.is_full else gathered_notes(brought_together(section, self.columns))
+        for place, item in enumerate(items):
             steps += [] if item is None else list(self._step(item, notes))
-            steps += [_PrintedStep(each) for each in figures_at(self.figures, Place(index, place))]
-        return PrintedSection(heading, self._text(section), _gathered(steps), self._shown(section.shown))
+            steps += self._figures(Place(index, place))
+        text = "".join(self.told.new([section.text]))
+        places = [f"{at.symbol} = {quantity(at.text, at.unit, self.decimal)}" for at in section.shown]
+        shown = self.words.say("shown_at", places=self.words.listed(places)) if places else ""
+        return PrintedSection(heading, text, _gathered(steps), shown)
 
-    def _text(self, section: SectionRecord) -> str:
-        text: str = section.text
-        return text if self.told is None or not text else "".join(self.told.new([text]))
+    def _figures(self, place: Place) -> list[_PrintedStep]:
+        return [_PrintedStep(row_item(row)) for row in self.figures if row.place == place]
 
-    def _shown(self, places: Sequence[PlaceRecord]) -> str:
-        """Where the curves of a section are shown, in words."""
-        told = [f"{at.symbol} = {quantity(at.text, at.unit, self.decimal)}" for at in places]
-        return self.words.say("shown_at", places=self.words.listed(told)) if told else ""
-
-    def _step(self, item: Step, notes: set[str]) -> Iterator[_PrintedStep]:
-        if isinstance(item, ListedNumbers):
-            yield _PrintedStep(Item("note"), listed_row(item.table, self.decimal), is_told=True)
-        elif item.type == "note":
-            if self.told is None or self.told.new([item.text]):
-                yield _PrintedStep(Item("note", text=item.text))
+    def _step(self, item: ItemRecord, notes: set[str]) -> Iterator[_PrintedStep]:
+        if item.type == "note":
+            yield from (_PrintedStep(Item("note", text=text)) for text in self.told.new([item.text]))
+        elif item.type == "table" and is_in_line(item) and not self.told.is_full:
+            yield _PrintedStep(Item("note"), listed_row(item, self.decimal), is_told=True)
         elif item.type == "table":
             yield _PrintedStep(Item("table", table=self.tables.of_item(item)))
         else:
@@ -210,39 +178,24 @@ class PrintedSteps:
             yield self._formula(item, notes, number)
 
     def _formula(self, item: ItemRecord, notes: set[str], number: str) -> _PrintedStep:
-        """A step with its formula, unless that stands elsewhere."""
-        told = self.told
-        if told is None:
-            return _PrintedStep(self._item(item, notes, number))
-        refers = told.find(item)
+        refers = self.told.find(item)
         if refers is None:
-            told.keep(item, number)
+            self.told.keep(item, number)
             printed = self._item(item, notes, number)
-            return _PrintedStep(printed, self._line(item, number) if _is_bare(item) and not printed.notes else None)
-        told.keep_named(item, refers)
-        return _PrintedStep(
-            Item("note"), self._line(item, number, refers, " ".join(self._said_beside(item, notes))), is_told=True
-        )
-
-    def _line(self, item: ItemRecord, number: str, refers: Reference | None = None, note: str = "") -> ValueRow:
-        return value_row(item, number, refers, note, self.decimal, self.tables.names)
+            is_line = _is_bare(item) and not printed.notes and not self.told.is_full
+            row = value_row(item, number, None, "", self.decimal, self.tables.names) if is_line else None
+            return _PrintedStep(printed, row)
+        self.told.keep_named(item, refers)
+        note = " ".join(self._said_beside(item, notes))
+        row = value_row(item, number, refers, note, self.decimal, self.tables.names)
+        return _PrintedStep(Item("note"), row, is_told=True)
 
     def _said_beside(self, item: ItemRecord, notes: set[str]) -> Iterator[str]:
-        """The rows of a table between which a number lies, and a note."""
-        yield from filter(None, (item.table_rows, self._new_note(item, notes)))
-
-    def _new_note(self, item: ItemRecord, notes: set[str]) -> str:
-        """The note of a step, where the section has not said it; a report with all says it at each step."""
-        note: str = item.note
-        if self.told is None:
-            return note
-        if item.series and note.startswith(
-            item.series
-        ):  # where standard values stand is told once for all chapters of a kind
-            return "".join(self.told.new([note]))
-        is_new = note not in notes
-        notes.add(note)
-        return note if is_new else ""
+        yield from filter(None, [item.table_rows])
+        if item.series and item.note.startswith(item.series):  # which is told once for all chapters of a kind
+            yield from self.told.new([item.note])
+        elif item.note:
+            yield from self._each_once(item.note, notes)
 
     def _item(self, item: ItemRecord, notes: set[str], number: str) -> Item:
         source = item.source if len(item.source) <= LONGEST_SOURCE else ""
@@ -268,10 +221,15 @@ class PrintedSteps:
     def _notes(self, item: ItemRecord, notes: set[str]) -> Iterator[str]:
         """The method, where it was not said already in this section, what proves the value, and a note."""
         if item.type == "lookup":
-            yield from self._each_once(self._looked_up(item), notes)
+            choice = worded(item.key)
+            told = (
+                self.words.say("looked_up", table=item.table, choice=choice) if item.table else f"{item.by}: {choice}"
+            )
+            yield from self._each_once(told, notes)
         if item.series and not item.note.startswith(item.series):
-            yield from self._new([f"{self.words['series']}: {item.series}"])
-        if self.told is None or _is_chosen(item):  # why this value and no other is never told elsewhere
+            yield from self.told.new([f"{self.words['series']}: {item.series}"])
+        is_picked = item.type == "reduction" and item.operation == "pick"
+        if self.told.is_full or item.chosen or is_picked:  # why this value and no other is never told elsewhere
             yield from self._proof(item, notes)
         yield from self.said.conversions(item)
         yield from self._said_beside(item, notes)
@@ -280,13 +238,9 @@ class PrintedSteps:
 
     def _each_once(self, note: str, notes: set[str]) -> Iterator[str]:
         """A note, where the section has not said it; a report with all says it at each step."""
-        if self.told is None or note not in notes:
+        if self.told.is_full or note not in notes:
             notes.add(note)
             yield note
-
-    def _new(self, texts: Sequence[str]) -> Sequence[str]:
-        """Those of the texts that no chapter of this kind has said; a report with all says them at each step."""
-        return texts if self.told is None else self.told.new(texts)
 
     def _proof(self, item: ItemRecord, notes: set[str]) -> Iterator[str]:
         method, residual = item.method, item.residual
@@ -294,25 +248,9 @@ class PrintedSteps:
             notes.add(method)
             yield f"{self.words['method']}: {method}"
         if residual and residual.text != UNPRINTED_RESIDUAL:
-            key = "residual" if item.type == "found" else "checked_to"
-            key += "_rounded" if _is_rounding(residual) else ""
+            is_rounding = not is_words(residual.text) and is_nothing(float(residual.text), residual.unit)
+            key = ("residual" if item.type == "found" else "checked_to") + ("_rounded" if is_rounding else "")
             yield self.words.say(key, residual=quantity(residual.text, residual.unit, self.decimal))
-
-    def _looked_up(self, item: ItemRecord) -> str:
-        """Where a number was taken from: the table's title, and the text that chose it."""
-        if item.table:
-            return self.words.say("looked_up", table=item.table, choice=worded(item.key))
-        return f"{item.by}: {worded(item.key)}"
-
-
-def _is_rounding(residual: ShownRecord) -> bool:
-    """Return whether what is left of an equation is but the rounding of the computer."""
-    return not is_words(residual.text) and is_nothing(float(residual.text), residual.unit)
-
-
-def _is_chosen(item: ItemRecord) -> bool:
-    """Return whether a value was taken from a series, or sought in the place of one that may be given."""
-    return bool(item.chosen or (item.type == "reduction" and item.operation == "pick"))
 
 
 def _is_bare(item: ItemRecord) -> bool:

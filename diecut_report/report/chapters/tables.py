@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import zip_longest
-from types import MappingProxyType
 from typing import Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
@@ -17,7 +16,7 @@ from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.chapters.printed_tables import PartsTable, PrintedColumn, PrintedTable, TableCell
 from diecut_report.report.chapters.repetition import Parts
 from diecut_report.report.chapters.value_tables import MOST_PARTS, RecordTable, record_rows
-from diecut_report.report.model import ListedNumbers, QuantityRow, Step, rests, utilisation
+from diecut_report.report.model import QuantityRow, rests, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, displayed, is_words, number, value_in_words
 from diecut_report.results.mechanism_record import (
@@ -38,19 +37,19 @@ MOST = 8  # columns of a table that is put together, the first one among them
 LONGEST_LIST = 12  # numbers in a line
 
 
-def brought_together(section: SectionRecord, told: set[SectionTablesColumn]) -> list[Step | None]:
+def brought_together(section: SectionRecord, told: set[SectionTablesColumn]) -> list[ItemRecord | None]:
     """Return the steps of a section in their places; none where a table went into a later one, or says nothing new.
 
     ``told`` are the columns that the chapter has printed already, each with the lines that it stands beside; those that follow are put to them.
     """
     items: list[ItemRecord | None] = list(section.items)
-    for place, item in enumerate(items):
-        if item is not None and item.type == "table":
-            items[place] = None if _is_said(item, section.items[:place]) else _with_new_columns(item, told)
-    for place, item in enumerate(items):
-        if item is not None and item.type == "table":
-            _move_on(items, place, section.title)
-    return [_listed(item) if item is not None and item.type == "table" else item for item in items]
+    tables = [place for place, item in enumerate(section.items) if item.type == "table"]
+    for place in tables:
+        item = section.items[place]
+        items[place] = None if _is_said(item, section.items[:place]) else _with_new_columns(item, told)
+    for place in tables:
+        _move_on(items, place, section.title)
+    return items
 
 
 def _with_new_columns(table: ItemRecord, told: set[SectionTablesColumn]) -> ItemRecord | None:
@@ -58,21 +57,13 @@ def _with_new_columns(table: ItemRecord, told: set[SectionTablesColumn]) -> Item
     if table.id:
         return table
     texts = [*zip(*table.rows, strict=True)]
-    columns = [
-        (texts[0], column.title, column.symbol, column.unit, text)
-        for column, text in zip(table.columns, texts, strict=True)
-    ]
+    columns = [(texts[0], c.title, c.symbol, c.unit, text) for c, text in zip(table.columns, texts, strict=True)]
     is_single = texts[0] == ("1",)  # what it follows from stands in the formula before it
-    new = [
-        k
-        for k, column in enumerate(columns)
-        if not k or (column not in told and (not is_single or column[1] == table.title))
-    ]
+    new = [k for k, c in enumerate(columns) if not k or (c not in told and (not is_single or c[1] == table.title))]
     told.update(columns)
     if len(new) == 1:
         return None
-    rows = [[row[k] for k in new] for row in table.rows]
-    return table.with_(columns=[table.columns[k] for k in new], rows=rows)
+    return table.with_(columns=[table.columns[k] for k in new], rows=[[row[k] for k in new] for row in table.rows])
 
 
 def _is_said(table: ItemRecord, before: Sequence[ItemRecord]) -> bool:
@@ -83,25 +74,20 @@ def _is_said(table: ItemRecord, before: Sequence[ItemRecord]) -> bool:
 
 def _move_on(items: list[ItemRecord | None], place: int, title: str) -> None:
     """Put a table into the next one of the same parts, where both have room in one."""
-    one = items[place]
-    assert one is not None
-    for later in range(place + 1, len(items)):
-        other = items[later]
-        if other is None or other.type != "table" or not _are_alike(one, other):
-            continue
-        both = _joined(one, other, title)
-        if len(both.columns) <= MOST:
-            items[place], items[later] = None, both
+    if (one := items[place]) is None:
         return
-
-
-def _are_alike(one: ItemRecord, other: ItemRecord) -> bool:
-    first = [(table.columns[0], [row[0] for row in table.rows]) for table in (one, other)]
-    return first[0] == first[1] and len(set(first[0][1])) == len(first[0][1])
+    heads = [row[0] for row in one.rows]
+    for later, other in enumerate(items[place + 1 :], place + 1):
+        if other is None or other.type != "table" or len(set(heads)) < len(heads):
+            continue
+        if (other.columns[0], [row[0] for row in other.rows]) == (one.columns[0], heads):
+            both = _joined(one, other, title)
+            if len(both.columns) <= MOST:
+                items[place], items[later] = None, both
+            return
 
 
 def _joined(one: ItemRecord, other: ItemRecord, title: str) -> ItemRecord:
-    """Two tables side by side, each column once."""
     known = [(column.title, column.symbol) for column in one.columns]
     new = [k for k, column in enumerate(other.columns) if (column.title, column.symbol) not in known]
     columns = [*one.columns, *(other.columns[k] for k in new)]
@@ -109,11 +95,11 @@ def _joined(one: ItemRecord, other: ItemRecord, title: str) -> ItemRecord:
     return ItemRecord(type="table", title=title, columns=columns, rows=rows)
 
 
-def _listed(table: ItemRecord) -> Step:
-    """A table, as one that is set in a line where it is such a one."""
+def is_in_line(table: ItemRecord) -> bool:
+    """Return whether a table is of one quantity of parts that have numbers alone, which is set in a line."""
     numbers = [str(number) for number in range(1, len(table.rows) + 1)]
     is_plain = len(table.columns) == 2 and [row[0] for row in table.rows] == numbers and len(numbers) <= LONGEST_LIST
-    return ListedNumbers(table) if is_plain and table.title == table.columns[1].title else table
+    return is_plain and table.title == table.columns[1].title
 
 
 # Inputs that a mechanism takes from others by itself: nobody typed them, and each stands in the chapter that gives it.
@@ -144,14 +130,12 @@ def taken_groups(rows: Iterable[tuple[str, QuantityRow]]) -> list[TakenGroup]:
     for path, row in rows:
         home, _, name = path.partition(".")
         found.setdefault(home, []).append(replace(row, key=name))
-    return [_group(home, own) for home, own in found.items()]
-
-
-def _group(home: str, rows: list[QuantityRow]) -> TakenGroup:
-    bases = {row.origin for row in rows}
-    if len(bases) > 1:
-        return TakenGroup(home, "", rows)
-    return TakenGroup(home, rows[0].origin, [replace(row, origin="") for row in rows])
+    groups = []
+    for home, own in found.items():
+        bases = {row.origin for row in own}
+        alike = [replace(row, origin="") for row in own] if len(bases) == 1 else own
+        groups.append(TakenGroup(home, own[0].origin if len(bases) == 1 else "", alike))
+    return groups
 
 
 # Curves of the results as they are drawn and tabled: jumps at their true place, closed over a turn (all SI).
@@ -222,18 +206,16 @@ def table_places(over: CurveRecord, members: Sequence[CurveRecord]) -> list[Curv
     x, breaks = over.values, members[0].breakpoints
     if len(breaks) >= MOST_JUMPS or any(curve.breakpoints != breaks for curve in members):
         breaks = []
-    jumps = [index for index in range(len(breaks)) if any(_jumps(curve, index) for curve in members)]
+    least = [CURVES_ROUNDING * max(map(abs, curve.values)) for curve in members]  # of jumps
+    jumps = [
+        index for index in range(len(breaks))
+        if any(abs(each.right[index] - each.left[index]) > jump for each, jump in zip(members, least, strict=True))
+    ]  # fmt: skip
     sides = [CurvePlace(breaks[index], side, index) for index in jumps for side in SIDES]
     even = [CurvePlace(float(x[number]), "values", number) for number in range(0, len(x), max(1, len(x) // CURVE_ROWS))]
     margin = 1e-9 * float(np.ptp(x))
     clear = [each for each in even if all(abs(each.x - breaks[index]) > margin for index in jumps)]
     return sorted(clear + sides, key=lambda place: place.x)  # of equal ones the left side stays the first
-
-
-def _jumps(curve: CurveRecord, index: int) -> bool:
-    """Whether a curve jumps at a breakpoint by more than rounding."""
-    jump = abs(curve.right[index] - curve.left[index])
-    return bool(jump > CURVES_ROUNDING * max(map(abs, curve.values)))
 
 
 Column = tuple[str, Markup, str]
@@ -247,9 +229,9 @@ class Tables:
     """Makes a chapter's tables; they count up as they are made."""
 
     def __init__(
-        self, letter: str, words: Catalogue, lists: Mapping[str, str] = MappingProxyType({}), names: frozenset[str] = frozenset()
-    ) -> None:  # fmt: skip
-        self.letter, self.words, self.lists, self.names = letter, words, lists, names
+        self, letter: str, words: Catalogue, lists: Mapping[str, str] | None = None, names: frozenset[str] = frozenset()
+    ) -> None:
+        self.letter, self.words, self.lists, self.names = letter, words, lists or {}, names
         self.decimal = words["decimal"]
         self.count = 0
 
@@ -265,16 +247,15 @@ class Tables:
         for curve in curves.values():
             if curve.abscissa and not curve.is_spectrum:
                 groups.setdefault(curve.abscissa, []).append(curve)
-        return [
-            self._curves(curves[axis], columns) for axis, members in groups.items() for columns in shared_out(members)
-        ]
+        shared = [(curves[axis], columns) for axis, members in groups.items() for columns in shared_out(members)]
+        return [self._curves(axis, columns) for axis, columns in shared]
 
     def _curves(self, axis: CurveRecord, members: list[CurveRecord]) -> PrintedTable:
         columns = [(_head(c.description), symbol(c.symbol), pretty(c.display_unit)) for c in (axis, *members)]
-        rows = [
-            [self._abscissa(axis, place.x), *(self._sample(curve, place) for curve in members)]
-            for place in table_places(axis, members)
-        ]
+        rows = []
+        for place in table_places(axis, members):
+            shown = number(place_shown(place.x, axis.display_unit)["text"], self.decimal)
+            rows.append([shown, *(self._sample(curve, place) for curve in members)])
         return PrintedTable(self.words.say("curves_over", axis=axis.description), columns, rows, self._number())
 
     def of_phases(self, phases: Mapping[str, PhaseRecord]) -> list[PrintedTable]:
@@ -286,22 +267,19 @@ class Tables:
 
     def _phases(self, members: list[PhaseRecord]) -> PrintedTable:
         display = members[0].display.unit
-        keys = {"from": "begin", "to": "to", "length": "length"}
-        texts = [(self.words[key], Markup(""), "") for key in ("phase", "role")]
-        columns = texts + [(self.words[key], Markup(""), pretty(display)) for key in keys]
-        is_time = unit(display).kind == unit("ms").kind
-        timed = not is_time and any(interval.time for phase in members for interval in phase.display.intervals)
-        columns += [(self.words["time"], Markup(""), "ms")] if timed else []
-        rows = [
-            [phase.description, self.words[f"role_{phase.role}"]]
-            + [number(getattr(interval, key), self.decimal) for key in (*keys.values(), *(["time"] if timed else []))]
-            for phase in members
-            for interval in phase.display.intervals
+        every = [(phase, interval) for phase in members for interval in phase.display.intervals]
+        is_timed = unit(display).kind != unit("ms").kind and any(interval.time for _, interval in every)
+        heads = {"phase": "", "role": "", "from": pretty(display), "to": pretty(display), "length": pretty(display)}
+        columns = [
+            (self.words[key], Markup(""), shown)
+            for key, shown in (heads | ({"time": "ms"} if is_timed else {})).items()
         ]
+        rows = []
+        for phase, each in every:
+            ends = [each.begin, each.to, each.length, *([each.time] if is_timed else [])]
+            texts = [phase.description, self.words[f"role_{phase.role}"]]
+            rows.append([*texts, *(number(end, self.decimal) for end in ends)])
         return PrintedTable(self.words["phases"], columns, rows, self._number())
-
-    def _abscissa(self, axis: CurveRecord, x: float) -> str:
-        return number(place_shown(x, axis.display_unit)["text"], self.decimal)
 
     def _sample(self, curve: CurveRecord, place: CurvePlace) -> str:
         value = getattr(curve, place.values)[place.number]
@@ -346,13 +324,11 @@ class Tables:
         return PartsTable(self._number(), check.title, "", columns, lines)
 
     def _side(self, check: CheckRecord, side: str) -> PrintedColumn:
-        """The head of a side's column: its own words where all parts share them."""
         labels = {getattr(part, f"{side}_label") for part in check.parts if part.status}
         title = labels.pop() if len(labels) == 1 else self.words[side]
         return PrintedColumn(title, Markup(""), pretty(getattr(check, f"{side}_display").unit), "", "")
 
     def _judged(self, check: CheckRecord, part: CheckPartRecord) -> list[TableCell]:
-        """Both sides of a part, its utilisation and its verdict; a part that has no such quantity has none."""
         if part.status is None:
             return [TableCell("–")] * 4
         mixed = len({other.demand_label for other in check.parts if other.status}) > 1
@@ -376,19 +352,14 @@ class Tables:
         """Where it comes from: that it is a default, what it refers to, how it was typed in another unit."""
         if row.origin == "default":
             return self.words.say("from_press", path=row.path) if row.path else self.words["default"]
-        typed, shown = str(row.text or row.path or ""), row.display
-        plain = {shown.text.replace(" ", ""), shown.text.replace(" ", "") + shown.unit}
-        return "" if typed.replace(" ", "") in plain or _is_choice(row) else typed
+        typed, shown = str(row.text or row.path or ""), row.display.text.replace(" ", "")
+        word = str(row.text or "")  # of the contract, which the shown one says in words
+        is_choice = row.value == word and word.replace("_", "").isalnum() and word.islower() and not word.isdigit()
+        return "" if typed.replace(" ", "") in (shown, shown + row.display.unit) or is_choice else typed
 
     def _number(self) -> str:
         self.count += 1
         return f"{self.letter}.{self.count}"
-
-
-def _is_choice(row: QuantityRecord) -> bool:
-    """Whether what was typed is a word of the contract, which the shown one says in words."""
-    typed = str(row.text or "")
-    return row.value == typed and typed.replace("_", "").isalnum() and typed.islower() and not typed.isdigit()
 
 
 def _head(description: str) -> str:

@@ -138,6 +138,5 @@ def _row(quantity: str, first: QuantityRecord, cells: list[TableCell], heads: li
 
 
 def _named(said: Sequence[tuple[str, str]]) -> Iterator[str]:
-    """What is said of each value behind the names of those of which it is said."""
     for note in dict.fromkeys(note for _, note in said if note):
         yield f"{', '.join(head for head, other in said if other == note)}: {note}"

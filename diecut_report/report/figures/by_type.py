@@ -1,57 +1,34 @@
-"""Figures of the results as pictures of points (PNG), for programs that show no other ones reliably."""
+"""The figures of the results by their type, as SVG and as pictures of points (PNG), for programs that show no other ones reliably."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from diecut_report.report.figures.charts import bars, chart, polar, tornado_of
 from diecut_report.report.figures.drawing import drawing
-from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, load_fonts, plain, style, text_size
+from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, plain, styled, text_size
 from diecut_report.report.model import Drawn
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism_record import CurveRecord
 
-# The figures of the results by their type.
-
-
-DRAW: dict[str, Callable[..., Any]] = {
-    "plot": chart,
-    "chart": chart,
-    "polar": polar,
-    "bars": bars,
-    "drawing": drawing,
-    "tornado": tornado_of,
-}
-
-
-def build(figure: Drawn, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize) -> Figure:
-    """A figure of the results as matplotlib's, so large as its place on the page lets it be."""
-    made: Figure = DRAW[figure.type](figure, curves, words, size)
-    return made
+DRAW: dict[str, Callable[..., Figure]] = {
+    "plot": chart, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing, "tornado": tornado_of,
+}  # fmt: skip
+DENSITY = 200  # points an inch
+MARGIN, LARGEST = 0.9, 14.0  # share of a picture that a text may fill, points of its letters
 
 
 def render(
-    figure: Drawn,
-    curves: Mapping[str, CurveRecord],
-    words: Catalogue,
-    key: str,
-    size: SizesSize = SizesSize.LARGE,
+    figure: Drawn, curves: Mapping[str, CurveRecord], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
 ) -> Svg:
-    """A figure of the results; ``key`` keeps its ids apart from those of the report's other figures."""
-    return drawn(partial(build, figure, curves, words, size), figure.title, key)
-
-
-DENSITY = 200  # points an inch
-
-
-MARGIN, LARGEST = 0.9, 14.0  # share of a picture that a text may fill, points of its letters
+    """A figure of the results, so large as its place lets it be; ``key`` keeps its ids apart from those of the report's others."""
+    return drawn(partial(DRAW[figure.type], figure, curves, words, size), figure.title, key)
 
 
 class Raster(NamedTuple):
@@ -63,33 +40,26 @@ class Raster(NamedTuple):
 
 
 def raster(
-    figure: Drawn,
-    curves: Mapping[str, CurveRecord],
-    words: Catalogue,
-    key: str,
-    size: SizesSize = SizesSize.LARGE,
+    figure: Drawn, curves: Mapping[str, CurveRecord], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
 ) -> Raster:
-    """A figure of the results, drawn as ``by_type.render`` draws it; the same bytes for the same figure."""
-    load_fonts()
-    with mpl.rc_context(style(key)):  # type: ignore[arg-type]  # a plain dictionary is one too
-        drawn = build(figure, curves, words, size)
-        width, height = (float(side) * 72 for side in drawn.get_size_inches())
-        return Raster(_png(drawn), width, height)
+    """The same figure as a picture of points; the same bytes for the same figure."""
+    with styled(key):
+        return _raster(DRAW[figure.type](figure, curves, words, size))
 
 
-def _png(drawn: Figure) -> bytes:
+def _raster(drawn: Figure) -> Raster:
     FigureCanvasAgg(drawn)
     content = io.BytesIO()
     drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")
-    return content.getvalue()
+    width, height = (float(side) * 72 for side in drawn.get_size_inches())
+    return Raster(content.getvalue(), width, height)
 
 
 def raster_of_text(text: str, width: float, height: float) -> Raster:
     """Return a line of text as a picture of a size in points, its letters as large as fit."""
-    load_fonts()
-    with mpl.rc_context(style("text")):  # type: ignore[arg-type]  # a plain dictionary is one too
+    with styled("text"):
         drawn = canvas(width, height)
         wide, high = text_size(plain(text), LARGEST)
         size = LARGEST * min(1.0, MARGIN * width / max(wide, 1.0), MARGIN * height / max(high, 1.0))
         drawn.text(0.5, 0.5, plain(text), size=size, ha="center", va="center")
-        return Raster(_png(drawn), width, height)
+        return _raster(drawn)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import partial
-from itertools import pairwise, zip_longest
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -63,29 +63,30 @@ def chart(
 ) -> Figure:
     """The diagrams of a plot or a chart, one below the other; on a sheet that is to be saved many stand two by two."""
     panels = diagrams(figure, curves, words)
-    is_low = size is SizesSize.LOW and len(panels) >= MANY
-    return _side_by_side(panels, words) if is_low else _column(panels, words, size)
+    return _sheet(panels, words, size, columns=2 if size is SizesSize.LOW and len(panels) >= MANY else 1)
 
 
 def diagrams(figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue) -> list[PanelData]:
     """What the diagrams of a plot or a chart hold, from top to bottom."""
     return [
-        _of_lines(panel, words)
-        if isinstance(panel, ChartPanelRecord)
-        else _of_curves(panel, curves, curves[figure.abscissa], words)
-        for panel in figure.panels
-    ]
+        _of_lines(each, words) if isinstance(each, ChartPanelRecord) else _of_curves(each, curves, curves[figure.abscissa], words)
+        for each in figure.panels
+    ]  # fmt: skip
 
 
-def _side_by_side(panels: list[PanelData], words: Catalogue) -> Figure:
-    """Diagrams in rows of two; numbers stand below the last one of a column, and where the next one runs over something else."""
-    width, share = WIDTHS[SizesSize.LOW], WIDTHS[SizesSize.LOW] / 2
-    wide, height = share - LEFT - RIGHT, HEIGHTS[SizesSize.HALF][2]
+def _sheet(panels: list[PanelData], words: Catalogue, size: SizesSize, columns: int) -> Figure:
+    """All diagrams; numbers stand below the last one of a column, and where the next one runs over something else."""
+    width, share = WIDTHS[size], WIDTHS[size] / columns
+    below = [after is None or after.across != one.across for one, after in zip_longest(panels, panels[columns:])]
+    room = (PAGE - TOP - sum(NAMED_FOOT if each else FOOT for each in below)) / len(panels) - CHARTS_HEAD
+    height = HEIGHTS[SizesSize.HALF][2]
+    if columns == 1:
+        height = min(HEIGHTS[size if size in HEIGHTS else SizesSize.LOW][min(len(panels), MANY)], room)
+    wide = share - LEFT - RIGHT
     drawn = _named_once([Diagram(panel, wide, height) for panel in panels])
     for diagram in drawn[1:]:
         diagram.follow(drawn[0])
-    below = [each is None or each.across != one.across for one, each in zip_longest(panels, panels[2:])]
-    rows = [range(start, min(start + 2, len(panels))) for start in range(0, len(panels), 2)]
+    rows = [range(start, min(start + columns, len(panels))) for start in range(0, len(panels), columns)]
     heads = [max(drawn[index].head for index in row) for row in rows]
     feet = [max(NAMED_FOOT + further(drawn[i].across) if below[i] else FOOT for i in row) for row in rows]
     total = TOP + sum(heads) + height * len(rows) + sum(feet)
@@ -93,32 +94,9 @@ def _side_by_side(panels: list[PanelData], words: Catalogue) -> Figure:
     for row, head, foot in zip(rows, heads, feet, strict=True):
         bottom -= head + height
         for index in row:
-            left = LEFT + share * (index % 2)
+            left = LEFT + share * (index % columns)
             axes = sheet.add_axes((left / width, bottom / total, wide / width, height / total))
             drawn[index].draw(axes, words, named=below[index])
-        bottom -= foot
-    return sheet
-
-
-def _column(panels: list[PanelData], words: Catalogue, size: SizesSize) -> Figure:
-    """All diagrams; numbers stand below a diagram where the next one runs over something else."""
-    feet = [NAMED_FOOT if one.across != two.across else FOOT for one, two in pairwise(panels)]
-    feet.append(NAMED_FOOT)
-    room = (PAGE - TOP - sum(feet) - CHARTS_HEAD * len(panels)) / len(panels)
-    height = min(HEIGHTS[size if size in HEIGHTS else SizesSize.LOW][min(len(panels), MANY)], room)
-    width = WIDTHS[size]
-    wide = width - LEFT - RIGHT
-    drawn = _named_once([Diagram(panel, wide, height) for panel in panels])
-    for diagram in drawn[1:]:
-        diagram.follow(drawn[0])
-    named = [foot == NAMED_FOOT for foot in feet]
-    feet = [foot + further(each.across) * below for foot, each, below in zip(feet, drawn, named, strict=True)]
-    total = TOP + sum(diagram.head for diagram in drawn) + height * len(panels) + sum(feet)
-    sheet, bottom = canvas(width, total), total - TOP
-    for diagram, foot, below in zip(drawn, feet, named, strict=True):
-        bottom -= diagram.head + height
-        axes = sheet.add_axes((LEFT / width, bottom / total, wide / width, height / total))
-        diagram.draw(axes, words, named=below)
         bottom -= foot
     return sheet
 
@@ -136,7 +114,6 @@ def _named_once(drawn: list[Diagram]) -> list[Diagram]:
 def _of_curves(
     panel: PlotPanelRecord, curves: Mapping[str, CurveRecord], over: CurveRecord, words: Catalogue
 ) -> PanelData:
-    """A panel of curves, over a whole turn where the abscissa is one."""
     shown, across = panel.unit, over.display_unit
     period = period_of(over)
     end = over.values[0] + period if period else over.values[-1]
@@ -159,13 +136,13 @@ def _of_curves(
 
 
 def _of_lines(panel: ChartPanelRecord, words: Catalogue) -> PanelData:
-    """A panel of lines of its own, as far across as they reach."""
     shown, over = panel.unit, panel.x
     across = over.unit
     lines, fills = ([_line(line, across, shown) for line in lines] for lines in (panel.lines, panel.fills))
     marks = [_mark(mark, across, shown, words) for mark in panel.marks]
     factor = unit(across).factor
-    verticals = [Note(line.x / factor, 0.0, _phase(line.label)) for line in panel.verticals]
+    named = [(line.x / factor, line.label) for line in panel.verticals]  # a numbered phase, or words and symbols
+    verticals = [Note(x, 0.0, name if name and not set(name) - set("IVX") else marked(name)) for x, name in named]
     low, high = range_of([*(line.x for line in (*lines, *fills)), [note.x for note in (*marks, *verticals)]])
     return PanelData(
         title=panel.title,
@@ -186,18 +163,11 @@ def _line(line: LineRecord, across: str, shown: str) -> Line:
 
 
 def _mark(mark: MarkRecord, across: str, shown: str, words: Catalogue) -> Note:
-    """A marked point: its name, its value, and its place."""
     text = f"{marked(mark.label)} {_value(mark.y, shown, words)} ({_value(mark.x, across, words)})"
     return Note(mark.x / unit(across).factor, mark.y / unit(shown).factor, text if mark.label else "")
 
 
-def _phase(name: str) -> str:
-    """The name of a vertical line: a numbered phase, or words and symbols."""
-    return name if name and not set(name) - set("IVX") else marked(name)
-
-
 def _level(level: LevelRecord, shown: str, words: Catalogue) -> Note:
-    """A level: its name and its value."""
     text = f"{marked(level.label)} {_value(level.value, shown, words)}"
     return Note(0.0, level.value / unit(shown).factor, text)
 
@@ -243,7 +213,6 @@ def _rows(groups: Sequence[BarGroupRecord], width: float) -> list[list[BarGroupR
 
 
 def _names(group: BarGroupRecord) -> float:
-    """How wide the names of a group's bars are, points."""
     return max(text_size(plain(bar.label))[0] for bar in group.bars) + 8
 
 
@@ -261,10 +230,8 @@ def _group(axes: Axes, width: float, group: BarGroupRecord, words: Catalogue) ->
     rows = np.arange(len(values))[::-1]
     last = len(values) - 1
     for index, (row, value) in enumerate(zip(rows, values, strict=True)):
-        colour = "white" if value < 0 else ACCENT if index == last else "#9fb4c4"
-        axes.barh(
-            row, value, 0.62, edgecolor=INK, linewidth=0.6, facecolor=colour, hatch="/////" if value < 0 else None
-        )
+        colour, hatch = ("white", "/////") if value < 0 else (ACCENT if index == last else "#9fb4c4", None)
+        axes.barh(row, value, 0.62, edgecolor=INK, linewidth=0.6, facecolor=colour, hatch=hatch)
         text = displayed(group.bars[index].value, group.unit, words["decimal"])
         axes.annotate(text, (max(value, 0), row), (3, 0), textcoords="offset points", va="center_baseline", size=8)
     _across(axes, width, values, limits_of(group.range, group.unit), words)
@@ -274,17 +241,12 @@ def _group(axes: Axes, width: float, group: BarGroupRecord, words: Catalogue) ->
     axes.set_title(_title(group), pad=5)
     axes.grid(visible=False)
     axes.tick_params(axis="y", length=0)
-    for side in ("top", "right", "bottom", "left"):
-        axes.spines[side].set_visible(False)
+    axes.spines[:].set_visible(False)
 
 
 def _across(
-    axes: Axes,
-    width: float,
-    values: Sequence[float],
-    limits: tuple[float | None, float | None] | None,
-    words: Catalogue,
-) -> None:
+    axes: Axes, width: float, values: Sequence[float], limits: tuple[float | None, float | None] | None, words: Catalogue
+) -> None:  # fmt: skip
     """Lay out the axis of the bars on a sheet of a width, with room for their numbers; where its range is declared its ends are named."""
     room = max(text_size(number(significant(value)))[0] for value in values) + 6
     points = axes.get_position().width * width
@@ -313,24 +275,16 @@ def polar(
     side, width = SIDES.get(size, SIDES[SizesSize.LOW]), WIDTHS[size]
     total = side + HEADS.get(size, HEADS[SizesSize.HALF])
     sheet = canvas(width, total)
-    axes = sheet.add_axes(
-        ((width - side + 40) / 2 / width, 30 / total, (side - 40) / width, (side - 30) / total),
-        projection="polar",
-    )
+    box = (width - side + 40) / 2 / width, 30 / total, (side - 40) / width, (side - 30) / total
+    axes = sheet.add_axes(box, projection="polar")
     for index, series in enumerate(figure.series):
         x, y = through_pole(*continuous(curves[series.curve], over, period_of(over)))
         y = y / unit(figure.unit).factor
         for sign, shade in ((1, 0), (-1, 1)):
             colour, dashes, width = STROKES[(2 * index + shade) % len(STROKES)]
             said = f"{marked(series.label)}, {words['positive' if sign > 0 else 'negative']}"
-            axes.plot(
-                x,
-                np.where(sign * y >= 0, np.abs(y), np.nan),
-                color=colour,
-                linestyle=dashes,
-                linewidth=width,
-                label=said,
-            )
+            sizes = np.where(sign * y >= 0, np.abs(y), np.nan)
+            axes.plot(x, sizes, color=colour, linestyle=dashes, linewidth=width, label=said)
     axes.set_rlabel_position(_emptiest(axes))  # type: ignore[attr-defined]
     axes.set_xticks(np.radians(np.arange(0, TURN, 30)))
     axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
@@ -353,7 +307,6 @@ def _emptiest(axes: Axes) -> float:
 
 
 def _radial(value: float, greatest: float, shown: str, words: Catalogue) -> str:
-    """The number at a circle, at the greatest one with its unit."""
     text = number(f"{value:.10g}", words["decimal"])
     return "" if value == 0 else joined(text, pretty(shown)) if value == greatest else text
 
@@ -379,9 +332,8 @@ def _tornado(today: float, bars: Sequence[MovedBarRecord], decimal: str) -> Figu
     height = HEAD + TORNADO_FOOT + ROW * len(bars)
     sheet = canvas(WIDTH, height)
     names = max(text_size(bar.name)[0] for bar in bars) + 10
-    axes = sheet.add_axes(
-        (names / WIDTH, TORNADO_FOOT / height, (WIDTH - names - 12) / WIDTH, ROW * len(bars) / height)
-    )
+    box = names / WIDTH, TORNADO_FOOT / height, (WIDTH - names - 12) / WIDTH, ROW * len(bars) / height
+    axes = sheet.add_axes(box)
     places = np.arange(len(bars))[::-1]
     for place, bar in zip(places, bars, strict=True):
         for side, colour in (("low", LOWERED), ("high", ACCENT)):
@@ -395,7 +347,6 @@ def _tornado(today: float, bars: Sequence[MovedBarRecord], decimal: str) -> Figu
     axes.axvline(today, color=INK, linewidth=0.8)
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0)
-    for side in ("top", "right", "left"):
-        axes.spines[side].set_visible(False)
+    axes.spines[["top", "right", "left"]].set_visible(False)
     axes.set_axisbelow(True)
     return sheet

@@ -13,8 +13,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
 from diecut_report.quantities.units import pretty
-from diecut_report.report.figures.drawing import hatching
-from diecut_report.report.figures.labels import SIZE, Frame, LabelLayout, PanelData, framed, pieces
+from diecut_report.report.figures.drawing import hatching, strokes
+from diecut_report.report.figures.labels import SIZE, Frame, LabelLayout, PanelData, pieces
 from diecut_report.report.figures.style import (
     ACCENT,
     FONT_SIZE,
@@ -73,13 +73,11 @@ class Diagram:
 
     def __init__(self, panel: PanelData, width: float, height: float) -> None:
         self.panel = panel
-        self.frame = framed(panel, width, height)
-        self.names = LabelLayout(panel, self.frame)
+        self.names = LabelLayout(panel, width, height)
+        self.frame = self.names.frame
         self.tags = self.names.tags if len(panel.lines) > 1 else []
         self.areas = [marked(panel.fills[index].label) for index in self.names.outside]
-        notes = [panel.marks[index].text for index in self.names.told_marks]
-        notes += [panel.levels[index].text for index in self.names.told_levels]
-        notes += [panel.verticals[index].text for index in self.names.told_uprights]
+        notes = [getattr(panel, kind)[index].text for kind, index in self.names.told]
         self._told = [tag for tag in self.tags if tag] + self.areas + notes
         self.left_out: set[str] = set()  # names that another diagram's legend has
         self.title = wrapped(self._title(), width)
@@ -94,9 +92,8 @@ class Diagram:
     @property
     def head(self) -> float:
         """The room that it needs above."""
-        return (
-            HEAD + further(self.title) + (0.0 if self.legend is None or self.legend.beside else self.legend.rows * ROW)
-        )
+        above = 0.0 if self.legend is None or self.legend.beside else self.legend.rows * ROW
+        return HEAD + further(self.title) + above
 
     def naming(self, named: Collection[tuple[float, str]]) -> Diagram:
         """Return the diagram with the names of those vertical lines alone, told by their places and texts."""
@@ -127,12 +124,8 @@ class Diagram:
             axes.set_xlabel(self.across, labelpad=2)
         self._head(axes, handles)
         for text in self.names.texts:
-            halo = {
-                "facecolor": PALE if text.soft else "white",
-                "edgecolor": "none",
-                "alpha": 1.0 if text.solid else 0.8,
-                "pad": 0.6,
-            }
+            face, alpha = PALE if text.soft else "white", 1.0 if text.solid else 0.8
+            halo = {"facecolor": face, "edgecolor": "none", "alpha": alpha, "pad": 0.6}
             place = text.x / self.frame.width, text.y / self.frame.height
             if text.leader:
                 ends = np.reshape(text.leader, (2, 2)) / (self.frame.width, self.frame.height)
@@ -141,7 +134,6 @@ class Diagram:
                       color=INK, zorder=6, bbox=halo)  # fmt: skip
 
     def _title(self) -> str:
-        """What stands upwards, and its unit; with its symbol where there is one curve."""
         lines = self.panel.lines
         label = marked(lines[0].label) if len(lines) == 1 else ""
         parts = [plain(self.panel.title)] + ([label] if "$" in label else [])
@@ -161,13 +153,11 @@ class Diagram:
         )  # fmt: skip
 
     def _lines(self, axes: Axes) -> list[Line2D]:
-        """The lines, the first one on top; those that the legend names."""
         handles = []
         for index, line in enumerate(self.panel.lines):
             colour, dashes, width = STROKES[index % len(STROKES)]
-            handles += axes.plot(
-                line.x, line.y, color=colour, linestyle=dashes, linewidth=width, zorder=3 - 0.1 * index
-            )
+            look = {"color": colour, "linestyle": dashes, "linewidth": width, "zorder": 3 - 0.1 * index}
+            handles += axes.plot(line.x, line.y, **look)
         for handle, tag in zip(handles, self.tags, strict=False):
             handle.set_label(tag)
         return [handle for handle, tag in zip(handles, self.tags, strict=False) if tag]
@@ -182,9 +172,8 @@ class Diagram:
                 for edge in pieces(self.frame.points(area.x, area.y))
             ]
             if loops:
-                starts, ends = hatching(loops, falling=bool(index % 2))
-                strokes = np.stack([starts, ends, np.full_like(starts, np.nan)], axis=1).reshape(-1, 2)
-                axes.plot(*self.frame.numbers(strokes), color=SOFT, linewidth=0.35, zorder=0.7)
+                hatched = strokes(*hatching(loops, falling=bool(index % 2)))
+                axes.plot(*self.frame.numbers(hatched), color=SOFT, linewidth=0.35, zorder=0.7)
         return [
             Patch(facecolor=PALE, edgecolor=SOFT, linewidth=0.5, hatch=("////", "\\\\\\\\")[index % 2],
                   label=marked(self.panel.fills[index].label)) for index in self.names.outside
@@ -192,25 +181,22 @@ class Diagram:
 
     def _notes(self, axes: Axes) -> list[Line2D]:
         """The zero line, levels, vertical lines, marked points and ranges, without their texts; those that the legend names."""
-        panel, marks, levels, uprights = self.panel, [], [], []
+        panel, marks, ink = self.panel, list[Line2D](), dict[str, Any](color=INK, zorder=2)
         axes.axhline(0, color=INK, linewidth=0.6, zorder=1)
-        for index, level in enumerate(panel.levels):
-            levels.append(
-                axes.axhline(level.y, color=INK, linewidth=0.7, linestyle=LEVELS[index % len(LEVELS)], zorder=2)
-            )
-        for upright in panel.verticals:
-            uprights.append(axes.axvline(upright.x, color=INK, linewidth=0.6, linestyle=UPRIGHT, zorder=2))
+        levels = [
+            axes.axhline(level.y, linewidth=0.7, linestyle=LEVELS[index % len(LEVELS)], **ink)
+            for index, level in enumerate(panel.levels)
+        ]
+        uprights = [axes.axvline(each.x, linewidth=0.6, linestyle=UPRIGHT, **ink) for each in panel.verticals]
         for index, mark in enumerate(panel.marks):
             marks += axes.plot([mark.x], [mark.y], MARKS[index % len(MARKS)], markersize=4.5, markerfacecolor="white",
                                markeredgecolor=INK, zorder=5, clip_on=False)  # fmt: skip
         for span in panel.spans:
             axes.axvspan(span.start, span.end, color=PALE, linewidth=0, zorder=0)
-        told = [(marks[index], panel.marks[index]) for index in self.names.told_marks]
-        told += [(levels[index], panel.levels[index]) for index in self.names.told_levels]
-        told += [(uprights[index], panel.verticals[index]) for index in self.names.told_uprights]
-        for handle, note in told:
-            handle.set_label(note.text)
-        return [handle for handle, _ in told]
+        handles = {"marks": marks, "levels": levels, "verticals": uprights}
+        for kind, index in self.names.told:
+            handles[kind][index].set_label(getattr(panel, kind)[index].text)
+        return [handles[kind][index] for kind, index in self.names.told]
 
 
 def legend(told: list[str], width: float, title: float) -> Legend | None:
@@ -249,13 +235,9 @@ def _ticks(axes: Axes, panel: PanelData, frame: Frame, words: Catalogue) -> None
         axes.xaxis.set_major_locator(MultipleLocator(60 if span > 200 else 30))
         axes.xaxis.set_minor_locator(MultipleLocator(30 if span > 200 else 10))
     else:
-        axes.xaxis.set_major_locator(
-            MaxNLocator(
-                min(9, int(frame.width / APART)),
-                steps=[1, 1.5, 3, 5, 10] if across.unit == "deg" else [1, 2, 2.5, 5, 10],
-                integer=is_counted and across.unit == "1",
-            )
-        )
+        steps = [1, 1.5, 3, 5, 10] if across.unit == "deg" else [1, 2, 2.5, 5, 10]
+        most, is_whole = min(9, int(frame.width / APART)), is_counted and across.unit == "1"
+        axes.xaxis.set_major_locator(MaxNLocator(most, steps=steps, integer=is_whole))
     axes.yaxis.set_major_locator(MaxNLocator(min(6, int(frame.height / ABOVE)), steps=[1, 2, 2.5, 5, 10]))
     printed = FuncFormatter(lambda value, _: number(f"{value:.10g}", words["decimal"]))
     axes.xaxis.set_major_formatter(printed)

@@ -52,6 +52,7 @@ from diecut_report.results.figure_record import (
 
 
 Array = NDArray[Any]
+Place = tuple[float, float]
 HATCH_STEP = 5.0  # points between the strokes
 
 
@@ -123,6 +124,11 @@ def hatching(loops: list[Array], step: float = HATCH_STEP, *, falling: bool = Fa
         places.append(level * across + reach[:, None] * along)
     points = np.concatenate(places)
     return points[::2], points[1::2]
+
+
+def strokes(starts: Array, ends: Array) -> Array:
+    """Many short lines as one path."""
+    return np.stack([starts, ends, np.full_like(starts, np.nan)], axis=1).reshape(-1, 2)
 
 
 # How large a drawing is on paper: its scale, and the size of the text in its boxes.
@@ -212,7 +218,6 @@ def folded(text: str, width: float, size: float = FONT_SIZE) -> list[str]:
 
 
 def _gathered(parts: list[str], width: float, size: float) -> list[str]:
-    """Parts of a text, as many in a line as fit it, though not all in one."""
     lines = [parts[0]]
     for part in parts[1:]:
         longer = f"{lines[-1]} {part}"
@@ -234,129 +239,7 @@ FREE = 9.0  # what may be in the way of a text
 LONG = 50.0  # a text of so many points may be folded
 
 
-class DrawingSheet:
-    """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
-
-    def __init__(self, figure: FigureRecord, words: Catalogue, room: Array) -> None:
-        self.shapes = figure.shapes
-        self.unit: str = figure.unit
-        self.schematic: bool = figure.schematic
-        self.words = words
-        self.scale = scaled(self.shapes, room, schematic=self.schematic)
-        corners = np.concatenate([extent(shape) for shape in self.shapes]) * self.scale.both
-        self.lines: list[tuple[Array, float]] = []  # with how much texts are to keep clear of them
-        self.boxes: list[Box] = [(*corners.min(axis=0), *corners.max(axis=0))]
-        self.solid: list[Box] = []  # where no text may stand
-        self.wished: list[tuple[float, float]] = []  # from where to where labels reach where they are asked for
-        self.crowded = 0.0  # how much stands in the way of texts
-        self.texts: list[Callable[[Labels], None]] = []
-        self.sheet = canvas(10, 10)
-        self.axes: Axes = self.sheet.add_axes((0, 0, 1, 1))
-        self.axes.set_axis_off()
-
-    def finish(self) -> None:
-        """Draws all shapes first, then the texts between them; the sheet is cut to what is on it."""
-        for shape in self.shapes:
-            self.draw(shape)
-        labels = self._labels()
-        for write in self.texts:
-            write(labels)
-        self.boxes += labels.taken
-        if not self.schematic and pretty(self.unit):
-            self._scale_bar()
-        left, bottom, right, top = (pick(box[i] for box in self.boxes) for i, pick in enumerate((min, min, max, max)))
-        left, bottom, right, top = left - 4, bottom - 4, right + 4, top + 4
-        self.axes.set_xlim(left, right)
-        self.axes.set_ylim(bottom, top)
-        self.sheet.set_size_inches((right - left) / 72, (top - bottom) / 72)
-        self.crowded += 50 * float(np.maximum([right - left, top - bottom] - PAGE, 0.0).sum())
-        self.crowded += sum(overlap(one, other) for one, other in combinations(self.solid, 2))
-
-    def _labels(self) -> Labels:
-        """Where texts may stand: clear of all lines and boxes, and on the page."""
-        lines = [(sampled(line), weight) for line, weight in self.lines]
-        weights = np.concatenate([np.zeros(0), *(np.full(len(line), weight) for line, weight in lines)])
-        points = np.concatenate([np.empty((0, 2)), *(line for line, _ in lines)])
-        wide = [(self.boxes[0][0], self.boxes[0][2]), *self.wished]
-        middle = (min(left for left, _ in wide) + max(right for _, right in wide)) / 2
-        labels = Labels(points, (middle - PAGE[0] / 2 + 5, -np.inf, middle + PAGE[0] / 2 - 5, np.inf), weights)
-        labels.taken += self.solid
-        return labels
-
-    def _points(self, coordinates: Any) -> Array:
-        points: Array = np.asarray(coordinates, dtype=float).reshape(-1, 2) * self.scale.both
-        return points
-
-    def _line(self, points: Array, **look: Any) -> None:
-        self.axes.plot(points[:, 0], points[:, 1], **look)
-        self.lines.append((points, THIN if look["linewidth"] < 0.6 else THICK))
-
-    def draw(self, shape: Shape) -> None:
-        """Draw a shape."""
-        raise NotImplementedError
-
-    def _head(
-        self,
-        tip: Array,
-        along: Array,
-        length: float = ARROW,
-        slender: float = SLENDER,
-        color: str = INK,
-        zorder: float = 2.6,
-    ) -> None:
-        """The head of an arrow."""
-        across = np.array([-along[1], along[0]]) * length * slender
-        corners = np.array([tip, tip - length * along + across, tip - length * along - across])
-        self.axes.fill(*corners.T, color=color, linewidth=0, zorder=zorder)
-
-    def _later(
-        self,
-        text: str,
-        proposed: Callable[[tuple[float, float]], Iterable[tuple[float, float]]],
-        leader: tuple[float, float] | None = None,
-    ) -> None:
-        """A text that finds its place when all shapes are drawn, in two or three lines where it has none in one.
-
-        Far from its ``leader`` it gets a line to it.
-        """
-        variants = ["\n".join(map(marked, lines)) for lines in _folds(text)]
-
-        def write(labels: Labels) -> None:
-            found = [(said, text_size(said)) for said in variants]
-            tried = [(*labels.best(size, proposed(size)), said, size) for said, size in found]
-            (x, y), cost, said, size = next((t for t in tried if t[1] <= FREE), min(tried, key=lambda t: t[1]))
-            labels.take((x, y), size)
-            self.crowded += max(cost - FREE, 0.0)
-            if leader and np.hypot(x - leader[0], y - leader[1]) > FAR + size[0] / 2:
-                self.axes.plot([leader[0], x], [leader[1], y], **THIN_LINE)
-            halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}
-            self.axes.text(x, y, said, ha="center", va="center", zorder=7, bbox=halo)
-
-        self.texts.append(write)
-
-    def _scale_bar(self) -> None:
-        """A bar of a round length below the drawing, at the left."""
-        factor = unit(self.unit).factor
-        scale = self.scale.round
-        target = 30 * MM / scale / factor
-        power = 10.0 ** np.floor(np.log10(target))
-        length = max(step * power for step in (1, 2, 5) if step * power <= target)
-        left, bottom = min(box[0] for box in self.boxes), min(box[1] for box in self.boxes) - 16
-        right, middle = left + length * factor * scale, left + 0.5 * length * factor * scale
-        self.axes.fill([left, middle, middle, left], [bottom, bottom, bottom + 3, bottom + 3], color=INK, linewidth=0)
-        self.axes.plot(
-            [left, right, right, left, left], [bottom, bottom, bottom + 3, bottom + 3, bottom], color=INK, linewidth=0.5
-        )
-        text = joined(
-            number(significant(length, 1) if length < 1 else f"{length:.0f}", self.words["decimal"]), pretty(self.unit)
-        )
-        self.axes.text(right + 5, bottom + 1.5, text, va="center", ha="left", size=8)
-        self.axes.text(left, bottom + 6, "0", va="bottom", ha="center", size=0.1, alpha=0)
-        self.boxes.append((left, bottom - 3, right + 5 + text_size(text, 8)[0], bottom + 8))
-
-
 def _folds(text: str) -> list[list[str]]:
-    """A text whole, and in ever narrower lines."""
     wide = text_size(marked(text))[0]
     found = [[text]]
     for share in (0.62, 0.4):
@@ -417,18 +300,110 @@ def _shares(figure: FigureRecord, size: SizesSize) -> tuple[float, ...]:
 
 
 def _look(shape: PolylineRecord | CircleRecord | ArcRecord | ArrowRecord | BoxRecord) -> dict[str, Any]:
-    """The look of a shape's role; ValueError where there is no such role."""
     if shape.role not in ROLES:
         raise ValueError(f"{shape.role!r} is not a role of a {shape.shape}; known: {', '.join(ROLES)}")
     return ROLES[shape.role]
 
 
-class Shapes(DrawingSheet):
-    """A sheet with a way to draw each kind of shape."""
+class Shapes:
+    """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
 
-    def draw(self, shape: Shape) -> None:
-        """Draw a shape."""
-        getattr(self, f"_{shape.shape}")(shape)
+    def __init__(self, figure: FigureRecord, words: Catalogue, room: Array) -> None:
+        self.shapes = figure.shapes
+        self.unit: str = figure.unit
+        self.schematic: bool = figure.schematic
+        self.words = words
+        self.scale = scaled(self.shapes, room, schematic=self.schematic)
+        corners = np.concatenate([extent(shape) for shape in self.shapes]) * self.scale.both
+        self.lines: list[tuple[Array, float]] = []  # with how much texts are to keep clear of them
+        self.boxes: list[Box] = [(*corners.min(axis=0), *corners.max(axis=0))]
+        self.solid: list[Box] = []  # where no text may stand
+        self.wished: list[tuple[float, float]] = []  # from where to where labels reach where they are asked for
+        self.crowded = 0.0  # how much stands in the way of texts
+        self.texts: list[Callable[[Labels], None]] = []
+        self.sheet = canvas(10, 10)
+        self.axes: Axes = self.sheet.add_axes((0, 0, 1, 1))
+        self.axes.set_axis_off()
+
+    def finish(self) -> None:
+        """Draws all shapes first, then the texts between them; the sheet is cut to what is on it."""
+        for shape in self.shapes:
+            getattr(self, f"_{shape.shape}")(shape)
+        labels = self._labels()
+        for write in self.texts:
+            write(labels)
+        self.boxes += labels.taken
+        if not self.schematic and pretty(self.unit):
+            self._scale_bar()
+        left, bottom, right, top = (pick(box[i] for box in self.boxes) for i, pick in enumerate((min, min, max, max)))
+        left, bottom, right, top = left - 4, bottom - 4, right + 4, top + 4
+        self.axes.set_xlim(left, right)
+        self.axes.set_ylim(bottom, top)
+        self.sheet.set_size_inches((right - left) / 72, (top - bottom) / 72)
+        self.crowded += 50 * float(np.maximum([right - left, top - bottom] - PAGE, 0.0).sum())
+        self.crowded += sum(overlap(one, other) for one, other in combinations(self.solid, 2))
+
+    def _labels(self) -> Labels:
+        lines = [(sampled(line), weight) for line, weight in self.lines]
+        weights = np.concatenate([np.zeros(0), *(np.full(len(line), weight) for line, weight in lines)])
+        points = np.concatenate([np.empty((0, 2)), *(line for line, _ in lines)])
+        wide = [(self.boxes[0][0], self.boxes[0][2]), *self.wished]
+        middle = (min(left for left, _ in wide) + max(right for _, right in wide)) / 2
+        labels = Labels(points, (middle - PAGE[0] / 2 + 5, -np.inf, middle + PAGE[0] / 2 - 5, np.inf), weights)
+        labels.taken += self.solid
+        return labels
+
+    def _points(self, coordinates: Any) -> Array:
+        points: Array = np.asarray(coordinates, dtype=float).reshape(-1, 2) * self.scale.both
+        return points
+
+    def _line(self, points: Array, **look: Any) -> None:
+        self.axes.plot(points[:, 0], points[:, 1], **look)
+        self.lines.append((points, THIN if look["linewidth"] < 0.6 else THICK))
+
+    def _head(
+        self, tip: Array, along: Array, length: float = ARROW, slender: float = SLENDER, color: str = INK, zorder: float = 2.6,
+    ) -> None:  # fmt: skip
+        across = np.array([-along[1], along[0]]) * length * slender
+        corners = np.array([tip, tip - length * along + across, tip - length * along - across])
+        self.axes.fill(*corners.T, color=color, linewidth=0, zorder=zorder)
+
+    def _later(self, text: str, proposed: Callable[[Place], Iterable[Place]], leader: Place | None = None) -> None:
+        """A text that finds its place when all shapes are drawn, in two or three lines where it has none in one.
+
+        Far from its ``leader`` it gets a line to it.
+        """
+        variants = ["\n".join(map(marked, lines)) for lines in _folds(text)]
+
+        def write(labels: Labels) -> None:
+            found = [(said, text_size(said)) for said in variants]
+            tried = [(*labels.best(size, proposed(size)), said, size) for said, size in found]
+            (x, y), cost, said, size = next((t for t in tried if t[1] <= FREE), min(tried, key=lambda t: t[1]))
+            labels.take((x, y), size)
+            self.crowded += max(cost - FREE, 0.0)
+            if leader and np.hypot(x - leader[0], y - leader[1]) > FAR + size[0] / 2:
+                self.axes.plot([leader[0], x], [leader[1], y], **THIN_LINE)
+            halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}
+            self.axes.text(x, y, said, ha="center", va="center", zorder=7, bbox=halo)
+
+        self.texts.append(write)
+
+    def _scale_bar(self) -> None:
+        """A bar of a round length below the drawing, at the left."""
+        factor = unit(self.unit).factor
+        scale = self.scale.round
+        target = 30 * MM / scale / factor
+        power = 10.0 ** np.floor(np.log10(target))
+        length = max(step * power for step in (1, 2, 5) if step * power <= target)
+        left, bottom = min(box[0] for box in self.boxes), min(box[1] for box in self.boxes) - 16
+        right, middle, top = left + length * factor * scale, left + 0.5 * length * factor * scale, bottom + 3
+        self.axes.fill([left, middle, middle, left], [bottom, bottom, top, top], color=INK, linewidth=0)
+        self.axes.plot([left, right, right, left, left], [bottom, bottom, top, top, bottom], color=INK, linewidth=0.5)
+        shown = significant(length, 1) if length < 1 else f"{length:.0f}"
+        text = joined(number(shown, self.words["decimal"]), pretty(self.unit))
+        self.axes.text(right + 5, bottom + 1.5, text, va="center", ha="left", size=8)
+        self.axes.text(left, bottom + 6, "0", va="bottom", ha="center", size=0.1, alpha=0)
+        self.boxes.append((left, bottom - 3, right + 5 + text_size(text, 8)[0], bottom + 8))
 
     def _polyline(self, shape: PolylineRecord) -> None:
         points = self._points(shape.points)
@@ -438,18 +413,9 @@ class Shapes(DrawingSheet):
             self.axes.fill(points[:, 0], points[:, 1], color=BODY, linewidth=0, zorder=1)
         if shape.role != "shade":
             self._line(points, **_look(shape))
-        if shape.role == "ground":
-            self._ground(points)
-
-    def _ground(self, points: Array) -> None:
-        """Short strokes below a line that stands still."""
-        feet = sampled(points, 6.0)[1:-1]
-        self._strokes(feet, feet - 4.5, THIN_LINE)
-
-    def _strokes(self, starts: Array, ends: Array, look: dict[str, Any]) -> None:
-        """Many short lines as one path."""
-        points = np.stack([starts, ends, np.full_like(starts, np.nan)], axis=1).reshape(-1, 2)
-        self.axes.plot(points[:, 0], points[:, 1], **look)
+        if shape.role == "ground":  # short strokes below a line that stands still
+            feet = sampled(points, 6.0)[1:-1]
+            self.axes.plot(*strokes(feet, feet - 4.5).T, **THIN_LINE)
 
     def _circle(self, shape: CircleRecord) -> None:
         bow = self._bow(shape, 0.0, 2 * np.pi)
@@ -470,7 +436,7 @@ class Shapes(DrawingSheet):
         loops = [np.vstack([loop, loop[:1]]) for loop in loops]
         outline = Path.make_compound_path(*(Path(loop, closed=True) for loop in loops))
         self.axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=INK, linewidth=1.2, zorder=2.2))
-        self._strokes(*hatching(loops), {"color": SOFT, "linewidth": 0.35, "zorder": 1.2})
+        self.axes.plot(*strokes(*hatching(loops)).T, color=SOFT, linewidth=0.35, zorder=1.2)
         self.lines += [(loop, THICK) for loop in loops]
 
     def _point(self, shape: PointRecord) -> None:
@@ -511,7 +477,6 @@ class Shapes(DrawingSheet):
             self._later(shape.text, lambda size: labels.by_arrow(tail, tip, size), leader=tuple((tail + tip) / 2))
 
     def _outside(self, tail: Array, tip: Array) -> tuple[Array, Array]:
-        """An arrow without what lies in the boxes of its ends."""
         for shape in self.shapes:
             if isinstance(shape, BoxRecord):
                 center, half = self._points(shape.center)[0], filled(shape, self.scale)[1] / 2
@@ -519,16 +484,14 @@ class Shapes(DrawingSheet):
         return tail, tip
 
     def _box(self, shape: BoxRecord) -> None:
-        """A box with lines of text."""
         center, (lines, size) = self._points(shape.center)[0], filled(shape, self.scale)
         look = {"edgecolor" if key == "color" else key: value for key, value in _look(shape).items()}
         face = BODY if shape.role == "body" else "white"
         self.axes.add_patch(Rectangle(center - size / 2, *size, facecolor=face, **look | {"zorder": 4.2}))
         for index, line in enumerate(lines):
             y = center[1] + self.scale.text * LINE * ((len(lines) - 1) / 2 - index)
-            self.axes.text(
-                center[0], y, marked(line), size=self.scale.text, ha="center", va="center_baseline", zorder=7
-            )
+            look = {"size": self.scale.text, "ha": "center", "va": "center_baseline", "zorder": 7}
+            self.axes.text(center[0], y, marked(line), **look)
         self.solid.append((*(center - size / 2 - 1.5), *(center + size / 2 + 1.5)))
         self.boxes.append(self.solid[-1])
 

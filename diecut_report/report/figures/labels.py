@@ -247,11 +247,6 @@ def pieces(points: Array) -> list[Array]:
     return [piece if piece[-1, 0] >= piece[0, 0] else piece[::-1] for piece in found]
 
 
-def framed(panel: PanelData, width: float, height: float) -> Frame:
-    """The panel's frame on paper."""
-    return Frame(width, height, (panel.across.low, panel.across.high), panel.heights)
-
-
 SIZE = 8.0
 AWAY = 14.0  # from a mark to its name, for which a thin line leads there, points
 DASHES_DIFFER = 4  # so many lines are told apart by their dashes alone; more are named at the lines
@@ -276,10 +271,14 @@ class LabelText(NamedTuple):
 
 
 class LabelLayout:
-    """The texts of a panel; ``tags`` are the names of its lines as the legend gives them, none where they stand at the lines."""
+    """The texts of a panel; ``tags`` are the names of its lines as the legend gives them, none where they stand at the lines.
 
-    def __init__(self, panel: PanelData, frame: Frame) -> None:
-        self.panel, self.frame = panel, frame
+    ``told`` are marks, levels and vertical lines whose names have no room, and stand in the legend: the list of the panel, the place in it.
+    """
+
+    def __init__(self, panel: PanelData, width: float, height: float) -> None:
+        self.panel = panel
+        self.frame = frame = Frame(width, height, (panel.across.low, panel.across.high), panel.heights)
         self.texts: list[LabelText] = []
         self.lines = [sampled(frame.points(line.x, line.y)) for line in panel.lines]
         marks, notes = self._marks(), self._noted()
@@ -290,11 +289,7 @@ class LabelLayout:
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
-        # marks, levels and vertical lines whose names have no room, and stand in the legend
-        self.told_marks: list[int] = []
-        self.told_levels: list[int] = []
-        self.told_uprights: list[int] = []
-        self._notes()
+        self.told = list(self._notes())
 
     def is_clear(self, text: str) -> bool:
         """Return whether a text stands in the diagram and covers nothing."""
@@ -310,7 +305,6 @@ class LabelLayout:
         return np.concatenate([np.empty((0, 2)), *map(sampled, [*uprights, *marks])])
 
     def _noted(self) -> Array:
-        """Points of levels and edges of areas."""
         frame, panel = self.frame, self.panel
         levels = [np.array([[0, y], [frame.width, y]]) for y in (frame.points(0, note.y)[1] for note in panel.levels)]
         edges = [frame.points(area.x, area.y) for area in panel.fills]
@@ -334,32 +328,29 @@ class LabelLayout:
     def _spans(self) -> None:
         """The names of ranges, at the edge and the place along it that is clear of the lines."""
         for span in self.panel.spans:
-            text = plain(span.text)
-            if text:
+            if text := plain(span.text):
                 size = text_size(text, SIZE)
                 start, end = (float(self.frame.points(x, 0)[0]) for x in (span.start, span.end))
                 x, y = self.labels.place(size, within(start, end, self.frame.height, size))
                 self.texts.append(LabelText(x, y, text, soft=True))
 
-    def _notes(self) -> None:
-        """Marks, levels and vertical lines."""
+    def _notes(self) -> Iterator[tuple[str, int]]:
+        """Write the names of marks, levels and vertical lines; yield those for which there is no room."""
         frame, panel = self.frame, self.panel
-        for index, note in enumerate(panel.marks):
-            x, y = map(float, frame.points(note.x, note.y))
-            size, room = text_size(note.text, SIZE), (frame.width, frame.height)
-            around_it = chain(around(x, y), anywhere(x, y, room, size))
-            if note.text and not self._write(note.text, around_it, (x, y), IN_THE_WAY):
-                self.told_marks.append(index)
-        for index, note in enumerate(panel.levels):
-            height = float(frame.points(0, note.y)[1])
-            places = beside_level(height, frame.width, text_size(note.text, SIZE))
-            if note.text and not self._write(note.text, places, most=IN_THE_WAY):
-                self.told_levels.append(index)
-        for index, note in enumerate(panel.verticals):
-            at = float(frame.points(note.x, 0)[0])
-            places = beside_vertical(at, frame.width, frame.height, text_size(note.text, SIZE))
-            if note.text and not self._write(note.text, places, most=IN_THE_WAY):
-                self.told_uprights.append(index)
+        for kind in ("marks", "levels", "verticals"):
+            for index, note in enumerate(getattr(panel, kind)):
+                x, y = map(float, frame.points(note.x, note.y))
+                size, of, places = (
+                    text_size(note.text, SIZE),
+                    None,
+                    beside_level(y, frame.width, text_size(note.text, SIZE)),
+                )
+                if kind == "marks":
+                    of, places = (x, y), chain(around(x, y), anywhere(x, y, (frame.width, frame.height), size))
+                elif kind == "verticals":
+                    places = beside_vertical(x, frame.width, frame.height, size)
+                if note.text and not self._write(note.text, places, of, IN_THE_WAY):
+                    yield kind, index
 
     # areas
     def _inside(self, area: Line) -> bool:
@@ -370,13 +361,10 @@ class LabelLayout:
         zero = float(self.frame.points(0, 0)[1])
         rooms = sorted((room for edge in edges for room in _rooms(edge, zero, size)), reverse=True)
         places = [(x, y) for room, _, x, y in rooms if room >= size[1] + 4]
-        if places:
-            return self._write(text, iter(places), most=IN_THE_WAY)
-        return False
+        return bool(places) and self._write(text, iter(places), most=IN_THE_WAY)
 
     # names of lines
     def _tags(self) -> list[str]:
-        """The lines' names as the legend gives them: with numbers that stand at the lines, where dashes alone do not do."""
         labels = [marked(line.label) for line in self.panel.lines]
         if len(labels) <= DASHES_DIFFER:
             return labels
@@ -402,7 +390,6 @@ class LabelLayout:
         return True
 
     def _on_line(self, index: int, size: tuple[float, float]) -> Iterator[tuple[float, float, float]]:
-        """Places on a line with the gap to all other lines, texts and the frame."""
         wide, high = size[0] / 2, size[1] / 2
         others = np.concatenate([self.notes, *(line for place, line in enumerate(self.lines) if place != index)])
         own = self.lines[index]

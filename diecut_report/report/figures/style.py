@@ -5,12 +5,14 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager
 from enum import Enum
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from itertools import groupby
 from pathlib import Path
 from typing import Any, NamedTuple
+from xml.sax.saxutils import escape
 
 import matplotlib as mpl
 import numpy as np
@@ -54,7 +56,7 @@ class TextMeasure(TextToPath):
 
     def get_text_width_height_descent(self, s: str, prop: FontProperties, ismath: Any) -> Size:
         """Width, height and what is below the line."""
-        key = s, bool(ismath), _family(prop)
+        key = s, bool(ismath), str(prop.get_family()[0])
         if key not in self.sizes:
             self.sizes[key] = super().get_text_width_height_descent(s, self._scaled(prop), ismath)
         scale = prop.get_size_in_points() / self.FONT_SCALE
@@ -63,7 +65,7 @@ class TextMeasure(TextToPath):
 
     def placed(self, s: str, prop: FontProperties) -> list[Letter]:
         """Return the letters of a formula from the left to the right."""
-        key = s, _family(prop)
+        key = s, str(prop.get_family()[0])
         if key not in self.letters:
             *_, glyphs, _ = self.mathtext_parser.parse(s, 72, self._scaled(prop))
             self.letters[key] = sorted(
@@ -123,21 +125,14 @@ class TextCanvas(FigureCanvasSVG):
 
 
 def _spans(letters: list[Letter], size: float) -> Iterator[tuple[dict[str, str], str, str]]:
-    """Yield letters in a row that look the same, with their places."""
     for (y, own, face), row in groupby(letters, lambda each: (each.y, each.size, each.face)):
         same = list(row)
         place = {"x": " ".join(_short(each.x * size) for each in same), "y": _short(y * size)}
         yield place, face.format(_short(own * size)), "".join(each.sign for each in same)
 
 
-def _family(prop: FontProperties) -> str:
-    family: str = prop.get_family()[0]
-    return family
-
-
 @cache
 def _face(file: str) -> str:
-    """The style of a font's letters; their size is to be filled in."""
     found = ttfFontProperty(get_font(file))
     slant = "font-style: italic; " if found.style == "italic" else ""
     return f"{slant}font-size: {{}}px; font-family: '{found.name}'"
@@ -168,14 +163,17 @@ class Svg(NamedTuple):
 
 def drawn(build: Callable[[], Figure], title: str, key: str) -> Svg:
     """What ``build`` draws, in the report's style; ``key`` keeps its ids apart from those of the report's other figures."""
-    load_fonts()
-    with mpl.rc_context(style(key)):  # type: ignore[arg-type]  # a plain dictionary is one too
+    with styled(key):
         return written(build(), title)
 
 
-def style(key: str) -> dict[str, Any]:
-    """The settings of all figures."""
-    return {
+def styled(key: str) -> AbstractContextManager[None]:
+    """Draw within with the settings of all figures, and with the report's fonts, by which matplotlib measures texts."""
+    if not any(entry.name == "Report Sans" for entry in fontManager.ttflist):
+        folder = Path(import_module("diecut_report.templates").__path__[0]) / "fonts"
+        for name in ("report-sans-regular", "report-symbols"):
+            fontManager.addfont(folder / f"{name}.ttf")
+    settings: dict[Any, Any] = {
         "svg.fonttype": "none", "svg.hashsalt": key, "font.family": "Report Sans", "font.size": FONT_SIZE,
         "mathtext.fontset": "custom", "mathtext.rm": "Report Sans", "mathtext.it": "Report Symbols",
         "mathtext.cal": "Report Sans", "mathtext.sf": "Report Sans", "mathtext.tt": "Report Sans", "mathtext.bf": "Report Sans",
@@ -187,14 +185,7 @@ def style(key: str) -> dict[str, Any]:
         "xtick.minor.width": 0.4, "xtick.minor.size": 1.8, "text.color": INK, "legend.frameon": False, "legend.fontsize": 8,
         "lines.linewidth": 1.2, "path.simplify": True, "path.simplify_threshold": 0.2, "legend.handlelength": 2.6,
     }  # fmt: skip
-
-
-def load_fonts() -> None:
-    """Make the report's fonts known to matplotlib, which measures texts by them."""
-    if not any(entry.name == "Report Sans" for entry in fontManager.ttflist):
-        folder = Path(import_module("diecut_report.templates").__path__[0]) / "fonts"
-        for name in ("report-sans-regular", "report-symbols"):
-            fontManager.addfont(folder / f"{name}.ttf")
+    return mpl.rc_context(settings)
 
 
 def canvas(width: float, height: float) -> Figure:
@@ -210,27 +201,20 @@ def written(figure: Figure, title: str) -> Svg:
     figure.savefig(
         buffer, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None}, transparent=True
     )
-    body = buffer.getvalue().split("</metadata>")[-1] if "</metadata>" in buffer.getvalue() else buffer.getvalue()
+    body = buffer.getvalue().rpartition("</metadata>")[2]
     body = body[body.index("<defs>") if "<defs>" in body[:400] else 0 :]
     body = re.sub(r"<style[^>]*>.*?</style>", "", body, count=1, flags=re.DOTALL)
     body = re.sub(r'<g id="[^"]*"', "<g", body)
     body = re.sub(r"<!--.*?-->\s*", "", body, flags=re.DOTALL)
-    body = re.sub(r'="[^"]*\d\.\d{3}[^"]*"', lambda found: re.sub(r"-?\d+\.\d{3,}", _shorter, found[0]), body)
+    shorter = partial(re.sub, r"-?\d+\.\d{3,}", lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."))
+    body = re.sub(r'="[^"]*\d\.\d{3}[^"]*"', lambda found: shorter(found[0]), body)
     body = re.sub(r"\n\s*", "\n", body[: body.rindex("</svg>")]).strip()
     width, height = (float(side) * 72 for side in figure.get_size_inches())
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 {width:.2f} {height:.2f}" '
         f'width="{width:.2f}pt" height="{height:.2f}pt" stroke-linejoin="round" role="img">'
     )
-    return Svg(f"{head}<title>{_escaped(title)}</title>{body}</svg>", width, height)
-
-
-def _shorter(found: re.Match[str]) -> str:
-    return f"{float(found[0]):.2f}".rstrip("0").rstrip(".")
-
-
-def _escaped(text: str) -> str:
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return Svg(f"{head}<title>{escape(title)}</title>{body}</svg>", width, height)
 
 
 _SYMBOL = re.compile(
@@ -376,10 +360,5 @@ class SizesSize(Enum):
     SKETCH = "sketch"
 
 
-WIDTHS = {  # in points
-    SizesSize.LARGE: 172 * MM,
-    SizesSize.LOW: 172 * MM,
-    SizesSize.HALF: 84 * MM,
-    SizesSize.SKETCH: 172 * MM,
-}
+WIDTHS = {size: (84 if size is SizesSize.HALF else 172) * MM for size in SizesSize}  # in points
 WIDEST_HALF = 98 * MM  # a drawing with its texts, which is set a little smaller then

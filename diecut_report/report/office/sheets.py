@@ -62,7 +62,7 @@ def form_of(text: str) -> str:
     return f"0{decimals}" + ("E+00" if found[3] else "")
 
 
-def shown(value: Any, display: ShownRecord) -> Cell:
+def shown(value: Any, display: ShownRecord) -> CellNumber | str:
     """Return a value of the results in its display unit, a number with its digits where it is one, else its text."""
     if isinstance(value, bool) or not isinstance(value, int | float) or sheet_parts(display.text) is None:
         return str(display.text)
@@ -74,13 +74,6 @@ def converted(value: float, unit: str) -> float:
     return float(f"{to_display(value, unit):.15g}")
 
 
-def si(value: Any) -> Cell:
-    """Return a value as it is calculated."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        return None
-    return CellNumber(value)
-
-
 def printed(text: str) -> Cell:
     """Return what stands as a text in the results as a number, where it is one."""
     return CellNumber(float(text), form_of(text)) if sheet_parts(text) is not None else text
@@ -88,15 +81,15 @@ def printed(text: str) -> Cell:
 
 def sheet_names(titles: Iterable[str]) -> list[str]:
     """Return names that a workbook takes: without the signs of references, short, no two alike whatever the case of their letters."""
-    found: dict[str, str] = {}
+    found: dict[str, str] = {"history": ""}  # which spreadsheets keep for themselves
     for title in titles:
         plain = _FORBIDDEN.sub("_", title).strip("' ") or "_"
         name, number = plain[:LONGEST_NAME], 1
-        while name.casefold() in found or name.casefold() == "history":  # which spreadsheets keep for themselves
+        while name.casefold() in found:
             number += 1
             name = f"{plain[: LONGEST_NAME - len(str(number)) - 1]} {number}"
         found[name.casefold()] = name
-    return list(found.values())
+    return list(found.values())[1:]
 
 
 def defined_name(path: str, taken: Iterable[str]) -> str:
@@ -111,26 +104,19 @@ def defined_name(path: str, taken: Iterable[str]) -> str:
 
 
 MOST_CURVE_ROWS = 400  # of a curve; of one with more points every second, third … is given
-PROJECT = (
-    ("document", "document_number"),
-    ("revision", "revision"),
-    ("date", "date"),
-    ("organisation", "organisation"),
-    ("department", "department"),
-)
+PROJECT = {
+    "document": "document_number",
+    "revision": "revision",
+    "date": "date",
+    "organisation": "organisation",
+    "department": "department",
+}
 STATUSES = ("fail", "warn", "pass", "not_checked")
 DIGITS = 6  # of a curve's greatest value
 SHARE = "0.0%"
 QUANTITY = (
-    "mechanism",
-    "path",
-    "description",
-    "symbol",
-    "value",
-    "unit",
-    "si_value",
-    "si_unit",
-)  # heads of `_quantity`, its mechanism and key
+    "mechanism path description symbol value unit si_value si_unit"  # heads of `_quantity`, its mechanism and key
+)
 
 
 def sheets(material: Material) -> list[WorkSheet]:
@@ -143,9 +129,8 @@ def sheets(material: Material) -> list[WorkSheet]:
 
 
 def _summary(material: Material) -> WorkSheet:
-    """What is calculated, the verdict, and how each mechanism fares."""
     document, words = material.document, material.words
-    project = [(words[key], document.project[name]) for key, name in PROJECT if document.project[name]]
+    project = [(words[key], document.project[name]) for key, name in PROJECT.items() if document.project[name]]
     project += [(words["status"], document.block.status)]
     project += [(words[role], who) for role, who in document.block.signers if who]
     governing = document.governing
@@ -160,92 +145,75 @@ def _summary(material: Material) -> WorkSheet:
         (words["config_file"], document.config.file),
         (words["sha256"], document.config.sha256),
     ]
-    rows: list[list[Cell]] = [[name, text] for name, text in told]
-    rows += [[], [words["mechanism"], words["description"], *(words[status] for status in STATUSES), words["verdict"]]]
-    rows += [
-        [c.name, c.title, *(CellNumber(c.count(status), "0") for status in STATUSES), words[c.face]]
-        for c in document.chapters
-    ]
-    return WorkSheet(
-        words["summary"], [[document.project["document_type"], document.title]], rows, [22, 70, 12, 12, 12, 14, 14]
-    )
+    heads = ["mechanism", "description", *STATUSES, "verdict"]
+    rows: list[list[Cell]] = [*([name, text] for name, text in told), [], [words[head] for head in heads]]
+    for c in document.chapters:
+        counts = (CellNumber(c.count(status), "0") for status in STATUSES)
+        rows.append([c.name, c.title, *counts, words[c.face]])
+    title = [document.project["document_type"], document.title]
+    return WorkSheet(words["summary"], [title], rows, [22, 70, 12, 12, 12, 14, 14])
+
+
+def _sheet(words: Catalogue, title: str, heads: str, rows: list[list[Cell]], widths: list[int], held: int) -> WorkSheet:
+    """A sheet by words of the catalogue; a column without one is headed by a dot."""
+    named = ["" if head == "." else words[head] for head in heads.split()]
+    return WorkSheet(words[title], [named], rows, widths, held=held)
 
 
 def _inputs(results: ResultsRecord, words: Catalogue) -> WorkSheet:
-    heads = (*QUANTITY, "basis", "note", "origin", "typed")
-    rows = [_input("", field.path, field, words) for field in results.press.fields]
-    rows += [_input(name, key, row, words) for name, data in parts(results) for key, row in data.inputs.items()]
+    given = [("", row.path, row) for row in results.press.fields]
+    given += [(name, key, row) for name, data in parts(results) for key, row in data.inputs.items()]
+    rows: list[list[Cell]] = []
+    for name, key, row in given:
+        origin = row.origin or "given"
+        typed = row.text or (row.path if origin != "given" else "")
+        rows.append(
+            [name, key, *_quantity(row), words[row.basis or "given"], row.note, words[origin], str(typed or "")]
+        )
     widths = [16, 28, 52, 9, 14, 11, 16, 11, 14, 30, 16, 30]
-    return WorkSheet(words["inputs"], [[words[head] for head in heads]], rows, widths, held=2)
-
-
-def _input(mechanism: str, key: str, row: QuantityRecord, words: Catalogue) -> list[Cell]:
-    origin = row.origin or "given"
-    typed = row.text or (row.path if origin != "given" else "")
-    basis = words[(row.basis or "given")]
-    return [mechanism, key, *_quantity(row), basis, row.note, words[origin], str(typed or "")]
+    return _sheet(words, "inputs", f"{QUANTITY} basis note origin typed", rows, widths, 2)
 
 
 def _quantity(row: QuantityRecord) -> list[Cell]:
-    """Return description, symbol, value, unit, and value and unit as calculated."""
-    value, display = row.value, row.display
-    cell = shown(value, display)
-    if isinstance(cell, str):
-        return [row.description, row.symbol, worded(cell), pretty(display.unit), None, ""]
-    return [row.description, row.symbol, cell, pretty(display.unit), si(value), pretty(row.unit)]
+    cell, named = shown(row.value, row.display), [row.description, row.symbol]
+    if isinstance(cell, CellNumber) and isinstance(row.value, int | float):
+        return [*named, cell, pretty(row.display.unit), CellNumber(row.value), pretty(row.unit)]
+    return [*named, worded(str(cell)), pretty(row.display.unit), None, ""]
 
 
 def _results(results: ResultsRecord, words: Catalogue) -> WorkSheet:
     """The results; each value has its name: ``drive.crank_torque_peak``."""
-    heads = (*QUANTITY, "place", "unit", "key_result", "source")
-    sheet = WorkSheet(
-        words["results"], [[words[head] for head in heads]], [], [16, 30, 52, 9, 14, 11, 16, 11, 14, 11, 10, 40], held=2
-    )
+    widths = [16, 30, 52, 9, 14, 11, 16, 11, 14, 11, 10, 40]
+    sheet = _sheet(words, "results", f"{QUANTITY} place unit key_result source", [], widths, 2)
     for name, data in parts(results):
         for key, row in data.outputs.items():
+            place: list[Cell] = [None, ""]
+            if at := row.at:
+                is_number = at.value is not None
+                value = (
+                    CellNumber(converted(at.value or 0.0, at.unit), form_of(at.text)) if is_number else printed(at.text)
+                )
+                place = [value, f"{pretty(at.unit)} ({at.symbol})"]
             is_key = words["yes"] if row.key else ""
-            sheet.rows.append([name, key, *_quantity(row), *_place(row), is_key, row.source])
+            sheet.rows.append([name, key, *_quantity(row), *place, is_key, row.source])
             sheet.names[defined_name(f"{name}.{key}", sheet.names)] = (len(sheet.rows) + 1, 5)
     return sheet
 
 
-def _place(row: QuantityRecord) -> list[Cell]:
-    """Return where an extreme lies, and the unit with the symbol of that."""
-    at = row.at
-    if not at:
-        return [None, ""]
-    value = CellNumber(converted(at.value, at.unit), form_of(at.text)) if at.value is not None else printed(at.text)
-    return [value, f"{pretty(at.unit)} ({at.symbol})"]
-
-
 def _checks(results: ResultsRecord, words: Catalogue) -> WorkSheet:
-    heads = (
-        "mechanism",
-        "path",
-        "check",
-        "class",
-        "verdict",
-        "demand",
-        "",
-        "limit",
-        "unit",
-        "utilisation",
-        "margin",
-        "message",
-        "missing",
-        "source",
-    )
+    heads = "mechanism path check class verdict demand . limit unit utilisation margin message missing source"
     rows = [_check(name, check, words) for name, data in parts(results) for check in data.checks]
-    widths = [16, 24, 44, 11, 12, 14, 4, 14, 11, 11, 14, 70, 30, 40]
-    return WorkSheet(words["checks"], [[words[head] if head else "" for head in heads]], rows, widths, held=3)
+    return _sheet(words, "checks", heads, rows, [16, 24, 44, 11, 12, 14, 4, 14, 11, 11, 14, 70, 30, 40], 3)
 
 
 def _check(name: str, check: CheckRecord, words: Catalogue) -> list[Cell]:
-    sides = (check.demand_display, check.limit_display, check.margin_display)
+    sides, share = (check.demand_display, check.limit_display, check.margin_display), check.utilisation
     unit = next((display.unit for display in sides if display), "1")
     demand, limit = _side(check.demand, sides[0], unit), _side(check.limit, sides[1], unit)
-    margin = _margin(demand, limit, sides[2], unit)
-    share = check.utilisation
+    margin: Cell = None  # with the digits that the report prints
+    if sides[2] and isinstance(demand, CellNumber) and isinstance(limit, CellNumber):
+        form = form_of(sides[2].text) if sides[2].unit == unit else "General"
+        margin = CellNumber(float(f"{limit.value - demand.value:.15g}"), form)
     return [
         name, check.id, check.title, words[f"class_{check.check_class}"], words[check.status],
         demand, check.operator, limit, pretty(unit), None if share is None else CellNumber(share, SHARE), margin,
@@ -260,44 +228,21 @@ def _side(value: float | None, display: ShownRecord | None, unit: str) -> Cell:
     return shown(value, display) if display.unit == unit else CellNumber(converted(value, unit))
 
 
-def _margin(demand: Cell, limit: Cell, display: ShownRecord | None, unit: str) -> Cell:
-    """Return what is left to the limit, in the unit of the check, with the digits that the report prints."""
-    if display is None or not isinstance(demand, CellNumber) or not isinstance(limit, CellNumber):
-        return None
-    form = form_of(display.text) if display.unit == unit else "General"
-    return CellNumber(float(f"{limit.value - demand.value:.15g}"), form)
-
-
 def _phases(results: ResultsRecord, words: Catalogue) -> WorkSheet:
-    heads = ("mechanism", "path", "phase", "role", "from", "to", "length", "unit", "time_ms")
     rows: list[list[Cell]] = []
-    for name, data in parts(results):
-        for key, phase in data.phases.items():
-            display = phase.display
-            for (start, end), interval in zip(phase.intervals, display.intervals, strict=True):
-                ends = [
-                    CellNumber(converted(value, display.unit), form_of(text))
-                    for text, value in ((interval.begin, start), (interval.to, end), (interval.length, end - start))
-                ]
-                time = printed(interval.time) if interval.time else None
-                rows.append(
-                    [
-                        name,
-                        key,
-                        phase.description,
-                        words[f"role_{phase.role}"],
-                        *ends,
-                        pretty(display.unit),
-                        time,
-                    ]
-                )
-    return WorkSheet(
-        words["phases"], [[words[head] for head in heads]], rows, [16, 20, 50, 18, 12, 12, 12, 9, 12], held=2
-    )
+    every = ((name, key, phase) for name, data in parts(results) for key, phase in data.phases.items())
+    for name, key, phase in every:
+        unit = phase.display.unit
+        for (start, end), shown in zip(phase.intervals, phase.display.intervals, strict=True):
+            places = ((shown.begin, start), (shown.to, end), (shown.length, end - start))
+            ends = [CellNumber(converted(value, unit), form_of(text)) for text, value in places]
+            time = printed(shown.time) if shown.time else None
+            rows.append([name, key, phase.description, words[f"role_{phase.role}"], *ends, pretty(unit), time])
+    heads = "mechanism path phase role from to length unit time_ms"
+    return _sheet(words, "phases", heads, rows, [16, 20, 50, 18, 12, 12, 12, 9, 12], 2)
 
 
 def _curves(name: str, data: MechanismRecord, words: Catalogue) -> WorkSheet:
-    """The samples of all curves, each beside its abscissa: names with units above, what they are below."""
     columns = list(_columns(data.curves))
     heads = [[f"{key} [{pretty(curve.display_unit) or '1'}]" for key, curve in columns]]
     heads.append([f"{curve.description} {curve.symbol}".strip() for _, curve in columns])
@@ -308,7 +253,6 @@ def _curves(name: str, data: MechanismRecord, words: Catalogue) -> WorkSheet:
 
 
 def _columns(curves: Mapping[str, CurveRecord]) -> Iterator[tuple[str, CurveRecord]]:
-    """Give the curves in groups, each behind its abscissa."""
     axes = dict.fromkeys(curve.abscissa for curve in curves.values() if curve.abscissa)
     for axis in axes:
         yield axis, curves[axis]

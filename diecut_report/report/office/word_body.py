@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from diecut_report.pictures import SVG, natural_size
-from diecut_report.report.chapters.printed_tables import PartsTable, PrintedTable
+from diecut_report.report.chapters.printed_tables import PartsTable, PrintedTable, TableCell
 from diecut_report.report.chapters.value_tables import RecordTable, ValueRow
 from diecut_report.report.equations import Equation
 from diecut_report.report.model import CheckRow, Item, QuantityRow
@@ -46,12 +46,8 @@ class WordBody:
     """Gathers the paragraphs and tables of a document in their order."""
 
     def __init__(
-        self,
-        words: Catalogue,
-        rasters: Mapping[str, Raster],
-        failed: Callable[[str], str],
-        embed: Callable[[bytes], str],
-    ) -> None:
+        self, words: Catalogue, rasters: Mapping[str, Raster], failed: Callable[[str], str], embed: Callable[[bytes], str]
+    ) -> None:  # fmt: skip
         self.words, self.rasters, self.failed, self.embed = words, rasters, failed, embed
         self.math = OfficeMath(words, words["decimal"])
         self.parts: list[str] = []
@@ -92,9 +88,12 @@ class WordBody:
         if rows:
             self.parts += [table(columns, rows, headed=headed), paragraph("", "TableText")]
 
-    def head(self, word: str, share: float, *, right: bool = False) -> TableColumn:
-        """A column with a word of the catalogue as its head."""
-        return TableColumn(run(self.words[word] if word else ""), share, right)
+    def heads(self, heads: str) -> list[TableColumn]:
+        """Columns with words of the catalogue as their heads: ``check:5 demand:2> :0.6``, each with its share, > stands right."""
+        parted = ([*head.rstrip(">").split(":"), head[-1]] for head in heads.split())
+        return [
+            TableColumn(run(self.words[word] if word else ""), float(part), end == ">") for word, part, end in parted
+        ]
 
     def status(self, status: str) -> Inline:
         """A verdict by its sign and its word."""
@@ -111,62 +110,43 @@ class WordBody:
     def quantities(self, rows: Sequence[QuantityRow], *, sourced: bool = True) -> None:
         """Quantities, a line for each."""
         is_placed = any(row.at for row in rows)
-        columns = [
-            self.head("quantity", 7),
-            self.head("symbol", 1.6),
-            self.head("value", 2.4, right=True),
-            self.head("unit", 1.6),
-        ]
-        columns += [self.head("place", 2.6)] if is_placed else []
-        columns += [self.head("source", 3)] if sourced else []
-
-        def cells(row: QuantityRow) -> list[Inline]:
-            found = [
-                rich(prose(row.description)),
-                rich(row.symbol),
-                rich(own_words(row.value)) if row.wordy else run(row.value),
-                run(row.unit),
-            ]
-            return [*found, *([rich(row.at)] if is_placed else []), *([small(prose(row.source))] if sourced else [])]
-
-        self.table(columns, [cells(row) for row in rows])
+        more = " place:2.6" * is_placed + " source:3" * sourced
+        cells = []
+        for row in rows:
+            value = rich(own_words(row.value)) if row.wordy else run(row.value)
+            cells.append([rich(prose(row.description)), rich(row.symbol), value, run(row.unit)])
+            cells[-1] += [rich(row.at)] * is_placed + [small(prose(row.source))] * sourced
+        self.table(self.heads(f"quantity:7 symbol:1.6 value:2.4> unit:1.6{more}"), cells)
 
     def data_table(self, found: PrintedTable) -> None:
         """A table of the calculation."""
         self.caption("table", found.number, rich(prose(found.title)), keep=True)
-        columns = []
-        for kind, (title, symbol, unit) in zip(found.kinds, found.columns, strict=True):
-            head = rich(prose(title)) + (run(" ") + rich(symbol) if symbol else "") + run(f", {unit}" if unit else "")
-            columns.append(TableColumn(head, 2 if kind in ("named", "words") else 1, not kind))
+        columns = [
+            TableColumn(_named(*column), 2 if kind in ("named", "words") else 1, not kind)
+            for kind, column in zip(found.kinds, found.columns, strict=True)
+        ]
         self.table(columns, [[run(text) for text in row] for row in found.rows])
 
     def parts_table(self, found: PartsTable) -> None:
         """A table of repeated parts."""
         title = rich(prose(found.title)) + (run(" ") + key(found.family) if found.family else "")
-        self.caption(
-            "table", found.number, title or run(self.words.say("repeated_parts", n=len(found.lines))), keep=True
-        )
+        title = title or run(self.words.say("repeated_parts", n=len(found.lines)))
+        self.caption("table", found.number, title, keep=True)
         is_counted = bool(found.lines) and found.lines[0][0].isdigit()
-        columns = [self.head("part", 1 if is_counted else NAMED_PART)]
+        columns = self.heads(f"part:{1 if is_counted else NAMED_PART}")
         for each in found.columns:
-            head = rich(prose(each.title)) + (run(" ") + rich(each.symbol) if each.symbol else "")
-            head += run(f", {each.unit}" if each.unit else "") + (new_line() + key(each.key) if each.key else "")
+            head = _named(each.title, each.symbol, each.unit) + (new_line() + key(each.key) if each.key else "")
             columns.append(TableColumn(head + (new_line() + small(prose(each.source)) if each.source else ""), 2))
-        rows = [
-            [run(number), *(run(cell.text) + (new_line() + small(cell.note) if cell.note else "") for cell in cells)]
-            for number, cells in found.lines
-        ]
-        self.table(columns, rows)
+        self.table(columns, [[run(number), *map(_noted, cells)] for number, cells in found.lines])
 
     def record_table(self, found: RecordTable) -> None:
         """A table of a few repeated parts side by side."""
         self.caption("table", found.number, rich(prose(f"{found.title} ".lstrip())) + key(found.family), keep=True)
-        columns = [self.head("quantity", 4), self.head("symbol", 1)]
-        columns += [*(TableColumn(run(head), 2) for head in found.heads), self.head("unit", 1), self.head("origin", 2)]
+        heads = [TableColumn(run(head), 2) for head in found.heads]
+        columns = [*self.heads("quantity:4 symbol:1"), *heads, *self.heads("unit:1 origin:2")]
         rows = [
             [rich(prose(row.description)) + new_line() + key(row.key), rich(row.symbol),
-             *(run(cell.text) + (new_line() + small(cell.note) if cell.note else "") for cell in row.cells),
-             run(row.unit), small(row.note.replace("\n", "; "))]
+             *map(_noted, row.cells), run(row.unit), small(row.note.replace("\n", "; "))]
             for row in found.rows
         ]  # fmt: skip
         self.table(columns, rows)
@@ -210,8 +190,7 @@ class WordBody:
 
     def values(self, rows: Sequence[ValueRow]) -> None:
         """Steps without their formulas, a line for each."""
-        columns = [self.head("number", 1.2), self.head("quantity", 7), self.head("symbol", 1.6), self.head("value", 3)]
-        self.table(columns, [self._value(row) for row in rows])
+        self.table(self.heads("number:1.2 quantity:7 symbol:1.6 value:3"), [self._value(row) for row in rows])
 
     def _value(self, row: ValueRow) -> list[Inline]:
         source = row.named_formula(self.words) if row.refers else prose(row.source)
@@ -233,6 +212,14 @@ class WordBody:
             self.formula(definition)
         for note in item.notes:
             self.tell(note, "Why")
+
+
+def _named(title: str, symbol: Markup, unit: str) -> Inline:
+    return rich(prose(title)) + (run(" ") + rich(symbol) if symbol else "") + run(f", {unit}" if unit else "")
+
+
+def _noted(cell: TableCell) -> Inline:
+    return run(cell.text) + (new_line() + small(cell.note) if cell.note else "")
 
 
 # The organisation's logo above the title of a DOCX: a PNG as it is, an SVG beside a picture for programs that show none.
@@ -258,5 +245,5 @@ def logo(body: WordBody, given: LogoRecord, owner: str, embed_svg: Callable[[byt
         plain = raster_of_text(told, width * scale, height * scale)
         body.say(body.drawn(plain, told, embed_svg(content)))
     else:
-        scale = min(1.0, scale)
-        body.say(body.drawn(Raster(content, width * scale, height * scale), told))
+        shown = Raster(content, width * min(1.0, scale), height * min(1.0, scale))
+        body.say(body.drawn(shown, told))

@@ -26,9 +26,8 @@ from diecut_report.report.office.wordml import (
     small,
 )
 from diecut_report.report.scope import BRIEF, FULL
-from diecut_report.report.symbols import SymbolRow, own_words, prose
+from diecut_report.report.symbols import own_words, prose
 from diecut_report.report.text import joined
-from diecut_report.results.model import ProgramRecord
 
 # What stands before the chapters of a DOCX: title block, contents, summary with the verdict, changes.
 
@@ -42,20 +41,17 @@ FACTS = (("document", "document_number"), ("revision", "revision"), ("date", "da
 def title_block(body: WordBody, document: ReportDocument) -> None:
     """Whose calculation of what this is, its status, who signs it, and its revisions."""
     words, project, block = document.words, document.project, document.block
-    body.say(
-        small(" · ".join(filter(None, (project["organisation"], project["department"], project["document_type"]))))
-    )
+    owner = (project["organisation"], project["department"], project["document_type"])
+    body.say(small(" · ".join(filter(None, owner))))
     body.say(run(document.title), "Title")
     body.say(bold(words["across"]) if block.is_held else "")
     body.say(run(machine_named(document.press.name, words)))
     facts = [*((words[name], project[of]) for name, of in FACTS), (words["status"], block.status)]
     cells = [small(name) + new_line() + bold(text or "–") for name, text in facts]
     body.table([TableColumn("", 1)] * len(facts), [cells], headed=False)
-    columns = [body.head(word, share) for word, share in (("release", 2), ("name", 3), ("date", 2), ("signature", 3))]
-    body.table(columns, [[run(words[role]), run(who), "", ""] for role, who in block.signers])
-    columns = [
-        body.head(word, share) for word, share in (("revision", 1.5), ("date", 2), ("description", 5), ("by", 2.5))
-    ]
+    signed = [[run(words[role]), run(who), "", ""] for role, who in block.signers]
+    body.table(body.heads("release:2 name:3 date:2 signature:3"), signed)
+    columns = body.heads("revision:1.5 date:2 description:5 by:2.5")
     body.table(columns, [[run(row[name]) for name in REVISION] for row in project["revisions"]])
 
 
@@ -81,15 +77,15 @@ def summary(body: WordBody, document: ReportDocument) -> None:
     body.say((body.status(document.face) + run("  ") if is_judged else "") + bold(document.verdict) + run(counts))
     body.listed(_verdict_lines(body, document))
     if document.detail == FULL:
-        _all_checks(body, document)
+        if document.checks:
+            body.subheading(words["checks"])
+            check_table(body, document.checks)
     elif len(document.chapters) > 1:
         _governing(body, document)
     if document.unchecked:
         body.subheading(words["not_checked"].capitalize())
-        columns = [body.head("check", 5), body.head("demand", 2, right=True), body.head("missing", 4)]
-        body.table(
-            columns, [[_named(body, row), run(row.demand), key(", ".join(row.missing))] for row in document.unchecked]
-        )
+        left = [[_named(body, row), run(row.demand), key(", ".join(row.missing))] for row in document.unchecked]
+        body.table(body.heads("check:5 demand:2> missing:4"), left)
     _assumed(body, document)
     if document.detail != BRIEF:
         for chapter in document.chapters:
@@ -105,8 +101,7 @@ def influence(body: WordBody, document: ReportDocument) -> None:
         return
     body.heading(1, "", words["influence"], "influence")
     body.tell(found.lead)
-    heads = ("influence_lowered", "influence_gives", "influence_raised", "influence_gives")
-    columns = [body.head("path", 4), *(body.head(word, 2, right=True) for word in heads)]
+    columns = body.heads("path:4 influence_lowered:2> influence_gives:2> influence_raised:2> influence_gives:2>")
     for each in found.tornados:
         body.subheading(each.title)
         if each.rows:
@@ -116,12 +111,8 @@ def influence(body: WordBody, document: ReportDocument) -> None:
     if found.chances:
         body.subheading(words["influence_tolerances"])
         body.tell(found.scatter)
-        told = ("influence_probability", "influence_interval", "influence_held")
-        columns = [body.head("check", 5), *(body.head(word, 2, right=True) for word in told)]
-        rows = [
-            [rich(prose(row.title)), run(row.probability), run(row.interval), run(row.held)] for row in found.chances
-        ]
-        body.table(columns, rows)
+        heads = body.heads("check:5 influence_probability:2> influence_interval:2> influence_held:2>")
+        body.table(heads, [[rich(prose(title)), *map(run, values)] for title, *values in found.chances])
         body.tell(found.sure)
 
 
@@ -131,16 +122,12 @@ def _verdict_lines(body: WordBody, document: ReportDocument) -> Iterator[Inline]
         yield run(f"{MARKS['fail']} {row.chapter} · ") + body.linked(row) + run(": ") + rich(prose(row.message))
     for chapter in document.chapters:
         if chapter.lost:
-            yield run(f"{MARKS['fail']} {chapter.letter} · {chapter.title}: ") + rich(
-                prose(chapter.error or words["skipped_text"])
-            )
+            cause = prose(chapter.record.error or words["skipped_text"])
+            yield run(f"{MARKS['fail']} {chapter.letter} · {chapter.title}: ") + rich(cause)
     if governing:
         margin = f", {words.say('reserve', margin=governing.margin)}" if governing.status == "pass" else ""
-        yield (
-            run(f"{words['governing']}: {governing.chapter} · ")
-            + body.linked(governing)
-            + run(f", {governing.used}{margin}")
-        )
+        home = run(f"{words['governing']}: {governing.chapter} · ")
+        yield home + body.linked(governing) + run(f", {governing.used}{margin}")
     if document.sized:
         told = ", ".join(f"{row.chapter} · {row.title} ({row.utilisation})" for row in document.sized)
         yield run(f"{words['sized']}: {told}")
@@ -148,7 +135,6 @@ def _verdict_lines(body: WordBody, document: ReportDocument) -> Iterator[Inline]
 
 
 def _assumed(body: WordBody, document: ReportDocument) -> None:
-    """On what is assumed the verdict rests."""
     words, line = document.words, document.assumed
     if document.assumed_groups:
         body.subheading(words["assumed_values"])
@@ -158,11 +144,8 @@ def _assumed(body: WordBody, document: ReportDocument) -> None:
             rows.append([key(group.name), run(" · ".join(told))])
         body.table([TableColumn("", 1), TableColumn("", 4)], rows, headed=False)
     elif line and document.detail != BRIEF:
-        body.say(
-            run(
-                f"{line.head}: {', '.join(f'{path} ({moves})' if moves else path for path, moves in line.paths)}{line.more}."
-            )
-        )
+        paths = ", ".join(f"{path} ({moves})" if moves else path for path, moves in line.paths)
+        body.say(run(f"{line.head}: {paths}{line.more}."))
 
 
 def _named(body: WordBody, row: CheckRow) -> Inline:
@@ -171,9 +154,8 @@ def _named(body: WordBody, row: CheckRow) -> Inline:
 
 
 def _governing(body: WordBody, document: ReportDocument) -> None:
-    """What governs each mechanism, and how many of its checks fail, warn, pass and are not made."""
-    columns = [body.head("mechanism", 4), body.head("governing_check", 5), body.head("utilisation", 2.2, right=True)]
-    columns += [TableColumn(run(MARKS[status]), 0.7, True) for status in STATUSES] + [body.head("verdict", 2)]
+    columns = body.heads("mechanism:4 governing_check:5 utilisation:2.2>")
+    columns += [*(TableColumn(run(MARKS[status]), 0.7, True) for status in STATUSES), *body.heads("verdict:2")]
     rows = []
     for chapter in document.chapters:
         row = chapter.governing
@@ -184,21 +166,8 @@ def _governing(body: WordBody, document: ReportDocument) -> None:
     body.table(columns, rows)
 
 
-def _all_checks(body: WordBody, document: ReportDocument) -> None:
-    if document.checks:
-        body.subheading(document.words["checks"])
-        check_table(body, document.checks)
-
-
 def check_table(body: WordBody, rows: Sequence[CheckRow]) -> None:
     """Checks, a line for each: what is demanded, what is allowed, how far that is used."""
-    columns = [
-        body.head("check", 5),
-        body.head("demand", 2.2, right=True),
-        TableColumn("", 0.6),
-        body.head("limit", 2.2),
-    ]
-    columns += [body.head("margin", 2, right=True), body.head("utilisation", 2.2, right=True), body.head("verdict", 2)]
 
     def side(text: str, label: str) -> Inline:
         return run(text) + (new_line() + small(prose(label)) if label else "")
@@ -208,7 +177,7 @@ def check_table(body: WordBody, rows: Sequence[CheckRow]) -> None:
          side(row.limit, row.limit_label), run(row.margin), run(row.utilisation), body.status(row.status)]
         for row in rows
     ]  # fmt: skip
-    body.table(columns, made)
+    body.table(body.heads("check:5 demand:2.2> :0.6 limit:2.2 margin:2> utilisation:2.2> verdict:2"), made)
 
 
 def changes(body: WordBody, document: ReportDocument, found: PrintedChanges) -> None:
@@ -219,23 +188,17 @@ def changes(body: WordBody, document: ReportDocument, found: PrintedChanges) -> 
         body.tell(words["no_changes"])
     _pairs(body, "changed_mechanisms", "mechanism", found.mechanisms)
     _changed_checks(body, found.checks)
-    for title, rows in (
-        ("changed_inputs", found.inputs),
-        ("changed_outputs", found.outputs),
-        ("following_inputs", found.following),
-    ):
-        _changed_rows(body, title, rows)
+    _changed_rows(body, "changed_inputs", found.inputs)
+    _changed_rows(body, "changed_outputs", found.outputs)
+    _changed_rows(body, "following_inputs", found.following)
     _pairs(body, "changed_code", "program", found.code)
-
-
-def _sides(body: WordBody, what: str) -> list[TableColumn]:
-    return [body.head(what, 5), body.head("before", 3), body.head("after", 3)]
 
 
 def _pairs(body: WordBody, title: str, what: str, rows: Sequence[tuple[str, str, str]]) -> None:
     if rows:
         body.subheading(body.words[title])
-        body.table(_sides(body, what), [[key(name), run(old), run(new)] for name, old, new in rows])
+        columns = body.heads(f"{what}:5 before:3 after:3")
+        body.table(columns, [[key(name), run(old), run(new)] for name, old, new in rows])
 
 
 def _changed_checks(body: WordBody, rows: Sequence[ChangedCheck]) -> None:
@@ -245,15 +208,11 @@ def _changed_checks(body: WordBody, rows: Sequence[ChangedCheck]) -> None:
     if rows:
         body.subheading(body.words["changed_checks"])
         cells = [
-            [
-                rich(prose(row.title)) + new_line() + key(row.mechanism),
-                side(row.old_status, row.old),
-                side(row.new_status, row.new),
-                run(row.change),
-            ]
+            [rich(prose(row.title)) + new_line() + key(row.mechanism), side(row.old_status, row.old),
+             side(row.new_status, row.new), run(row.change)]
             for row in rows
-        ]
-        body.table([*_sides(body, "check"), body.head("change", 2)], cells)
+        ]  # fmt: skip
+        body.table(body.heads("check:5 before:3 after:3 change:2"), cells)
 
 
 def _changed_rows(body: WordBody, title: str, rows: Sequence[ChangedRow]) -> None:
@@ -264,7 +223,7 @@ def _changed_rows(body: WordBody, title: str, rows: Sequence[ChangedRow]) -> Non
              run(row.change) + (new_line() + small(row.note) if row.note else "")]
             for row in rows
         ]  # fmt: skip
-        body.table([*_sides(body, "quantity"), body.head("change", 2)], cells)
+        body.table(body.heads("quantity:5 before:3 after:3 change:2"), cells)
 
 
 HASH = 12  # letters of a hash
@@ -277,7 +236,7 @@ def key_results(body: WordBody, document: ReportDocument) -> None:
     for chapter in document.chapters:
         body.heading(2, chapter.letter, chapter.title, chapter.anchor)
         if chapter.lost:
-            body.tell(chapter.error or words["skipped_text"])
+            body.tell(chapter.record.error or words["skipped_text"])
             continue
         body.quantities(chapter.key_results, sourced=False)
         for number, figure in chapter.figures:
@@ -298,15 +257,28 @@ def chapter(body: WordBody, part: PrintedChapter, document: ReportDocument) -> N
     """The whole calculation of one mechanism."""
     words = document.words
     body.heading(1, part.letter, part.title, part.anchor)
-    version = f" {part.version}" if part.version else ""
-    body.say(key(part.name) + run(f" · {part.kind}{version} · ") + body.status(part.face))
+    told = " ".join(filter(None, (part.record.kind, part.record.plugin_version)))
+    body.say(key(part.name) + run(f" · {told} · ") + body.status(part.face))
     if part.lost:
-        lost = "skipped_text" if part.status == "skipped" else "failed_comparison" if part.between else "failed_text"
+        lost = (
+            "skipped_text"
+            if part.record.status == "skipped"
+            else "failed_comparison"
+            if part.between
+            else "failed_text"
+        )
         body.say(bold(words[lost]))
-        body.tell(part.error)
+        body.tell(part.record.error)
         return
     _given(body, part)
-    _calculation(body, part)
+    for section in part.sections:
+        _head(body, section.heading)
+        body.tell(section.text)
+        body.tell(section.shown, "Why")
+        for item in section.items:
+            body.item(item)
+    for item in part.loose:
+        body.item(item)
     _outcome(body, part)
     _checks(body, part, document)
     _rest(body, part)
@@ -318,29 +290,25 @@ def _head(body: WordBody, heading: Heading | None) -> None:
 
 
 def _given(body: WordBody, part: PrintedChapter) -> None:
-    """Purpose, assumptions, inputs."""
     if part.between:
-        body.tell(
-            f"{body.words['comparison']} {body.words.listed([f'{other.letter} {other.title}' for other in part.between])}"
-        )
+        compared = body.words.listed([f"{other.letter} {other.title}" for other in part.between])
+        body.tell(f"{body.words['comparison']} {compared}")
     _head(body, part.parts.get("purpose"))
-    body.tell(part.summary)
+    body.tell(part.record.summary)
     if part.assumptions:
         body.subheading(body.words["assumptions"])
         body.listed(rich(prose(text)) for text in part.assumptions)
     _head(body, part.parts.get("inputs"))
     _inputs(body, part.inputs)
     if part.partners:
-        found = run(" · ").join(
-            (key(row.key) + run(": ") if row.key != row.value else run("")) + run(row.value) for row in part.partners
-        )
-        body.say(bold(body.words["partners"]) + run(": ") + found, "Why")
+        found = [(key(row.key) + run(": ") if row.key != row.value else "") + run(row.value) for row in part.partners]
+        body.say(bold(body.words["partners"]) + run(": ") + run(" · ").join(found), "Why")
     for group in part.taken:
         basis = f" ({group.basis}): " if group.basis else ": "
         rows = run(" · ").join(map(_taken, group.rows))
         body.say(bold(body.words.say("taken_from", name=group.home)) + run(basis) + rows, "Why")
     if part.defaults or part.are_defaults_told:
-        told = [run(body.words.say("defaults_told", letter=part.told_in))] if part.are_defaults_told else []
+        told = [run(body.words.say("defaults_told", letter=part.told_in))] * part.are_defaults_told
         told += map(_default, part.defaults)
         body.say(bold(body.words["defaults"]) + run(": ") + run(" · ").join(told), "Why")
     for table in part.input_parts:
@@ -348,7 +316,6 @@ def _given(body: WordBody, part: PrintedChapter) -> None:
 
 
 def _default(row: QuantityRow) -> Inline:
-    """An input that is left alone: its key where it is a choice, else its symbol."""
     name = rich(prose(row.description)) + run(" ")
     if row.wordy:
         return name + key(row.key) + run(" ") + rich(own_words(row.value))
@@ -359,55 +326,24 @@ def _default(row: QuantityRow) -> Inline:
 def _taken(row: QuantityRow) -> Inline:
     """An input that is taken from another mechanism, with its id there."""
     sign = rich(row.symbol) if row.symbol else run(row.value)
-    value = sign if row.wordy else (sign + run(" = ") if row.symbol else run("")) + run(joined(row.value, row.unit))
-    return (
-        rich(prose(row.description))
-        + run(" ")
-        + key(row.key)
-        + run(" ")
-        + value
-        + run(f" ({row.origin})" if row.origin else "")
-    )
+    value = sign if row.wordy else (sign + run(" = ") if row.symbol else "") + run(joined(row.value, row.unit))
+    named = rich(prose(row.description)) + run(" ") + key(row.key) + run(" ")
+    return named + value + run(f" ({row.origin})" if row.origin else "")
 
 
 def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:
     typed = TableColumn(run(f"{body.words['typed']}, {body.words['origin'].lower()}"), 4)
-    columns = [
-        body.head("quantity", 6),
-        body.head("symbol", 1.5),
-        body.head("value", 2.2, right=True),
-        body.head("unit", 1.5),
-        typed,
-    ]
-
-    def cells(row: QuantityRow) -> list[Inline]:
+    cells = []
+    for row in rows:
         description = rich(prose(row.description)) + (new_line() + key(row.key) if row.key else "")
-        said = " ".join(filter(None, (row.typed, row.origin)))
-        told = small(said) + (new_line() + small(own_words(row.note)) if row.note else "")
-        return [
-            description,
-            rich(row.symbol),
-            rich(own_words(row.value)) if row.wordy else run(row.value),
-            run(row.unit),
-            told,
-        ]
-
-    body.table(columns, [cells(row) for row in rows])
-
-
-def _calculation(body: WordBody, part: PrintedChapter) -> None:
-    for section in part.sections:
-        _head(body, section.heading)
-        body.tell(section.text)
-        body.tell(section.shown, "Why")
-        for item in section.items:
-            body.item(item)
-    for item in part.loose:
-        body.item(item)
+        value = rich(own_words(row.value)) if row.wordy else run(row.value)
+        said = small(" ".join(filter(None, (row.typed, row.origin))))
+        note = new_line() + small(own_words(row.note)) if row.note else ""
+        cells.append([description, rich(row.symbol), value, run(row.unit), said + note])
+    body.table([*body.heads("quantity:6 symbol:1.5 value:2.2> unit:1.5"), typed], cells)
 
 
 def _outcome(body: WordBody, part: PrintedChapter) -> None:
-    """Results and phases."""
     _head(body, part.parts.get("results"))
     body.quantities(part.outputs)
     for table in part.output_parts:
@@ -440,23 +376,18 @@ def _checks(body: WordBody, part: PrintedChapter, document: ReportDocument) -> N
 
 
 def _rest(body: WordBody, part: PrintedChapter) -> None:
-    """Files beside the report, and what is not calculated."""
     _head(body, part.parts.get("files"))
-    body.table(
-        [body.head("file", 3), body.head("content", 5)],
-        [[key(each.name), rich(prose(each.content))] for each in part.files],
-    )
+    files = [[key(each.name), rich(prose(each.content))] for each in part.files]
+    body.table(body.heads("file:3 content:5"), files)
     _head(body, part.parts.get("absent"))
     body.listed(bold(str(each.title)) + run(": ") + rich(prose(each.text)) for each in part.absent)
     _head(body, part.parts.get("symbols"))
-    columns = [body.head("symbol", 1), body.head("quantity", 6), body.head("unit", 1)]
-    body.table(columns, [[rich(row.symbol), _meaning(body, row), run(row.unit)] for row in part.symbols])
-
-
-def _meaning(body: WordBody, row: SymbolRow) -> Inline:
-    """What a symbol stands for, and how the source writes it where that is another letter."""
-    told = rich(Markup(f" ({body.words.say('in_source', symbol=row.in_source)})")) if row.in_source else ""
-    return rich(prose(row.meaning)) + told + (run(f" ({row.stands})") if row.stands else "")
+    rows = []
+    for row in part.symbols:
+        told = rich(Markup(f" ({body.words.say('in_source', symbol=row.in_source)})")) if row.in_source else ""
+        meaning = rich(prose(row.meaning)) + told + (run(f" ({row.stands})") if row.stands else "")
+        rows.append([rich(row.symbol), meaning, run(row.unit)])
+    body.table(body.heads("symbol:1 quantity:6 unit:1"), rows)
 
 
 def closing(body: WordBody, document: ReportDocument, digest: str) -> None:
@@ -465,59 +396,37 @@ def closing(body: WordBody, document: ReportDocument, digest: str) -> None:
     body.heading(1, "3", words["sources"], "sources")
     if not document.sources:
         body.tell(words["no_sources"])
-    body.table(
-        [body.head("number", 1), body.head("source", 7)],
-        [[run(number), run(text)] for number, text in document.sources],
-    )
-    errata(body, document)
+    body.table(body.heads("number:1 source:7"), [[run(number), run(text)] for number, text in document.sources])
+    if document.errata:
+        body.subheading(words["errata"])
+    for source, text, touches in document.errata:
+        touched = new_line() + small(f"{words['touches']}: {touches}") if touches else ""
+        body.listed([bold(f"{source}: ") + rich(prose(text)) + touched])
     body.heading(1, "4", words["program"], "program")
+    by = run(f"{program.name} {program.version}") + _hash(body, program.source_sha256)
+    libraries = ", ".join(f"{name} {version}" for name, version in program.libraries.items())
     rows = [
-        [
-            run(words["calculated_by"]),
-            run(f"{program.name} {program.version}") + _hash(body, program.source_sha256),
-        ],
-        *([run(words["extension"]), key(name) + _hash(body, digest)] for name, digest in program.extensions.items()),
-        *([[run(words["libraries"]), run(_versions(program))]] if program.libraries else ()),
+        [run(words["calculated_by"]), by],
+        *([run(words["extension"]), key(name) + _hash(body, sha256)] for name, sha256 in program.extensions.items()),
+        *([[run(words["libraries"]), run(libraries)]] if libraries else ()),
         [run(words["config_file"]), run(document.config.file)],
         [run(words["sha256"]), key(document.config.sha256)],
         *([run(file.file), key(file.sha256)] for file in document.config.materials),
         [run(f"{words['carried_results']}, {words['sha256']}"), key(digest)],
     ]
     body.table([TableColumn("", 2), TableColumn("", 6)], rows, headed=False)
-    columns = [
-        body.head("mechanism", 4),
-        body.head("kind", 2.5),
-        body.head("plugin_version", 3),
-        body.head("verdict", 2),
-    ]
-    body.table(columns, [
-        [run(f"{part.letter} {part.title} (") + key(part.name) + run(")"), key(part.kind),
-         run(part.version or "–") + _foreign(body, part) + _hash(body, part.source_sha256), body.status(part.face)]
-        for part in document.chapters
-    ])  # fmt: skip
-
-
-def _foreign(body: WordBody, part: PrintedChapter) -> Inline:
-    """The file of a plugin that is not the program's own, and what was found of it."""
-    told = key(f" {part.source_file}") if part.source_file else ""
-    return told + (run(f", {body.words[f'plugin_{part.source_check}']}") if part.source_check else "")
-
-
-def _versions(program: ProgramRecord) -> str:
-    return ", ".join(f"{name} {version}" for name, version in program.libraries.items())
+    cells = []
+    for part in document.chapters:
+        record = part.record
+        version = run(record.plugin_version or "–") + (key(f" {record.plugin_file}") if record.plugin_file else "")
+        version += run(f", {words[f'plugin_{record.plugin_check}']}") if record.plugin_check else ""
+        named = run(f"{part.letter} {part.title} (") + key(part.name) + run(")")
+        cells.append([named, key(record.kind), version + _hash(body, record.plugin_sha256), body.status(part.face)])
+    body.table(body.heads("mechanism:4 kind:2.5 plugin_version:3 verdict:2"), cells)
 
 
 def _hash(body: WordBody, digest: object) -> Inline:
     return new_line() + small(f"{body.words['source_hash']} {str(digest)[:HASH]}") if digest else ""
-
-
-def errata(body: WordBody, document: ReportDocument) -> None:
-    """What was found wrong in the sources."""
-    if document.errata:
-        body.subheading(document.words["errata"])
-    for source, text, touches in document.errata:
-        touched = new_line() + small(f"{document.words['touches']}: {touches}") if touches else ""
-        body.listed([bold(f"{source}: ") + rich(prose(text)) + touched])
 
 
 def appendix(body: WordBody, document: ReportDocument) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
@@ -11,8 +12,7 @@ from diecut_report.pictures import SVG
 from diecut_report.report.chapters.front import DATE
 from diecut_report.report.context import Material
 from diecut_report.report.document import ReportDocument
-from diecut_report.report.office import word_document as chapters
-from diecut_report.report.office import word_document as front
+from diecut_report.report.office import word_document as word
 from diecut_report.report.office.word_body import WordBody, logo
 from diecut_report.report.office.wordml import SPACES, TEXT_WIDTH, field, paragraph, small
 from diecut_report.report.office.workbook import holdable, undated
@@ -21,7 +21,6 @@ from diecut_report.report.symbols import letters_declared
 
 if TYPE_CHECKING:
     from docx.document import Document
-    from docx.document import Document as WordDocument
 
 
 # The look of a DOCX: page, language, styles, and the head and foot of each sheet.
@@ -72,12 +71,11 @@ def set_styles(made: Document, language: str) -> None:
     _set_letters(made.styles["Title"], 22, ACCENT)
     _set_letters(made.styles["Caption"], 9, SOFT)
     made.styles["Caption"].font.bold = made.styles["Heading 4"].font.italic = False
-    for style in list(parsed("".join([_TABLE, *_paragraph_styles(), *_letter_styles()]))):
+    for style in list(parsed(_TABLE + "".join(_styles()))):
         made.styles.element.append(style)
 
 
 def _set_letters(style: Any, size: float, colour: str = "") -> None:
-    """Set a style's font, which python-docx's template takes from a theme."""
     from docx.shared import Pt, RGBColor
 
     for fonts in style.element.xpath("./w:rPr/w:rFonts"):
@@ -88,19 +86,13 @@ def _set_letters(style: Any, size: float, colour: str = "") -> None:
         style.font.color.rgb = RGBColor.from_string(colour)
 
 
-def _paragraph_styles() -> list[str]:
-    return [
-        f'<w:style w:type="paragraph" w:customStyle="1" w:styleId="{key}"><w:name w:val="{name}"/><w:basedOn w:val="{base}"/>'
-        f"<w:qFormat/><w:pPr>{form}</w:pPr><w:rPr>{letters}</w:rPr></w:style>"
-        for key, (name, base, form, letters) in _PARAGRAPHS.items()
-    ]
-
-
-def _letter_styles() -> list[str]:
-    return [
-        f'<w:style w:type="character" w:customStyle="1" w:styleId="{key}"><w:name w:val="{name}"/><w:rPr>{letters}</w:rPr></w:style>'
-        for key, (name, letters) in _LETTERS.items()
-    ]
+def _styles() -> Iterator[str]:
+    for key, (name, base, form, letters) in _PARAGRAPHS.items():
+        head = f'<w:style w:type="paragraph" w:customStyle="1" w:styleId="{key}"><w:name w:val="{name}"/>'
+        yield f'{head}<w:basedOn w:val="{base}"/><w:qFormat/><w:pPr>{form}</w:pPr><w:rPr>{letters}</w:rPr></w:style>'
+    for key, (name, letters) in _LETTERS.items():
+        head = f'<w:style w:type="character" w:customStyle="1" w:styleId="{key}"><w:name w:val="{name}"/>'
+        yield f"{head}<w:rPr>{letters}</w:rPr></w:style>"
 
 
 def set_page(made: Document, document: ReportDocument) -> None:
@@ -114,31 +106,21 @@ def set_page(made: Document, document: ReportDocument) -> None:
     section.header_distance = section.footer_distance = Mm(10)
     words, project = document.words, document.project
     left = " · ".join(filter(None, (project["organisation"] or document.press.name, document.title)))
-    numbered = [
-        f"{words[name]} {project[of] or '–'}"
-        for name, of in (("document", "document_number"), ("revision", "revision"))
-    ] + ([project["date"]] if project["date"] else [])
-    right = "   ".join([*numbered, words["across"] if document.block.is_held else document.block.status])
-    _replace(section.header._element, small(left) + _tab() + small(right))
-    sheet = (
-        small(f"{words['sheet']} ")
-        + field("PAGE", "1", "Small")
-        + small(f" {words['of']} ")
-        + field("NUMPAGES", "1", "Small")
-    )
-    _replace(section.footer._element, small(f"{document.program.name} {document.program.version}") + _tab() + sheet)
+    number, revision = (f"{words[name]} {project[of] or '–'}" for name, of in word.FACTS[:2])
+    status = words["across"] if document.block.is_held else document.block.status
+    right = small("   ".join(filter(None, (number, revision, project["date"], status))))
+    _replace(section.header._element, small(left), right)
+    page, pages = field("PAGE", "1", "Small"), field("NUMPAGES", "1", "Small")
+    sheet = small(f"{words['sheet']} ") + page + small(f" {words['of']} ") + pages
+    _replace(section.footer._element, small(f"{document.program.name} {document.program.version}"), sheet)
 
 
-def _tab() -> str:
-    return "<w:r><w:tab/></w:r>"
-
-
-def _replace(story: Any, inner: str) -> None:
+def _replace(story: Any, left: str, right: str) -> None:
     """Put one line with a tab at the right margin into a header or a footer."""
     for child in list(story):
         story.remove(child)
     tabs = f'<w:tabs><w:tab w:val="clear" w:pos="4320"/><w:tab w:val="clear" w:pos="8640"/><w:tab w:val="right" w:pos="{TEXT_WIDTH}"/></w:tabs>'
-    line = paragraph(inner).replace("<w:p>", f"<w:p><w:pPr>{tabs}</w:pPr>", 1)
+    line = paragraph(f"{left}<w:r><w:tab/></w:r>{right}").replace("<w:p>", f"<w:p><w:pPr>{tabs}</w:pPr>", 1)
     story.append(parsed(line)[0])
 
 
@@ -170,46 +152,46 @@ def word_file(material: Material) -> bytes:
     set_styles(made, document.words.language)
     set_page(made, document)
     describe(made, document, DATE)
-    _without_thumbnail(made)
-    body = WordBody(document.words, material.rasters, material.why_not_drawn, partial(_embedded, made))
+    for name in [name for name, each in made.part.package.rels.items() if each.reltype.endswith("/thumbnail")]:
+        del made.part.package.rels[name]  # the picture of another document, which python-docx's template has
+
+    def embed(picture: bytes) -> str:
+        return made.part.get_or_add_image(BytesIO(picture))[0]
+
+    body = WordBody(document.words, material.rasters, material.why_not_drawn, embed)
     if found := material.results.config.logo:
         logo(body, found, document.project["organisation"], partial(_embedded_svg, made))
     with letters_declared(*material.letters):
         _write(body, material)
-    _fill(made, body)
+    page = made.element.body.sectPr  # what says how the page is, which comes last
+    for child in list(parsed("".join(body.parts))):
+        page.addprevious(child)
     content = BytesIO()
     made.save(content)
     return undated(content.getvalue())
 
 
 def _write(body: WordBody, material: Material) -> None:
-    """Write all parts in the order of the printed report."""
     document = material.document
-    front.title_block(body, document)
+    word.title_block(body, document)
     if document.detail != BRIEF:
-        front.contents(body, document)
-    front.summary(body, document)
+        word.contents(body, document)
+    word.summary(body, document)
     if material.changes:
-        front.changes(body, document, material.changes)
+        word.changes(body, document, material.changes)
     if document.detail == BRIEF:
-        chapters.key_results(body, document)
+        word.key_results(body, document)
         return
-    front.influence(body, document)
-    chapters.press_data(body, document)
+    word.influence(body, document)
+    word.press_data(body, document)
     for part in document.chapters:
-        chapters.chapter(body, part, document)
-    chapters.closing(body, document, material.carried[1].digest)
+        word.chapter(body, part, document)
+    word.closing(body, document, material.carried[1].digest)
     if document.detail == FULL:
-        chapters.appendix(body, document)
+        word.appendix(body, document)
 
 
-def _embedded(made: WordDocument, picture: bytes) -> str:
-    """Put a picture into the file; return what names it there."""
-    relation, _ = made.part.get_or_add_image(BytesIO(picture))
-    return relation
-
-
-def _embedded_svg(made: WordDocument, content: bytes) -> str:
+def _embedded_svg(made: Document, content: bytes) -> str:
     """Put an SVG into the file, of which python-docx knows nothing; return what names it there."""
     from docx.opc.constants import RELATIONSHIP_TYPE
     from docx.opc.packuri import PackURI
@@ -217,18 +199,3 @@ def _embedded_svg(made: WordDocument, content: bytes) -> str:
 
     part = Part(PackURI("/word/media/logo.svg"), SVG, content, made.part.package)
     return made.part.relate_to(part, RELATIONSHIP_TYPE.IMAGE)
-
-
-def _fill(made: WordDocument, body: WordBody) -> None:
-    """Put the parts before what says how the page is."""
-    into = made.element.body
-    page = into.sectPr
-    for child in list(parsed("".join(body.parts))):
-        page.addprevious(child)
-
-
-def _without_thumbnail(made: WordDocument) -> None:
-    """Leave out the picture of another document that python-docx's template has."""
-    relations = made.part.package.rels
-    for name in [name for name, relation in relations.items() if relation.reltype.endswith("/thumbnail")]:
-        del relations[name]

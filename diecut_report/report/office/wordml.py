@@ -11,8 +11,8 @@ from xml.sax.saxutils import escape, quoteattr
 from markupsafe import Markup
 
 from diecut_report.quantities.units import pretty
-from diecut_report.report.equations import Equation, EquationRow, Link
-from diecut_report.report.mathematics import ATOM, NAMES, POWER, PRIMES, PRODUCT, SUM, Piece, Printer, Tree
+from diecut_report.report.equations import Equation, EquationRow
+from diecut_report.report.mathematics import ATOM, NAMES, POWER, PRIMES, PRODUCT, SUM, Linear, Piece, Tree
 from diecut_report.report.office.workbook import holdable
 from diecut_report.report.text import MINUS, grouped, parts
 
@@ -24,10 +24,8 @@ SPACES = {
     "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
     "pic": "http://schemas.openxmlformats.org/drawingml/2006/picture",
 }
-SVG_SPACE, SVG_EXTENSION = (
-    "http://schemas.microsoft.com/office/drawing/2016/SVG/main",
-    "{96DAC541-7B7A-43D3-8B79-37D633B846F1}",
-)
+SVG_SPACE = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
+SVG_EXTENSION = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"
 TEXT_WIDTH = 9638  # twentieths of a point: A4 with margins of 20 mm
 EMU = 12700  # to a point
 WIDEST, HIGHEST = TEXT_WIDTH / 20, 620.0  # of a picture, points
@@ -107,12 +105,8 @@ def bookmark(number: int, name: str, inner: Inline) -> Inline:
 
 def paragraph(inner: Inline, style: str = "", *, keep: bool = False, align: str = "") -> str:
     """A paragraph in a style; ``keep`` holds it together with the next one."""
-    parts = (
-        f'<w:pStyle w:val="{style}"/>' if style else "",
-        "<w:keepNext/>" if keep else "",
-        f'<w:jc w:val="{align}"/>' if align else "",
-    )
-    properties = "".join(parts)
+    properties = (f'<w:pStyle w:val="{style}"/>' if style else "") + "<w:keepNext/>" * keep
+    properties += f'<w:jc w:val="{align}"/>' if align else ""
     return f"<w:p><w:pPr>{properties}</w:pPr>{inner}</w:p>" if properties else f"<w:p>{inner}</w:p>"
 
 
@@ -124,16 +118,14 @@ class TableColumn(NamedTuple):
     right: bool = False
 
 
-def table(
-    columns: Sequence[TableColumn], rows: Iterable[Sequence[Inline]], *, style: str = "ReportTable", headed: bool = True
-) -> str:
+def table(columns: Sequence[TableColumn], rows: Iterable[Sequence[Inline]], *, headed: bool = True) -> str:
     """A table across the page; its heads are repeated on each sheet, its rows are not broken."""
     whole = sum(column.share for column in columns)
     widths = [round(TEXT_WIDTH * column.share / whole) for column in columns]
     grid = "".join(f'<w:gridCol w:w="{width}"/>' for width in widths)
     first = f'w:val="{"0620" if headed else "0600"}" w:firstRow="{int(headed)}"'
     look = f'<w:tblLook {first} w:lastRow="0" w:firstColumn="0" w:lastColumn="0" w:noHBand="1" w:noVBand="1"/>'
-    form = f'<w:tblStyle w:val="{style}"/><w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:tblLayout w:type="fixed"/>{look}'
+    form = f'<w:tblStyle w:val="ReportTable"/><w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:tblLayout w:type="fixed"/>{look}'
     aligns = ["right" if column.right else "" for column in columns]
     head = [_row([column.head for column in columns], widths, aligns, is_head=True)] if headed else []
     lines = [_row(row, widths, aligns) for row in rows]
@@ -199,15 +191,13 @@ def omml_run(text: str, style: str = "p") -> str:
     return f'<m:r><m:rPr>{form}</m:rPr><m:t xml:space="preserve">{escape(holdable(text))}</m:t></m:r>'
 
 
-class OfficeMath(Printer):
+class OfficeMath(Linear):
     """Expressions as Office Math."""
 
     times, dot, comma = NARROW, "·", ", "
-    minus = MINUS
     signs: Mapping[str, str] = {"<": "&lt;", "<=": "≤", ">": "&gt;", ">=": "≥", "==": "=", "!=": "≠"}
 
     def number(self, text: str) -> str:
-        """A number, its power of ten raised."""
         found = parts(text)
         if found is None:
             return omml_run(text, "")
@@ -217,13 +207,11 @@ class OfficeMath(Printer):
         return omml_run(f"{body}{NARROW}×{NARROW}") + ten if power else omml_run(body)
 
     def quantity(self, text: str, unit: str) -> str:
-        """A number with its unit, upright."""
         printed = pretty(unit)
         space = "" if printed.startswith(("°", "′", "″")) else "\u00a0"
         return self.number(text) + (omml_run(space + printed) if printed else "")
 
     def symbol(self, name: str) -> str:
-        """A symbol: its letter italic, its index upright."""
         if name[:1] == name[-1:] == "|" and len(name) > 2:
             return self.bracket(self.symbol(name[1:-1]), "|", "|")
         base, _, below = name.partition("_")
@@ -235,37 +223,29 @@ class OfficeMath(Printer):
         return f"<m:sSub><m:e>{letter}</m:e><m:sub>{index}</m:sub></m:sSub>" if plain else letter
 
     def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
-        """A text in brackets, which grow with it."""
         ends = f"<m:begChr m:val={quoteattr(left)}/><m:endChr m:val={quoteattr(right)}/>"
         return f"<m:d><m:dPr>{ends}</m:dPr><m:e>{text}</m:e></m:d>"
 
     def name(self, function: str) -> str:
-        """A function's name, upright."""
         return omml_run(NAMES.get(function, function))
 
     def word(self, text: str, before: str = " ", behind: str = " ") -> str:
-        """A word between formulas."""
         return omml_run(f"{before}{text}{behind}", "")
 
     def root(self, inner: Piece) -> Piece:
-        """A square root."""
         form = '<m:radPr><m:degHide m:val="1"/></m:radPr><m:deg/>'
         return Piece(f"<m:rad>{form}<m:e>{inner.text}</m:e></m:rad>", POWER)
 
     def fraction(self, over: Piece, under: Piece) -> Piece:
-        """A fraction."""
         text = f"<m:f><m:num>{over.text}</m:num><m:den>{under.text}</m:den></m:f>"
         return Piece(text, PRODUCT, quantity=over.quantity and under.quantity, fraction=True)
 
     def power(self, base: str, exponent: Tree) -> str:
         """A base with its exponent, which stands above the index where it has one."""
-        raised = f"<m:sup>{self(exponent) if exponent[0] != '/' else self._slashed(exponent)}</m:sup>"
+        raised = f"<m:sup>{self._exponent(exponent)}</m:sup>"
         if found := _INDEXED.fullmatch(base):
             return f"<m:sSubSup><m:e>{found[1]}</m:e><m:sub>{found[2]}</m:sub>{raised}</m:sSubSup>"
         return f"<m:sSup><m:e>{base}</m:e>{raised}</m:sSup>"
-
-    def _slashed(self, exponent: Tree) -> str:
-        return f"{self._held(exponent[1], PRODUCT)}/{self._held(exponent[2], POWER)}"
 
     def cases(self, rows: list[tuple[str, str]]) -> str:
         """Values, each with its condition, in two columns behind a brace."""
@@ -273,35 +253,22 @@ class OfficeMath(Printer):
         lines = "".join(f"<m:mr><m:e>{value}</m:e><m:e>{condition}</m:e></m:mr>" for value, condition in rows)
         return self.bracket(f"<m:m><m:mPr><m:mcs>{column}</m:mcs></m:mPr>{lines}</m:m>", "{", "")
 
-    def _call(self, name: str, args: list[Piece]) -> Piece:
-        piece, said = super()._call(name, args), self.name(name)
-        return piece._replace(text=_applied(said, piece.text)) if piece.text.startswith(said) else piece
-
-    def _closed_call(self, tree: Tree) -> Piece:
-        piece = super()._closed_call(tree)
-        return piece._replace(text=_applied(self.name(tree[1]), piece.text))
+    def called(self, function: str, argument: str) -> str:
+        return f"<m:func><m:fName>{self.name(function)}</m:fName><m:e>{argument}</m:e></m:func>"
 
     def _logic(self, tree: Tree) -> Piece:
-        """What is taken of curves, beside what formulas hold."""
         match tree:
             case ["derivative", curve, by]:
-                return self.fraction(
-                    Piece(omml_run("d") + self(curve), PRODUCT), Piece(omml_run("d") + self(by), PRODUCT)
-                )
+                over, under = (Piece(omml_run("d") + self(each), PRODUCT) for each in (curve, by))
+                return self.fraction(over, under)
             case ["integral", curve, by, end]:
-                return Piece(
-                    _nary("∫", f"{self(curve)}{NARROW}{omml_run('d')}{self(by)}", omml_run("0"), self(end)), SUM
-                )
+                inner = f"{self(curve)}{NARROW}{omml_run('d')}{self(by)}"
+                return Piece(_nary("∫", inner, omml_run("0"), self(end)), SUM)
             case ["nary", sign, of]:
                 return Piece(_nary(sign, self(of)), SUM)
             case ["place", word, symbol, value]:
                 return Piece(f"{omml_run(f'{WIDE}{word} ', '')}{self(symbol)} = {self(value)}", ATOM)
         return super()._logic(tree)
-
-
-def _applied(name: str, text: str) -> str:
-    """A function with its argument, as an editor of formulas knows it."""
-    return f"<m:func><m:fName>{name}</m:fName><m:e>{text.removeprefix(name)}</m:e></m:func>"
 
 
 def _nary(sign: str, inner: str, below: str = "", above: str = "") -> str:
@@ -319,14 +286,10 @@ def office_math(equation: Equation, printer: OfficeMath) -> list[str]:
 
 def _omml_row(row: EquationRow, printer: OfficeMath) -> str:
     """A row; one that goes on with another begins with a sign, before which stands nothing that is seen."""
-    links = [_printed(link, printer) for link in row.links]
-    head = _printed(row.head, printer) or omml_run(NOTHING)
+    links = [printer(link.form) for link in row.links]
+    head = printer(row.head.form) or omml_run(NOTHING)
     start = "" if row.joint == ":" else f"{head} {row.joint} "
-    return start + f" {row.joint}{WIDE if row.joint == ':' else ' '}".join(links) + _printed(row.place, printer)
-
-
-def _printed(link: Link, printer: OfficeMath) -> str:
-    return "" if link.form is None else printer(link.form)
+    return start + f" {row.joint}{WIDE if row.joint == ':' else ' '}".join(links) + printer(row.place.form)
 
 
 def _with_runs(fragment: str) -> str:

@@ -31,25 +31,18 @@ class UndatedArchive(ZipFile):
     def __init__(self, file: Any) -> None:
         super().__init__(file, "w", ZIP_DEFLATED, strict_timestamps=False)
 
-    def writestr(
-        self,
-        zinfo_or_arcname: str | ZipInfo,
-        data: Any,
-        compress_type: int | None = None,
-        compresslevel: int | None = None,
-    ) -> None:
+    def writestr(self, zinfo_or_arcname: str | ZipInfo, data: Any, *args: Any, **given: Any) -> None:
         """Write a member, dated as early as can be."""
-        member = ZipInfo(zinfo_or_arcname) if isinstance(zinfo_or_arcname, str) else zinfo_or_arcname
-        if member is not zinfo_or_arcname:
+        member = zinfo_or_arcname
+        if isinstance(member, str):
+            member = ZipInfo(member)
             member.compress_type, member.external_attr = self.compression, 0o600 << 16
-        super().writestr(member, data, compress_type, compresslevel)
+        super().writestr(member, data, *args, **given)
 
-    def write(
-        self, filename: Any, arcname: Any = None, compress_type: int | None = None, compresslevel: int | None = None
-    ) -> None:
+    def write(self, filename: Any, *args: Any, **given: Any) -> None:
         """Write a file as a member, dated as early as can be."""
         os.utime(filename, (0, 0))
-        super().write(filename, arcname, compress_type, compresslevel)
+        super().write(filename, *args, **given)
 
 
 def undated(content: bytes) -> bytes:
@@ -88,15 +81,11 @@ def workbook(material: Material) -> bytes:
 
 
 class _Filled:
-    """Writes a sheet from above to below, as it must be where no cell is kept."""
-
     def __init__(self, into: WriteOnlyWorksheet, sheet: WorkSheet) -> None:
         from openpyxl.styles import Alignment, Font, PatternFill
-        from openpyxl.worksheet.properties import PageSetupProperties
 
         self.into, self.sheet = into, sheet
         self.cells: dict[tuple[int, str], Any] = {}
-        self._fitted = PageSetupProperties(fitToPage=True)
         self.bold, self.fill_of_heads = (
             Font(name="Calibri", size=11, bold=True),
             PatternFill("solid", fgColor=HEAD_COLOUR),
@@ -105,39 +94,34 @@ class _Filled:
         self.wrapped = Alignment(vertical="top", indent=1, wrap_text=True)
 
     def fill(self) -> None:
-        """Write all."""
+        """Write all, to be printed across the page, all columns on a page, with the heads on each."""
         from openpyxl.utils import get_column_letter
+        from openpyxl.worksheet.properties import PageSetupProperties
 
         for column, width in enumerate(self.sheet.widths, 1):
             self.into.column_dimensions[get_column_letter(column)].width = width
         self.into.freeze_panes = f"{get_column_letter(self.sheet.held + 1)}{len(self.sheet.heads) + 1}"
-        self._set_page()
+        self.into.page_setup.orientation, self.into.page_setup.paperSize = "landscape", 9  # A4
+        self.into.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
+        self.into.page_setup.fitToHeight = 0
+        self.into.print_title_rows = f"1:{len(self.sheet.heads)}"
         for head in self.sheet.heads:
-            self.into.append([self._head(text) for text in head])
+            self.into.append([self._text(text, self.wrapped, font=self.bold, fill=self.fill_of_heads) for text in head])
         for row in self.sheet.rows:
             self.into.append([self._cell(value, column) for column, value in enumerate(row)])
 
-    def _set_page(self) -> None:
-        """Print it across the page, all columns on a page, with the heads on each."""
-        self.into.page_setup.orientation, self.into.page_setup.paperSize = "landscape", 9  # A4
-        self.into.sheet_properties.pageSetUpPr = self._fitted
-        self.into.page_setup.fitToHeight = 0
-        self.into.print_title_rows = f"1:{len(self.sheet.heads)}"
-
-    def _head(self, text: str) -> Any:
+    def _text(self, text: str, alignment: Any, **look: Any) -> Any:
         cell = text_cell(self.into, text)
-        cell.font, cell.fill, cell.alignment = self.bold, self.fill_of_heads, self.wrapped
+        cell.alignment = alignment
+        for name, value in look.items():
+            setattr(cell, name, value)
         return cell
 
     def _cell(self, value: Cell, column: int) -> Any:
         if isinstance(value, CellNumber):
             return self._number(value, column)
-        if not value:
-            return None
-        cell = text_cell(self.into, value)
-        widths = self.sheet.widths
-        cell.alignment = self.wrapped if column < len(widths) and widths[column] >= WRAPPED_FROM else self.top
-        return cell
+        is_wide = column < len(self.sheet.widths) and self.sheet.widths[column] >= WRAPPED_FROM
+        return self._text(value, self.wrapped if is_wide else self.top) if value else None
 
     def _number(self, number: CellNumber, column: int) -> Any:
         """Return a number for its column; a row is written before the next, so one cell of a form does for all of them."""
@@ -174,7 +158,6 @@ def closed(book: Workbook) -> Iterator[None]:
 
 
 def _name_cells(book: Workbook, name: str, sheet: WorkSheet) -> None:
-    """Give cells their names."""
     from openpyxl.utils import absolute_coordinate, get_column_letter, quote_sheetname
     from openpyxl.workbook.defined_name import DefinedName
 
@@ -184,7 +167,6 @@ def _name_cells(book: Workbook, name: str, sheet: WorkSheet) -> None:
 
 
 def _describe(book: Workbook, material: Material) -> None:
-    """Say whose it is and what it holds, where programs and archives look for it."""
     project, document = material.document.project, material.document
     told = book.properties
     told.title, told.subject = holdable(document.title), holdable(project["document_number"])

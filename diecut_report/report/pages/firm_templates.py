@@ -47,45 +47,11 @@ from diecut_report.time_limit import Overran, limited
 # reached but data: an attribute is a field or property of a data class, a value is a number, a text, a container of those or a data class.
 
 
-TEXT = frozenset(
-    [
-        "capitalize",
-        "casefold",
-        "count",
-        "endswith",
-        "find",
-        "index",
-        "isalnum",
-        "isalpha",
-        "isascii",
-        "isdecimal",
-        "isdigit",
-        "islower",
-        "isnumeric",
-        "isspace",
-        "istitle",
-        "isupper",
-        "join",
-        "lower",
-        "lstrip",
-        "partition",
-        "removeprefix",
-        "removesuffix",
-        "replace",
-        "rfind",
-        "rindex",
-        "rpartition",
-        "rsplit",
-        "rstrip",
-        "split",
-        "splitlines",
-        "startswith",
-        "strip",
-        "swapcase",
-        "title",
-        "upper",
-    ]
-)
+TEXT = frozenset({
+    "capitalize", "casefold", "count", "endswith", "find", "index", "isalnum", "isalpha", "isascii", "isdecimal", "isdigit", "islower", "isnumeric",
+    "isspace", "istitle", "isupper", "join", "lower", "lstrip", "partition", "removeprefix", "removesuffix", "replace", "rfind", "rindex",
+    "rpartition", "rsplit", "rstrip", "split", "splitlines", "startswith", "strip", "swapcase", "title", "upper",
+})  # fmt: skip
 METHODS: Mapping[type, frozenset[str]] = {
     str: TEXT,
     dict: frozenset({"get", "items", "keys", "values"}),
@@ -159,8 +125,12 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
         of_class = getattr(type(obj), attr, None)
         if attr in _names(obj) or (callable(of_class) and of_class in self.functions):
             return True
+        if not _is_record(obj):
+            return False
+        of_data = [each.name for each in fields(obj)] if is_dataclass(obj) else getattr(obj, "_fields", ())
+        names = type(obj).model_fields if isinstance(obj, Record) else of_data
         is_own = isinstance(of_class, property | cached_property) and not hasattr(BaseModel, attr)
-        return _is_record(obj) and (attr in _field_names(obj) or is_own)
+        return attr in names or is_own
 
     def _is_shown(self, value: Any) -> bool:
         return isinstance(value, (*PLAIN, *OF_JINJA)) or _is_record(value) or self.is_safe_callable(value)
@@ -179,19 +149,12 @@ def _rounded(value: float, precision: int = 0, method: str = "common") -> float:
 
 
 def _names(obj: Any) -> frozenset[str]:
-    """Return the methods and attributes that may be read of an object that is no data class."""
     return next((names for kind, names in METHODS.items() if isinstance(obj, kind)), frozenset())
 
 
 def _is_record(obj: Any) -> bool:
     """Whether an object is of a class of plain data: a data class, a named tuple, or a part of the results."""
     return not isinstance(obj, type) and (is_dataclass(obj) or isinstance(obj, Record) or hasattr(type(obj), "_fields"))
-
-
-def _field_names(obj: Any) -> Collection[str]:
-    if isinstance(obj, Record):
-        return type(obj).model_fields
-    return [each.name for each in fields(obj)] if is_dataclass(obj) else obj._fields
 
 
 OWN = "program/"  # before the name of a template: the program's, whatever the firm has
@@ -226,13 +189,8 @@ class HouseStyle:
 
     def _picture(self, name: str) -> str:
         if name not in self.pictures:
-            raise ValueError(
-                Phrase(
-                    "{name} is not a picture of the folder{nearest}",
-                    name=repr(name),
-                    nearest=nearest(name, self.pictures),
-                )
-            )
+            told = {"name": repr(name), "nearest": nearest(name, self.pictures)}
+            raise ValueError(Phrase("{name} is not a picture of the folder{nearest}", **told))
         return self.pictures[name]
 
     def path(self, name: str) -> str:
@@ -257,15 +215,12 @@ def problems(house: HouseStyle, programs: Path) -> list[Problem]:
     """Return what is wrong with a firm's templates before any is filled: their syntax, names that nothing asks for, what would be fetched."""
     known = sorted(path.name for path in programs.glob(f"*{ENDING}"))
     environment = Environment(loader=FileSystemLoader(programs), **OPTIONS)
-    found = [
-        problem for name, text in house.templates.items() for problem in _judged(house, name, text, known, environment)
-    ]
-    return found + [
-        Problem(Phrase("{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write "
-"them as data: addresses.", what=what),
-                house.path(CSS), line)
-        for what, line in fetched_by_css(house.css)
-    ]  # fmt: skip
+    found = [each for name, text in house.templates.items() for each in _judged(house, name, text, known, environment)]
+    for what, line in fetched_by_css(house.css):
+        words = Phrase("{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write "
+                       "them as data: addresses.", what=what)  # fmt: skip
+        found.append(Problem(words, house.path(CSS), line))
+    return found
 
 
 def _judged(house: HouseStyle, name: str, text: str, known: list[str], environment: Environment) -> Iterator[Problem]:
@@ -285,25 +240,18 @@ def _judged(house: HouseStyle, name: str, text: str, known: list[str], environme
     except (RecursionError, ValueError) as error:  # brackets in brackets, a number of thousands of digits
         yield Problem(Phrase("The template cannot be read: {error}.", error=error), house.path(name))
         return
-    extended = [each.template.value for each in asked_for if isinstance(each.template, nodes.Const)]
-    for asked in extended:
-        if str(asked).removeprefix(OWN) not in known:
-            yield Problem(
-                Phrase(
-                    "{asked} is not a template of the program{nearest}.",
-                    asked=repr(asked),
-                    nearest=nearest(str(asked).removeprefix(OWN), known),
-                ),
-                house.path(name),
+    for asked in [each.template.value for each in asked_for if isinstance(each.template, nodes.Const)]:
+        program = str(asked).removeprefix(OWN)
+        if program not in known:
+            words = Phrase(
+                "{asked} is not a template of the program{nearest}.", asked=repr(asked), nearest=nearest(program, known)
             )
-        elif not str(asked).startswith(OWN) and asked == name:
-            yield Problem(
-                Phrase('A template cannot extend itself. Write {% extends "{name}" %}.', name=f"{OWN}{name}"),
-                house.path(name),
-                1,
-            )
+            yield Problem(words, house.path(name))
+        elif asked == name:
+            words = Phrase('A template cannot extend itself. Write {% extends "{name}" %}.', name=f"{OWN}{name}")
+            yield Problem(words, house.path(name), 1)
         else:
-            yield from _unknown_blocks(house, name, tree, blocks(str(asked).removeprefix(OWN), environment))
+            yield from _unknown_blocks(house, name, tree, blocks(program, environment))
 
 
 def _unknown_blocks(house: HouseStyle, name: str, tree: nodes.Template, known: list[str]) -> Iterator[Problem]:
@@ -334,8 +282,11 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
         raise
     except Exception as cause:  # of any kind: a template may call, divide, index whatever it likes
         files = {house.path(name) for name in house.templates} if house else set()
-        places = [frame for frame in traceback.extract_tb(cause.__traceback__) if frame.filename in files]
-        if house and files and (isinstance(cause, RecursionError | MemoryError) or _is_of_jinja(cause)):
+        frames = traceback.extract_tb(cause.__traceback__)
+        places = [frame for frame in frames if frame.filename in files]
+        # what Jinja makes of a template or joins of its texts, whose lines tell nothing
+        is_of_jinja = frames[-1].filename in (jinja_compiler.__file__, jinja_environment.__file__)
+        if house and files and (isinstance(cause, RecursionError | MemoryError) or is_of_jinja):
             places = places or [traceback.FrameSummary(house.folder, None, "")]
         if not places:
             raise
@@ -344,12 +295,6 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
             said = Phrase("{name} is not a template of the folder or the program", name=repr(cause.name))
         words = Phrase("The template cannot be filled: {reason}.", reason=said.rstrip(".") or type(cause).__name__)
         raise UserError(Problem(words, places[-1].filename, places[-1].lineno)) from cause
-
-
-def _is_of_jinja(cause: Exception) -> bool:
-    """Whether it went wrong in what Jinja makes of a template or joins of its texts, whose lines tell nothing."""
-    *_, last = traceback.extract_tb(cause.__traceback__)
-    return last.filename in (jinja_compiler.__file__, jinja_environment.__file__)
 
 
 # How long a firm's templates may take, and how much memory: what strangers wrote need not end.

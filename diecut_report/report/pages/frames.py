@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Iterator
 from functools import wraps
+from itertools import takewhile
 from typing import Any, NamedTuple
 
 from diecut_report.report.document import DSTU, ISO, TitleBlock
@@ -39,7 +40,7 @@ class Cell(NamedTuple):
     @property
     def shown(self) -> list[str]:
         """The text in lines that fit."""
-        return list(self._fitted[0])
+        return self._fitted[0]
 
     @property
     def style(self) -> str:
@@ -59,7 +60,7 @@ class Cell(NamedTuple):
         return self.height - self._top - 2 * SIDE
 
     @property
-    def _fitted(self) -> tuple[tuple[str, ...], float]:
+    def _fitted(self) -> tuple[list[str], float]:
         text = {"sheet": "000 of 000", "page": "000", "sheets": "000", "logo": ""}.get(self.kind, self.text)
         face = BOLD if self.bold else REGULAR
         return fitted(text, self.width - 2 * PAD, self._room, self.largest, LEAST, face)
@@ -95,7 +96,6 @@ def sheet_blocks(block: TitleBlock, words: Catalogue, *, has_logo: bool) -> Shee
 
 
 def _row(y: float, height: float, cells: list[tuple[float, Cell]], x: float = 0.0) -> Iterator[Cell]:
-    """Boxes side by side, each of its width."""
     for width, cell in cells:
         yield cell._replace(x=x, y=y, width=width, height=height)
         x += width
@@ -201,7 +201,6 @@ def _form_2(block: TitleBlock, words: Catalogue, has_logo: bool) -> Iterator[Cel
 
 
 def _form_2a(block: TitleBlock, words: Catalogue) -> Iterator[Cell]:
-    """The following sheets: designation, and the sheet's number."""
     p = block.project
     yield Cell(65, 0, 110, 7, text=p["document_number"], largest=12, bold=True, middle=True)
     yield Cell(65, 7, 110, 4, text=p["title"], largest=7, middle=True)
@@ -284,7 +283,7 @@ def waiting_figures(ordinary: Callable[..., Laid]) -> Callable[..., Laid]:
             return ordinary(context, box, *place)
         if element.tag == "body":
             return _body(ordinary, context, box, BlockPlace(*place))
-        if element.tag == BARRIER and place[1] is None and _is_waited_for(context):
+        if element.tag == BARRIER and place[1] is None and _sheets(context).waiting.get(context.current_page):
             return ordinary(context, box, *place) if place[3] else (*NO_ROOM, place[-1])
         if element.tag == "div" and element.get("class", "").startswith(WAITS):
             return _figure(ordinary, context, box, BlockPlace(*place))
@@ -298,48 +297,29 @@ def _sheets(context: Any) -> _Sheets:
     return found
 
 
-def _is_waited_for(context: Any) -> bool:
-    return bool(_sheets(context).waiting.get(context.current_page))
-
-
 def _figure(ordinary: Callable[..., Laid], context: Any, box: Any, place: BlockPlace) -> Laid:
-    """A figure, or the empty block in its place where it waits."""
     sheets, sheet = _sheets(context), context.current_page
-    before = _before(sheets.waiting.get(sheet, []), box)
+    # what waits before it, which may have waited when the sheet was laid out before
+    before = list(takewhile(lambda each: each.figure is not box, sheets.waiting.get(sheet, [])))
     laid = (*NO_ROOM, place.most) if before else ordinary(context, box, *place)
-    if place.is_empty or (laid[0] is not None and _has_room(context, laid[0], place)):
+    lowest = laid[0] and laid[0].border_box_y() + laid[0].border_height()
+    if place.is_empty or (lowest is not None and not context.overflows_page(place.bottom, lowest)):
         return laid
     if sheet == sheets.last or _is_kept_with(place.around, box):
         return laid
     _forget(context, laid, place)
-    height = _height(ordinary, context, box, place)
+    whole = ordinary(context, box, *place._replace(bottom=-math.inf, is_empty=True))  # whether it has room or not
+    _forget(context, whole, place)
     empty = box.copy_with_children([])
     empty.height = empty.margin_top = empty.margin_bottom = 0
-    sheets.waiting[sheet] = [*before, _Waiting(box, place.around.copy(), height, empty)]
+    sheets.waiting[sheet] = [*before, _Waiting(box, place.around.copy(), float(whole[0].margin_height()), empty)]
     return empty, None, GOES_ON, [], True, place.most
-
-
-def _before(waiting: list[_Waiting], box: Any) -> list[_Waiting]:
-    """What waits before a figure, which may have waited when the sheet was laid out before."""
-    index = next((index for index, each in enumerate(waiting) if each.figure is box), len(waiting))
-    return waiting[:index]
-
-
-def _height(ordinary: Callable[..., Laid], context: Any, box: Any, place: BlockPlace) -> float:
-    """How high a figure is, whether it has room or not."""
-    laid = ordinary(context, box, *place._replace(bottom=-math.inf, is_empty=True))
-    _forget(context, laid, place)
-    return float(laid[0].margin_height())
 
 
 def _forget(context: Any, laid: Laid, place: BlockPlace) -> None:
     """Take back what was laid out for a try."""
     if laid[0] is not None:
         block_layout.remove_placeholders(context, [laid[0]], place.absolute, place.fixed)
-
-
-def _has_room(context: Any, box: Any, place: BlockPlace) -> bool:
-    return not context.overflows_page(place.bottom, box.border_box_y() + box.border_height())
 
 
 def _is_kept_with(around: Any, box: Any) -> bool:
@@ -349,7 +329,6 @@ def _is_kept_with(around: Any, box: Any) -> bool:
 
 
 def _body(ordinary: Callable[..., Laid], context: Any, box: Any, place: BlockPlace) -> Laid:
-    """What stands on a sheet: the figure that waited, and what follows it."""
     sheets, sheet = _sheets(context), context.current_page
     sheets.top, sheets.waiting[sheet] = box.position_y, []
     laid = _below(ordinary, context, box, place, _heads(ordinary, context, box, place))

@@ -9,7 +9,7 @@ from functools import cache, partial
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any
 
 from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
@@ -26,7 +26,6 @@ from diecut_report.report.symbols import cited, in_blocks, letters_declared, own
 from diecut_report.report.text import joined, sentence, tidy
 
 if TYPE_CHECKING:
-    from diecut_report.report.figures.style import Svg
     from diecut_report.report.pages.frames import SheetBlocks
 
 FACES = {  # family, weight, style: file
@@ -61,30 +60,8 @@ END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
 
-class Medium(Protocol):
-    """How a medium shows what templates cannot: formulas, figures, and the frame of sheets; ``style`` is for this report alone."""
-
-    style: str
-    frame: SheetBlocks | None
-
-    def display(self, equation: Equation) -> Markup:
-        """A typeset formula in lines of its own."""
-
-    def beside(self, equation: Equation) -> Markup:
-        """A typeset formula in the line of its description."""
-
-    def fits_beside(self, item: Item) -> bool:
-        """Whether a step's formula stands in the line of its description."""
-
-    def has_room_beside(self, item: Item) -> bool:
-        """Whether the description there has more room than usual."""
-
-    def figure(self, number: str, title: str) -> Markup:
-        """A figure by its number."""
-
-
 class Screen:
-    """Formulas as MathML, figures as inline SVG."""
+    """Formulas as MathML, figures as inline SVG; ``style`` is for this report alone, ``frame`` that of sheets."""
 
     style = ""
     frame: SheetBlocks | None = None
@@ -97,44 +74,36 @@ class Screen:
         # math-core escapes the texts within the formula
         return Markup(self.material.typesetter.mathml(equation.latex))
 
-    beside = display
+    def beside(self, equation: Equation) -> Markup:
+        """A typeset formula in the line of its description."""
+        return self.display(equation)
 
-    def fits_beside(self, _item: Item) -> bool:
-        """Never: a screen may be narrow."""
+    def fits_beside(self, item: Item) -> bool:
+        """Whether a step's formula stands in the line of its description: never, as a screen may be narrow."""
         return False
 
-    has_room_beside = fits_beside
+    def has_room_beside(self, item: Item) -> bool:
+        """Whether the description there has more room than usual."""
+        return False
 
     def figure(self, number: str, title: str) -> Markup:
-        """A figure inline, named by its title."""
+        """A figure at a size at which its texts are those of the page; a narrow one is not stretched over the page."""
+        figure = self.material.figures[number]
+        own = f'width="{figure.width:.2f}pt" height="{figure.height:.2f}pt"'
+        grown = f'width="{LARGER * figure.width:.2f}pt" height="{LARGER * figure.height:.2f}pt"'
         # matplotlib escapes the texts within the drawing
-        return Markup(_on_screen(self.material.figures[number]))
-
-
-def _on_screen(figure: Svg) -> str:
-    """A figure at a size at which its texts are those of the page; a narrow one is not stretched over the page."""
-    own = f'width="{figure.width:.2f}pt" height="{figure.height:.2f}pt"'
-    grown = f'width="{LARGER * figure.width:.2f}pt" height="{LARGER * figure.height:.2f}pt"'
-    return figure.text.replace(own, f'class="small" {grown}' if figure.width < SMALL else grown, 1)
+        return Markup(figure.text.replace(own, f'class="small" {grown}' if figure.width < SMALL else grown, 1))
 
 
 def page(material: Material) -> str:
     """The whole HTML page: the report, which needs no script, and behind it what its scripts use."""
     scripts = [_read(name) for name in SCRIPTS]
     report = filled(material, Screen(material), "screen", *scripts)
-    return report.replace(END, _scripted(reader_data(material), scripts) + END)
+    data = f'<script type="application/json" id="reader-data">{reader_data(material)}</script>\n'
+    return report.replace(END, data + "".join(f"<script>{text}</script>\n" for text in scripts) + END)
 
 
-def _scripted(data: str, scripts: list[str]) -> str:
-    """Return the scripts and their data as elements."""
-    elements = [
-        f'<script type="application/json" id="reader-data">{data}</script>',
-        *(f"<script>{text}</script>" for text in scripts),
-    ]
-    return "\n".join([*elements, ""])
-
-
-def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
+def filled(material: Material, medium: Screen, kind: str, *scripts: str) -> str:
     """The report's template with the document in it, for ``screen`` or ``print``; a browser may run these scripts."""
     document = material.document
     faces = FACES | (MATH if kind == "screen" else {})
@@ -153,25 +122,16 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     return made
 
 
-class MathFunctions(NamedTuple):
-    """What templates ask of a medium about formulas."""
-
-    display: Callable[[Equation], Markup]
-    beside: Callable[[Equation], Markup]
-    fits_beside: Callable[[Item], bool]
-    has_room_beside: Callable[[Item], bool]
-
-
 METHODS = (CheckRow.repeats, PrintedChapter.count, ValueRow.named_formula)
 """What templates may call of the data that they see."""
 
 
-def template_variables(material: Material, medium: Medium, kind: str, style: str, policy: str) -> dict[str, Any]:
+def template_variables(material: Material, medium: Screen, kind: str, style: str, policy: str) -> dict[str, Any]:
     """Return what templates see: plain data, and plain functions."""
     document = material.document
     return {
         "doc": document, "t": document.words, "kind": kind, "style": Markup(style), "policy": policy,
-        "math": MathFunctions(medium.display, medium.beside, medium.fits_beside, medium.has_room_beside),
+        "math": {name: getattr(medium, name) for name in ("display", "beside", "fits_beside", "has_room_beside")},
         "figure": medium.figure, "failed": material.failed, "abreast": material.are_abreast, "frame": medium.frame, "logo": material.logo,
         "carried": material.carried, "changes": material.changes,
     }  # fmt: skip
@@ -179,7 +139,7 @@ def template_variables(material: Material, medium: Medium, kind: str, style: str
 
 def template_functions(given: Mapping[str, Any]) -> list[Callable[..., Any]]:
     """Return what templates may call of what they see."""
-    return [*METHODS, *given["math"], given["figure"], given["failed"], given["abreast"]]
+    return [*METHODS, *given["math"].values(), given["figure"], given["failed"], given["abreast"]]
 
 
 def filled_page(template: str, **given: object) -> str:
@@ -206,7 +166,6 @@ def _read(name: str) -> str:
 
 @cache
 def _font_faces(faces: tuple[tuple[tuple[str, int, str], str], ...], form: str = "woff2") -> str:
-    """The fonts as embedded data."""
     rules, ending = [], {"woff2": "woff2", "truetype": "ttf"}[form]
     for (family, weight, style), name in faces:
         data = base64.b64encode((folder() / "fonts" / f"{name}.{ending}").read_bytes()).decode()

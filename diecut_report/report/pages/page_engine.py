@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 import zlib
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from contextlib import contextmanager
+from copy import copy
+from functools import cache
 from os import cpu_count
 from typing import Any
+from xml.etree.ElementTree import Element, ParseError, fromstring
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.report.scope import no_compiler
@@ -22,19 +26,8 @@ with no_compiler():
     from weasyprint.urls import FatalURLFetchingError, URLFetcher
 
 __all__ = [
-    "HTML",
-    "UA_STYLESHEET",
-    "Array",
-    "Attachment",
-    "Dictionary",
-    "ElementWrapper",
-    "Object",
-    "Stream",
-    "String",
-    "URLFetcher",
-    "block_layout",
-    "told_of_page",
-]
+    "HTML", "Array", "Attachment", "Dictionary", "Object", "Stream", "String", "URLFetcher", "block_layout", "told_of_page",
+]  # fmt: skip
 
 
 @contextmanager
@@ -45,11 +38,8 @@ def told_of_page(folder: str) -> Iterator[None]:
     except FatalURLFetchingError as error:  # no Exception: it would pass by all who tell of faults
         if not folder:
             raise RuntimeError(str(error)) from error
-        raise UserError(
-            Problem(
-                Phrase("{error}: a report fetches nothing. Put what it needs into the folder.", error=error), folder
-            )
-        ) from error
+        words = Phrase("{error}: a report fetches nothing. Put what it needs into the folder.", error=error)
+        raise UserError(Problem(words, folder)) from error
     except (OSError, UserError):
         raise
     except Exception as error:  # of any kind: a template or a style may ask for anything
@@ -83,20 +73,12 @@ FREE = "f"
 class SaidObject(Object):  # type: ignore[misc]  # the page engine has no types
     """An object that is said already; the page engine says each twice, for the file and for its identifier."""
 
+    data = compressible = None  # which are properties of the page engine's objects
+
     def __init__(self, object_: Any, said: bytes, *, is_stream: bool) -> None:
         super().__init__()
         self.number, self.generation, self.free = object_.number, object_.generation, object_.free
-        self.said, self.is_stream = said, is_stream
-
-    @property
-    def data(self) -> bytes:
-        """The object as it stands in the file."""
-        return self.said
-
-    @property
-    def compressible(self) -> bool:
-        """Whether it may be packed together with others."""
-        return not self.is_stream
+        self.data, self.compressible = said, not is_stream  # those of one stream are not packed with others
 
 
 def say_once(pdf: Any) -> None:
@@ -104,10 +86,10 @@ def say_once(pdf: Any) -> None:
     with ThreadPoolExecutor(max_workers=cpu_count()) as pool:
         bodies = {each.number: body for each, body in _packed(pdf.objects, pool)}
         for place, each in enumerate(pdf.objects):
-            if isinstance(each, Stream):
-                pdf.objects[place] = SaidObject(each, _stream(each, bodies[each.number].result()), is_stream=True)
-            elif each.free != FREE:
-                pdf.objects[place] = SaidObject(each, each.data, is_stream=False)
+            is_stream = isinstance(each, Stream)
+            if is_stream or each.free != FREE:
+                said = _stream(each, bodies[each.number].result()) if is_stream else each.data
+                pdf.objects[place] = SaidObject(each, said, is_stream=is_stream)
 
 
 def _packed(objects: list[Any], pool: Executor) -> Iterator[tuple[Any, Future[bytes]]]:
@@ -120,7 +102,6 @@ def _packed(objects: list[Any], pool: Executor) -> Iterator[tuple[Any, Future[by
 
 
 def _stream(stream: Any, body: bytes) -> bytes:
-    """A stream with its head."""
     packing = {"Filter": "/FlateDecode"} if stream.compress else {}
     head = Dictionary({**stream.extra, **packing, "Length": len(body)})
     # the line before the end is \r\n: behind a body that ends with \r, \n alone is taken as \r\n, and the body as too short
@@ -128,8 +109,65 @@ def _stream(stream: Any, body: bytes) -> bytes:
 
 
 def _bytes(item: Any) -> bytes:
-    """A line of a stream."""
     if isinstance(item, bytes):
         return item
     said: bytes = item.encode("ascii") if isinstance(item, str) else Array([item]).data[1:-1]
     return said
+
+
+# The print page as WeasyPrint takes it: read by expat where it is well-formed, since reading HTML by its rules takes a tenth of a report.
+
+
+_VOID = re.compile(r"<(br|col|img|meta)\b([^<>]*?)/?>")  # elements without an end
+NOTES = ("footnote-call", "footnote-marker", "note-call", "note-marker", "note-callback")
+PART = 3  # place of the part of an element in the matcher's entries
+SYMBOL = "<i class=sy>"  # the one attribute without quotation marks
+
+
+class ReadPage(HTML):  # type: ignore[misc]  # the page engine has no types
+    """A page whose elements are read already."""
+
+    def __init__(self, root: Element, fetcher: URLFetcher) -> None:
+        self.base_url, self.url_fetcher, self.media_type = None, fetcher, "print"
+        self.wrapper_element = ElementWrapper.from_html_root(root, content_language=None)
+        self.etree_element = self.wrapper_element.etree_element
+
+    def _ua_stylesheets(self, forms: bool = False) -> list[Any]:
+        """The page engine's own style, as far as a report needs it."""
+        return super()._ua_stylesheets(forms) if forms else [_needed_style()]
+
+
+@cache
+def _needed_style() -> Any:
+    """The page engine's own style without that of notes, which reports have not; only items of lists have marks.
+
+    Else each element would get the styles of four parts that it has not, which are three quarters of all styles.
+    """
+    style = copy(UA_STYLESHEET)
+    style.matcher = copy(style.matcher)
+    every = [(selector[PART], selector) for selector in style.matcher.other_selectors]
+    marks = [selector for part, selector in every if part == "marker"]
+    style.matcher.other_selectors = [selector for part, selector in every if part not in NOTES and part != "marker"]
+    tags = style.matcher.lower_local_name_selectors
+    style.matcher.lower_local_name_selectors = tags | {"li": [*tags.get("li", []), *marks]}
+    return style
+
+
+def read_page(source: str, fetcher: URLFetcher, *, is_own: bool) -> HTML:
+    """Return the page of a source; one that is not the program's own (``is_own``), or not well-formed, is read by the rules of HTML.
+
+    The space before a symbol stands for itself: where only a space at a text's end has no room, the page engine breaks the text at its first
+    place.
+    """
+    source = source.replace(f" {SYMBOL}", f"<span> </span>{SYMBOL}")
+    if is_own:
+        try:
+            return ReadPage(fromstring(well_formed(source)), fetcher)
+        except ParseError:
+            pass  # a sign that XML cannot hold came with the results
+    return HTML(string=source, url_fetcher=fetcher)
+
+
+def well_formed(source: str) -> str:
+    """Return a page of the program's templates as XML."""
+    return _VOID.sub(r"<\1\2/>", source.strip().replace("&nbsp;", "\u00a0").replace(SYMBOL, '<i class="sy">'))

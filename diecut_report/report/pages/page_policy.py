@@ -14,38 +14,20 @@ from diecut_report.text.phrases import Phrase, phrase
 
 HTML, SVG = "http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"
 RUNNING = {
-    "script",
-    "iframe",
-    "frame",
-    "frameset",
-    "link",
-    "object",
-    "embed",
-    "applet",
-    "portal",
-    "base",
-    "animate",
-    "set",
-    "noscript",
-}
+    "script", "iframe", "frame", "frameset", "link", "object", "embed", "applet", "portal", "base", "animate", "set", "noscript",
+}  # fmt: skip
 """Elements that run, embed, change addresses, or are read otherwise where scripts are off."""
-ADDRESSES = {"src", "srcset", "data", "poster", "background", "href", "imagesrcset", "action", "formaction", "ping", "manifest", "longdesc",
-             "lowsrc", "dynsrc", "codebase", "archive", "classid", "icon", "profile"}  # fmt: skip
+ADDRESSES = {
+    "src", "srcset", "data", "poster", "background", "href", "imagesrcset", "action", "formaction", "ping", "manifest", "longdesc", "lowsrc",
+    "dynsrc", "codebase", "archive", "classid", "icon", "profile",
+}  # fmt: skip
 SETS = {"srcset", "imagesrcset"}
 """Attributes that hold many addresses, of which each screen takes another."""
 LINKS = re.compile(r"(https?:|mailto:|tel:|data:|#)", re.IGNORECASE)
 """What a link may lead to: nothing is fetched before a reader follows it."""
 FETCHING_FUNCTIONS = {
-    "url",
-    "src",
-    "image",
-    "image-set",
-    "-webkit-image-set",
-    "cross-fade",
-    "-webkit-cross-fade",
-    "element",
-    "attr",
-}
+    "url", "src", "image", "image-set", "-webkit-image-set", "cross-fade", "-webkit-cross-fade", "element", "attr",
+}  # fmt: skip
 _UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # characters that no page may hold
 
 
@@ -58,24 +40,16 @@ def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
 
     tree: Any = parse(page)
     advice = phrase('a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.')
-    found = [
-        Problem(Phrase("{each} would be fetched; {advice}", each=each, advice=advice), folder)
-        for each in _fetched(tree)
-    ]
+    found = [Phrase("{each} would be fetched; {advice}", each=each, advice=advice) for each in _fetched(tree)]
     if policy and not _is_protected(tree, policy):
-        words = Phrase(
-            "The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
-            "or keep its head.",
-            main=main,
-        )
-        found.append(Problem(words, folder))
+        words = Phrase("The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
+                       "or keep its head.", main=main)  # fmt: skip
+        found.append(words)
     if letter := _UNWRITTEN.search(page):
         code = format(ord(letter[0]), "04X")
-        found.append(
-            Problem(Phrase("A template writes U+{code}, which a page cannot hold. Leave it out.", code=code), folder)
-        )
+        found.append(Phrase("A template writes U+{code}, which a page cannot hold. Leave it out.", code=code))
     if found:
-        raise UserError(found)
+        raise UserError([Problem(words, folder) for words in found])
 
 
 def _is_protected(tree: Any, policy: str) -> bool:
@@ -85,12 +59,8 @@ def _is_protected(tree: Any, policy: str) -> bool:
     ]
     head = tree.find(f"{{{HTML}}}head")
     first = [] if head is None else [each for each in head if isinstance(each.tag, str)][:2]
-    return (
-        len(first) == 2
-        and _lower(first[0], "charset") == "utf-8"
-        and [first[1]] == of_policy
-        and first[1].get("content") == policy
-    )
+    is_first = len(first) == 2 and _lower(first[0], "charset") == "utf-8" and [first[1]] == of_policy
+    return is_first and first[1].get("content") == policy
 
 
 def _lower(element: Any, name: str) -> str:
@@ -98,7 +68,6 @@ def _lower(element: Any, name: str) -> str:
 
 
 def _fetched(tree: Any) -> Iterator[str]:
-    """Yield what a page would fetch or run."""
     for element in tree.iter():
         if not isinstance(element.tag, str):
             continue  # a comment
@@ -114,6 +83,7 @@ def _fetched(tree: Any) -> Iterator[str]:
 
 def _fetched_by_attribute(tag: str, name: str, value: str) -> Iterator[str]:
     address = value.strip().lower()
+    is_outside = name in SETS or not address.startswith(("data:", "#"))
     if name.startswith("on"):
         yield f"<{tag} {name}>"
     elif name == "rel" and "attachment" in address.split():
@@ -121,11 +91,7 @@ def _fetched_by_attribute(tag: str, name: str, value: str) -> Iterator[str]:
     elif name in ("href", "xlink:href") and tag.lower() in ("a", "area"):
         if not LINKS.match(re.sub(r"[\s\0-\x1f]", "", address)):
             yield f"<{tag}> {value[:80]}"
-    elif (
-        name.removeprefix("xlink:") in ADDRESSES
-        and address
-        and (name in SETS or not address.startswith(("data:", "#")))
-    ):
+    elif name.removeprefix("xlink:") in ADDRESSES and address and is_outside:
         yield f"<{tag}> {value[:80]}"
     if name == "style" or "(" in value:
         yield from (what for what, _ in fetched_by_css(value))

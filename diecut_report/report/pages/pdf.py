@@ -11,15 +11,14 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
-from diecut_report.report.chapters.front import DATE, CarriedFile
+from diecut_report.report.chapters.front import DATE
 from diecut_report.report.context import Material
 from diecut_report.report.document import RULE, Backdrop
 from diecut_report.report.equations import Equation
 from diecut_report.report.model import Item
-from diecut_report.report.pages.frames import SheetBlocks, sheet_blocks, waiting_figures
-from diecut_report.report.pages.html import filled
-from diecut_report.report.pages.page_engine import Attachment, URLFetcher, block_layout, told_of_page
-from diecut_report.report.pages.page_reading import read_page
+from diecut_report.report.pages.frames import sheet_blocks, waiting_figures
+from diecut_report.report.pages.html import Screen, filled
+from diecut_report.report.pages.page_engine import Attachment, URLFetcher, block_layout, read_page, told_of_page
 from diecut_report.report.pages.pdf_archive import Archive
 from diecut_report.report.pages.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pages.pdf_math import Letters, Picture
@@ -35,14 +34,13 @@ BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, 
 block_layout.block_level_layout = waiting_figures(block_layout.block_level_layout)
 
 
-class Paper:
+class Paper(Screen):
     """Formulas as outlines with searchable text under them, figures as images."""
 
     def __init__(self, material: Material) -> None:
-        self.material = material
-        block = material.document.block
-        words = material.words
-        self.frame: SheetBlocks | None = sheet_blocks(block, words, has_logo=bool(material.logo))
+        super().__init__(material)
+        block, words = material.document.block, material.words
+        self.frame = sheet_blocks(block, words, has_logo=bool(material.logo))
         self.letters = Letters()
         behind = Backdrop(block.frame, words["across"] if block.is_held else "")
         self.formulas: set[str] = set()
@@ -50,11 +48,9 @@ class Paper:
         self.style = RULE.format(BACKDROP) if behind else ""
 
     def display(self, equation: Equation) -> Markup:
-        """A typeset formula: its picture."""
         return self._picture(equation, "")
 
     def beside(self, equation: Equation) -> Markup:
-        """The same on the line that it stands in."""
         depth = self.material.typesetter.outline(equation.latex).depth
         return self._picture(equation, f' style="vertical-align:{depth}em"')
 
@@ -62,11 +58,9 @@ class Paper:
         """Whether a formula and its description, in two lines at most, have room side by side."""
         if item.equation is None or item.condition or item.words:
             return False
-        if self.has_room_beside(item):
-            return True
-        return (
-            _letters(item) <= BESIDE_LETTERS and self.material.typesetter.measure(item.equation.latex) <= BESIDE_WIDTH
-        )
+        is_short = _letters(item) <= BESIDE_LETTERS
+        is_narrow = is_short and self.material.typesetter.measure(item.equation.latex) <= BESIDE_WIDTH
+        return is_narrow or self.has_room_beside(item)
 
     def has_room_beside(self, item: Item) -> bool:
         """Whether a formula is so narrow that its description may be wider."""
@@ -75,27 +69,24 @@ class Paper:
         return self.material.typesetter.measure(item.equation.latex) <= NARROW_WIDTH
 
     def _picture(self, equation: Equation, style: str) -> Markup:
-        outline = self.material.typesetter.outline(equation.latex)
-        address = f"{FORMULA}{len(self.pictures)}"
-        self.pictures[address] = Picture(outline, equation.text, self.letters)
         self.formulas.add(equation.text)
         told = escape(equation.text).replace("\n", Markup("&#10;"))
+        outline = self.material.typesetter.outline(equation.latex)
+        return self._image(Picture(outline, equation.text, self.letters), told, style)
+
+    def _image(self, picture: Picture | FigurePicture, told: str, style: str = "") -> Markup:
+        address = f"{FORMULA}{len(self.pictures)}"
+        self.pictures[address] = picture
         return Markup('<img src="{}" alt="{}"{}>').format(address, told, Markup(style))
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure as outlines; as an image where it holds what cannot be drawn so."""
         drawing = self.material.figures[number]
         try:
-            picture = FigurePicture(*drawing)
+            return self._image(FigurePicture(*drawing), title)
         except NotDrawn:
-            return self._image(number, title)
-        address = f"{FORMULA}{len(self.pictures)}"
-        self.pictures[address] = picture
-        return Markup('<img src="{}" alt="{}">').format(address, title)
-
-    def _image(self, number: str, title: str) -> Markup:
-        data = base64.b64encode(self.material.figures[number].text.encode()).decode()
-        return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, title)
+            data = base64.b64encode(drawing.text.encode()).decode()
+            return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, title)
 
 
 def _letters(item: Item) -> float:
@@ -117,22 +108,14 @@ def sheets(material: Material) -> bytes:
         content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
             pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False,
             finisher=Archive(material.words, paper.letters, paper.formulas),
-            attachments=[_attached(file, fetcher) for file in material.carried],
+            attachments=[
+                # the type of a file is that of its address, not what the system takes its ending for
+                Attachment(url=file.address, url_fetcher=fetcher, name=file.name, description=file.description,
+                           created=DATE, modified=DATE, relationship=file.relationship)
+                for file in material.carried
+            ],
         )  # fmt: skip
     return content
-
-
-def _attached(file: CarriedFile, fetcher: URLFetcher) -> Attachment:
-    """A file in the PDF; its type is that of its address, not what the system takes its ending for."""
-    return Attachment(
-        url=file.address,
-        url_fetcher=fetcher,
-        name=file.name,
-        description=file.description,
-        created=DATE,
-        modified=DATE,
-        relationship=file.relationship,
-    )
 
 
 @contextmanager

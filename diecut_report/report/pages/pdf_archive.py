@@ -37,7 +37,7 @@ class Archive:
     def __call__(self, document: Any, pdf: Any) -> None:
         """Complete a document, of which ``pdf`` holds the objects."""
         _declare_accessible(pdf)
-        shared = _shared(pdf)
+        shared = _object(pdf, _object(pdf, pdf.page_references[0])["Resources"])  # one and the same for all sheets
         add_font(pdf, _object(pdf, shared["Font"]))
         self.letters.add_forms(pdf, shared["XObject"])
         pdf.catalog["AF"] = Array(dict.fromkeys(pdf.catalog["AF"]))
@@ -45,18 +45,15 @@ class Archive:
             for name in SIGNERS:
                 if ANCHOR + name in page.anchors:
                     self._field(pdf, name, number, page)
-        self._name_formulas(pdf)
-        say_once(pdf)
-
-    def _name_formulas(self, pdf: Any) -> None:
-        """Tag formulas as such: the page engine knows their pictures as figures, with the formula as their text."""
-        for each in pdf.objects:
+        for (
+            each
+        ) in pdf.objects:  # the page engine knows pictures of formulas as figures, with the formula as their text
             told = each.get("Alt") if isinstance(each, Dictionary) and each.get("S") == "/Figure" else None
             if told is not None and told.string in self.formulas:
                 each["S"] = "/Formula"
+        say_once(pdf)
 
     def _field(self, pdf: Any, name: str, number: int, page: Any) -> None:
-        """An empty field for a signature in its box."""
         x1, y1, x2, y2 = (each * POINT for each in page.anchors[ANCHOR + name])
         height = page.height * POINT
         box = x1 + INSET, height - y2 + INSET, x2 - INSET, height - y1 - INSET
@@ -85,7 +82,6 @@ def _declare_accessible(pdf: Any) -> None:
 
 
 def _tag(pdf: Any, field: Any, sheet: bytes) -> None:
-    """Put a field into the tree of the document's structure."""
     root = _object(pdf, pdf.catalog["StructTreeRoot"])
     whole, numbers = _object(pdf, root["K"][0]), _object(pdf, root["ParentTree"])["Nums"]
     place = Dictionary({"Type": "/OBJR", "Obj": field.reference, "Pg": sheet})
@@ -97,11 +93,6 @@ def _tag(pdf: Any, field: Any, sheet: bytes) -> None:
     whole["K"].append(element.reference)
     field["StructParent"] = numbers[-2] + 1
     numbers.extend([field["StructParent"], element.reference])
-
-
-def _shared(pdf: Any) -> Any:
-    """What the sheets use, one and the same for all."""
-    return _object(pdf, _object(pdf, pdf.page_references[0])["Resources"])
 
 
 def _object(pdf: Any, reference: bytes) -> Any:

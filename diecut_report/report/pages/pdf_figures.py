@@ -8,17 +8,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
-from importlib import import_module
 from math import cos, radians, sin
-from pathlib import Path
 from textwrap import wrap
 from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
-from fontTools.ttLib import TTFont
-
 from diecut_report.report.mathematics import OperatorPen
 from diecut_report.report.pages.pdf_math import unseen
+from diecut_report.report.symbols import font
 
 SVG, HREF = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
 PIXELS = 4 / 3  # to a point
@@ -118,12 +115,10 @@ class _SvgOperators:
         self._paint(_transform(node) + _fill(style) + " ".join(letters), style)
 
     def _paint(self, operators: str, style: Style) -> None:
-        """Keep the operators, apart in their opacity."""
         opacity = float(style["opacity"])
         self.pieces += [f"q {operators} Q"] if opacity == 1 else ["q", opacity, operators, "Q"]
 
     def _clip(self, node: ElementTree.Element) -> str:
-        """The rectangle or path within which an element shows."""
         if not node.get("clip-path"):
             return ""
         [shape] = self.named[node.get("clip-path", "")[5:-1]]
@@ -151,7 +146,6 @@ def _styled(node: ElementTree.Element, style: Style) -> Style:
 
 
 def _route(path: str) -> str:
-    """The operators of a path, each of whose commands has its places behind it."""
     steps = []
     for way, places in _COMMAND.findall(path):
         if way not in WAYS or len(places.split()) != WAYS[way][1]:
@@ -166,7 +160,6 @@ def _painting(style: Style) -> str:
 
 
 def _state(style: Style) -> str:
-    """Colours and the stroke's width, ends and dashes."""
     dashes = style["stroke-dasharray"].replace(",", " ")
     line = f"{_colour(style['stroke'])} RG {style['stroke-width']} w {CAPS[style['stroke-linecap']]} J {JOINS[style['stroke-linejoin']]} j "
     line += f"[{dashes}] {style['stroke-dashoffset']} d " if dashes != "none" else ""
@@ -187,7 +180,6 @@ def _colour(name: str) -> str:
 
 
 def _transform(node: ElementTree.Element) -> str:
-    """The operators of an element's transform; a turn is about a place."""
     found = ""
     for name, numbers in _STEP.findall(node.get("transform") or ""):
         values = [float(each) for each in numbers.replace(",", " ").split()]
@@ -216,7 +208,6 @@ def _parts(node: ElementTree.Element) -> Iterable[ElementTree.Element]:
 
 
 def _placed(node: ElementTree.Element, style: Style) -> Iterator[str]:
-    """The letters of a text: in a line from its place, or those of its parts, each where it says."""
     for part in _parts(node):
         look = _styled(part, style)
         size, letters = float(look["font-size"].removesuffix("px")), part.text or ""
@@ -234,18 +225,12 @@ def _placed(node: ElementTree.Element, style: Style) -> Iterator[str]:
 
 
 @cache
-def _font(name: str) -> TTFont:
-    folder = Path(import_module("diecut_report.templates").__path__[0]) / "fonts"
-    return TTFont(folder / f"{FONTS[name]}.ttf")
-
-
-@cache
 def _glyph(letter: str, family: str) -> _Glyph:
     """A letter of a family, or of another one that has it."""
     for name in (family, *FONTS):
-        if name in FONTS and ord(letter) in _font(name).getBestCmap():
-            glyphs, called = _font(name).getGlyphSet(), _font(name).getBestCmap()[ord(letter)]
+        if name in FONTS and ord(letter) in font(FONTS[name]).getBestCmap():
+            glyphs, called = font(FONTS[name]).getGlyphSet(), font(FONTS[name]).getBestCmap()[ord(letter)]
             pen = OperatorPen(glyphs)
             glyphs[called].draw(pen)
-            return _Glyph(" ".join(pen.operators), glyphs[called].width, _font(name)["head"].unitsPerEm)
+            return _Glyph(" ".join(pen.operators), glyphs[called].width, font(FONTS[name])["head"].unitsPerEm)
     raise NotDrawn(letter)

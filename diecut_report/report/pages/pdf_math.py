@@ -34,35 +34,33 @@ def unseen(lines: list[str], width: float) -> str:
     longest = max(map(len, lines), default=0) * SIZE * WIDTH / UNITS
     narrower = min(100.0, 100 * width / longest) if longest else 100.0
     shown = " T* ".join(f"<{line.encode('utf-16-be').hex()}> Tj" for line in lines)
-    return (
-        f"BT /{NAME} {SIZE:.4g} Tf {INVISIBLE} Tr {narrower:.4g} Tz {SIZE:.4g} TL 1 0 0 -1 0 {SIZE:.4g} Tm {shown} ET"
-    )
+    font = f"/{NAME} {SIZE:.4g} Tf {INVISIBLE} Tr {narrower:.4g} Tz {SIZE:.4g} TL"
+    return f"BT {font} 1 0 0 -1 0 {SIZE:.4g} Tm {shown} ET"
 
 
 def add_font(pdf: Any, fonts: Any) -> None:
     """Put the font among those of a document's pages."""
-    file = Stream([_file()], {"Length1": len(_file())}, compress=True)
-    glyphs = Stream([b"\x00\x01" * CODES], compress=True)
-    letters = Stream([_letters()], compress=True)
-    for each in (file, glyphs, letters):
-        pdf.add_object(each)
-    described = Dictionary({
+
+    def added(made: Any) -> Any:
+        pdf.add_object(made)
+        return made.reference
+
+    file = added(Stream([_file()], {"Length1": len(_file())}, compress=True))
+    glyphs = added(Stream([b"\x00\x01" * CODES], compress=True))
+    letters = added(Stream([_letters()], compress=True))
+    described = added(Dictionary({
         "Type": "/FontDescriptor", "FontName": f"/{NAME}", "Flags": 4, "FontBBox": Array((0, 0, WIDTH, UNITS)), "ItalicAngle": 0,
-        "Ascent": UNITS, "Descent": 0, "CapHeight": UNITS, "StemV": 80, "FontFile2": file.reference,
-    })  # fmt: skip
-    pdf.add_object(described)
+        "Ascent": UNITS, "Descent": 0, "CapHeight": UNITS, "StemV": 80, "FontFile2": file,
+    }))  # fmt: skip
     system = Dictionary({"Registry": String("Adobe"), "Ordering": String("Identity"), "Supplement": 0})
-    descendant = Dictionary({
+    descendant = added(Dictionary({
         "Type": "/Font", "Subtype": "/CIDFontType2", "BaseFont": f"/{NAME}", "CIDSystemInfo": system, "DW": WIDTH,
-        "CIDToGIDMap": glyphs.reference, "FontDescriptor": described.reference,
-    })  # fmt: skip
-    pdf.add_object(descendant)
-    font = Dictionary({
-        "Type": "/Font", "Subtype": "/Type0", "BaseFont": f"/{NAME}", "Encoding": "/Identity-H", "ToUnicode": letters.reference,
-        "DescendantFonts": Array([descendant.reference]),
-    })  # fmt: skip
-    pdf.add_object(font)
-    fonts[NAME] = font.reference
+        "CIDToGIDMap": glyphs, "FontDescriptor": described,
+    }))  # fmt: skip
+    fonts[NAME] = added(Dictionary({
+        "Type": "/Font", "Subtype": "/Type0", "BaseFont": f"/{NAME}", "Encoding": "/Identity-H", "ToUnicode": letters,
+        "DescendantFonts": Array([descendant]),
+    }))  # fmt: skip
 
 
 def _letters() -> bytes:
@@ -171,8 +169,5 @@ def _operator(found: re.Match[str], paths: dict[str, str], letters: Letters) -> 
     if found["glyph"] is None:
         return f"{found['rx']} {found['ry']} {found['rw']} {found['rh']} re f"
     path, scale = paths[found["glyph"]], found["scale"] or "1"
-    if not path:
-        return ""
-    return (
-        f"q {scale} 0 0 {scale} {found['x'] or found['left']} {found['y'] or found['up']} cm /{letters.name(path)} Do Q"
-    )
+    place = f"{found['x'] or found['left']} {found['y'] or found['up']}"
+    return path and f"q {scale} 0 0 {scale} {place} cm /{letters.name(path)} Do Q"

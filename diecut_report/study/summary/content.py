@@ -61,7 +61,7 @@ class Asked(NamedTuple):
     reports: str
 
 
-def _parsed(source: StudySource) -> yaml.Tree | None:
+def parsed_source(source: StudySource) -> yaml.Tree | None:
     """Return what stands in the kept copy of a file; None where the copy is gone or changed."""
     return yaml.parse(source.content.decode("utf-8-sig"), source.file) if source.content is not None else None
 
@@ -251,7 +251,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     fixed = {name for name, spread in spreads.items() if not spread.varies}
     still = {check for check, (each, _) in stored.checks.items() if each.name in fixed}
     governing = data.governing(stored, still)
-    study = _parsed(stored.description.study)
+    study = parsed_source(stored.description.study)
     asked = [
         column for column in varying if column.name in map(str, (study.data.get("outputs") or ()) if study else ())
     ]
@@ -274,7 +274,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     wanted = dict.fromkeys([*aims, WORST, *limits[:MAX_CHECKS], *stored.varied, *limits, *varying])
     panels = [spreads[column.name] for column in wanted if column in varying][:MAX_PANELS]
     groups, shown, matrix = best.chosen(stored, total, first), best.columns(stored, goals), best.telling(made)
-    base = _parsed(stored.description.base)
+    base = parsed_source(stored.description.base)
     return Summary(
         title=_title(stored, base), folder=printable(stored.folder.resolve().name), study=stored.study, files=_files(stored),
         checks={check: said(stored.check_label(check)) for check in stored.checks},

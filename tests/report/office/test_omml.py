@@ -118,9 +118,7 @@ def test_units_stand_upright_and_letters_do_not() -> None:
 
 def test_an_operator_that_begins_a_line_has_something_before_it(plain: dict[str, Any]) -> None:
     printer = OfficeMath(WORDS)
-    items = [
-        item for part in Rendering(typed(plain)).material.document.chapters for s in part.sections for item in s.items
-    ]
+    items = [item for part in Rendering(typed(plain)).document.chapters for s in part.sections for item in s.items]
     lines = [line for item in items if item.equation for line in office_math(item.equation, printer)]
     texts = ["".join(t.text or "" for t in _parsed(line).iter(f"{M}t")) for line in lines]
     assert any(text.startswith("\u200b=") for text in texts)
@@ -128,7 +126,7 @@ def test_an_operator_that_begins_a_line_has_something_before_it(plain: dict[str,
 
 
 def test_every_equation_has_its_rows_and_nothing_stands_outside_of_runs(plain: dict[str, Any]) -> None:
-    document = Rendering(typed(plain)).material.document
+    document = Rendering(typed(plain)).document
     items = [item for part in document.chapters for section in part.sections for item in section.items]
     equations = [e for item in items for e in (item.equation, item.condition, *item.definitions) if e]
     assert len(equations) > 10

@@ -97,7 +97,7 @@ def test_headings_contents_and_links_are_those_of_the_report(rendering: Renderin
     made, root = docx.Document(io.BytesIO(content)), part(content)
     headings = [p.text for p in made.paragraphs if p.style and p.style.name in ("Heading 1", "Heading 2")]
     listed = [p.text for p in made.paragraphs if p.style and str(p.style.name).startswith("toc ")]
-    titles = [f"{number}\u2002{title}" for _, number, title, _ in rendering.material.document.contents]
+    titles = [f"{number}\u2002{title}" for _, number, title, _ in rendering.document.contents]
     assert headings == listed == titles
     marks = {mark.get(f"{W}name") for mark in root.iter(f"{W}bookmarkStart")}
     assert {link.get(f"{W}anchor") for link in root.iter(f"{W}hyperlink")} <= marks
