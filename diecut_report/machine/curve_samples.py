@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.machine.numerics.domain import Inside, Machines
+from diecut_report.machine.numerics.domain import CalculatedMachines, Inside
 from diecut_report.mechanism.names import Bound, Written, bound
 
 
@@ -20,7 +20,7 @@ class CurveSampler:
 
     def __init__(
         self,
-        owner: Machines,
+        owner: CalculatedMachines,
         axis: str,
         x: Array,
         middle: Array,

@@ -11,7 +11,7 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, FormulaError, FormulaName
 from diecut_report.formulas.tree import NUMERIC, Node
-from diecut_report.machine.numerics.domain import Inside, Machines
+from diecut_report.machine.numerics.domain import CalculatedMachines, Inside
 from diecut_report.mechanism.names import Binding, bound
 from diecut_report.mechanism.steps import Choice, Step, Value
 
@@ -276,7 +276,7 @@ class Curves:
 
     def __init__(
         self,
-        calc: Machines,
+        calc: CalculatedMachines,
         axis: str,
         wanted: Sequence[str],
         middle: Array,
@@ -320,7 +320,7 @@ class Curves:
 
 
 def several(
-    calc: Machines,
+    calc: CalculatedMachines,
     axis: str,
     wanted: Sequence[str],
     x: Array,
@@ -343,7 +343,7 @@ def _filled(shape: tuple[int, ...], values: Array) -> Array:
     return made
 
 
-def flags_of(calc: Machines, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:
+def flags_of(calc: CalculatedMachines, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:
     """Return the flags of pieces, taken at their middles; (rows, 1) each."""
     if not names:
         return []
@@ -373,17 +373,17 @@ class _Columns:
         return found
 
 
-def _program(calc: Machines, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
+def _program(calc: CalculatedMachines, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
     return program(tuple(calc.curves.items()), axis, wanted, at_middle)
 
 
-def _numbers(calc: Machines, of: Program) -> list[Any]:
+def _numbers(calc: CalculatedMachines, of: Program) -> list[Any]:
     """What depends on numbers alone, a row for each machine."""
     found: list[Any] = list(of.numbers(*(calc[leaf.name] for leaf in of.leaves[NUMBERS].values())))
     return found
 
 
-def _given(calc: Machines, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
+def _given(calc: CalculatedMachines, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
     leaves = of.leaves[POINTS].values()
     if all(leaf.kind == "abscissa" for leaf in leaves):
         return [x] * len(leaves)

@@ -221,7 +221,7 @@ class PieceSeries:
         return numerics.at_places(terms, variant * self.series.shape[2] + piece, place)
 
 
-class Machines(Protocol):
+class CalculatedMachines(Protocol):
     """Hold what curves are evaluated of: the calculation of one machine or of many."""
 
     count: int

@@ -13,7 +13,7 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.machine.numerics.conditions import conditions_of
 from diecut_report.machine.numerics.curves import Curves, flags_of
-from diecut_report.machine.numerics.domain import Domain, Machines, nodes_of, shares
+from diecut_report.machine.numerics.domain import CalculatedMachines, Domain, nodes_of, shares
 
 INSIDE = 2e-14  # share of the period by which places at a piece's end are moved inwards, so that rounding decides no condition
 SIZED = 4  # of so many points of a piece one tells how great a curve is there
@@ -96,8 +96,8 @@ class Known(NamedTuple):
 class SampleCache:
     """Hold what is known of the curves over one abscissa."""
 
-    def __init__(self, calc: Machines, axis: str) -> None:
-        self.calc: Machines = proxy(calc)  # which holds this table: no memory may wait for the collector
+    def __init__(self, calc: CalculatedMachines, axis: str) -> None:
+        self.calc: CalculatedMachines = proxy(calc)  # which holds this table: no memory may wait for the collector
         self.axis = axis
         self._edges: Array | None = None
         self._pieces: CachedPieces
