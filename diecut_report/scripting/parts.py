@@ -1,16 +1,27 @@
-"""The parts of a mechanism's results: checks, curves, phases and figures."""
+"""The parts of a mechanism's results, each over its record: checks, curves, phases and figures."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, overload
 
-from diecut_report.errors import Problem, UnknownName, nearest
+from markupsafe import Markup
+
+from diecut_report.errors import ConfigError, Problem, UnknownName, nearest
+from diecut_report.files import write_all
 from diecut_report.quantities.units import unit
-from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, PhaseRecord
-from diecut_report.scripting.values import QuantityValue, told_in
+from diecut_report.report.scope import STANDARD
+from diecut_report.report.text import Catalogue
+from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, PhaseRecord, ShownRecord
+from diecut_report.results.record import Record
+from diecut_report.scripting.values import QuantityValue, notebook_page, told_in
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
 
 if TYPE_CHECKING:
@@ -20,33 +31,27 @@ if TYPE_CHECKING:
     from diecut_report.scripting.values import Printable
 
 
-# Parts by their names, and the error of a name that is not known.
-
-
 PartT = TypeVar("PartT")
 SHOWN = 20  # known names that a message lists
 
 
 def unknown(what: str, name: str, known: Sequence[str], *, also: Sequence[str] = ()) -> UnknownName:
     """Return the error of a name that is not known; ``what`` says of what, ``drive has no figure``. The nearest is sought ``also`` in others."""
-    near = nearest(name, (*known, *also)) or _listed(known)
+    listed = Phrase("; there are {known}", known=", ".join(known[:SHOWN])) if known else ""
+    near = nearest(name, (*known, *also)) or listed
     return UnknownName(Problem(Phrase("{what} {name}{nearest}.", what=what, name=repr(name), nearest=near)))
-
-
-def _listed(known: Sequence[str]) -> str:
-    return Phrase("; there are {known}", known=", ".join(known[:SHOWN])) if known else ""
 
 
 class NamedParts(Mapping[str, PartT]):
     """Hold parts by their names, as a mapping; another name is an UnknownName (a KeyError) that tells the nearest."""
 
     def __init__(self, parts: Mapping[str, PartT], missing: str, language: str | None) -> None:
-        self._parts, self._missing, self._language = dict(parts), missing, language
+        self._parts, self._missing, self.language = dict(parts), missing, language
 
     def __getitem__(self, name: str) -> PartT:
         """Return a part by its name; UnknownName where there is none."""
         if name not in self._parts:
-            with told_in(self._language):
+            with told_in(self.language):
                 raise unknown(self._missing, name, list(self._parts))
         return self._parts[name]
 
@@ -63,148 +68,201 @@ class NamedParts(Mapping[str, PartT]):
         return repr(self._parts)
 
 
-Data = Mapping[str, Any]
+class PartList(ABC, Sequence[PartT]):
+    """Hold parts in their order: by number, or by name."""
 
+    _missing: ClassVar[str]
 
-@dataclass(frozen=True)
-class CheckResult:
-    """Hold a check: what the machine needs (``demand``) against what it may (``limit``), and the verdict.
+    def __init__(self, parts: Sequence[PartT], language: str | None) -> None:
+        self._parts, self.language = tuple(parts), language
 
-    ``status`` is ``pass``, ``warn``, ``fail`` or ``not_checked``, where ``missing`` names the keys that it needs; ``check_class`` is
-    ``function``, ``strength``, ``practice`` or ``numerical``; ``margin`` is
-    below zero where the limit is not kept; ``utilisation`` is a share of 1, None where it cannot be told.
-    """
-
-    name: str
-    mechanism: str
-    id: str
-    title: str
-    check_class: str
-    status: str
-    demand: QuantityValue | None
-    operator: str
-    limit: QuantityValue | None
-    margin: QuantityValue | None
-    utilisation: float | None
-    message: str
-    source: str
-    missing: tuple[str, ...]
-
-    def __repr__(self) -> str:
-        share = "" if self.utilisation is None else f" {100 * self.utilisation:.1f} %"
-        return f"<check {self.name}: {self.status}{share}>"
-
-
-def check_result(mechanism: str, data: CheckRecord) -> CheckResult:
-    """Return a check of the results."""
-    demand, limit = data.demand, data.limit
-    margin = None if demand is None or limit is None else limit - demand
-    sides = ((demand, data.demand_display), (limit, data.limit_display), (margin, data.margin_display))
-    shown = [
-        None if value is None else QuantityValue(value, data.unit, display=(text.text, text.unit) if text else None)
-        for value, text in sides
-    ]
-    return CheckResult(
-        f"{mechanism}.{data.id}", mechanism, data.id, str(data.title), data.check_class, data.status, shown[0],
-        data.operator, shown[1], shown[2], data.utilisation, str(data.message), data.source,
-        tuple(data.missing),
-    )  # fmt: skip
-
-
-class CheckList(Sequence[CheckResult]):
-    """Hold checks in their order: by number, or by name (``checks["crank_torque"]``); as a table by ``to_arrow``, ``to_pandas``, ``to_polars``."""
-
-    def __init__(self, checks: Sequence[CheckResult], results: Printable) -> None:
-        self._checks, self._results = tuple(checks), results
+    @abstractmethod
+    def _names(self, part: PartT) -> tuple[str, ...]: ...
 
     @overload
-    def __getitem__(self, which: int | str) -> CheckResult: ...
+    def __getitem__(self, which: int | str) -> PartT: ...
     @overload
-    def __getitem__(self, which: slice) -> CheckList: ...
-    def __getitem__(self, which: int | str | slice) -> CheckResult | CheckList:
-        """Return a check by its number, its id, or its name with its mechanism; UnknownName where there is none of that name."""
+    def __getitem__(self, which: slice) -> Self: ...
+    def __getitem__(self, which: int | str | slice) -> PartT | Self:
+        """Return a part by its number or one of its names; UnknownName where there is none of that name, or several."""
         if isinstance(which, slice):
-            return CheckList(self._checks[which], self._results)
+            return self._some(self._parts[which])
         if isinstance(which, int):
-            return self._checks[which]
-        found = [check for check in self._checks if which in (check.name, check.id)]
-        with told_in(self._results.language):
+            return self._parts[which]
+        found = [part for part in self._parts if which in self._names(part)]
+        with told_in(self.language):
             if len(found) > 1:
-                told = ", ".join(check.name for check in found)
+                told = ", ".join(self._names(part)[0] for part in found)
                 raise UnknownName(
                     Problem(Phrase("several checks are called {name}: {names}.", name=repr(which), names=told))
                 )
             if not found:
-                names = [check.name for check in self._checks]
-                raise unknown(phrase("there is no check"), which, names, also=[check.id for check in self._checks])
+                names = [self._names(part) for part in self._parts]
+                others = [name for some in names for name in some[1:]]
+                raise unknown(self._missing, which, [some[0] for some in names], also=others)
         return found[0]
 
+    def _some(self, parts: Sequence[PartT]) -> Self:
+        made = copy(self)
+        made._parts = tuple(parts)
+        return made
+
     def __len__(self) -> int:
-        return len(self._checks)
+        return len(self._parts)
+
+    def __repr__(self) -> str:
+        return "\n".join(map(repr, self._parts))
+
+
+class Tabular(ABC):
+    """Give a table to other libraries."""
+
+    language: str | None
+
+    @abstractmethod
+    def to_arrow(self) -> Any:
+        """Return it as a table of pyarrow."""
+
+    def to_pandas(self) -> Any:
+        """Return it as a table of pandas; ConfigError where pandas is not installed."""
+        self._library("pandas")
+        return self.to_arrow().to_pandas(strings_to_categorical=False)
+
+    def to_polars(self) -> Any:
+        """Return it as a table of polars; ConfigError where polars is not installed."""
+        return self._library("polars").from_arrow(self.to_arrow())
+
+    def _library(self, name: str) -> Any:
+        try:
+            return import_module(name)
+        except ImportError as cause:
+            words = "{library} is not installed; install it (pip install {library}), or take the table of pyarrow by to_arrow()."
+            with told_in(self.language):
+                raise ConfigError(Problem(Phrase(words, library=name))) from cause
+
+
+class OfRecord:
+    """Show a record of the results (docs/results-file.md): its keys are attributes."""
+
+    record: Record
+
+    def __getattr__(self, key: str) -> Any:
+        """Return what the record has under a key."""
+        if key.startswith("_"):  # what a notebook or a library looks for
+            raise AttributeError(key)
+        return getattr(self.record, key)
+
+
+@dataclass(frozen=True, repr=False)
+class CheckResult(OfRecord):
+    """Hold a check: what the machine needs (``demand``) against what it may (``limit``), and the verdict.
+
+    ``status`` is ``pass``, ``warn``, ``fail`` or ``not_checked``, where ``missing`` names the keys that it needs; ``check_class`` is
+    ``function``, ``strength``, ``practice`` or ``numerical``; ``margin`` is below zero where the limit is not kept; ``utilisation`` is
+    a share of 1, None where it cannot be told. ``id``, ``title``, ``operator``, ``message``, ``source`` and what else a check of the
+    results file has are attributes, too.
+    """
+
+    mechanism: str
+    record: CheckRecord
+
+    @property
+    def name(self) -> str:
+        """Return its id with its mechanism."""
+        return f"{self.mechanism}.{self.record.id}"
+
+    @property
+    def demand(self) -> QuantityValue | None:
+        """Return what is needed."""
+        return self._side(self.record.demand, self.record.demand_display)
+
+    @property
+    def limit(self) -> QuantityValue | None:
+        """Return what is allowed."""
+        return self._side(self.record.limit, self.record.limit_display)
+
+    @property
+    def margin(self) -> QuantityValue | None:
+        """Return the limit less the demand."""
+        demand, limit = self.record.demand, self.record.limit
+        return self._side(None if demand is None or limit is None else limit - demand, self.record.margin_display)
+
+    def _side(self, value: float | None, shown: ShownRecord | None) -> QuantityValue | None:
+        display = (shown.text, shown.unit) if shown else None
+        return None if value is None else QuantityValue(value, self.record.unit, display=display)
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __repr__(self) -> str:
+        share = "" if self.record.utilisation is None else f" {100 * self.record.utilisation:.1f} %"
+        return f"<check {self.name}: {self.record.status}{share}>"
+
+
+class CheckList(PartList[CheckResult], Tabular):
+    """Hold checks in their order: by number, or by name (``checks["crank_torque"]``); as a table by ``to_arrow``, ``to_pandas``, ``to_polars``."""
+
+    _missing = phrase("there is no check")
+
+    def __init__(self, checks: Sequence[CheckResult], results: Printable) -> None:
+        super().__init__(checks, results.language)
+        self._results = results
+
+    def _names(self, part: CheckResult) -> tuple[str, ...]:
+        return part.name, part.record.id
 
     def failing(self) -> CheckList:
         """Return the checks that fail."""
-        return CheckList([check for check in self._checks if check.status == "fail"], self._results)
+        return self._some([check for check in self if check.status == "fail"])
 
     def to_arrow(self) -> Any:
         """Return them as a table of pyarrow, a row each; demand, limit and margin in the SI unit of the column ``unit``."""
-        from diecut_report.study.storage.parts import plain_table
+        import pyarrow
 
-        return plain_table([_row(check) for check in self._checks])
+        def row(check: CheckResult) -> dict[str, Any]:
+            sides = {"demand": check.demand, "limit": check.limit, "margin": check.margin}
+            return {
+                "id": check.id, "mechanism": check.mechanism, "title": str(check.title), "class": check.check_class, "status": check.status,
+                **{name: None if side is None else side.si for name, side in sides.items()},
+                "unit": check.unit if check.demand else "", "utilisation": check.utilisation, "message": str(check.message),
+            }  # fmt: skip
 
-    def to_pandas(self) -> Any:
-        """Return them as a table of pandas; ConfigError where pandas is not installed."""
-        from diecut_report.scripting.values import to_pandas
-
-        return to_pandas(self.to_arrow(), self._results.language)
-
-    def to_polars(self) -> Any:
-        """Return them as a table of polars; ConfigError where polars is not installed."""
-        from diecut_report.scripting.values import to_polars
-
-        return to_polars(self.to_arrow(), self._results.language)
+        return pyarrow.Table.from_pylist(list(map(row, self)))
 
     def __repr__(self) -> str:
-        return "\n".join(map(repr, self._checks)) or "<no checks>"
+        return super().__repr__() or "<no checks>"
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.values import checks_html
-
-        return checks_html(self._results, {check.name for check in self})
-
-
-def _row(check: CheckResult) -> dict[str, Any]:
-    def number(side: QuantityValue | None) -> float | None:
-        return None if side is None else side.si
-
-    return {
-        "id": check.id, "mechanism": check.mechanism, "title": check.title, "class": check.check_class, "status": check.status,
-        "demand": number(check.demand), "limit": number(check.limit), "margin": number(check.margin),
-        "unit": check.demand.unit if check.demand else "", "utilisation": check.utilisation, "message": check.message,
-    }  # fmt: skip
+        material, names = self._results.material(STANDARD), {check.name for check in self}
+        every = (row for part in material.document.chapters for row in part.checks)
+        rows = [row for row in every if f"{row.mechanism}.{row.id}" in names]
+        return notebook_page("checks", material.words, rows=rows)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CurveResult:
+class CurveResult(OfRecord):
     """Hold a curve: ``values`` at the places of its abscissa, in ``unit`` (SI). A place that stands twice is a jump, before and after it.
 
     ``abscissa`` is the curve that it runs over, None of an abscissa itself. At ``breakpoints`` it may jump: from ``left`` to ``right``.
+    ``symbol``, ``description``, ``display_unit`` and what else a curve of the results file has are attributes, too.
     """
 
     name: str
-    values: NDArray[np.float64]
-    unit: str
+    record: CurveRecord
     abscissa: CurveResult | None
-    symbol: str
-    description: str
-    display_unit: str
-    breakpoints: tuple[float, ...]
-    left: tuple[float, ...]
-    right: tuple[float, ...]
+
+    @cached_property
+    def values(self) -> NDArray[np.float64]:
+        """Return the values in the SI unit; they cannot be changed."""
+        import numpy as np
+
+        values = np.array(self.record.values, dtype=float)
+        values.setflags(write=False)
+        return values
 
     def to(self, other: str) -> NDArray[np.float64]:
         """Return the values in another unit of its dimension; ConfigError for one of another."""
-        QuantityValue(1.0, self.unit, self.name).m_as(other)
+        QuantityValue(1.0, self.record.unit, self.name).m_as(other)
         return self.values / unit(other).factor
 
     def __len__(self) -> int:
@@ -218,51 +276,40 @@ class CurveResult:
 
     def __repr__(self) -> str:
         over = f" over {self.abscissa.name}" if self.abscissa else ""
-        return f"<curve {self.name}{over}: {len(self)} values in {self.unit}>"
+        return f"<curve {self.name}{over}: {len(self)} values in {self.record.unit}>"
 
 
 def curve_results(data: Mapping[str, CurveRecord]) -> dict[str, CurveResult]:
-    """Return the curves of a mechanism by name, abscissae first."""
+    """Return the curves of a mechanism by name."""
     found: dict[str, CurveResult] = {}
-    for name, each in sorted(data.items(), key=lambda pair: bool(pair[1].abscissa)):
-        found[name] = _curve(name, each, found.get(each.abscissa))
+    for name, each in sorted(data.items(), key=lambda pair: bool(pair[1].abscissa)):  # abscissae first
+        found[name] = CurveResult(name, each, found.get(each.abscissa))
     return {name: found[name] for name in data}
 
 
-def _curve(name: str, data: CurveRecord, abscissa: CurveResult | None) -> CurveResult:
-    import numpy as np
-
-    values = np.array(data.values, dtype=float)
-    values.setflags(write=False)
-    sides = (tuple(each) for each in (data.breakpoints, data.left, data.right))
-    return CurveResult(name, values, data.unit, abscissa, data.symbol, str(data.description), data.display_unit, *sides)
-
-
 @dataclass(frozen=True, repr=False)
-class PhaseResult:
+class PhaseResult(OfRecord):
     """Hold a phase: what it is (``role``), the abscissa it runs over with its period, and its intervals, each from one place to another."""
 
     name: str
-    role: str
-    description: str
-    abscissa: str
-    period: QuantityValue
-    intervals: tuple[tuple[QuantityValue, QuantityValue], ...]
+    record: PhaseRecord
+
+    @property
+    def period(self) -> QuantityValue:
+        """Return the period of its abscissa."""
+        return self._at(self.record.period)
+
+    @property
+    def intervals(self) -> tuple[tuple[QuantityValue, QuantityValue], ...]:
+        """Return its intervals."""
+        return tuple((self._at(start), self._at(end)) for start, end in self.record.intervals)
+
+    def _at(self, value: float) -> QuantityValue:
+        own = self.record.unit
+        return QuantityValue(value, own, display=QuantityValue(value, own).to(self.record.display.unit).printed)
 
     def __repr__(self) -> str:
         return f"<phase {self.name}: {', '.join(f'{start} … {end}' for start, end in self.intervals)}>"
-
-
-def phase_results(data: Mapping[str, PhaseRecord]) -> Iterator[PhaseResult]:
-    """Yield the phases of a mechanism."""
-    for name, each in data.items():
-        own, shown = each.unit, each.display.unit
-
-        def at(value: float, own: str = own, shown: str = shown) -> QuantityValue:
-            return QuantityValue(value, own, display=QuantityValue(value, own).to(shown).printed)
-
-        intervals = tuple((at(start), at(end)) for start, end in each.intervals)
-        yield PhaseResult(name, each.role, str(each.description), each.abscissa, at(each.period), intervals)
 
 
 @dataclass(frozen=True, repr=False)
@@ -275,8 +322,6 @@ class FigureResult:
 
     def save(self, file: str | Path) -> Path:
         """Write it as an SVG file; Unwritable in words where that is not possible."""
-        from diecut_report.files import write_all
-
         path = Path(file)
         write_all({path: self.svg.encode()}, keep=None)
         return path
@@ -285,6 +330,5 @@ class FigureResult:
         return f"<figure {self.id}: {self.title}>"
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.values import figure_html
-
-        return figure_html(self.svg, self.title)
+        # matplotlib escapes the texts within the drawing
+        return notebook_page("figure", Catalogue(SOURCE_LANGUAGE), svg=Markup(self.svg), title=self.title)

@@ -120,7 +120,6 @@ class LoadedPress:
             return changed
 
     def _places(self, values: Mapping[str, Any]) -> tuple[dict[KeyPath, str], list[Problem]]:
-        """Values as they are typed, by their places in the file, and what is wrong with the others."""
         places: dict[KeyPath, str] = {}
         problems: list[Problem] = []
         for path, value in values.items():
@@ -166,13 +165,14 @@ class LoadedPress:
         ``constraints`` are those of a study. A machine that cannot exist has the status ``error`` and says why. ConfigError for all
         that is wrong with the question.
         """
-        from diecut_report.scripting.sweeps import AskedSweep, swept
+        from diecut_report.scripting.sweeps import swept
 
-        asked = AskedSweep(
-            dict(vary), None if outputs is None else list(outputs), list(constraints), method, count, seed
-        )
+        sample = {
+            key: value for key, value in (("method", method), ("count", count), ("seed", seed)) if value is not None
+        }
+        asked = {"constraints": list(constraints)} | ({} if outputs is None else {"outputs": list(outputs)})
         with told_in(self.language, without_places=True), one_thread():
-            return swept(self.config, self.press.discovery, self.language, asked)
+            return swept(self.config, self.press.discovery, self.language, vary, sample, asked)
 
     def solve(
         self, vary: str, target: str, *, low: str | None = None, high: str | None = None, passing: bool = False
@@ -211,9 +211,7 @@ class LoadedPress:
         return f"<press {self.name} of {self.config.tree.name}: {', '.join(self.instances)}>"
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.values import inputs_html
-
-        return inputs_html(self.inputs, self.language, f"{self.name} · {self.title}")
+        return self.inputs.html(f"{self.name} · {self.title}")
 
 
 # Presses and results from files, texts and mappings.

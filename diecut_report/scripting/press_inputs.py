@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Literal, get_args, get_origin, overload
+from itertools import groupby
+from typing import Any, Literal, get_args, get_origin
 
 from diecut_report.config.instances import Instance, Slot
 from diecut_report.config.loader import Config
@@ -16,10 +17,14 @@ from diecut_report.mechanism.curve_inputs import InOtherUnit
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import given_shown
-from diecut_report.scripting.parts import unknown
-from diecut_report.scripting.values import QuantityValue, told_in
+from diecut_report.report.symbols import symbol
+from diecut_report.report.text import Catalogue, quantity
+from diecut_report.scripting.parts import PartList
+from diecut_report.scripting.values import QuantityValue, notebook_page
 from diecut_report.study.definition.base_inputs import MECHANISMS, UnknownPath, find_input
-from diecut_report.text.phrases import Phrase
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
+from diecut_report.text.phrases import phrase
+from diecut_report.text.translation import said, speaking
 
 
 @dataclass(frozen=True)
@@ -46,45 +51,41 @@ class PressInput:
         """Return whether it stands in the file; else it is a default."""
         return bool(self.typed)
 
+    def row(self, words: Catalogue) -> dict[str, object]:
+        """Return it as a row of a table, in the language that is spoken."""
+        value = "" if self.value is None else quantity(*self.value.printed, words["decimal"])
+        basis = words[self.basis] if self.basis else ""
+        return vars(self) | {
+            "description": said(self.description, self.kind),
+            "symbol": symbol(self.symbol),
+            "value": value,
+            "basis": basis,
+        }
+
     def __repr__(self) -> str:
         return f"<{self.path}: {self.typed if self.value is None else self.value}>"
 
 
-class InputList(Sequence[PressInput]):
+class InputList(PartList[PressInput]):
     """Hold inputs in the order of the file: by number, or by path (``press.inputs["drive.crank_length"]``)."""
 
-    def __init__(self, inputs: Sequence[PressInput], language: str | None) -> None:
-        self._inputs, self.language = tuple(inputs), language
+    _missing = phrase("there is no input")
 
-    @overload
-    def __getitem__(self, which: int | str) -> PressInput: ...
-    @overload
-    def __getitem__(self, which: slice) -> InputList: ...
-    def __getitem__(self, which: int | str | slice) -> PressInput | InputList:
-        """Return an input; UnknownName where there is none of that path."""
-        if isinstance(which, slice):
-            return InputList(self._inputs[which], self.language)
-        if isinstance(which, int):
-            return self._inputs[which]
-        for each in self._inputs:
-            if each.path == which.removeprefix(f"{MECHANISMS}."):
-                return each
-        with told_in(self.language):
-            raise unknown(Phrase("there is no input"), which, [each.path for each in self._inputs])
-
-    def __len__(self) -> int:
-        return len(self._inputs)
+    def _names(self, part: PressInput) -> tuple[str, ...]:
+        return part.path, f"{MECHANISMS}.{part.path}"
 
     def _ipython_key_completions_(self) -> list[str]:
-        return [each.path for each in self._inputs]
+        return [each.path for each in self]
 
-    def __repr__(self) -> str:
-        return "\n".join(map(repr, self._inputs))
+    def html(self, title: str = "") -> str:
+        """Return them as a notebook shows them, by mechanism."""
+        words = Catalogue(self.language or SOURCE_LANGUAGE)
+        with speaking(words.language):
+            by_home = groupby(self, lambda each: each.path.split(".")[0])
+            groups = [(home, [each.row(words) for each in rows]) for home, rows in by_home]
+        return notebook_page("inputs", words, title=title, groups=groups)
 
-    def _repr_html_(self) -> str:
-        from diecut_report.scripting.values import inputs_html
-
-        return inputs_html(self, self.language)
+    _repr_html_ = html
 
 
 def press_inputs(config: Config) -> Iterator[PressInput]:
@@ -103,15 +104,12 @@ def _input(config: Config, instance: Instance, slot: Slot) -> PressInput:
     basis, meta = instance.bases.get(slot.key, Basis()), slot.meta
     kind = instance.mechanism.kind if instance.mechanism else ""
     value = None if is_followed else _value(path, slot, instance.value(slot.key))
+    rests, described = basis.basis, meta.description if meta else ""
     if not isinstance(meta, Quantity):
         choices = ", ".join(_choices(config, path))
-        return PressInput(
-            path, kind, value, typed, "1", choices, "", meta.description if meta else "", basis.basis, basis.note
-        )
-    rests = basis.basis or (GIVEN if typed else "")
-    return PressInput(
-        path, kind, value, typed, meta.unit, meta.allowed, meta.symbol, meta.description, rests, basis.note
-    )
+        return PressInput(path, kind, value, typed, "1", choices, "", described, rests, basis.note)
+    rests = rests or (GIVEN if typed else "")
+    return PressInput(path, kind, value, typed, meta.unit, meta.allowed, meta.symbol, described, rests, basis.note)
 
 
 def _choices(config: Config, path: str) -> list[str]:
@@ -131,9 +129,8 @@ def _value(path: str, slot: Slot, value: Any) -> QuantityValue | None:
         return QuantityValue(value.value, value.unit, path)
     if isinstance(meta, Quantity) and isinstance(value, int | float):
         shown = given_shown(float(value), meta.unit)
-        return QuantityValue(
-            value, meta.parsed_unit.si, path, meta.symbol, meta.description, "", (shown["text"], shown["unit"])
-        )
+        printed = shown["text"], shown["unit"]
+        return QuantityValue(value, meta.parsed_unit.si, path, meta.symbol, meta.description, "", printed)
     if isinstance(value, bool | int | float | str):
         return QuantityValue(value, "1", path, description=meta.description if meta else "")
     return None

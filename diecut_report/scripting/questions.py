@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 from diecut_report.config.loader import Config
 from diecut_report.design import advice, influence
 from diecut_report.design.answers import Answer, FoundValue, data, lines
-from diecut_report.design.inputs import DesignInput, design_input
+from diecut_report.design.inputs import design_input
 from diecut_report.design.solving import solved
 from diecut_report.errors import ConfigError, Problem
 from diecut_report.press import Press
@@ -24,7 +24,18 @@ Make = Callable[[Press], PressT]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Solution(Generic[PressT]):
+class _Answered:
+    data: Data
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    __repr__ = __str__
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution(_Answered, Generic[PressT]):
     """Hold the values of an input that answer (``values``, the nearest to today's first); ``press`` is the press with the first, calculated once.
 
     Without one ``values`` is empty, ``nearest`` is the value that comes nearest, and ``press`` is None. ``data`` is what the command
@@ -35,17 +46,10 @@ class Solution(Generic[PressT]):
     values: tuple[QuantityValue, ...]
     nearest: QuantityValue | None
     press: PressT | None
-    data: Data
-    text: str
-
-    def __str__(self) -> str:
-        return self.text
-
-    __repr__ = __str__
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MendedPress(Generic[PressT]):
+class MendedPress(_Answered, Generic[PressT]):
     """Hold the least changes with which no check fails: for each path what is to be typed; ``press`` is the press with them.
 
     ``press`` is None where none was found, or where no check fails today. ``data`` is what the command gives as JSON; ``str`` what it says.
@@ -53,26 +57,11 @@ class MendedPress(Generic[PressT]):
 
     changes: dict[str, str]
     press: PressT | None
-    data: Data
-    text: str
-
-    def __str__(self) -> str:
-        return self.text
-
-    __repr__ = __str__
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class InfluenceTable:
+class InfluenceTable(_Answered):
     """Hold how far each input moves numbers, the greatest first. ``data`` is what the command gives as JSON; ``str`` what it says."""
-
-    data: Data
-    text: str
-
-    def __str__(self) -> str:
-        return self.text
-
-    __repr__ = __str__
 
     def bars(self) -> list[Data]:
         """Return for each number its inputs, one below the other: ``of``, ``path``, ``low`` and ``high`` (SI), as rows of a table."""
@@ -88,27 +77,26 @@ def solved_press(
 ) -> Solution[PressT]:  # fmt: skip
     """Return the answer to a question, as the command gives it; ``make`` makes the press of a script."""
     design = design_input(asked.config, vary)
-    low, high = _end(design, ends[0], "low"), _end(design, ends[1], "high")
+
+    def end(given: str | None, name: str) -> float | None:
+        try:
+            return None if given is None else design.read(given)
+        except ValueError as fault:
+            raise ConfigError(Problem(fault.args[0], path=f"{name} of {design.name}")) from None
+
+    low, high = end(ends[0], "low"), end(ends[1], "high")
     answer = solved(asked, target, design, passing=passing, low=low, high=high)
     values = tuple(_value(answer, each) for each in answer.found)
     near = None if answer.nearest is None else _value(answer, answer.nearest)
     press = None if answer.machine is None else make(answer.machine.press)
-    return Solution(bool(values), values, near, press, data(answer), "\n".join(lines(answer)))
-
-
-def _end(design: DesignInput, given: str | None, name: str) -> float | None:
-    try:
-        return None if given is None else design.read(given)
-    except ValueError as fault:
-        raise ConfigError(Problem(fault.args[0], path=f"{name} of {design.name}")) from None
+    return Solution(data(answer), "\n".join(lines(answer)), bool(values), values, near, press)
 
 
 def _value(answer: Answer, found: FoundValue) -> QuantityValue:
-    design = answer.design
-    number, own = number_and_unit(found.typed)
-    meta = design.meta
+    meta, (number, own) = answer.design.meta, number_and_unit(found.typed)
+    printed = str(number), own or "1"
     return QuantityValue(
-        found.value, meta.parsed_unit.si, design.name, meta.symbol, meta.description, "", (str(number), own or "1")
+        found.value, meta.parsed_unit.si, answer.design.name, meta.symbol, meta.description, "", printed
     )
 
 
@@ -117,18 +105,14 @@ def mended_press(asked: Press, make: Make[PressT], free: Iterable[str], keep: It
     found = advice.mended(asked, free=free, keep=keep)
     press = None if found.machine is None else make(found.machine.press)
     changes = {each.name: each.after for each in found.changes} if found.machine is not None else {}
-    return MendedPress(changes, press, advice.data(found), "\n".join(advice.lines(found)))
+    return MendedPress(advice.data(found), "\n".join(advice.lines(found)), changes, press)
 
 
 def influence_of(config: Config, names: Sequence[str], share: float, *, defaults: bool = False) -> InfluenceTable:
     """Return what inputs do to numbers, as the command gives it; ConfigError where the share is not between 0 and 1."""
     if not (math.isfinite(share) and 0 < share <= 1):
-        raise ConfigError(
-            Problem(
-                Phrase("{share} is not a share between 0 and 1, such as 0.1 for a tenth.", share=repr(share)),
-                path="share",
-            )
-        )
+        words = "{share} is not a share between 0 and 1, such as 0.1 for a tenth."
+        raise ConfigError(Problem(Phrase(words, share=repr(share)), path="share"))
     found = influence.tornados(config, list(names), share, {}, defaults=defaults)
     text = "\n".join(influence.lines(found, None, "defaults=True"))
     return InfluenceTable(influence.data(found, None), text)

@@ -15,7 +15,10 @@ from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName,
 from diecut_report.exchange.rendering import document
 from diecut_report.files import write_all
 from diecut_report.press import DRAWN, AskedReport, Lost
-from diecut_report.results.conclusion import conclusion
+from diecut_report.report.pages.html import Screen
+from diecut_report.report.scope import BRIEF, STANDARD
+from diecut_report.report.text import Catalogue
+from diecut_report.results.conclusion import SELF_TEST, conclusion
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism_record import MechanismRecord, QuantityRecord
 from diecut_report.results.model import ResultsRecord
@@ -27,12 +30,10 @@ from diecut_report.scripting.parts import (
     FigureResult,
     NamedParts,
     PhaseResult,
-    check_result,
     curve_results,
-    phase_results,
     unknown,
 )
-from diecut_report.scripting.values import InputValue, Printable, QuantityValue, known_language, told_in
+from diecut_report.scripting.values import InputValue, Printable, QuantityValue, known_language, notebook_page, told_in
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, speaking
@@ -80,25 +81,20 @@ class MechanismResults(Mapping[str, QuantityValue]):
     @cached_property
     def outputs(self) -> NamedParts[QuantityValue]:
         """Return its outputs by name, in SI units."""
-        return self._named(
-            phrase("{mechanism} has no output"),
-            {name: _value(name, each) for name, each in self._data.outputs.items()},
-        )
+        found = {name: _value(name, each) for name, each in self._data.outputs.items()}
+        return self._named(phrase("{mechanism} has no output"), found)
 
     @cached_property
     def intermediate(self) -> NamedParts[QuantityValue]:
         """Return the numbers on the way to its outputs by name, in SI units."""
-        return self._named(
-            phrase("{mechanism} gives no"), {name: _value(name, each) for name, each in self._data.values.items()}
-        )
+        found = {name: _value(name, each) for name, each in self._data.values.items()}
+        return self._named(phrase("{mechanism} gives no"), found)
 
     @cached_property
     def inputs(self) -> NamedParts[InputValue]:
         """Return its inputs by key, in SI units, each with where it comes from and what it rests on."""
-        return self._named(
-            phrase("{mechanism} has no input"),
-            {name: _input(name, each) for name, each in self._data.inputs.items()},
-        )
+        found = {name: _input(name, each) for name, each in self._data.inputs.items()}
+        return self._named(phrase("{mechanism} has no input"), found)
 
     def __getitem__(self, name: str) -> QuantityValue:
         """Return a result by its name; UnknownName where there is none."""
@@ -106,7 +102,12 @@ class MechanismResults(Mapping[str, QuantityValue]):
             if name in found:
                 return found[name]
         with told_in(self._results.language):
-            raise self._unknown(name)
+            if self.error:
+                words = Phrase("{name} gives no results: {error}", name=self.name, error=self.error)
+                raise UnknownName(Problem(words, path=f"{self.name}.{name}"))
+            raise unknown(
+                Phrase("{mechanism} gives no", mechanism=self.name), name, [*self.outputs, *self.intermediate]
+            )
 
     def __getattr__(self, name: str) -> QuantityValue:
         """Return a result by its name; UnknownName where there is none."""
@@ -127,25 +128,21 @@ class MechanismResults(Mapping[str, QuantityValue]):
     def _ipython_key_completions_(self) -> list[str]:
         return [*self.outputs, *self.intermediate]
 
-    def _unknown(self, name: str) -> UnknownName:
-        if self.error:
-            words = Phrase("{name} gives no results: {error}", name=self.name, error=self.error)
-            return UnknownName(Problem(words, path=f"{self.name}.{name}"))
-        return unknown(Phrase("{mechanism} gives no", mechanism=self.name), name, [*self.outputs, *self.intermediate])
-
     # --- checks, curves, phases, figures -----------------------------------------------------------------------------
 
     @cached_property
     def checks(self) -> CheckList:
         """Return its checks of the machine; self-tests of the calculation are not among them."""
-        found = [check_result(self.name, each) for each in self._data.checks if each.check_class != "numerical"]
-        return CheckList(found, self._results)
+        return self._checks(is_self_test=False)
 
     @cached_property
     def self_tests(self) -> CheckList:
         """Return the self-tests of the calculation."""
-        found = [check_result(self.name, each) for each in self._data.checks if each.check_class == "numerical"]
-        return CheckList(found, self._results)
+        return self._checks(is_self_test=True)
+
+    def _checks(self, *, is_self_test: bool) -> CheckList:
+        some = (each for each in self._data.checks if (each.check_class == SELF_TEST) is is_self_test)
+        return CheckList([CheckResult(self.name, each) for each in some], self._results)
 
     @cached_property
     def curves(self) -> NamedParts[CurveResult]:
@@ -155,9 +152,8 @@ class MechanismResults(Mapping[str, QuantityValue]):
     @cached_property
     def phases(self) -> NamedParts[PhaseResult]:
         """Return its phases by name."""
-        return self._named(
-            phrase("{mechanism} has no phase"), {each.name: each for each in phase_results(self._data.phases)}
-        )
+        found = {name: PhaseResult(name, each) for name, each in self._data.phases.items()}
+        return self._named(phrase("{mechanism} has no phase"), found)
 
     @property
     def figures(self) -> NamedParts[str]:
@@ -174,18 +170,18 @@ class MechanismResults(Mapping[str, QuantityValue]):
             return self._drawn(found)
 
     def _drawn(self, figure: FigureRecord) -> FigureResult:
-        from diecut_report.scripting.values import drawing
+        from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
-        if not figure.error:
+        why, cause = figure.error, None
+        if not why:
+            key = f"{self._results.data.config.sha256[:12]}-{self.name}-{figure.id}"  # ids within it are those of this machine
             try:
-                key = f"{self._results.data.config.sha256[:12]}-{self.name}-{figure.id}"  # ids within it are those of this machine
-                svg = drawing(figure, self._data.curves, self._results.document_language, key)
+                svg = render(figure, self._data.curves, Catalogue(self._results.document_language), key).text
                 return FigureResult(figure.id, str(figure.title), svg)
-            except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
-                words = Phrase("This figure cannot be drawn: {cause}", cause=f"{type(cause).__name__}: {cause}")
-                raise ConfigError(Problem(words, path=f"{self.name}.{figure.id}")) from cause
-        words = Phrase("This figure cannot be drawn: {cause}", cause=figure.error)
-        raise ConfigError(Problem(words, path=f"{self.name}.{figure.id}"))
+            except Exception as error:  # of any kind: what a plugin gives to be drawn is its own
+                why, cause = f"{type(error).__name__}: {error}", error
+        words = Phrase("This figure cannot be drawn: {cause}", cause=why)
+        raise ConfigError(Problem(words, path=f"{self.name}.{figure.id}")) from cause
 
     def _named(self, missing: str, parts: Mapping[str, PartT]) -> NamedParts[PartT]:
         return NamedParts(parts, Phrase(missing, mechanism=self.name), self._results.language)
@@ -197,37 +193,32 @@ class MechanismResults(Mapping[str, QuantityValue]):
         return f"<{self.name}: {self.title}, {self.status}{'; ' if numbers else ''}{', '.join(numbers)}>"
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.values import mechanism_html
-
-        return mechanism_html(self._results, self.name)
+        material = self._results.material(STANDARD, self.name)
+        chapter = next(part for part in material.document.chapters if part.name == self.name)
+        screen = Screen(material)
+        return notebook_page(
+            "mechanism", material.words, c=chapter, math=screen, figure=screen.figure, failed=material.failed
+        )
 
 
 def _value(name: str, data: QuantityRecord) -> QuantityValue:
-    shown = data.display
-    return QuantityValue(
-        _plain(data.value), data.unit, name, str(data.symbol), str(data.description), str(data.source),
-        (shown.text, shown.unit),
-    )  # fmt: skip
+    return QuantityValue(*_plain(name, data), str(data.source), (data.display.text, data.display.unit))
 
 
-def _plain(value: Any) -> Any:
-    """A value, several texts as one."""
-    return ", ".join(value) if isinstance(value, list) else value
+def _plain(name: str, data: QuantityRecord) -> tuple[Any, str, str, str, str]:
+    value = ", ".join(data.value) if isinstance(data.value, list) else data.value  # several texts are one
+    return value, data.unit, name, str(data.symbol), str(data.description)
 
 
 def _input(name: str, data: QuantityRecord) -> InputValue:
-    shown = data.display
-    origin, path = data.origin, data.path or ", ".join(data.paths)
-    return InputValue(
-        _plain(data.value), data.unit, name, str(data.symbol), str(data.description), "", (shown.text, shown.unit), origin, path,
-        data.text, data.basis, data.note,
-    )  # fmt: skip
+    path, shown = data.path or ", ".join(data.paths), (data.display.text, data.display.unit)
+    return InputValue(*_plain(name, data), "", shown, data.origin, path, data.text, data.basis, data.note)
 
 
 Data = dict[str, Any]
 
 
-class Results(Mapping[str, MechanismResults]):
+class Results(NamedParts[MechanismResults]):
     """Hold what was calculated of a machine: a mapping of its mechanisms by name.
 
     ``errors`` are the plugins that broke; the results of the other mechanisms stand. ``config`` is what was calculated, None of
@@ -237,7 +228,9 @@ class Results(Mapping[str, MechanismResults]):
     def __init__(
         self, data: ResultsRecord, discovery: Discovery, language: str | None, *, config: Config | None = None, errors: Iterable[PluginError] = ()
     ) -> None:  # fmt: skip
-        self._data, self.language, self._printable = data, language, Printable(data, discovery, language)
+        self._data, self._printable = data, Printable(data, discovery, language)
+        found = {name: MechanismResults(name, each, self._printable) for name, each in data.mechanisms.items()}
+        super().__init__(found, phrase("there is no mechanism"), language)
         self.config, self.errors = config, tuple(errors)
 
     # --- verdict -----------------------------------------------------------------------------------------------------
@@ -269,33 +262,11 @@ class Results(Mapping[str, MechanismResults]):
         """Return the checks of all mechanisms, in their order."""
         return CheckList([check for mechanism in self.values() for check in mechanism.checks], self._printable)
 
-    # --- mechanisms --------------------------------------------------------------------------------------------------
-
-    @cached_property
-    def _mechanisms(self) -> dict[str, MechanismResults]:
-        return {name: MechanismResults(name, data, self._printable) for name, data in self._data.mechanisms.items()}
-
     @cached_property
     def comparisons(self) -> NamedParts[MechanismResults]:
         """Return the comparisons between mechanisms by name."""
         found = {name: MechanismResults(name, data, self._printable) for name, data in self._data.comparisons.items()}
         return NamedParts(found, phrase("there is no comparison"), self.language)
-
-    def __getitem__(self, name: str) -> MechanismResults:
-        """Return the results of a mechanism; UnknownName where there is none of that name."""
-        if name not in self._mechanisms:
-            with told_in(self.language):
-                raise unknown(Phrase("there is no mechanism"), name, list(self._mechanisms))
-        return self._mechanisms[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._mechanisms)
-
-    def __len__(self) -> int:
-        return len(self._mechanisms)
-
-    def _ipython_key_completions_(self) -> list[str]:
-        return list(self)
 
     # --- the results file --------------------------------------------------------------------------------------------
 
@@ -365,34 +336,26 @@ class Results(Mapping[str, MechanismResults]):
 
     def __repr__(self) -> str:
         counts = self._data.summary
-        told = ", ".join(
-            f"{counts.of(status)} {status}" for status in ("fail", "warn", "pass", "not_checked") if counts.of(status)
-        )
+        known = ((counts.of(status), status) for status in ("fail", "warn", "pass", "not_checked"))
+        told = ", ".join(f"{count} {status}" for count, status in known if count)
         return f"<results of {self._data.press.name}: {self.status} ({told or 'no checks'}); {', '.join(self)}>"
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.values import results_html
-
-        return results_html(self._printable)
+        material = self._printable.material(BRIEF)
+        return notebook_page("results", material.words, doc=material.document)
 
 
 def _form(path: Path) -> str:
     form = path.suffix.removeprefix(".").lower()
     if form not in DRAWN:
-        words = Phrase(
-            "{form} is not a format of a report; known: {known}.",
-            form=repr(path.suffix),
-            known=", ".join(DRAWN),
-        )
-        raise ConfigError(Problem(words, str(path)))
+        words = "{form} is not a format of a report; known: {known}."
+        raise ConfigError(Problem(Phrase(words, form=repr(path.suffix), known=", ".join(DRAWN)), str(path)))
     return form
 
 
 def _detail(detail: str | None) -> str | None:
     if detail is None or detail in DETAILS:
         return detail
-    near = nearest(detail, DETAILS)
-    words = Phrase(
-        "{given} is not a detail{nearest}; known: {known}.", given=repr(detail), nearest=near, known=", ".join(DETAILS)
-    )
-    raise ConfigError(Problem(words, path="detail"))
+    words, near = "{given} is not a detail{nearest}; known: {known}.", nearest(detail, DETAILS)
+    message = Phrase(words, given=repr(detail), nearest=near, known=", ".join(DETAILS))
+    raise ConfigError(Problem(message, path="detail"))

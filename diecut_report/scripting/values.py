@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import total_ordering
-from importlib import import_module
-from itertools import groupby
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
@@ -22,23 +20,16 @@ from diecut_report.quantities.formatting import shown, with_unit
 from diecut_report.quantities.units import UnitError, kind_name, parse_quantity, pretty, unit
 from diecut_report.report.context import Material
 from diecut_report.report.mathematics import Latex
-from diecut_report.report.pages.html import Screen, filled_page
-from diecut_report.report.scope import BRIEF, STANDARD
+from diecut_report.report.pages.html import filled_page
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
-from diecut_report.results.figure_record import FigureRecord
-from diecut_report.results.mechanism_record import CurveRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, of_all_plugins
-from diecut_report.text.catalogues import SOURCE_LANGUAGE as ENGLISH
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, speaking
 
 if TYPE_CHECKING:
     import pint
-
-    from diecut_report.report.model import PrintedChapter
-    from diecut_report.study.storage.description import ResultColumn
 
 
 PlainValue = float | int | bool | str
@@ -81,9 +72,8 @@ class QuantityValue:
         own, number = unit(self.unit), self.si  # which a text has not
         if wanted.kind != own.kind:
             given = Phrase("{unit} is {kind}", unit=other, kind=phrase(kind_name(wanted)))
-            raise self._unfit(
-                Phrase("is {kind} in {unit}; {given}", kind=phrase(kind_name(own)), unit=self.unit, given=given)
-            )
+            words = Phrase("is {kind} in {unit}; {given}", kind=phrase(kind_name(own)), unit=self.unit, given=given)
+            raise self._unfit(words)
         return wanted.from_si(number)
 
     @property
@@ -126,23 +116,21 @@ class QuantityValue:
         return with_unit(format(self.magnitude, form), self.unit) if form else str(self)
 
     def _repr_html_(self) -> str:
-        return value_html(self.symbol, self.printed)
+        head = Markup("{} = ").format(symbol(self.symbol)) if self.symbol else Markup("")
+        return str(head + quantity(*self.printed))
 
     def _repr_latex_(self) -> str:
-        return value_latex(self.symbol, self.printed)
+        latex = Latex(Catalogue(SOURCE_LANGUAGE), ".")
+        head = f"{latex.symbol(self.symbol)} = " if self.symbol else ""
+        return f"${head}{latex.quantity(*self.printed)}$"
 
     # --- numbers -----------------------------------------------------------------------------------------------------
 
     def __float__(self) -> float:
         """Return a pure number; TypeError of one with a unit, of which ``to("N*m").value`` is the number."""
         if pretty(self.unit):
-            raise TypeError(
-                Phrase(
-                    "{value} has a unit; take the number of one, as in .to({unit}).value",
-                    value=self,
-                    unit=repr(self.unit),
-                )
-            )
+            words = "{value} has a unit; take the number of one, as in .to({unit}).value"
+            raise TypeError(Phrase(words, value=self, unit=repr(self.unit)))
         return self.magnitude
 
     def __bool__(self) -> bool:
@@ -210,21 +198,17 @@ def scalar(given: Any, path: str) -> float | int | bool | str:
         return given
     if isinstance(given, QuantityValue):
         return given.value if given.unit == "1" else f"{given.value!r} {given.unit}"
-    if hasattr(given, "magnitude") and hasattr(given, "units"):
-        return _of_pint(given, path)
+    if hasattr(given, "magnitude") and hasattr(
+        given, "units"
+    ):  # of pint; its unit in the short form is read back as the same one
+        number, own = scalar(given.magnitude, path), f"{given.units:~C}"
+        return float(number) if own == "" else f"{number!r} {own}"
     if hasattr(given, "item") and not _is_array(given):  # a number of NumPy
         given = given.item()
     if isinstance(given, bool | str | int) or (isinstance(given, float) and math.isfinite(given)):
         return given
     words = Phrase("is {kind}; {needed}.", kind=f"{given!r:.60}", needed=NEEDED)
     raise ConfigError(Problem(words, path=path))
-
-
-def _of_pint(given: Any, path: str) -> float | str:
-    """A quantity of pint; its unit in the short form, which is read back as the same one."""
-    number = scalar(given.magnitude, path)
-    own = f"{given.units:~C}"
-    return float(number) if own == "" else f"{number!r} {own}"
 
 
 def _is_array(given: Any) -> bool:
@@ -289,171 +273,12 @@ def known_language(language: str | None) -> str | None:
 # What a notebook shows: the very texts, formulas and figures of a report, as HTML without scripts, on light and on dark paper.
 
 
-class DisplayedValue(Protocol):
-    """Declare what is shown of a quantity."""
-
-    @property
-    def printed(self) -> tuple[str, str]: ...
-
-
 TEMPLATE = "notebook.html.j2"
-ROWS, COLUMNS = 12, 8  # of a table of machines
 
 
-def results_html(results: Printable) -> str:
-    """Return the verdict, what governs, and all checks."""
-    material = results.material(BRIEF)
-    return _page("results", material.words, doc=material.document)
-
-
-def checks_html(results: Printable, names: set[str]) -> str:
-    """Return some checks of results as a table."""
-    material = results.material(STANDARD)
-    rows = [row for part in material.document.chapters for row in part.checks if f"{row.mechanism}.{row.id}" in names]
-    return _page("checks", material.words, rows=rows)
-
-
-def mechanism_html(results: Printable, name: str) -> str:
-    """Return a mechanism, or a comparison: key results, checks, its calculation with formulas and figures, results."""
-    material = results.material(STANDARD, name)
-    screen = Screen(material)
-    return _page(
-        "mechanism",
-        material.words,
-        c=_chapter(material, name),
-        math=screen,
-        figure=screen.figure,
-        failed=material.failed,
-    )
-
-
-def _chapter(material: Material, name: str) -> PrintedChapter:
-    return next(part for part in material.document.chapters if part.name == name)
-
-
-def _page(part: str, words: Catalogue, **given: object) -> str:
+def notebook_page(part: str, words: Catalogue, **given: object) -> str:
+    """Return a part of the notebook's template."""
     return filled_page(TEMPLATE, part=part, t=words, **given)
-
-
-# --- inputs ----------------------------------------------------------------------------------------------------------
-
-
-class ShownInput(Protocol):
-    """Declare what is shown of an input."""
-
-    @property
-    def path(self) -> str: ...
-    @property
-    def kind(self) -> str: ...
-    @property
-    def description(self) -> str: ...
-    @property
-    def symbol(self) -> str: ...
-    @property
-    def value(self) -> DisplayedValue | None: ...
-    @property
-    def typed(self) -> str: ...
-    @property
-    def allowed(self) -> str: ...
-    @property
-    def basis(self) -> str: ...
-    @property
-    def note(self) -> str: ...
-
-
-def inputs_html(inputs: Iterable[ShownInput], language: str | None, title: str = "") -> str:
-    """Return the inputs of a press, by mechanism."""
-    words = Catalogue(language or ENGLISH)
-    by_home = groupby(inputs, lambda each: each.path.split(".")[0])
-    with speaking(words.language):
-        groups = [(home, [_told(each, words) for each in rows]) for home, rows in by_home]
-    return _page("inputs", words, title=title, groups=groups)
-
-
-def _told(each: ShownInput, words: Catalogue) -> Mapping[str, object]:
-    """An input as a row of a table, in the language that is spoken."""
-    value = "" if each.value is None else quantity(*each.value.printed, words["decimal"])
-    return {
-        "path": each.path, "description": said(each.description, each.kind), "symbol": symbol(each.symbol), "value": value, "typed": each.typed,
-        "allowed": each.allowed, "basis": words[each.basis] if each.basis else "", "note": each.note,
-    }  # fmt: skip
-
-
-# --- single things ---------------------------------------------------------------------------------------------------
-
-
-def value_html(letter: str, printed: tuple[str, str]) -> str:
-    """Return a quantity as a report prints it: ``M = 523.4 N·m``."""
-    head = Markup("{} = ").format(symbol(letter)) if letter else Markup("")
-    return str(head + quantity(*printed))
-
-
-def value_latex(letter: str, printed: tuple[str, str]) -> str:
-    """Return the same as LaTeX."""
-    latex = Latex(Catalogue(ENGLISH), ".")
-    head = f"{latex.symbol(letter)} = " if letter else ""
-    return f"${head}{latex.quantity(*printed)}$"
-
-
-def drawing(figure: FigureRecord, curves: Mapping[str, CurveRecord], language: str, key: str) -> str:
-    """Return a figure of the results, drawn as SVG; any exception where it cannot be."""
-    from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
-
-    return render(figure, curves, Catalogue(language), key).text
-
-
-def figure_html(svg: str, title: str) -> str:
-    """Return a figure with its title."""
-    # matplotlib escapes the texts within the drawing
-    return _page("figure", Catalogue(ENGLISH), svg=Markup(svg), title=title)
-
-
-# --- tables of machines ----------------------------------------------------------------------------------------------
-
-
-def sweep_html(columns: Mapping[str, ResultColumn], values: Callable[[str], Any], counts: Mapping[str, int]) -> str:
-    """Return the first machines of a table: what varies, some outputs, the verdict."""
-    words, total = Catalogue(ENGLISH), sum(counts.values())
-    names = [name for name in columns if ".checks." not in name and name != "error"]
-    names = names if len(names) <= COLUMNS else [*names[: COLUMNS - 2], *names[-2:]]
-    units = {name: columns[name].display or columns[name].unit for name in names}
-    rows = list(zip(*(list(_cells(values(name)[:ROWS].tolist(), units[name])) for name in names), strict=True))
-    told = f"{total}: " + ", ".join(f"{number} {words[status]}" for status, number in counts.items())
-    heads = [(name, pretty(unit)) for name, unit in units.items()]
-    return _page("sweep", words, told=told, columns=heads, rows=rows, more=total > ROWS)
-
-
-def _cells(values: list[Any], unit: str) -> Iterator[str]:
-    for value in values:
-        is_number = isinstance(value, int | float) and not isinstance(value, bool)
-        if value is None or (is_number and value != value):
-            yield "–"
-        else:
-            yield quantity(shown(float(value), unit)["text"], "1") if is_number else str(value)
-
-
-# Tables of pyarrow as those of pandas or polars, where these are installed.
-
-
-def to_pandas(table: Any, language: str | None) -> Any:
-    """Return a table of pandas; ConfigError where it is not installed."""
-    _require("pandas", language)
-    return table.to_pandas(strings_to_categorical=False)
-
-
-def to_polars(table: Any, language: str | None) -> Any:
-    """Return a table of polars; ConfigError where it is not installed."""
-    return _require("polars", language).from_arrow(table)
-
-
-def _require(library: str, language: str | None) -> Any:
-    try:
-        return import_module(library)
-    except ImportError as cause:
-        words = Phrase("{library} is not installed; install it (pip install {library}), or take the table of pyarrow by to_arrow().",
-                       library=library)  # fmt: skip
-        with told_in(language):
-            raise ConfigError(Problem(words)) from cause
 
 
 # Results as documents and notebooks are made of them.

@@ -92,7 +92,7 @@ def test_checks_are_found_by_name_and_are_a_table(knife: dr.Results, levers: dr.
     assert reach.margin.si == pytest.approx(reach.limit.si - reach.demand.si) and reach.utilisation == pytest.approx(
         reach.demand.si / reach.limit.si
     )
-    assert knife.checks["force"].missing == ("allowable_force",) and knife.checks["force"].margin is None
+    assert knife.checks["force"].missing == ["allowable_force"] and knife.checks["force"].margin is None
     assert [check.name for check in levers.checks.failing()] == ["a.moment"] and levers.status == "fail"
     table = knife.checks.to_arrow()
     assert table.column("status").to_pylist() == [check.status for check in knife.checks]
