@@ -8,7 +8,7 @@ import json
 import math
 import shutil
 import sys
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -39,8 +39,7 @@ from diecut_report.study.analysis.variants import (
     text,
 )
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input
-from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
-from diecut_report.study.execution.variant_rows import verdicts
+from diecut_report.study.execution.variant_rows import calculate_rows
 from diecut_report.study.storage.spreadsheets import SHEET_COLUMNS, SHEET_ROWS, workbook
 from diecut_report.study.storage.state import continuing, read_state
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
@@ -100,14 +99,8 @@ SI = Notation()
 
 
 def answer(
-    directory: Path,
-    asked: Request,
-    format: str = "table",
-    notation: Notation = SI,
-    *,
-    transposed: bool = False,
-    width: int | None = None,
-) -> Generator[str, None, None]:
+    directory: Path, asked: Request, format: str = "table", notation: Notation = SI, *, transposed: bool = False, width: int | None = None
+) -> Generator[str, None, None]:  # fmt: skip
     """Yield the answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json``.
 
     With ``transposed`` it has a line for each quantity and a column for each variant. UserError for what cannot be asked.
@@ -159,11 +152,8 @@ def unfinished(directory: Path) -> Iterator[str]:
     state = read_state(directory)
     if state.get("state") != "complete":
         words = "This study is not finished: {parts} of {all} parts are calculated. Continue with: {continued}"
-        parts = {
-            "parts": len(list((directory / "variants").glob("part-*.parquet"))),
-            "all": -(-state["rows"] // state["chunk"]),
-        }
-        yield Phrase(words, parts, continued=continuing(directory, state["columns"]))
+        done, every = len(list((directory / "variants").glob("part-*.parquet"))), -(-state["rows"] // state["chunk"])
+        yield Phrase(words, {"all": every}, parts=done, continued=continuing(directory, state["columns"]))
 
 
 def is_doubtful(folder: Path) -> bool:
@@ -254,53 +244,39 @@ def _compared(stored: Stored, asked: Question, width: int | None, *, keep_equal:
     table, equal = compared_text(asked.columns, rows, width, keep_equal=keep_equal)
     words = say_counted(len(rows), "{n} variant", "{n} variants")
     if equal:
-        words += say_counted(
-            equal,
-            "; {n} quantity that is equal in all is omitted (--columns, --format csv)",
-            "; {n} quantities that are equal in all are omitted (--columns, --format csv)",
-        )
+        one = "; {n} quantity that is equal in all is omitted (--columns, --format csv)"
+        words += say_counted(equal, one, "; {n} quantities that are equal in all are omitted (--columns, --format csv)")
     return f"{table}\n{words}.\n"
 
 
 # How much the assumed values of a config matter: each is varied by a tenth, all at once, and the governing checks are looked at.
 
 
-Data = Mapping[str, Any]
 SHARE = 0.1  # of a value, downwards and upwards
 
 
 def moves(config: Config, results: ResultsRecord) -> list[MoveRecord]:
-    """Return the assumed values that move a governing check of a mechanism: path, check and change of its utilisation.
-
-    Mechanisms whose plugin cannot take arrays are left out, with those that refer to them.
-    """
+    """Return the assumed values that move a governing check of a mechanism: path, check and change of its utilisation."""
     varied = {path: found for path in results.summary.assumed if (found := _number(config, path))}
     # the governing check of each mechanism, the press's first
     known = [results.governing, *(governing({name: data.checks}) for name, data in results.mechanisms.items())]
     names = list(dict.fromkeys(f"{each.mechanism}.checks.{each.check}" for each in known if each))
     if not varied or not names:
         return []
-    try:
-        made = _calculated(config, dict(_columns(list(varied.values()))), 1 + 2 * len(varied))
-    except (NotOnArrays, Mixed):  # not of one mechanism that could be left out: the order is that of the file
-        return []
-    try:
-        return list(_moved(made, list(varied), names))
-    finally:
-        made.release()
-
-
-def _calculated(config: Config, values: dict[Input, Array], count: int) -> CalculatedVariants:
-    """Return all variants of what can be calculated together; the others are as if their plugins were broken."""
-    left_out: dict[str, PluginError] = dict(config.broken)
-    while True:
-        try:
-            return calculated(replace(config, broken=left_out), dict(values), count)
-        except NotOnArrays as fault:
-            names = [name for name, kind in config.kinds.items() if kind == fault.kind and name not in left_out]
-            if not names:
-                raise
-            left_out |= {name: PluginError(fault.message, fault.kind, name) for name in names}
+    count = 1 + 2 * len(varied)  # the config itself, then two machines for each input
+    given: dict[Input, Array] = {asked: np.full(count, value) for asked, value in varied.values()}
+    for index, column in enumerate(given.values()):
+        column[1 + 2 * index : 3 + 2 * index] *= (1 - SHARE, 1 + SHARE)
+    columns = calculate_rows(config, given, count).columns
+    used = {name: columns[f"{name}.utilisation"] for name in names if f"{name}.utilisation" in columns}
+    moved = []
+    for index, path in enumerate(varied):
+        changes = {name: _change(column[0], column[1 + 2 * index : 3 + 2 * index]) for name, column in used.items()}
+        name = max(changes, key=lambda each: changes[each], default="")
+        if name and changes[name] > MOVES:
+            check, change = name.replace(".checks.", "."), float(f"{changes[name]:.6g}")
+            moved.append(MoveRecord(path=path, check=check, change=change))
+    return moved
 
 
 def _number(config: Config, path: str) -> tuple[Input, float] | None:
@@ -316,29 +292,9 @@ def _number(config: Config, path: str) -> tuple[Input, float] | None:
     return (asked, float(value)) if isinstance(value, int | float) else None
 
 
-def _columns(varied: list[tuple[Input, float]]) -> Iterator[tuple[Input, Array]]:
-    """Yield a column for each input: the first row is the config itself, then two rows for each input."""
-    for index, (asked, value) in enumerate(varied):
-        column = np.full(1 + 2 * len(varied), value)
-        column[1 + 2 * index : 3 + 2 * index] *= (1 - SHARE, 1 + SHARE)
-        yield asked, column
-
-
-def _moved(made: CalculatedVariants, paths: list[str], names: list[str]) -> Iterator[MoveRecord]:
-    found = verdicts(made.calculations, made.count)
-    rows = {name: index for index, name in enumerate(found.names)}
-    known = [name for name in names if name in rows]
-    for index, path in enumerate(paths):
-        at = [1 + 2 * index, 2 + 2 * index]
-        changes = {name: _change(found.ratios[rows[name]], at) for name in known}
-        name = max(changes, key=lambda each: changes[each], default="")
-        if name and changes[name] > MOVES:
-            yield MoveRecord(path=path, check=name.replace(".checks.", "."), change=float(f"{changes[name]:.6g}"))
-
-
-def _change(utilisation: Array, at: list[int]) -> float:
-    changes = np.abs(utilisation[at] - utilisation[0])
-    return 0.0 if math.isnan(utilisation[0]) else float(np.where(np.isnan(changes), 1.0, changes).max())
+def _change(today: float, others: Array) -> float:
+    changes = np.abs(others - today)
+    return 0.0 if math.isnan(today) else float(np.where(np.isnan(changes), 1.0, changes).max())
 
 
 # Numbers that differ by rounding alone.

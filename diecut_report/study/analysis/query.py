@@ -89,9 +89,8 @@ class SqlWriter:
                 found = self.number(first)
                 for sign, part in rest:
                     # one divided by what is infinite would be 0
-                    found = _filled(
-                        f"({{}} {sign} {{}})", found, self._finite(part) if sign == "/" else self.number(part)
-                    )
+                    other = self._finite(part) if sign == "/" else self.number(part)
+                    found = _filled(f"({{}} {sign} {{}})", found, other)
                 return found
             case Power(base, exponent):  # 1 ** NaN would be 1
                 return _filled("pow({}, {})", self._finite(base), self._finite(exponent))

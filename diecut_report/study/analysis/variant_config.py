@@ -58,14 +58,8 @@ def variant_config(
 
 
 def variant_of(
-    stored: Stored,
-    variant: int,
-    discovery: Discovery,
-    name: str,
-    warn: Callable[[str], None] | None = None,
-    *,
-    in_error: bool = False,
-) -> Tree:
+    stored: Stored, variant: int, discovery: Discovery, name: str, warn: Callable[[str], None] | None = None, *, in_error: bool = False
+) -> Tree:  # fmt: skip
     """Return the configuration of a variant of an opened folder, as `variant_config` does; also of one that is ``in_error``."""
     found = _variant(stored, variant, discovery, in_error=in_error)
     base, study = found.base, printable(stored.description.study.file)
@@ -117,9 +111,9 @@ def _variant(stored: Stored, variant: int, discovery: Discovery, *, in_error: bo
 def _missing(stored: Stored, variant: int) -> Phrase:
     first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
     words = "There is no variant {variant} here. The stored ones are within {first} … {last}; a number in between that is missing {why}"
-    dropped = "was excluded by a constraint."
-    unfinished = "was excluded by a constraint or is not calculated yet."
-    why = phrase(dropped if stored.study.get("state") == "complete" else unfinished)
+    is_complete = stored.study.get("state") == "complete"
+    unfinished = phrase("was excluded by a constraint or is not calculated yet.")
+    why = phrase("was excluded by a constraint.") if is_complete else unfinished
     return Phrase(words, variant=variant, first=first, last=last, why=why)
 
 

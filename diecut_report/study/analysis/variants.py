@@ -7,7 +7,7 @@ import io
 import re
 import tempfile
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -27,7 +27,6 @@ from diecut_report.study.storage.description import (
     VARIANT,
     VERDICT,
     Description,
-    Kind,
     ResultColumn,
     short_hash,
     source_name,
@@ -42,27 +41,18 @@ if TYPE_CHECKING:
     from duckdb import DuckDBPyConnection
     from rich.table import Table
 
-DISPLAY = {
-    "m": "mm",
-    "rad": "deg",
-    "rad/s": "rpm",
-    "Pa": "MPa",
-    "1/s": "1/h",
-}  # the usual units, where a column has none
+# the usual units, where a column has none
+DISPLAY = {"m": "mm", "rad": "deg", "rad/s": "rpm", "Pa": "MPa", "1/s": "1/h"}
 FIXED = (VARIANT.name, *(column.name for column in VERDICT))
 UTILISATION, STATUS = ".utilisation", ".status"  # ends of the columns of a check
 MEMORY = "400MB"  # of DuckDB
 
 
 @dataclass(frozen=True)
-class StoredColumn:
-    """Hold a stored quantity: its name, what it holds, its SI unit, the unit that people read, its symbol, and what it is."""
+class StoredColumn(ResultColumn):
+    """Hold a stored quantity: a column with the unit that people read, whether it is another or not, and with what it is called."""
 
-    name: str
-    kind: Kind
-    unit: str = "1"
     display: str = "1"
-    symbol: str = ""
     title: str = ""
 
     @property
@@ -145,9 +135,8 @@ def opened(folder: Path) -> Iterator[Stored]:
     config: dict[str, str | bool | int | float | list[str]] = {
         "memory_limit": MEMORY,
         "temp_directory": tempfile.gettempdir(),
-        "preserve_insertion_order": "false",
     }
-    with duckdb.connect(":memory:", config=config) as connection:
+    with duckdb.connect(":memory:", config=config | {"preserve_insertion_order": "false"}) as connection:
         try:
             _name_parts(connection, paths)
             yield Stored(folder, store.description, store.state, columns_of(store.description), connection)
@@ -174,7 +163,7 @@ def columns_of(description: Description) -> dict[str, StoredColumn]:
     """Return the columns of the part files by name; curves, which are lists, are not quantities to compare."""
     known = titles(description.all_columns, _kinds(description))
     return {
-        column.name: StoredColumn(column.name, column.kind, column.unit, _display(column), column.symbol, known[column.name])
+        column.name: StoredColumn(**vars(column) | {"display": _display(column), "title": known[column.name]})
         for column in description.all_columns
         if column.kind != "curve"
     }  # fmt: skip
@@ -226,13 +215,13 @@ def other_code(sources: Mapping[str, str], kinds: Iterable[str], discovery: Disc
 
 
 PART = re.compile(r"(.+)\.(\d+)\.\w+")  # of a list of the inputs
-CHECK_ENDS = {
-    re.compile("(?P<what>.+): utilisation"): phrase("{quantity}: utilisation"),
-    re.compile("(?P<what>.+): verdict"): "",
-}
 ENDS = {  # as `columns_of` of `variant_rows` describes one of several results of a step
     re.compile(r"(?P<what>.+): no\. (?P<number>\d+)"): phrase("{quantity}: no. {number}"),
     re.compile("(?P<what>.+): how many in a turn"): phrase("{quantity}: how many in a turn"),
+}
+CHECK_ENDS = {
+    re.compile("(?P<what>.+): utilisation"): phrase("{quantity}: utilisation"),
+    re.compile("(?P<what>.+): verdict"): "",
 }
 
 
@@ -245,8 +234,7 @@ def titles(columns: Sequence[ResultColumn], kinds: Mapping[str, str] = MappingPr
     def titled(some: Sequence[ResultColumn]) -> dict[str, str]:
         found = {column.name: "" for column in some}
         untitled = [column for column in some if column.description and home(column.name)]
-        forms: tuple[Callable[[ResultColumn, str], str], ...] = (_short_title, _whole_title, _named_title)
-        for form in forms:
+        for form in (_short_title, lambda _, described: described, _named_title):
             made = {each.name: f"{form(each, _described(each, kinds))} ({home(each.name)})" for each in untitled}
             often = Counter([*made.values(), *found.values()])
             found |= {name: title for name, title in made.items() if often[title] == 1 or form is _named_title}
@@ -268,10 +256,6 @@ def _short_title(column: ResultColumn, described: str) -> str:
     if column.name.startswith(f"{MECHANISMS}.") and PART.fullmatch(column.name.split(".", 2)[2]):
         return _named_title(column, described)
     return re.sub(r" \([^()]*\)$", "", described)
-
-
-def _whole_title(_column: ResultColumn, described: str) -> str:
-    return described
 
 
 def _named_title(column: ResultColumn, described: str) -> str:

@@ -216,13 +216,11 @@ def _wrong_keys(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
         known: dict[KeyPath, Any] = {}
         for node, target in base.links.items():
             if node[0] == name and not target.is_default:
-                # the values of a curve that is given as a list must be numbers
-                is_listed = declared(instance.model, node[1:]) is None
-                known[node[1:]] = (
-                    SI(0.0, str(target.unit), target.path)
-                    if is_listed
-                    else Pending(target.path, target.unit, target.is_curve)
-                )
+                known[node[1:]] = Pending(target.path, target.unit, target.is_curve)
+                if (
+                    declared(instance.model, node[1:]) is None
+                ):  # the values of a curve that is given as a list must be numbers
+                    known[node[1:]] = SI(0.0, str(target.unit), target.path)
         own = [asked for asked in values if asked.instance == name and asked.unit]
         known |= {asked.key: Pending(asked.path, asked.unit) for asked in own}
         data = substituted(instance, {}, lambda _, __: None)

@@ -102,10 +102,8 @@ def parse(text: str, find: Callable[[str], Term], known: Collection[str] = ()) -
 
     def name(path: str) -> Name:
         if "." not in path and path not in known:
-            advice = phrase(
-                "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and "
-                "texts in quotes"
-            )
+            words = "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and texts in quotes"
+            advice = phrase(words)
             raise ConditionError(Phrase("“{path}” is not a path of an input; {advice}.", path=path, advice=advice))
         term = found[path] = find(path)
         if term.is_truth:
@@ -149,10 +147,7 @@ def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
 def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Node:
     """Return the value of what an input refers to, by the formula of its default where it has one."""
     if target.result is not None or target.is_broken:
-        words = (
-            "“{path}” refers to ${{target}}, which is known only after calculating; in a constraint an output is named by "
-            "itself, as in NAME.OUTPUT."
-        )
+        words = "“{path}” refers to ${{target}}, which is known only after calculating; a constraint names an output by itself, as in NAME.OUTPUT."
         raise ConditionError(Phrase(words, path=asked.path, target=target.path))
     head = PRESS if target.instance == PRESS else f"{MECHANISMS}.{target.instance}"
     node = term(base, varied, ".".join([head, *map(str, target.key)])).node

@@ -77,7 +77,8 @@ class SampleReader:
         if form and form.method == "table":
             columns = table.columns if table else {}
             found = dict(self._headed(columns))
-            bases = self._bases({asked: _column_texts(asked, columns[path]) for path, asked in found.items()})
+            listed = {asked: [] if asked.unit else columns[path].cells.texts() for path, asked in found.items()}
+            bases = self._bases({asked: list(dict.fromkeys(texts))[:MAX_LOOKED_UP] for asked, texts in listed.items()})
         else:
             found = dict(self._found(vary))
             bases = self._bases({asked: _texts(vary[path]) for path, asked in found.items()})
@@ -160,11 +161,8 @@ class SampleReader:
     def _value(self, asked: Input, form: type[Block], index: int, given: Any) -> Any:
         place = ConfigPlace(self.place.tree, ("vary", asked.path), {("value",): (index,)})
         if given is None or (isinstance(given, str) and "${" in given):
-            words = (
-                phrase("has no value; write one, or remove the entry")
-                if given is None
-                else Phrase("is {given}; a reference does not vary", given=quoted(given))
-            )
+            empty = phrase("has no value; write one, or remove the entry")
+            words = empty if given is None else Phrase("is {given}; a reference does not vary", given=quoted(given))
             self.problems.append(place.problem(("value",), Phrase("{words}.", words=words)))
             return None
         block = self._validated(form, {"value": given}, place)
@@ -302,21 +300,15 @@ def misused(form: SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Pr
 
 def _made(form: SampleForm, variables: tuple[Variable, ...]) -> Sample:
     count, seed = form.count or 0, form.seed or 0
-    match form.method:
-        case "grid":
-            return Grid(variables)
-        case "zip":
-            return Zip(variables)
-        case "latin_hypercube":
-            return LatinHypercube(variables, count, seed)
-    return Sobol(variables, count, seed, form.indices)
+    if form.method in DRAWN:
+        return (
+            LatinHypercube(variables, count, seed)
+            if form.method == DRAWN[0]
+            else Sobol(variables, count, seed, form.indices)
+        )
+    return Grid(variables) if form.method == "grid" else Zip(variables)
 
 
 def _texts(given: Any) -> list[str]:
     known = [stored_value(value) for value in given if isinstance(value, str | bool)] if isinstance(given, list) else []
     return [str(value) for value in dict.fromkeys(known)][:MAX_LOOKED_UP]
-
-
-def _column_texts(asked: Input, column: ReadColumn) -> list[str]:
-    """Return the texts of a column, as far as it has any; what is wrong with them is reported when they are judged."""
-    return [] if asked.unit else list(dict.fromkeys(column.cells.texts()))[:MAX_LOOKED_UP]

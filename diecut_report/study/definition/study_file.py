@@ -244,10 +244,7 @@ class _StudyReader:
         objectives = results.objectives(named, ("optimise",)) if named else own
         before = len(self.problems)
         if not named and not self.data.get("objectives"):
-            words = (
-                "is missing; name what is to be minimised or maximised, such as objectives: "
-                "[{minimise: cylinder.mass}]."
-            )
+            words = "is missing; name what is to be minimised or maximised, such as objectives: [{minimise: cylinder.mass}]."
             self.problems.append(self.place.absent(("optimise", "objectives"), phrase(words)))
         if sampled.variables is None:
             if self.data.get("sample", {}).get("method") == "table":

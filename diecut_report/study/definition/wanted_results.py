@@ -164,12 +164,12 @@ class ResultReader:
 
     def _report_no_output(self, key: KeyPath, name: str) -> None:
         sorts: tuple[Sort, ...] = ("utilisation",) if ".checks." in name else ("number", "other")
-        words = Phrase("{name} is not an output{nearest}", name=name, nearest=self._near(name, *sorts))
+        words = "{name} is not an output{nearest}"
         if self.sorts.get(name) == "row":
-            words = Phrase("{name} has a value for each part of a list; name one, as in {name}.0.", name=name)
+            words = "{name} has a value for each part of a list; name one, as in {name}.0."
         elif self.sorts.get(name) == "curve":
-            words = Phrase("{name} is a curve; only single values are kept here, curves by the key curves.", name=name)
-        self._report(key, words)
+            words = "{name} is a curve; only single values are kept here, curves by the key curves."
+        self._report(key, Phrase(words, name=name, nearest=self._near(name, *sorts)))
 
     def _sort(self, key: KeyPath, name: str) -> Sort | None:
         """Return what a name stands for; None, with the problem, where it names no mechanism, or nothing of one."""

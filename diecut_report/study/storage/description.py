@@ -97,39 +97,27 @@ def as_data(description: Description) -> Data:
     """Return it as it stands in study.json, whose form `state.StateForm` judges."""
     sources = {"study": description.study, "base": description.base}
     sources |= {f"table {number}": table for number, table in enumerate(description.tables, 1)}
-    columns = {column.name: vars(column) for column in description.all_columns}
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "program": {"name": "diecut-report", "version": description.program},
-        "plugins": dict(description.plugins),
-        "source_sha256": dict(description.sources),
-        "study": description.study.file,
-        "base": description.base.file,
-        "tables": [table.file for table in description.tables],
-        "sha256": {role: source.sha256 for role, source in sources.items()},
-        "rows": description.rows,
-        "chunk": description.chunk,
-        "columns": {
-            name: {key: value for key, value in about.items() if value and key != "name"}
-            for name, about in columns.items()
-        },
+    columns = {
+        column.name: {key: value for key, value in vars(column).items() if value and key != "name"}
+        for column in description.all_columns
     }
+    return {
+        "schema_version": SCHEMA_VERSION, "program": {"name": "diecut-report", "version": description.program},
+        "plugins": dict(description.plugins), "source_sha256": dict(description.sources),
+        "study": description.study.file, "base": description.base.file, "tables": [table.file for table in description.tables],
+        "sha256": {role: source.sha256 for role, source in sources.items()},
+        "rows": description.rows, "chunk": description.chunk, "columns": columns,
+    }  # fmt: skip
 
 
 def from_data(data: Data) -> Description:
     """Return the description that stands in study.json, whose form has been checked."""
-    columns = tuple(ResultColumn(name, **about) for name, about in data["columns"].items())
+    study, base = (StudySource(data[role], data["sha256"][role]) for role in ("study", "base"))
+    columns = tuple(ResultColumn(name, **about) for name, about in data["columns"].items())[1 : -len(VERDICT)]
+    tables = tuple(StudySource(file, data["sha256"][f"table {n}"]) for n, file in enumerate(data["tables"], 1))
     return Description(
-        study=StudySource(data["study"], data["sha256"]["study"]),
-        base=StudySource(data["base"], data["sha256"]["base"]),
-        columns=columns[1 : -len(VERDICT)],
-        rows=data["rows"],
-        chunk=data["chunk"],
-        tables=tuple(StudySource(file, data["sha256"][f"table {n}"]) for n, file in enumerate(data["tables"], 1)),
-        plugins=data["plugins"],
-        program=data["program"]["version"],
-        sources=data["source_sha256"],
-    )
+        study, base, columns, data["rows"], data["chunk"], tables, data["plugins"], data["program"]["version"], data["source_sha256"]
+    )  # fmt: skip
 
 
 def changes(before: Description, now: Description) -> Iterator[Problem]:

@@ -46,13 +46,8 @@ MISSING = phrase("This part of the results is missing. Calculate it again with -
 
 def schema_of(description: Description) -> pa.Schema:
     """Return the types of the columns, with unit, symbol and description of each, and where the results come from."""
-    provenance = {
-        "program": "diecut-report",
-        "version": description.program,
-        "study": description.study.sha256,
-        "base": description.base.sha256,
-        "schema_version": str(SCHEMA_VERSION),
-    }
+    provenance = {"program": "diecut-report", "version": description.program, "schema_version": str(SCHEMA_VERSION)}
+    provenance |= {"study": description.study.sha256, "base": description.base.sha256}
     return pa.schema([_field(column) for column in description.all_columns], provenance)
 
 
@@ -75,11 +70,6 @@ def described_table(columns: Mapping[ResultColumn, Values | None], count: int) -
     fields = [_field(column) for column in columns]
     arrays = [array_of(field, values, count) for field, values in zip(fields, columns.values(), strict=True)]
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
-
-
-def plain_table(rows: Sequence[Mapping[str, Any]]) -> pa.Table:
-    """Return rows of plain values as a table."""
-    return pa.Table.from_pylist([dict(row) for row in rows])
 
 
 def array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:
@@ -152,7 +142,7 @@ def columns_of_part(path: Path, schema: pa.Schema, names: Sequence[str]) -> pa.T
 
 
 REMEMBERED_SIZE = (
-    4_000_000  # bytes of parts up to which they are verified at each command: it takes some hundredths of a second
+    4_000_000  # bytes of parts up to which they are verified at each command, in some hundredths of a second
 )
 SETTLED = 2_000_000_000  # ns after which a change of a file shows in its times
 MAX_FOLDERS = 100  # studies that are remembered
@@ -177,25 +167,6 @@ def memory_file(directory: Path) -> Path | None:
     return folder / f"{name}.json" if folder else None
 
 
-def remembered(file: Path | None) -> dict[str, VerifiedPart]:
-    """Return what is known of the parts of a folder; a memory that cannot be read, or is none, remembers nothing."""
-    try:
-        return MEMORY.validate_json(file.read_bytes(), strict=True) if file else {}
-    except (OSError, ValueError):
-        return {}
-
-
-def remember(file: Path | None, known: dict[str, VerifiedPart]) -> None:
-    """Keep what is known of a large study for the next command; where that is not possible it is verified again."""
-    if file is None or sum(part.mark[0] for part in known.values()) < REMEMBERED_SIZE:
-        return
-    with suppress(OSError, UserError):  # costs the next command some time, and nothing else
-        file.parent.mkdir(parents=True, exist_ok=True)
-        write(file, MEMORY.dump_json(known))
-        for old in sorted(file.parent.glob("*.json"), key=lambda path: -path.stat().st_mtime)[MAX_FOLDERS:]:
-            old.unlink(missing_ok=True)
-
-
 # Whether the part files are those that the run wrote: by the hash of their bytes, and by the variants that they hold.
 
 
@@ -211,16 +182,26 @@ class PartChecks:
 
     def __init__(self, directory: Path, description: Description) -> None:
         self._description, self._schema = description, schema_of(description)
-        self._file = memory_file(directory)
-        self._known = remembered(self._file)
+        self._file, self._known = memory_file(directory), dict[str, VerifiedPart]()
+        with suppress(OSError, ValueError):  # a memory that cannot be read remembers nothing
+            self._known = MEMORY.validate_json(self._file.read_bytes(), strict=True) if self._file else {}
 
     def checked(self, found: Mapping[int, Path], entries: Mapping[str, Mapping[str, Any]]) -> dict[int, CheckedPart]:
         """Return what each of these part files is, by what study.json says of them (``part_files``)."""
         before = dict(self._known)
         parts = {index: self._check(index, path, entries.get(path.name)) for index, path in found.items()}
-        if self._known != before:
-            remember(self._file, self._known)
+        if self._known != before and sum(part.mark[0] for part in self._known.values()) >= REMEMBERED_SIZE:
+            self._remember()
         return parts
+
+    def _remember(self) -> None:
+        if self._file is None:
+            return
+        with suppress(OSError, UserError):  # costs the next command some time, and nothing else
+            self._file.parent.mkdir(parents=True, exist_ok=True)
+            write(self._file, MEMORY.dump_json(self._known))
+            for old in sorted(self._file.parent.glob("*.json"), key=lambda path: -path.stat().st_mtime)[MAX_FOLDERS:]:
+                old.unlink(missing_ok=True)
 
     def _check(self, index: int, path: Path, entry: Mapping[str, Any] | None) -> CheckedPart:
         if index >= self._description.parts or entry is None:

@@ -18,7 +18,6 @@ from diecut_report.config.yaml import printable
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.files import content, in_words, refuse_unreadable_name, write
 from diecut_report.study.storage.description import (
-    STATUSES,
     VARIANT,
     VERDICT,
     Data,
@@ -33,13 +32,12 @@ STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
 SEAL = "seal"
 MAX_STATE = 100_000_000  # bytes of study.json; ten thousand columns take some two million
 MAX_REPORTED = 5  # faults that are reported one by one
-EARLIER = ("source_sha256", "part_files", "seal")  # what an earlier version of the program did not write
 SEARCHED = "violation"  # the column that only the machines of a search have
 REMEDY = phrase(
     "Only batch writes this file: put it back as it was, or calculate the study anew in another "
     "folder with `diecut-report batch STUDY -o DIR`."
 )
-MISSING_KEY = phrase("This key is missing.")
+MISSING_KEY, UNKNOWN_KEY = phrase("This key is missing."), phrase("This key is unknown{nearest}.")
 Digest = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 Count = Annotated[int, Field(ge=0, le=10**15)]
 Fault = tuple[str, str]  # key, and what is wrong with it
@@ -122,41 +120,20 @@ def continuing(folder: object, columns: object, study: str = "") -> str:
     return f"diecut-report {'optimise' if is_search else 'batch'} {study}--resume {shlex.quote(printable(f'{folder}'))}"
 
 
-def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
-    """Refuse what is no study.json: UserError with the file, the key, what was given and what is allowed.
-
-    Without ``is_final`` the keys that a run writes at its end need not agree: it is to be continued.
-    """
-    if isinstance(data, dict) and not any(key in data for key in EARLIER) and "columns" in data:
-        words = phrase(
-            "An earlier version of diecut-report wrote these results, without the hashes that prove them "
-            "unchanged. Calculate the study anew in another folder with `diecut-report batch STUDY -o DIR`."
-        )
-        raise UserError(Problem(words, str(file)))
+def check_form(data: Any, file: Path) -> None:
+    """Refuse what is no study.json: UserError with the file, the key, what was given and what is allowed."""
     try:
-        form = StateForm.model_validate(data)
+        faults = list(_disagreeing(StateForm.model_validate(data)))
     except ValidationError as error:
-        raise _error([_of_pydantic(fault) for fault in error.errors()], file) from None
-    if faults := list(_disagreeing(form)):
-        raise _error(faults, file)
-    if is_final and form.state == "complete" and (faults := list(_incomplete(form))):
-        command = continuing(file.parent, form.columns)
-        raise _error(faults, file, Phrase("Let the program fix it: {continued}", continued=command))
-
-
-def _error(faults: list[Fault], file: Path, remedy: Phrase = REMEDY) -> UserError:
-    shown = [
-        # a key may be written by hand too
-        Problem(
-            joined((words, remedy), " "),
-            str(file),
-            path=key if key.isprintable() and len(key) < 200 else reprlib.repr(key),
-        )
-        for key, words in faults[:MAX_REPORTED]
-    ]
+        faults = [_of_pydantic(fault) for fault in error.errors()]
+    shown = []
+    for key, words in faults[:MAX_REPORTED]:
+        path = key if key.isprintable() and len(key) < 200 else reprlib.repr(key)  # it may be written by hand too
+        shown.append(Problem(joined((words, REMEDY), " "), str(file), path=path))
     if more := len(faults) - len(shown):
         shown.append(Problem(Phrase("{more} more keys are wrong.", more=more), str(file)))
-    return UserError(shown)
+    if shown:
+        raise UserError(shown)
 
 
 # --- each key by itself ----------------------------------------------------------------------------------------------
@@ -183,14 +160,11 @@ def _of_pydantic(fault: Mapping[str, Any]) -> Fault:
     if fault["type"] == "missing":
         return key, MISSING_KEY
     if fault["type"] == "extra_forbidden":
-        return key, _unknown(key, [field.alias or name for name, field in StateForm.model_fields.items()])
+        known = [field.alias or name for name, field in StateForm.model_fields.items()]
+        return key, Phrase(UNKNOWN_KEY, nearest=nearest(key, known))
     limits = {"ge": "", "le": "", "expected": "", **fault.get("ctx", {})}
     needed = Phrase(NEEDED.get(fault["type"], fault["msg"]), limits)
     return key, Phrase("{given} is given; {needed}.", given=_given(fault["input"]), needed=needed)
-
-
-def _unknown(key: str, known: Any) -> Phrase:
-    return Phrase("This key is unknown{nearest}.", nearest=nearest(key, known))
 
 
 def _given(value: Any) -> str:
@@ -213,7 +187,9 @@ def _disagreeing(form: StateForm) -> Iterator[Fault]:
         words = "They begin with variant and end with {verdict}."
         yield "columns", Phrase(words, verdict=", ".join(verdict))
     sources = {"study", "base", *(f"table {number}" for number in range(1, len(form.tables) + 1))}
-    yield from _other_keys("sha256", form.sha256, sources)
+    yield from ((f"sha256.{key}", MISSING_KEY) for key in sorted(sources - form.sha256.keys()))
+    for key in sorted(form.sha256.keys() - sources):
+        yield f"sha256.{key}", Phrase(UNKNOWN_KEY, nearest=nearest(key, sources))
     for name in (name for name in form.varied or () if name not in names):
         words = "{given} is given; the name of a column is needed{nearest}."
         yield "varied", Phrase(words, given=_given(name), nearest=nearest(name, names))
@@ -222,32 +198,6 @@ def _disagreeing(form: StateForm) -> Iterator[Fault]:
 def part_name(index: int) -> str:
     """Return the name of a part file."""
     return f"part-{index:05d}.parquet"
-
-
-def _incomplete(form: StateForm) -> Iterator[Fault]:
-    whole = -(-form.rows // form.chunk)
-    first = range(min(whole, len(form.part_files) + 1))  # one that is missing is enough
-    yield from _other_keys("part_files", form.part_files, {part_name(index) for index in first})
-    if form.parts != whole:
-        words = "{given} is given; {rows} rows in parts of {chunk} make {whole}."
-        yield "parts", Phrase(words, given=_given(form.parts), rows=form.rows, chunk=form.chunk, whole=whole)
-    if form.counts is None:
-        yield "counts", MISSING_KEY
-        return
-    counts, stored = form.counts, sum(part.variants for part in form.part_files.values())
-    for name, given, true in (
-        ("sample", counts.sample, form.rows),
-        ("variants", counts.variants, stored),
-        ("dropped", counts.dropped, form.rows - stored),
-        (", ".join(STATUSES), counts.passing + counts.warn + counts.fail + counts.error, stored),
-    ):
-        if given != true:
-            yield f"counts.{name}", Phrase("{given} is given; the other keys make {true}.", given=given, true=true)
-
-
-def _other_keys(name: str, given: Mapping[str, Any], needed: set[str]) -> Iterator[Fault]:
-    yield from ((f"{name}.{key}", MISSING_KEY) for key in sorted(needed - given.keys()))
-    yield from ((f"{name}.{key}", _unknown(key, needed)) for key in sorted(given.keys() - needed))
 
 
 # --- read and written ------------------------------------------------------------------------------------------------
@@ -270,13 +220,10 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
     text = content(path, MAX_STATE, phrase("the file that batch wrote"))
     try:
         found = json.loads(text.decode("utf-8"), parse_constant=_refuse_constant)
-    except RecursionError:
-        words = Phrase("The state of the study is nested too deep. {mend}", mend=REMEDY)
-        raise UserError(Problem(words, str(path))) from None
-    except ValueError as error:
+    except (RecursionError, ValueError) as error:
         words = Phrase("The state of the study cannot be read: {error}. {mend}", error=error, mend=REMEDY)
         raise UserError(Problem(words, str(path))) from error
-    check_form(found, path, is_final=sealed)
+    check_form(found, path)
     if sealed and not is_sealed(found):
         words = Phrase(
             "This file has been changed since the program wrote it, so that what it says of the results may "

@@ -211,8 +211,7 @@ class Store:
         return found
 
     def _checked(self) -> dict[int, CheckedPart]:
-        """Return what the part files are. A run may go on meanwhile: it notes each part before it writes it."""
-        found = self.parts()
+        found = self.parts()  # before the state: a run that goes on meanwhile notes each part before it writes it
         return self._checks.checked(found, self.state["part_files"])
 
     def done_parts(self) -> set[int]:
@@ -232,12 +231,11 @@ class Store:
         if wrong:
             problems = [Problem(wrong[index], str(self.part(index))) for index in sorted(wrong)[:MAX_REPORTED]]
             if more := len(wrong) - len(problems):
-                problems.append(
-                    Problem(Phrase("{count} more parts are wrong or missing.", count=more), str(self._folder))
-                )
+                words = Phrase("{count} more parts are wrong or missing.", count=more)
+                problems.append(Problem(words, str(self._folder)))
             raise UserError(problems)
         if known["state"] == "complete":
-            self._check_counts(known["counts"], checked.values())
+            self._check_counts(known.get("counts") or {}, checked.values())
         return [self.part(index) for index in checked]
 
     def _check_counts(self, noted: Mapping[str, int], checked: Iterable[CheckedPart]) -> None:

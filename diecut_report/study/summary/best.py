@@ -352,12 +352,12 @@ class MatrixCell(NamedTuple):
 
 
 class MatrixRow(NamedTuple):
-    """Hold a variant: its number, the file of its full report (or nothing), its status, and its cells."""
+    """Hold a variant: its number, the file of its full report (or nothing), its status, and in the matrix its cells."""
 
     variant: int
     href: str
     status: str
-    cells: list[MatrixCell]
+    cells: Sequence[MatrixCell] = ()
 
 
 class Matrix(NamedTuple):
@@ -383,14 +383,6 @@ class Best(NamedTuple):
     values: list[str]
 
 
-class ListedReport(NamedTuple):
-    """Hold a full report of a variant."""
-
-    variant: int
-    href: str
-    status: str
-
-
 def report_of(folder: Path, variant: int) -> str:
     """Return the full report of a variant, from the summary's place, if there is one."""
     files = (f"reports/{variant}.{ending}" for ending in ("html", "pdf"))
@@ -409,14 +401,11 @@ def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[tuple[str, l
     first = say("Best: first by the objective") if is_single else say("Best: on the Pareto front")
     groups = [_cut(first, best, BEST)]
     if total <= ALL:
-        passing, failing = (
-            say("Other passing variants, largest margin first"),
-            say("Failing variants, least overloaded first"),
-        )
+        order = "NULLS LAST, variant"
         groups += [
-            (passing, _numbers(stored, SOUND, "NULLS LAST, variant")),
-            (failing, _numbers(stored, "status = 'fail'", "NULLS LAST, variant")),
-            (say("Impossible variants"), _numbers(stored, "status = 'error'", ", variant")),
+            (say("Other passing variants, largest margin first"), _numbers(stored, SOUND, order)),
+            (say("Failing variants, least overloaded first"), _numbers(stored, "status = 'fail'", order)),
+            (say("Impossible variants"), _numbers(stored, "status = 'error'", order)),
         ]
     else:
         overloaded = say("Fail: the {n} most overloaded variants", n=WORST_ONES)
@@ -494,18 +483,15 @@ def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn])
             "–" if worst is None else utilised(worst),
             said(stored.check_label(governing)) if governing else "",
         )
-        texts = [_value_label(value, column) for value, column in zip(values, shown, strict=True)]
+        texts = [
+            "–" if value is None else display(float(value), column) if column.is_number else value_text(value)
+            for value, column in zip(values, shown, strict=True)
+        ]
         found.append(Best(one, report_of(stored.folder, one), status, used, check, texts))
     return found
 
 
-def _value_label(value: Any, column: StoredColumn) -> str:
-    if value is None:
-        return "–"
-    return display(float(value), column) if column.is_number else value_text(value)
-
-
-def reports(stored: Stored, variants: Sequence[int]) -> list[ListedReport]:
+def reports(stored: Stored, variants: Sequence[int]) -> list[MatrixRow]:
     """Return the full reports of these variants."""
     states = _of_variants(stored, variants, ["status"])
-    return [ListedReport(one, report_of(stored.folder, one), *states[one]) for one in variants if one in states]
+    return [MatrixRow(one, report_of(stored.folder, one), *states[one]) for one in variants if one in states]

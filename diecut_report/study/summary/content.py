@@ -66,9 +66,8 @@ def _parsed(source: StudySource) -> yaml.Tree | None:
     return yaml.parse(source.content.decode("utf-8-sig"), source.file) if source.content is not None else None
 
 
-def asked_questions(stored: Stored) -> Asked | None:
+def asked_questions(stored: Stored, tree: yaml.Tree | None) -> Asked | None:
     """Return what the kept copy of the study file says; None where the copy is gone or changed."""
-    tree = _parsed(stored.description.study)
     if tree is None:
         return None
     given: Mapping[str, Any] = tree.data
@@ -184,7 +183,7 @@ class Summary:
     statuses: dict[str, int]
     facts: list[tuple[str, str]]
     asked: Asked | None
-    failures: list[data.Failure]
+    failures: list[data.Utilisation]
     governing: list[data.Governing]
     passing: list[data.PassingValues]
     utilisations: list[data.Utilisation]
@@ -197,7 +196,7 @@ class Summary:
     spreads: list[Spread]
     more_spreads: int
     reasons: list[data.Reason]
-    reports: list[best.ListedReport]
+    reports: list[best.MatrixRow]
     more_reports: int
     front: best.Front | None
     best_head: list[str]
@@ -242,17 +241,26 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     total = sum(states.values())
     goals = best.objectives(stored)
     aims = [goal.column for goal in goals]
-    spreads = _spreads(stored, aims, total)
+    used_columns = [value for value, _ in stored.checks.values()]
+    columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *aims, *used_columns]
+    spreads = data.spreads(stored, list(dict.fromkeys(columns)), total)
     front = best.front(stored, goals, states["pass"] + states["warn"])
     varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
     used = data.utilisations(stored)
     made, failures = [row for row in used if row.is_made], data.failures(stored, used)
-    still = {
-        check for check, (each, _) in stored.checks.items() if each.name in spreads and not spreads[each.name].varies
-    }
+    fixed = {name for name, spread in spreads.items() if not spread.varies}
+    still = {check for check, (each, _) in stored.checks.items() if each.name in fixed}
     governing = data.governing(stored, still)
-    asked = [column for column in varying if column.name in _asked_outputs(stored)]
-    main = _main(stored, aims, varying, asked, used)
+    study = _parsed(stored.description.study)
+    asked = [
+        column for column in varying if column.name in map(str, (study.data.get("outputs") or ()) if study else ())
+    ]
+    # what matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others
+    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
+    every = dict.fromkeys(
+        [*aims, WORST, *asked, *failing, *(column for column in varying if column not in stored.varied)]
+    )
+    main = [column for column in every if column in varying]
     found = best.influences(stored, main[: min(TARGETS + len(asked), MAX_TARGETS)])
     inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
     choices = list(dict.fromkeys([*inputs, *main]))
@@ -270,7 +278,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     return Summary(
         title=_title(stored, base), folder=printable(stored.folder.resolve().name), study=stored.study, files=_files(stored),
         checks={check: said(stored.check_label(check)) for check in stored.checks},
-        total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored),
+        total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored, study),
         failures=failures, governing=governing, passing=data.passing_values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
         unchecked=sum(row.unchecked > 0 for row in used), assumed=_assumed(base.data if base else None),
@@ -287,34 +295,9 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     )  # fmt: skip
 
 
-def _main(
-    stored: Stored,
-    aims: list[StoredColumn],
-    varying: list[StoredColumn],
-    asked: list[StoredColumn],
-    used: list[data.Utilisation],
-) -> list[StoredColumn]:
-    """Return what matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others."""
-    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
-    outputs = [column for column in varying if column not in stored.varied]
-    return [column for column in dict.fromkeys([*aims, WORST, *asked, *failing, *outputs]) if column in varying]
-
-
-def _asked_outputs(stored: Stored) -> set[str]:
-    """Return the outputs that the study file asks for by their names; none where it keeps all, or its copy is gone."""
-    tree = _parsed(stored.description.study)
-    return {str(name) for name in tree.data.get("outputs") or ()} if tree else set()
-
-
 def _is_telling(spread: Spread) -> bool:
     """Return whether a quantity varies; a utilisation that is next to nothing tells nothing."""
     return spread.varies and (".checks." not in spread.column.name or spread.values[-1] > best.IDLE)
-
-
-def _spreads(stored: Stored, goals: list[StoredColumn], total: int) -> dict[str, Spread]:
-    used = [value for value, _ in stored.checks.values()]
-    columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *goals, *used]
-    return data.spreads(stored, list(dict.fromkeys(columns)), total)
 
 
 def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
@@ -325,12 +308,13 @@ def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
         yield say("Excluded by constraints"), _dropped(counts)
     found = data.margin(stored) if stored.checks else None
     if found is not None:
-        others = found.shared - 1
+        variant, utilisation, governing, shared = found
+        others = shared - 1
         words = ", and {n} other variant with the same", ", and {n} other variants with the same"
         more = say_counted(others, *words, n=number(str(others))) if others else ""
-        check, used = said(stored.check_label(found.check)), utilised(found.utilisation)
+        check, used = said(stored.check_label(governing)), utilised(utilisation)
         told = "variant {n}{more}: utilisation {used} at most, by “{check}”"
-        yield say("Largest margin"), say(told, n=found.variant, more=more, used=used, check=check)
+        yield say("Largest margin"), say(told, n=variant, more=more, used=used, check=check)
     seconds = float(stored.study.get("seconds") or 0)
     if seconds > 0:
         yield say("Calculated in"), localised(f"{seconds:.3g} s")

@@ -27,9 +27,7 @@ from diecut_report.text.translation import decimal_sign, localised, said, say, s
 
 
 DIGITS = 4
-WORST = StoredColumn(
-    "maximum utilisation", "float", title=phrase("Utilisation of the governing check (where it has one)")
-)
+WORST = StoredColumn("maximum utilisation", title=phrase("Utilisation of the governing check (where it has one)"))
 WORDS = {"pass": phrase("pass"), "warn": phrase("warning"), "fail": phrase("fail"), "error": phrase("error")}
 
 
@@ -380,10 +378,8 @@ def _passing(stored: Stored, column: StoredColumn) -> PassingValues:
         )
 
     if not column.is_number:
-        rows = [
-            PassingValue(value_text(value), *counts)
-            for value, *counts in counted(column.sql, "good / n DESC, n DESC, place")
-        ]
+        known = counted(column.sql, "good / n DESC, n DESC, place")
+        rows = [PassingValue(value_text(value), *counts) for value, *counts in known]
         return PassingValues(column, rows[:MAX_WORDS], max(0, len(rows) - MAX_WORDS))
     sql = f"SELECT min({column.sql}), max({column.sql}), count(DISTINCT {column.sql}) FROM v"
     low, high, count = stored.rows(sql)[0]
@@ -392,10 +388,10 @@ def _passing(stored: Stored, column: StoredColumn) -> PassingValues:
         return PassingValues(column, rows)
     wide = (high - low) / CLASSES  # a value at a limit belongs to the class above it
     at = f"CAST(least(floor(({column.sql} - {low!r}) / {wide!r}), {CLASSES - 1}) AS BIGINT)"
-    known = {int(place): counts for place, *counts in counted(at, "place")}
+    classes = {int(place): counts for place, *counts in counted(at, "place")}
     edges = [display(low + wide * index, column) for index in range(CLASSES + 1)]
     named_ = enumerate(f"{one} … {other}" for one, other in pairwise(edges))
-    return PassingValues(column, [PassingValue(told, *known.get(index, (0, 0))) for index, told in named_])
+    return PassingValues(column, [PassingValue(told, *classes.get(index, (0, 0))) for index, told in named_])
 
 
 # --- what fails and what holds ---------------------------------------------------------------------------------------
@@ -404,7 +400,10 @@ SAME_MARGIN = 1e-6  # relative difference up to which two margins are shared
 
 
 class Utilisation(NamedTuple):
-    """Hold a check over all variants: how many in each class of utilisation, without one, its statuses, and its greatest value."""
+    """Hold a check over all variants: how many in each class of utilisation, without one, its statuses, and its greatest value.
+
+    Of one that fails or warns also in how many variants it governs the failure, and is the only failing one.
+    """
 
     check: str
     bands: tuple[int, ...]
@@ -414,21 +413,13 @@ class Utilisation(NamedTuple):
     failing: int
     unchecked: int  # as a limit or another key is not given
     greatest: float | None
+    governing: int = 0
+    only: int = 0
 
     @property
     def is_made(self) -> bool:
         """Return whether any variant has this check."""
         return self.passing + self.warning + self.failing > 0
-
-
-class Failure(NamedTuple):
-    """Hold a check: in how many variants it fails, governs the failure, is the only failing one, and has a warning."""
-
-    check: str
-    failing: int
-    governing: int
-    only: int
-    warning: int
 
 
 class Governing(NamedTuple):
@@ -439,15 +430,6 @@ class Governing(NamedTuple):
     least: float | None
     greatest: float | None
     varies: bool = True
-
-
-class Margin(NamedTuple):
-    """Hold least utilisation of all that pass: a variant, its governing check, and how many variants share it."""
-
-    variant: int
-    utilisation: float
-    check: str
-    shared: int
 
 
 def utilisations(stored: Stored) -> list[Utilisation]:
@@ -468,19 +450,16 @@ def utilisations(stored: Stored) -> list[Utilisation]:
     return sorted(found, key=lambda row: (-row.failing, -row.warning, -(row.greatest or 0.0), row.check))
 
 
-def failures(stored: Stored, used: Sequence[Utilisation]) -> list[Failure]:
+def failures(stored: Stored, used: Sequence[Utilisation]) -> list[Utilisation]:
     """Return the checks that fail or warn in any variant, those with the most failures first."""
     sql = "SELECT governing, count(*) FROM v WHERE status = 'fail' AND governing IS NOT NULL GROUP BY governing"
     governed = dict(stored.rows(sql))
-    rows = [row for row in used if row.failing or row.warning]
 
-    def asked(check: str) -> list[str]:
-        return [f"count(*) FILTER ({stored.checks[check][1].sql} = 'fail')"]
+    def asked(row: Utilisation) -> list[str]:
+        return [f"count(*) FILTER ({stored.checks[row.check][1].sql} = 'fail')"]
 
-    only = {
-        check: row[0] for check, row in _of_each(stored, [row.check for row in rows], asked, f"w WHERE {FAILING} = 1")
-    }
-    found = [Failure(row.check, row.failing, governed.get(row.check, 0), only[row.check], row.warning) for row in rows]
+    rows = _of_each(stored, [row for row in used if row.failing or row.warning], asked, f"w WHERE {FAILING} = 1")
+    found = [row._replace(governing=governed.get(row.check, 0), only=only) for row, (only,) in rows]
     return sorted(found, key=lambda row: (-row.failing, -row.governing, -row.warning, row.check))
 
 
@@ -494,12 +473,12 @@ def governing(stored: Stored, still: Collection[str] = ()) -> list[Governing]:
     return sorted(found, key=lambda row: not row.varies)
 
 
-def margin(stored: Stored) -> Margin | None:
-    """Return which of the variants that do not fail keeps most from its limits, and how many keep as much."""
+def margin(stored: Stored) -> tuple[int, float, str, int] | None:
+    """Return which of the variants that do not fail keeps most from its limits: variant, utilisation, check, how many share it."""
     there = f"FROM w WHERE {SOUND} AND {WORST.sql} IS NOT NULL"
     least = stored.rows(f"SELECT min({WORST.sql}) {there}")[0][0]
     if least is None:
         return None
     alike = f"{there} AND {WORST.sql} <= {least * (1 + SAME_MARGIN)!r}"
     one, check, shared = stored.rows(f"SELECT min(variant), arg_min(governing, variant), count(*) {alike}")[0]
-    return Margin(one, least, check, shared)
+    return one, least, check, shared

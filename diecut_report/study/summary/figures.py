@@ -18,9 +18,9 @@ from diecut_report.study.summary.best import Front, Influence, Share
 from diecut_report.study.summary.charts import Ends, drawn_lines, near
 from diecut_report.study.summary.data import (
     WORDS,
-    Failure,
     SampledVariants,
     Spread,
+    Utilisation,
     named,
     percent,
     quantity,
@@ -60,7 +60,7 @@ class Figures:
         return sum(self.states.values())
 
     def all(
-        self, failures: Sequence[Failure], spreads: Sequence[Spread], ranked: Sequence[Influence]
+        self, failures: Sequence[Utilisation], spreads: Sequence[Spread], ranked: Sequence[Influence]
     ) -> dict[str, SummaryFigure]:
         """Return every chart that the study has something for, by its key."""
         found = {
@@ -79,7 +79,7 @@ class Figures:
         svg = charts.shares(say("Variants by status: {told}.", told=told), "counts", self.states)
         return SummaryFigure(svg, say("Variants by status."), told)
 
-    def _failures(self, failures: Sequence[Failure]) -> SummaryFigure:
+    def _failures(self, failures: Sequence[Utilisation]) -> SummaryFigure:
         rows = [(row, said(self.stored.check_label(row.check))) for row in failures[:MAX_FAILURES]]
         words = "{check} fails in {failing}, governs {governing} of them, warns in {warning}"
         told = "; ".join(
@@ -227,7 +227,7 @@ def influence_figure(found: Influence) -> SummaryFigure:
     return SummaryFigure(charts.influence(f"{told}.", key, found), say(words, target=target), told)
 
 
-def _behind(row: Failure) -> str:
+def _behind(row: Utilisation) -> str:
     told = say("{n}, governs {governing}", n=number(str(row.failing)), governing=number(str(row.governing)))
     warned = say_counted(row.warning, "{n} warning", "{n} warnings", n=number(str(row.warning)))
     return ", ".join([*([told] if row.failing else []), *([warned] if row.warning else [])])
