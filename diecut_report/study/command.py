@@ -72,38 +72,24 @@ class Shown:
 
 
 def _bar() -> Progress:
+    from rich import progress
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        ProgressColumn,
-        Task,
-        TextColumn,
-        TimeRemainingColumn,
-    )
     from rich.text import Text
 
-    class Rate(ProgressColumn):
+    class Rate(progress.ProgressColumn):
         """Variants a second."""
 
-        def render(self, task: Task) -> Text:
+        def render(self, task: progress.Task) -> Text:
             return Text(f"{task.speed:.0f}/s" if task.speed else "")
 
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), Rate(), TimeRemainingColumn())
-    return Progress(*columns, TextColumn("{task.fields[told]}"), console=Console(stderr=True))
+    text, told = progress.TextColumn("{task.description}"), progress.TextColumn("{task.fields[told]}")
+    counted = (progress.BarColumn(), progress.MofNCompleteColumn(), Rate(), progress.TimeRemainingColumn())
+    return progress.Progress(text, *counted, told, console=Console(stderr=True))
 
 
 def run(
-    study: Path | None,
-    directory: Path,
-    where: Where,
-    *,
-    resume: bool,
-    agreed: bool,
-    formats: Sequence[str],
-    shown: Shown,
-) -> StudyOutcome:
+    study: Path | None, directory: Path, where: Where, *, resume: bool, agreed: bool, formats: Sequence[str], shown: Shown
+) -> StudyOutcome:  # fmt: skip
     """Run a study, or continue the one of a folder; then reports, summary and the other formats."""
     known = loaded(study, directory, where)
     refuse_unsampled(known)

@@ -61,15 +61,8 @@ def _tables(made: MachineComparison) -> dict[str, list[list[Any]]]:
 
 def _verdict(of: Verdict) -> list[Any]:
     counts = [of.failed, of.not_checked, of.warnings, of.assumed]
-    return [
-        of.machine,
-        said(STATES[of.face]),
-        of.governing,
-        of.utilisation,
-        *counts,
-        of.file,
-        "\n".join(map(said, of.words)),
-    ]
+    words = "\n".join(map(said, of.words))
+    return [of.machine, said(STATES[of.face]), of.governing, of.utilisation, *counts, of.file, words]
 
 
 def _cell(cell: dict[str, Any] | None) -> str:

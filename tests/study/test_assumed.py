@@ -78,13 +78,11 @@ def test_a_variants_value_stands_in_the_block_of_its_quantity(tmp_path: Path) ->
     assert _place(tree, "mechanisms.a.parts.0.length", discovery) == ("mechanisms", "a", "parts", 0, "length")
 
 
+@pytest.mark.usefixtures("with_html_summary")
 @pytest.mark.parametrize("assumed", [True, False])
 def test_a_study_of_a_base_with_assumed_values_passes_no_more_than_it_checks(tmp_path: Path, assumed: bool) -> None:
-    text = LEVER.replace(
-        "2 kN",
-        "{value: 2 kN, basis: assumed}, allowable_moment: 9 kN*m" if assumed else "2 kN, allowable_moment: 9 kN*m",
-    )
-    saved(tmp_path, text)
+    force = "{value: 2 kN, basis: assumed}" if assumed else "2 kN"
+    saved(tmp_path, LEVER.replace("2 kN", f"{force}, allowable_moment: 9 kN*m"))
     study = saved(tmp_path, varied("[100 mm, 110 mm]", path="mechanisms.a.arm"), "study.yaml")
     assert (
         main(["batch", str(study), "-o", str(tmp_path / "out"), "--plugins", str(GOOD), "--quiet", "--jobs", "1"]) == 0

@@ -8,6 +8,7 @@ import pty
 import re
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -56,14 +57,8 @@ def test_a_study_becomes_a_folder_named_as_it(tmp_path: Path, monkeypatch: pytes
     out, err = capfd.readouterr()
     assert out == ""
     assert err.splitlines() == ["written: study, with summary.html and summary.pdf", "6 variants: 6 pass."]
-    assert {path.name for path in Path("study").iterdir()} >= {
-        "study.json",
-        "study.yaml",
-        "base.yaml",
-        "variants",
-        "summary.html",
-        "summary.pdf",
-    }
+    names = {"study.json", "study.yaml", "base.yaml", "variants", "summary.html", "summary.pdf"}
+    assert {path.name for path in Path("study").iterdir()} >= names
     assert [row["mechanisms.a.force"] for row in rows(Path("study"))] == [1000, 1000, 2000, 2000, 3000, 3000]
     state = json.loads(Path("study/study.json").read_text())
     assert (state["state"], state["counts"]["variants"]) == ("complete", 6)
@@ -101,9 +96,8 @@ def test_outputs_and_curves_are_those_that_were_asked_for(tmp_path: Path) -> Non
 def test_constraints_that_drop_all_variants_are_told_before_anything_is_written(tmp_path: Path, capfd: Capture) -> None:
     text = varied("[1 kN, 2 kN]", rest="constraints: [\"mechanisms.a.force > '5 kN'\"]\n")
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
-    assert (
-        "constraints: the constraints exclude all 2 variants of the sample. Relax one of them" in capfd.readouterr().err
-    )
+    told = capfd.readouterr().err
+    assert "constraints: the constraints exclude all 2 variants of the sample. Relax one of them" in told
     assert not (tmp_path / "out").exists()
 
 
@@ -169,15 +163,11 @@ def test_a_study_of_which_the_outputs_leave_nothing_still_tells_so(tmp_path: Pat
 
 @pytest.mark.usefixtures("without_summary")
 def test_a_huge_grid_says_its_size_and_asks(tmp_path: Path, capfd: Capture) -> None:
-    text = (
-        varied("{from: 1 kN, to: 2 kN, count: 1000000}")
-        + "  mechanisms.a.arm: {from: 1 mm, to: 900 mm, count: 1000000}\n"
-    )
+    arms = "  mechanisms.a.arm: {from: 1 mm, to: 900 mm, count: 1000000}\n"
+    text = varied("{from: 1 kN, to: 2 kN, count: 1000000}", rest=arms)
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
-    assert (
-        "the sample has 1,000,000,000,000 variants, more than 10,000,000. Vary less, or give --yes"
-        in capfd.readouterr().err
-    )
+    words = "the sample has 1,000,000,000,000 variants, more than 10,000,000. Vary less, or give --yes"
+    assert words in capfd.readouterr().err
     assert not (tmp_path / "out").exists()
 
 
@@ -264,6 +254,7 @@ def test_a_refused_folder_and_a_cluster_that_is_not_there_leave_nothing(
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "mine").touch()
     assert run("batch", files(tmp_path), "-o", tmp_path / "full") == 2
+    assert "This folder is not empty (mine is in it)" in capfd.readouterr().err
     assert [path.name for path in (tmp_path / "full").iterdir()] == ["mine"]
     assert run("batch", files(tmp_path), "-o", tmp_path / "out", "--dask", "tcp://127.0.0.1:1") == 2
     assert "cannot be reached" in capfd.readouterr().err
@@ -271,11 +262,8 @@ def test_a_refused_folder_and_a_cluster_that_is_not_there_leave_nothing(
 
 
 def test_rounding_makes_no_variant_better(tmp_path: Path) -> None:
-    columns = {
-        "status": np.array(["pass"] * 3, object),
-        "a.x": np.array([2.0, 1.0, 1 + 1e-15]),
-        "a.y": np.array([1.0, 1 + 2e-16, 1.0]),
-    }
+    columns = {"a.x": np.array([2.0, 1.0, 1 + 1e-15]), "a.y": np.array([1.0, 1 + 2e-16, 1.0])}
+    columns["status"] = np.array(["pass"] * 3, object)
     assert list(best(columns, [("a.x", True), ("a.y", True)], 1)) == [1]
 
 
@@ -307,16 +295,12 @@ def test_progress_on_a_terminal(tmp_path: Path) -> None:
     shown = subprocess.Popen([*command, str(tmp_path / "one")], stderr=child, env=environment)
     os.close(child)
     told = b""
-    while True:
-        try:
+    with suppress(OSError):  # the program has closed its end
+        while True:
             told += os.read(parent, 4096)
-        except OSError:  # the program has closed its end
-            break
     os.close(parent)
     assert shown.wait(timeout=60) == 0
-    assert b"6/6" in told
-    assert b"0 of 6 fail" in told
-    assert b"summary" in told
+    assert all(words in told for words in (b"6/6", b"0 of 6 fail", b"summary"))
 
 
 @pytest.mark.usefixtures("without_summary")
@@ -343,7 +327,5 @@ def test_a_variant_of_such_a_study_has_a_report(tmp_path: Path) -> None:
     assert run("report", variant, "-o", tmp_path / "made", "--format", "html", "--quiet") in (0, 1)
     assert run("calc", variant, "-o", tmp_path / "made.json", "--quiet") in (0, 1)
     assert not FORBIDDEN_IN_KEY.search((tmp_path / "made.json").read_text("utf-8").replace("\n", ""))
-    assert run("take", variant, "-o", taken, "--quiet") == 0 and run("calc", taken, "-o", tmp_path / "taken.json") in (
-        0,
-        1,
-    )
+    assert run("take", variant, "-o", taken, "--quiet") == 0
+    assert run("calc", taken, "-o", tmp_path / "taken.json") in (0, 1)

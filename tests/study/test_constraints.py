@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.tree import Node
@@ -43,41 +41,22 @@ def read(text: str) -> Constraint:
                  .replace("speed", "mechanisms.a.speed").replace("law", "mechanisms.a.law"), find)  # fmt: skip
 
 
-HELD = [  # text, and the rows above by hand
+HELD = [  # text, and the rows above by hand; what the language means is held in test_conditions
     ("bore <= 0.7 * height", [True, True, False]),
     ("bore < '60 mm'", [True, False, False]),
-    ("bore <= '60 mm'", [True, True, False]),
-    ("'55 mm' < bore < '0.065 m'", [False, True, False]),
-    ("speed < '90 rpm'", [True, True, False]),  # 90 rpm are 9.42 rad/s
-    ("bore > '55 mm' and speed < '90 rpm'", [False, True, False]),
-    ("bore < '55 mm' or speed > '90 rpm'", [True, False, True]),
-    ("not bore < '55 mm'", [False, True, True]),
-    ("abs(bore - height) < '35 mm'", [False, True, True]),
-    ("max(bore, height) > '85 mm'", [True, True, False]),
-    ("min(bore, height, '55 mm') >= '52 mm'", [False, True, True]),
-    ("sqrt(bore ** 2 + height ** 2) < '0.11 m'", [False, True, True]),
+    ("bore > '55 mm' and speed < '90 rpm'", [False, True, False]),  # 90 rpm are 9.42 rad/s
     ("bore * height > '52 cm**2'", [False, True, True]),
-    ("bore / height < 2 / 3", [True, False, False]),
-    ("-bore > -'65 mm'", [True, True, False]),
-    ("bore > 0", [True, True, True]),
-    ("bore - '60 mm' > 0", [False, False, True]),
-    ("speed * bore < '0.6 m/s'", [True, True, False]),  # the angle of an angular speed may be left out in a product
-    ("speed ** 2 * bore < '6 m/s**2'", [True, True, False]),
+    (
+        "speed ** 2 * bore < '6 m/s**2'",
+        [True, True, False],
+    ),  # the angle of an angular speed may be left out in a product
     ("law == 'cycloidal'", [True, False, True]),
-    ("'cycloidal' != law", [False, True, False]),
     ("mechanisms.my-drive.gears.0.teeth >= 20", [False, True, True]),
     ("mechanisms.my-drive.gears.0.teeth-2 == 18", [False, True, False]),
-    ("2 ** mechanisms.my-drive.gears.0.teeth > 1e6", [False, True, True]),
     ("press.productivity < '9000 1/h'", [True, True, False]),
     ("bore < 0.3 * mechanisms.a.fixed", [True, False, False]),
-    ("sqrt(bore - '60 mm') >= 0", [False, True, True]),  # no root of a number below zero
-    ("bore / (height - height) > 1 and bore > 0", [False, False, False]),  # divided by zero is not a value
-    ("bore / (height - '90 mm') < 1 or bore > '65 mm'", [False, False, True]),
-    ("not 1 / (height - '90 mm') > '1 1/mm'", [True, False, True]),
-    ("law < 'd'", [True, False, True]),
-    ("bore = height - '30 mm'", [False, True, False]),
+    ("bore / (height - '90 mm') < 1 or bore > '65 mm'", [False, False, True]),  # divided by zero is not a value
     ("bore <= '0.06'", [True, True, False]),  # nothing says in which unit people read it, so SI
-    ("min(bore) < '55 mm'", [True, False, False]),
 ]
 
 
@@ -105,18 +84,13 @@ WRONG = [
     ("bore + speed < '1 m'", "mechanisms.a.bore is a length and mechanisms.a.speed is an angular speed; + needs"),
     ("min(bore, '3 kg') < height", "mechanisms.a.bore is a length and '3 kg' is a mass; min needs the same kind"),
     ("bore < 'wide'", "'wide' does not begin with a finite number; a length is needed, for example"),
-    ("bore < '3 mn'", "'mn' is not a known unit."),
-    ("bore < ''", "'' does not begin with a finite number; a length is needed"),
     ("bore", "mechanisms.a.bore is not a condition; a comparison is needed, such as mechanisms.NAME.KEY <= '90 mm'."),
     ("law and bore < height", "mechanisms.a.law stands alone; compare it with a text in quotes."),
     ("1 < 2", "“1 < 2” names no varied path, so it would keep all variants or none; name one of vary."),
     ("mechanisms.a.fixed < '1 m'", "names no varied path"),
-    ("law == bore", "mechanisms.a.law and mechanisms.a.bore are a text and a quantity; put texts in quotes."),
     ("(bore < height) + 1 < 2", "the calculated side is a condition; a quantity is needed"),
-    ("bore <", "a name, a number or a quantity is missing before the end. (At character 20.)"),
     ("mechanisms.a.nothing < 3", "“mechanisms.a.nothing” is unknown"),
     ("heigth < '3 mm'", "“heigth” is not a path of an input; write the whole path of an input, such as mechanisms.NAME.KEY"),
-    ("sqrt(bore, height) < height", "sqrt takes one quantity; 2 given."),
     ("bore % height < height", "'% mechanis' is not allowed here; allowed: names, numbers, quantities and texts in quotes"),
     ("bore.real < height", "“mechanisms.a.bore.real” is unknown"),
     ("abs(x=bore) < height", "“x” is not a path of an input"),
@@ -129,18 +103,3 @@ def test_what_a_constraint_may_not_say_is_told_in_words(text: str, words: str) -
     with pytest.raises(ConditionError) as raised:
         read(text)
     assert words in str(raised.value)
-
-
-@given(st.text("0123456789.+-*/()<>=!'\" abehimorst_", max_size=60))
-def test_no_text_breaks_the_reading(text: str) -> None:
-    try:
-        parse(text + " < mechanisms.a.bore", find)
-    except ConditionError as fault:
-        assert str(fault)
-
-
-@given(st.lists(st.floats(1e-3, 1e3), min_size=3, max_size=3), st.lists(st.floats(1e-3, 1e3), min_size=3, max_size=3))
-def test_arrays_give_what_single_rows_give(bores: list[float], heights: list[float]) -> None:
-    rows = {"mechanisms.a.bore": np.array(bores), "mechanisms.a.height": np.array(heights)}
-    held = read("sqrt(bore * height) <= 0.6 * max(bore, height) or bore < '3 m'").holds(rows)
-    assert held.tolist() == [(b * h) ** 0.5 <= 0.6 * max(b, h) or b < 3 for b, h in zip(bores, heights, strict=True)]

@@ -16,7 +16,6 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from diecut_report.cli.main import main
 from diecut_report.errors import UserError
 from diecut_report.study.analysis.variants import opened
 from diecut_report.study.execution.study_run import Where, run_study
@@ -162,14 +161,6 @@ def test_part_of_another_study_is_told(folder: Path, tmp_path: Path) -> None:
     assert "part-00001.parquet: This part of the results is damaged or not of this study" in refused(folder)
 
 
-def test_a_report_of_a_variant_is_refused_too(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    path = folder / "variants/part-00000.parquet"
-    content = path.read_bytes()
-    path.write_bytes(content[:99] + bytes([content[99] ^ 1]) + content[100:])
-    assert main(["calc", f"{folder}#3"]) == 2
-    assert "part-00000.parquet: This part of the results is damaged" in capfd.readouterr().err
-
-
 def test_a_question_that_the_database_refuses_is_told_in_words(folder: Path) -> None:
     with pytest.raises(UserError, match="The query on the stored variants failed"), opened(folder) as stored:
         stored.rows("SELECT variant * 9223372036854775807 * 9 FROM v")
@@ -178,10 +169,15 @@ def test_a_question_that_the_database_refuses_is_told_in_words(folder: Path) -> 
 # --- what was verified is remembered -----------------------------------------------------------------------------------
 
 
-def test_large_parts_are_read_once(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+def remembering(monkeypatch: pytest.MonkeyPatch, cache: Path) -> None:
+    """What was verified is remembered there, however small it is."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
     monkeypatch.setattr(parts, "REMEMBERED_SIZE", 1)
     monkeypatch.setattr(parts, "SETTLED", 0)
+
+
+def test_large_parts_are_read_once(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    remembering(monkeypatch, tmp_path / "cache")
     right, read = answer(folder), []
     assert list((tmp_path / "cache").rglob("*.json"))
     monkeypatch.setattr("hashlib.file_digest", lambda *_: read.append(1))
@@ -195,33 +191,22 @@ def test_large_parts_are_read_once(folder: Path, tmp_path: Path, monkeypatch: py
     assert "part-00001" in refused(folder)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "[]",
-        "{",
-        '{"part-00000.parquet": {"sha256": "", "mark": ["x"], "counts": {}}}',
-        '{"part-00000.parquet": {"sha256": "", "mark": [1], "counts": {}}}',
-    ],
-)
-def test_a_memory_that_cannot_be_read_remembers_nothing(
-    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
+MARKED = '{{"part-00000.parquet": {{"sha256": "", "mark": [{mark}], "counts": {{}}}}}}'
+
+
+def test_a_memory_that_cannot_be_read_or_written_costs_nothing(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(parts, "REMEMBERED_SIZE", 1)
-    monkeypatch.setattr(parts, "SETTLED", 0)
+    remembering(monkeypatch, tmp_path / "cache")
     right = answer(folder)
-    for path in (tmp_path / "cache").rglob("*.json"):
-        path.write_text(text)
-    assert answer(folder) == right
-
-
-def test_no_place_for_a_memory_costs_nothing(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (file,) = (tmp_path / "cache").rglob("*.json")
+    for text in ("[]", "{", MARKED.format(mark='"x"'), MARKED.format(mark="1")):
+        file.write_text(text)
+        with opened(folder) as stored:
+            assert len(stored.rows("SELECT variant FROM v")) == 10
     (tmp_path / "file").touch()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    monkeypatch.setattr(parts, "REMEMBERED_SIZE", 1)
-    monkeypatch.setattr(parts, "SETTLED", 0)
-    assert answer(folder)
+    assert answer(folder) == right
 
 
 # --- study.json --------------------------------------------------------------------------------------------------------
@@ -233,10 +218,8 @@ def edits(data: Any) -> Iterator[tuple[str, Any]]:
     """Each single edit of study.json: a key deleted, added, given another value, swapped with its neighbour."""
     for path in places(data):
         for value in (*VALUES, *_near(_at(data, path))):
-            yield (
-                f"{path} = {value!r}",
-                _edited(data, path, lambda home, key, value=value: home.__setitem__(key, value)),
-            )
+            edited = _edited(data, path, lambda home, key, value=value: home.__setitem__(key, value))
+            yield f"{path} = {value!r}", edited
         yield f"{path} deleted", _edited(data, path, lambda home, key: home.__delitem__(key))
         yield f"{path} swapped", _edited(data, path, _swap)
     yield "a key more", data | {"strange": 1}
@@ -304,9 +287,7 @@ def test_any_single_edit_of_the_state_is_told_in_words(folder: Path) -> None:
         ("varied", [], "varied: a list is given; at least one entry is needed."),
         ("varied", ["drive.sped"], "varied: 'drive.sped' is given; the name of a column is needed"),
         ("schema_version", 2, "schema_version: 2 is given; allowed is 1."),
-        ("chunk", 3, "part_files.part-00002.parquet: This key is missing."),
         ("stat", 1, "stat: This key is unknown (did you mean 'state'?)."),
-        ("counts", {"sample": 10, "variants": 2, "dropped": 8}, "counts.variants: 2 is given; the other keys make 10."),
         ("a\nstudy.json: rows: fine", 1, r"'a\nstudy.json: rows: fine': This key is unknown"),
         ("x" * 10_000, 1, "'xxxxxxxxxxxx...xxxxxxxxxxxxx': This key is unknown"),
         ("seconds", 2.5, "This file has been changed since the program wrote it"),
@@ -327,14 +308,6 @@ def test_the_words_say_the_key_what_was_given_and_what_is_allowed(
 def test_what_is_no_state_is_told(folder: Path, text: str) -> None:
     (folder / "study.json").write_text(text, "utf-8")
     assert "study.json" in refused(folder)
-
-
-def test_results_of_an_earlier_version_say_so(folder: Path) -> None:
-    data = json.loads((folder / "study.json").read_text())
-    for key in ("seal", "part_files", "source_sha256"):
-        del data[key]
-    (folder / "study.json").write_text(json.dumps(data))
-    assert "An earlier version of diecut-report wrote these results" in refused(folder)
 
 
 # --- repaired ------------------------------------------------------------------------------------------------------------

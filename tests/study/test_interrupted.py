@@ -21,17 +21,12 @@ import pytest
 from diecut_report.cli.main import main
 from tests.configs import GOOD, LEVER, saved
 from tests.processes import until
+from tests.study.studies import varied
 
-ROWS = 64_000
+ROWS = 8_192
 SPENT = 60  # seconds after which a run hangs
 PARTS = 16  # files
-STUDY = """\
-schema_version: 1
-base: press.yaml
-sample: {method: grid}
-vary:
-  mechanisms.a.force: {from: 1 kN, to: 3 kN, count: 64000}
-"""
+STUDY = varied(f"{{from: 1 kN, to: 3 kN, count: {ROWS}}}")
 TABLE = """\
 schema_version: 1
 base: ../press.yaml
@@ -43,7 +38,7 @@ vary:
 
 
 ROOT = Path(__file__).parents[2]
-PLACE = os.environ | {"PYTHONPATH": str(ROOT)}
+PLACE = os.environ | {"PYTHONPATH": str(ROOT), "DELAY": "0.3"}
 
 
 pytestmark = pytest.mark.usefixtures("without_summary")
@@ -130,7 +125,7 @@ def test_killed_run_is_continued_without_its_study(tmp_path: Path, finished: Run
 
 def test_a_study_that_is_continued_without_its_file_keeps_its_name(tmp_path: Path, finished: Run) -> None:
     saved(tmp_path, LEVER)
-    study, out = saved(tmp_path, STUDY.replace("64000", "3"), "speeds of the press.yaml"), tmp_path / "out"
+    study, out = saved(tmp_path, STUDY.replace(f"{ROWS}", "3"), "speeds of the press.yaml"), tmp_path / "out"
     finished(study, "-o", out)
     before = json.loads((out / "study.json").read_text())
     next((out / "variants").iterdir()).unlink()

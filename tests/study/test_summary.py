@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import re
+from functools import cache
 from html.parser import HTMLParser
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -16,16 +18,17 @@ from pypdf import PdfReader
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.report.figures.style import Svg
 from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variants import opened, titles
 from diecut_report.study.storage.description import STATUSES, ResultColumn
 from diecut_report.study.summary import best as influence
 from diecut_report.study.summary import best as pareto
-from diecut_report.study.summary import content, data, summarise
+from diecut_report.study.summary import charts, data, summarise
 from diecut_report.study.summary import content as contents
 from diecut_report.study.summary.charts import near
 from diecut_report.study.summary.data import WORST, display, utilised, value_text
-from diecut_report.study.summary.pages import page
+from diecut_report.study.summary.pages import page, sheets
 from tests.hostile.bounded import PEAK
 from tests.study.questions import variants
 from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
@@ -33,13 +36,19 @@ from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, c
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Charts have no drawing, which takes the most time: it is looked at in the large study and the small one."""
+    monkeypatch.setattr(charts, "drawn", lambda _, told, key: Svg(f"<svg><title>{told}</title></svg>", 1.0, 1.0))
+
+
 @pytest.fixture(scope="module")
 def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return many(
-        tmp_path_factory.mktemp("large") / "out", 3000, slow={"my_kind": "its functions take one number at a time"}
-    )
+    slow = {"my_kind": "its functions take one number at a time"}
+    return many(tmp_path_factory.mktemp("large") / "out", 2000, slow=slow)
 
 
+@cache
 def rows_of(folder: Path) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = json.loads("".join(variants(folder, format="json")))["variants"]
     return rows
@@ -151,12 +160,7 @@ def test_shares_that_pass_are_those_of_the_rows_by_value_and_by_class(
 def test_a_value_at_which_nothing_passes_is_marked(small_summary: contents.Summary) -> None:
     found = small_summary
     speeds = next(each.rows for each in found.passing if each.column.name == SPEED)
-    assert [(row.text, row.variants, row.passing) for row in speeds] == [
-        ("35", 1, 0),
-        ("40", 3, 3),
-        ("50", 2, 0),
-        ("60", 4, 0),
-    ]
+    assert speeds == [("35", 1, 0), ("40", 3, 3), ("50", 2, 0), ("60", 4, 0)]
     empty = sum(not row.passing for each in found.passing for row in each.rows)
     assert page(found).count("none passes</strong>") == empty > 3
 
@@ -176,6 +180,7 @@ def test_what_governs_those_that_pass_and_the_most_margin_are_those_of_the_rows(
     )
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_the_utilisation_beside_a_name_is_that_of_the_check_itself(tmp_path: Path) -> None:
     """A check at its limit that does not govern, as of what the program sized, lends its utilisation to no other."""
     values = calculated(np.array([3.0, 3.5]), np.array([0.05, 0.06]), ["harmonic"] * 2)
@@ -191,11 +196,13 @@ def test_the_utilisation_beside_a_name_is_that_of_the_check_itself(tmp_path: Pat
     assert f"utilisation {used.min():.4f}"[:14] in dict(found.facts)["Largest margin"]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_variants_with_the_same_margin_are_counted(tmp_path: Path) -> None:
     found = summary_of(made(tmp_path / "out", [3.0, 3.0, 3.0, 4.0], [0.06, 0.06, 0.06, 0.06]))
     assert dict(found.facts)["Largest margin"].startswith("variant 0, and 2 other variants with the same: utilisation")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_check_that_fails_everywhere_is_told(tmp_path: Path) -> None:
     found = summary_of(made(tmp_path / "out", [6.3] * 3, [0.055, 0.06, 0.065]))
     text = " ".join(re.sub(r"<[^>]+>", "", page(found)).split())
@@ -204,6 +211,7 @@ def test_a_check_that_fails_everywhere_is_told(tmp_path: Path) -> None:
     assert "among all that were calculated, since none passes" in text
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_governing_check_that_nothing_moves_is_told_as_that(tmp_path: Path) -> None:
     found = summary_of(made(tmp_path / "out", [3.0] * 4, [0.06] * 4))
     assert [(row.check, row.varies) for row in found.governing] == [("drive.checks.play", False)]
@@ -212,6 +220,7 @@ def test_a_governing_check_that_nothing_moves_is_told_as_that(tmp_path: Path) ->
     assert [(row.check, row.varies) for row in moved.governing] == [("drive.checks.play", True)]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_outputs_that_a_study_asks_for_are_among_its_influences(tmp_path: Path) -> None:
     text = STUDY + "outputs: [drive.idle_ratio, cylinder.radius]\n"  # the radius is the same in all variants
     found = summary_of(many(tmp_path / "out", 300, text=text))
@@ -232,6 +241,7 @@ def test_classes_of_a_utilisation_do_not_lie_on_both_sides_of_one(large: Path) -
     assert found.counts[:, at:].sum() == sum(size > 1 for size in sizes)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_was_studied_stands_there_as_it_is_written(tmp_path: Path) -> None:
     folder = many(tmp_path / "out", 10, dropped=3)
     found = summary_of(folder)
@@ -252,10 +262,11 @@ def test_what_was_studied_stands_there_as_it_is_written(tmp_path: Path) -> None:
 def test_a_table_is_told_by_its_file() -> None:
     text = "vary: {a.b: {table: motors.csv, column: n}, a.c: {from: 1, to: 9, count: 3, spacing: log}}"
     tree = yaml.parse(text, "study.yaml")
-    assert content.written(tree, ("vary", "a.b")) == "column n of the table motors.csv"
-    assert content.written(tree, ("vary", "a.c")) == "from 1 to 9, count 3, spacing log"
+    assert contents.written(tree, ("vary", "a.b")) == "column n of the table motors.csv"
+    assert contents.written(tree, ("vary", "a.c")) == "from 1 to 9, count 3, spacing log"
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_inputs_of_a_table_name_its_file(tmp_path: Path) -> None:
     study = "schema_version: 1\nbase: press.yaml\nsample: {method: table, file: motors.csv}\n"
     found = summary_of(made(tmp_path / "out", [3.0, 4.0], [0.06, 0.06], text=study)).asked
@@ -263,6 +274,7 @@ def test_inputs_of_a_table_name_its_file(tmp_path: Path) -> None:
     assert [each.values for each in found.inputs] == ["a column of motors.csv"] * 2
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_was_studied_stands_there_in_words_with_its_symbol_and_the_key_beside(tmp_path: Path) -> None:
     study = STUDY.replace('["harmonic", cycloidal]', '["harmonic", modified_trapezoidal]')
     summary = summary_of(
@@ -331,16 +343,13 @@ def test_only_variants_that_do_not_fail_are_on_the_front(large: Path, large_summ
     for variant in found.front.variants:
         mine = rows[variant]
         assert mine["status"] in ("pass", "warn")
-        better = [
-            row
-            for row in good
-            if row["drive.power_peak"] < mine["drive.power_peak"] and row["cylinder.mass"] <= mine["cylinder.mass"]
-        ]
-        assert not better
+        lighter = [row for row in good if row["cylinder.mass"] <= mine["cylinder.mass"]]
+        assert not any(row["drive.power_peak"] < mine["drive.power_peak"] for row in lighter)
     cheapest = min(good, key=lambda row: row["drive.power_peak"])
     assert found.front.variants[0] == cheapest["variant"]
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_where_none_passes_all_calculated_variants_are_compared(tmp_path: Path) -> None:
     found = summary_of(
         made(tmp_path / "out", [6.3] * 3, [0.055, 0.06, 0.065], objectives=[{"maximise": "cylinder.mass"}])
@@ -388,7 +397,7 @@ def saltelli(folder: Path, n: int, lost: int = 0) -> Path:
     return written(folder, columns, values, varied=names, design="saltelli", n=n, objectives=[{"minimise": "m.f"}])
 
 
-def test_sobol_indices_are_those_of_the_closed_form_and_of_scipy(tmp_path: Path) -> None:
+def test_sobol_indices_are_those_of_the_closed_form(tmp_path: Path) -> None:
     with opened(saltelli(tmp_path / "out", 1 << 13)) as stored:
         data.prepare(stored)
         (found,) = influence.influences(stored, [stored.columns["m.f"]])
@@ -396,9 +405,6 @@ def test_sobol_indices_are_those_of_the_closed_form_and_of_scipy(tmp_path: Path)
     shares = {share.column.name[-1]: share for share in found.shares}
     ours = np.array([[shares[name].first, shares[name].total] for name in "012"], dtype=float).T
     np.testing.assert_allclose(ours, GLOBAL, atol=0.02)
-    uniform = scipy.stats.uniform(loc=-np.pi, scale=2 * np.pi)
-    other = scipy.stats.sobol_indices(func=ishigami, n=1 << 13, dists=[uniform] * 3, rng=3)
-    np.testing.assert_allclose(ours, [other.first_order, other.total_order], atol=0.02)
     for share, first in ((shares["0"], GLOBAL[0, 0]), (shares["1"], GLOBAL[0, 1])):
         assert share.first_error is not None and abs(share.first - first) < 2 * share.first_error
 
@@ -476,11 +482,7 @@ class Tags(HTMLParser):
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = ten(
-        tmp_path_factory.mktemp("small") / "out",
-        state="running",
-        dropped=3,
-    )
+    folder = ten(tmp_path_factory.mktemp("small") / "out", state="running", dropped=3)
     (folder / "reports").mkdir()
     (folder / "reports" / "6.html").write_text("the report")
     (folder / "reports" / "3.pdf").write_text("the report")
@@ -497,15 +499,14 @@ def small_page(small_summary: contents.Summary) -> str:
     return page(small_summary)
 
 
-def test_the_pages_are_written_and_say_the_counts(small: Path) -> None:
+def test_the_pages_say_the_counts(small_summary: contents.Summary, small_page: str) -> None:
     """The PDF, which takes longest, has the tags of its alternative texts too."""
-    assert summarise(small) == [small / "summary.html", small / "summary.pdf"]
-    text = re.sub(r"<[^>]+>", "", (small / "summary.html").read_text("utf-8"))
+    text = re.sub(r"<[^>]+>", "", small_page)
     assert "3 of 10 variants pass all checks, 6 fail, 1 cannot exist." in text
     assert "The run is not complete." in text
     assert re.search(r"Excluded by constraints\s*3 variants", text)
     assert "bore_radius 0.104 m leaves no wall" in text
-    document = PdfReader(small / "summary.pdf")
+    document = PdfReader(BytesIO(sheets(small_summary)))
     assert "/StructTreeRoot" in document.trailer["/Root"]
     paper = " ".join("\n".join(sheet.extract_text() for sheet in document.pages).split())
     assert "3 of 10 variants pass all checks" in paper
@@ -534,6 +535,7 @@ def test_the_html_page_needs_nothing_from_elsewhere(large_page: str) -> None:
             assert value.startswith(("#", "data:")), (tag, value)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_a_user_wrote_cannot_end_a_script_or_a_tag(tmp_path: Path) -> None:
     law = ["</script><b>", "harmonic"] * 5
     text = page(summary_of(made(tmp_path / "out", np.linspace(3, 7, 10), np.linspace(0.05, 0.09, 10), law)))
@@ -544,9 +546,9 @@ def test_what_a_user_wrote_cannot_end_a_script_or_a_tag(tmp_path: Path) -> None:
 
 def test_every_chart_has_a_text_alternative(large_summary: contents.Summary) -> None:
     found = large_summary
-    charts = [*found.figures.values(), *(found.ranked.figures if found.ranked else [])]
-    assert len(charts) == 9
-    for figure in charts:
+    figures = [*found.figures.values(), *(found.ranked.figures if found.ranked else [])]
+    assert len(figures) == 9
+    for figure in figures:
         assert len(figure.alternative) > 20
         assert re.search(r"<title>[^<]{20,}</title>", figure.svg.text)
 
@@ -644,6 +646,7 @@ def test_few_variants_have_a_summary_too(tmp_path: Path, count: int) -> None:
     assert (folder / "summary.pdf").read_bytes().startswith(b"%PDF")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_what_passes_is_told_to_pass_what_is_made_where_checks_are_not(tmp_path: Path) -> None:
     values = calculated(np.array([3.0, 3.5]), np.array([0.05, 0.06]), ["harmonic"] * 2)
     values["cylinder.checks.wall.utilisation"] = np.full(2, np.nan)
@@ -654,6 +657,7 @@ def test_what_passes_is_told_to_pass_what_is_made_where_checks_are_not(tmp_path:
     assert "1 check is not performed in some or all variants because a limit or another key is not given." in text
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_study_of_errors_alone_has_a_summary(tmp_path: Path) -> None:
     folder = made(tmp_path / "out", [3.0, 4.0, 5.0], [0.104] * 3)
     summarise(folder, ["html"])

@@ -126,12 +126,6 @@ def test_a_column_longer_than_is_read_at_once_is_converted_as_a_short_one() -> N
     assert list(found[:997]) == list(found[997:1994]) and len(found) == len(values)
 
 
-def test_millimetres_are_rounded_once_as_in_a_config(tmp_path: Path) -> None:
-    values = [i / 10 for i in range(1, 2000)]
-    path = csv_of(tmp_path, "a [mm]\n" + "\n".join(map(repr, values)))
-    assert list(read_table(path).column("a").si("m")) == [parse_quantity(f"{value!r} mm", "m") for value in values]
-
-
 # --- what is wrong with cells ----------------------------------------------------------------------------------------
 
 
@@ -238,14 +232,6 @@ def test_rows_are_counted_with_the_blank_lines_between_them(tmp_path: Path) -> N
 
 
 # --- what is wrong with tables ---------------------------------------------------------------------------------------
-
-
-def test_a_missing_column_is_told_with_the_nearest_name(tmp_path: Path) -> None:
-    table = read_table(csv_of(tmp_path, "drive.crank_sped,press.name\n1,2\n"))
-    assert "no column drive.crank_speed (did you mean 'drive.crank_sped'?)" in fault(
-        lambda: table.column("drive.crank_speed")
-    )
-    assert "Its columns: drive.crank_sped, press.name" in fault(lambda: table.column("x"))
 
 
 @pytest.mark.parametrize("text", ['a,b\n1,"2\n', 'a,b\n1,2\n3,"4', 'a,"b\n1,2\n', 'a,b\n1,2"\n'])

@@ -138,7 +138,12 @@ def opened(folder: Path) -> Iterator[Stored]:
     }
     with duckdb.connect(":memory:", config=config | {"preserve_insertion_order": "false"}) as connection:
         try:
-            _name_parts(connection, paths)
+            files = [str(path.absolute()) for path in paths]
+            named = ", ".join(text(glob.escape(file)) for file in files)  # a folder may be called a[1]
+            connection.execute(f"CREATE VIEW v AS SELECT * FROM read_parquet([{named}])")
+            connection.execute(f"SET allowed_paths = [{', '.join(map(text, files))}]")
+            for setting in ("enable_external_access = false", "lock_configuration = true"):  # all else is shut
+                connection.execute(f"SET {setting}")
             yield Stored(folder, store.description, store.state, columns_of(store.description), connection)
         except duckdb.InterruptException as error:
             raise KeyboardInterrupt from error
@@ -147,16 +152,6 @@ def opened(folder: Path) -> Iterator[Stored]:
             words = "The query on the stored variants failed ({first}). Ask for something else, or for less at a time."
             message = Phrase(words, first=str(error).splitlines()[0])
             raise UserError(Problem(message, str(folder))) from error
-
-
-def _name_parts(connection: DuckDBPyConnection, paths: Sequence[Path]) -> None:
-    """Name the part files ``v`` and shut everything else."""
-    files = [str(path.absolute()) for path in paths]
-    named = ", ".join(text(glob.escape(file)) for file in files)  # a folder may be called a[1]
-    connection.execute(f"CREATE VIEW v AS SELECT * FROM read_parquet([{named}])")
-    connection.execute(f"SET allowed_paths = [{', '.join(map(text, files))}]")
-    connection.execute("SET enable_external_access = false")
-    connection.execute("SET lock_configuration = true")
 
 
 def columns_of(description: Description) -> dict[str, StoredColumn]:

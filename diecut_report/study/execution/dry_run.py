@@ -187,18 +187,11 @@ def _size(known: Description, done: Done) -> int:
 # --- as lines for people, in the language that is spoken, and as plain data --------------------------------------------
 
 VERDICTS = {
-    "pass": phrase("{n} pass"),
-    "warn": phrase("{n} warn"),
-    "fail": phrase("{n} fail"),
-    "error": phrase("{n} in error"),
-}
+    "pass": phrase("{n} pass"), "warn": phrase("{n} warn"), "fail": phrase("{n} fail"), "error": phrase("{n} in error"),
+}  # fmt: skip
 DURATIONS = (
-    (86_400, phrase("{n} d")),
-    (3600, phrase("{n} h")),
-    (60, phrase("{n} min")),
-    (1, phrase("{n} s")),
-    (1e-3, phrase("{n} ms")),
-)
+    (86_400, phrase("{n} d")), (3600, phrase("{n} h")), (60, phrase("{n} min")), (1, phrase("{n} s")), (1e-3, phrase("{n} ms")),
+)  # fmt: skip
 SIZES = ((1e9, "{n} GB"), (1e6, "{n} MB"), (1e3, "{n} kB"), (1, "{n} B"))
 
 
@@ -223,9 +216,8 @@ def _study_lines(found: DryRun) -> Iterator[str]:
     yield from _dropped(found)
     yield from _varied(found, say("variant {number}: ", number=found.first))
     words = "of each variant: {quantities} quantities, {checks} checks, {curves} curves; part files: {parts}"
-    yield say(
-        words, quantities=found.quantities, checks=found.checks, curves=len(found.study.curves), parts=found.parts
-    )
+    counts = {"quantities": found.quantities, "checks": found.checks, "curves": len(found.study.curves)}
+    yield say(words, **counts, parts=found.parts)
     yield _calculated(found.measured)
     one = "time: {each} per variant, about {whole} in {n} process, excluding summary and reports"
     many = "time: {each} per variant, about {whole} in {n} processes, excluding summary and reports"
@@ -243,11 +235,10 @@ def _study_lines(found: DryRun) -> Iterator[str]:
 def _search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
     words = "a search over {n} machines, {population} per generation"
     yield say(words, n=asked.evaluations, population=asked.population)
-    goals = [
-        say("{quantity} minimised" if each.minimise else "{quantity} maximised", quantity=each.output)
-        for each in asked.objectives
-    ]
-    yield say("searched for: {goals}", goals=", ".join(goals))
+    goals = (
+        (each.output, "{quantity} minimised" if each.minimise else "{quantity} maximised") for each in asked.objectives
+    )
+    yield say("searched for: {goals}", goals=", ".join(say(way, quantity=name) for name, way in goals))
     passing = "feasible: machines with no failing check"
     failing = "feasible: also machines with failing checks"
     yield say(passing if asked.is_passing else failing)

@@ -250,11 +250,6 @@ class Pool(Engine):
     def limit(self) -> int:
         return CHUNKS_AHEAD * self._jobs
 
-    @property
-    def processes(self) -> list[int]:
-        """Return the numbers of the processes that are alive."""
-        return [process.pid for process in self._context.started if process.is_alive() and process.pid is not None]
-
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         """Wait for the processes, or end them where the run was ended early."""
         if kind is not None:

@@ -19,13 +19,7 @@ from diecut_report.study.definition.constraints import why_dropped
 from diecut_report.study.definition.samples import Sobol
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution import worker
-from diecut_report.study.execution.engines import (
-    Engine,
-    InProcess,
-    WorkerSetup,
-    local_engine,
-    results,
-)
+from diecut_report.study.execution.engines import Engine, InProcess, WorkerSetup, local_engine, results
 from diecut_report.study.execution.variant_rows import columns_of, curve_columns
 from diecut_report.study.execution.worker import ChunkClock, judged_rows, without_value
 from diecut_report.study.storage.description import Description, ResultColumn, StudySource
@@ -265,10 +259,8 @@ def result_columns(study: Study) -> list[ResultColumn]:
     for base in study.bases:
         found |= {column.name: column for column in columns_of(base)}
         curves |= {column.name: column for column in curve_columns(base, study.curves)}
-    kept = [
-        each for name, each in found.items() if study.outputs is None or ".checks." in name or name in study.outputs
-    ]
-    return [*kept, *curves.values()]
+    wanted = found if study.outputs is None else study.outputs
+    return [*(each for name, each in found.items() if ".checks." in name or name in wanted), *curves.values()]
 
 
 def facts(study: Study) -> dict[str, Any]:

@@ -102,21 +102,18 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     """Calculate the variants of a chunk that the constraints leave: their inputs, outputs, verdicts and reasons."""
     sampled = study.sample.rows(chunk.start, chunk.stop)
     kept = np.flatnonzero(judged(study, sampled, chunk.stop - chunk.start).holds)
-    given = {path: _array(values)[kept] for path, values in sampled.items()}
+    arrays = {
+        path: np.asarray(values, dtype=None if isinstance(values, np.ndarray) else object)
+        for path, values in sampled.items()
+    }
+    given = {path: values[kept] for path, values in arrays.items()}
     rows, seconds = _rows(study, {study.inputs[path]: values for path, values in given.items()}, len(kept), chunk.limit)
     columns: dict[str, Array] = {"variant": chunk.start + kept, **given}
-    columns |= {name: values for name, values in rows.columns.items() if _is_kept(study, name)}
+    wanted = rows.columns if study.outputs is None else {*study.outputs, *study.curves}
+    columns |= {name: values for name, values in rows.columns.items() if ".checks." in name or name in wanted}
     columns |= {"status": rows.status, "governing": rows.governing, "error": rows.errors}
     left = _left(study, rows, given)
     return Done({name: values[left] for name, values in columns.items()}, rows.slow, rows.broken, seconds)
-
-
-def _array(values: Values) -> Array:
-    return np.asarray(values, dtype=float if isinstance(values, np.ndarray) else object)
-
-
-def _is_kept(study: Study, name: str) -> bool:
-    return study.outputs is None or ".checks." in name or name in study.outputs or name in study.curves
 
 
 def _rows(study: Study, inputs: Given, count: int, limit: float | None) -> tuple[Rows, float | None]:

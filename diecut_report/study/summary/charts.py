@@ -239,10 +239,8 @@ def cells(found: Density, front: Front | None = None) -> Figure:
     axes = panel(sheet, 44, foot, wide, high)
     j, i = np.nonzero(found.counts)
     counts, share = found.counts[j, i], found.sound[j, i] / found.counts[j, i]
-    x, y = (
-        (edges[:-1] + edges[1:]) / 2 * factor(each)
-        for edges, each in ((found.x_edges, found.x), (found.y_edges, found.y))
-    )
+    across, up = (found.x_edges, found.x), (found.y_edges, found.y)
+    x, y = ((edges[:-1] + edges[1:]) / 2 * factor(each) for edges, each in (across, up))
     most = min(wide / len(x), high / len(y)) - 0.6
     side = most * (0.3 + 0.7 * np.log1p(counts) / np.log1p(counts.max()))
     order = np.argsort(share, kind="stable")
@@ -407,9 +405,8 @@ def _fields(axes: Axes, place: int, heights: Array, status: Array, wide: float) 
     """Draw fields along an axis, the darker the larger the share of its variants that do not fail."""
     there = np.isfinite(heights) & (status != STATUSES.index("error"))
     edges = np.linspace(0, 1, FIELDS + 1)
-    every, sound = (
-        np.histogram(heights[chosen], edges)[0] for chosen in (there, there & (status < STATUSES.index("fail")))
-    )
+    passing = there & (status < STATUSES.index("fail"))
+    every, sound = (np.histogram(heights[chosen], edges)[0] for chosen in (there, passing))
     for low, high, count, good in zip(edges, edges[1:], every, sound, strict=False):
         if count:
             pale: dict[str, Any] = {"facecolor": "white", "edgecolor": "#9aa4ae", "linewidth": 0.4, "zorder": 2.6}
@@ -441,6 +438,5 @@ def _fitted(axes: Axes, text: str, place: tuple[float, float], above: float, roo
 
 def _text(axes: Axes, text: str, place: tuple[float, float], above: float, size: float) -> None:
     side = "bottom" if above > 0 else "top"
-    axes.annotate(
-        text, place, (0, above), textcoords="offset points", ha="center", va=side, size=size, linespacing=1.05
-    )
+    look: dict[str, Any] = {"ha": "center", "va": side, "size": size, "linespacing": 1.05}
+    axes.annotate(text, place, (0, above), textcoords="offset points", **look)

@@ -91,9 +91,8 @@ class Figures:
             "overloaded more (pale red); those with a warning (yellow)."
         )
         if (left := len(failures) - MAX_FAILURES) > 0:
-            caption += " " + say_counted(
-                left, "{n} less frequent check is omitted.", "{n} less frequent checks are omitted."
-            )
+            one, many = "{n} less frequent check is omitted.", "{n} less frequent checks are omitted."
+            caption += " " + say_counted(left, one, many)
         colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
         parts = [(row.governing, row.failing - row.governing, row.warning) for row, _ in rows]
         bars = [charts.Bar(name, part, _behind(row)) for (row, name), part in zip(rows, parts, strict=True)]
@@ -119,9 +118,8 @@ class Figures:
             return None
         lines = drawn_lines(self.sample)
         sound, failing = len(lines.sound), len(lines.failing)
-        told = say(
-            "{variants} as lines over {names}", variants=variants(sound + failing), names=", ".join(map(named, columns))
-        )
+        names = ", ".join(map(named, columns))
+        told = say("{variants} as lines over {names}", variants=variants(sound + failing), names=names)
         caption = say(
             "Each line is a variant, from input to result: passing variants are dark and in front, those with a warning dashed, failing ones "
             "pale. The darker a field of an axis, the larger the percentage of the variants there that pass. The ends of the axes are those of "
@@ -196,10 +194,8 @@ class Figures:
 
     def _drawn(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         drawn = len(some.variants)
-        of_all = say(
-            "Of {variants}, a sample of {drawn} is drawn.", variants=variants(self.total), drawn=variants(drawn)
-        )
-        return (say("All variants are drawn.") if drawn == self.total else of_all) + self._far(some, columns)
+        words = "All variants are drawn." if drawn == self.total else "Of {variants}, a sample of {drawn} is drawn."
+        return say(words, variants=variants(self.total), drawn=variants(drawn)) + self._far(some, columns)
 
     def _far(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         """Return what to add where some variants are out of a chart's reach."""
