@@ -109,8 +109,14 @@ class LoadedPress:
         or a reference ``"${cylinder.radius}"``. All else in the file stays as it is. ConfigError with path, line and allowed range for
         an unknown path, another dimension, or a value that is out of range; all that is wrong is told at once.
         """
+        places: dict[KeyPath, str] = {}
+        problems: list[Problem] = []
         with told_in(self.language):
-            places, problems = self._places(values)
+            for path, value in values.items():
+                try:
+                    places[stands(self.config, str(path))] = typed(value, str(path))
+                except UserError as error:
+                    problems += error.problems
             try:
                 changed = self._of(self.press.with_values(places, over_references=True)) if places else self
             except UserError as error:
@@ -118,16 +124,6 @@ class LoadedPress:
             if problems:
                 raise UserError(problems)
             return changed
-
-    def _places(self, values: Mapping[str, Any]) -> tuple[dict[KeyPath, str], list[Problem]]:
-        places: dict[KeyPath, str] = {}
-        problems: list[Problem] = []
-        for path, value in values.items():
-            try:
-                places[stands(self.config, str(path))] = typed(value, str(path))
-            except UserError as error:
-                problems += error.problems
-        return places, problems
 
     def save(self, file: str | Path) -> Path:
         """Write the configuration; Unwritable in words where that is not possible. Tables that it names are sought beside it.

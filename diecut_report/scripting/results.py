@@ -54,8 +54,6 @@ class MechanismResults(Mapping[str, QuantityValue]):
     def __init__(self, name: str, data: MechanismRecord, results: Printable) -> None:
         self.name, self._data, self._results = name, data, results
 
-    # --- what it is --------------------------------------------------------------------------------------------------
-
     @property
     def kind(self) -> str:
         """Return its kind, as ``cylinder_drive``."""
@@ -75,8 +73,6 @@ class MechanismResults(Mapping[str, QuantityValue]):
     def error(self) -> str:
         """Return why it gives no results; nothing where it does."""
         return str(self._data.error)
-
-    # --- quantities --------------------------------------------------------------------------------------------------
 
     @cached_property
     def outputs(self) -> NamedParts[QuantityValue]:
@@ -186,8 +182,6 @@ class MechanismResults(Mapping[str, QuantityValue]):
     def _named(self, missing: str, parts: Mapping[str, PartT]) -> NamedParts[PartT]:
         return NamedParts(parts, Phrase(missing, mechanism=self.name), self._results.language)
 
-    # --- shown -------------------------------------------------------------------------------------------------------
-
     def __repr__(self) -> str:
         numbers = [f"{each.name} = {each}" for name, each in self.outputs.items() if self._data.outputs[name].key]
         return f"<{self.name}: {self.title}, {self.status}{'; ' if numbers else ''}{', '.join(numbers)}>"
@@ -232,8 +226,6 @@ class Results(NamedParts[MechanismResults]):
         found = {name: MechanismResults(name, each, self._printable) for name, each in data.mechanisms.items()}
         super().__init__(found, phrase("there is no mechanism"), language)
         self.config, self.errors = config, tuple(errors)
-
-    # --- verdict -----------------------------------------------------------------------------------------------------
 
     @property
     def status(self) -> str:
@@ -319,20 +311,15 @@ class Results(NamedParts[MechanismResults]):
         return path
 
     def _rendered(self, form: str, asked: AskedReport) -> tuple[bytes, list[Lost]]:
-        data = asked.noted(self._reported())
-        made = document(data, (form,), self._printable.discovery, lambda _: None, self._data.config.file)
-        return made.contents[form], made.lost
-
-    def _reported(self) -> ResultsRecord:
-        """The results with what a report alone tells: what of the assumed values matters, and what comes of the advice."""
         data = self._printable.in_language()
-        if self.config is not None and not self.errors:
+        if (
+            self.config is not None and not self.errors
+        ):  # what of the assumed values matters, and what comes of the advice
             from diecut_report.design.findings import findings
 
-            return findings(self.config, data, lambda _: None)
-        return data
-
-    # --- shown -------------------------------------------------------------------------------------------------------
+            data = findings(self.config, data, lambda _: None)
+        made = document(asked.noted(data), (form,), self._printable.discovery, lambda _: None, self._data.config.file)
+        return made.contents[form], made.lost
 
     def __repr__(self) -> str:
         counts = self._data.summary

@@ -91,8 +91,6 @@ class QuantityValue:
     def _unfit(self, words: Phrase) -> ConfigError:
         return ConfigError(Problem(Phrase("{value} {words}.", value=str(self), words=words), path=self.name))
 
-    # --- printed -----------------------------------------------------------------------------------------------------
-
     @property
     def printed(self) -> tuple[str, str]:
         """Return the number as a neutral text, and the unit it counts in: as in a report, or in the unit it was converted to."""
@@ -123,8 +121,6 @@ class QuantityValue:
         latex = Latex(Catalogue(SOURCE_LANGUAGE), ".")
         head = f"{latex.symbol(self.symbol)} = " if self.symbol else ""
         return f"${head}{latex.quantity(*self.printed)}$"
-
-    # --- numbers -----------------------------------------------------------------------------------------------------
 
     def __float__(self) -> float:
         """Return a pure number; TypeError of one with a unit, of which ``to("N*m").value`` is the number."""
