@@ -343,6 +343,6 @@ def _form(path: Path) -> str:
 def _detail(detail: str | None) -> str | None:
     if detail is None or detail in DETAILS:
         return detail
-    words, near = "{given} is not a detail{nearest}; known: {known}.", nearest(detail, DETAILS)
-    message = Phrase(words, given=repr(detail), nearest=near, known=", ".join(DETAILS))
+    words = "{given} is not a detail{nearest}; known: {known}."
+    message = Phrase(words, given=repr(detail), nearest=nearest(detail, DETAILS), known=", ".join(DETAILS))
     raise ConfigError(Problem(message, path="detail"))

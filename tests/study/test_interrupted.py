@@ -24,7 +24,7 @@ from tests.processes import until
 from tests.study.studies import varied
 
 ROWS = 8_192
-SPENT = 60  # seconds after which a run hangs
+SPENT = 180  # seconds after which a run hangs
 PARTS = 16  # files
 STUDY = varied(f"{{from: 1 kN, to: 3 kN, count: {ROWS}}}")
 TABLE = """\

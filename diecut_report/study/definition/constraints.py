@@ -147,7 +147,10 @@ def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
 def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Node:
     """Return the value of what an input refers to, by the formula of its default where it has one."""
     if target.result is not None or target.is_broken:
-        words = "“{path}” refers to ${{target}}, which is known only after calculating; a constraint names an output by itself, as in NAME.OUTPUT."
+        words = (
+            "“{path}” refers to ${{target}}, which is known only after calculating; in a constraint an output is named by "
+            "itself, as in NAME.OUTPUT."
+        )
         raise ConditionError(Phrase(words, path=asked.path, target=target.path))
     head = PRESS if target.instance == PRESS else f"{MECHANISMS}.{target.instance}"
     node = term(base, varied, ".".join([head, *map(str, target.key)])).node

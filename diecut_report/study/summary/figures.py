@@ -91,8 +91,8 @@ class Figures:
             "overloaded more (pale red); those with a warning (yellow)."
         )
         if (left := len(failures) - MAX_FAILURES) > 0:
-            one, many = "{n} less frequent check is omitted.", "{n} less frequent checks are omitted."
-            caption += " " + say_counted(left, one, many)
+            one = "{n} less frequent check is omitted."
+            caption += " " + say_counted(left, one, "{n} less frequent checks are omitted.")
         colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
         parts = [(row.governing, row.failing - row.governing, row.warning) for row, _ in rows]
         bars = [charts.Bar(name, part, _behind(row)) for (row, name), part in zip(rows, parts, strict=True)]
