@@ -8,7 +8,7 @@ import json
 import math
 import shutil
 import sys
-from collections.abc import Generator, Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -39,7 +39,8 @@ from diecut_report.study.analysis.variants import (
     text,
 )
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input
-from diecut_report.study.execution.variant_rows import calculate_rows
+from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
+from diecut_report.study.execution.variant_rows import verdicts
 from diecut_report.study.storage.spreadsheets import SHEET_COLUMNS, SHEET_ROWS, workbook
 from diecut_report.study.storage.state import continuing, read_state
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
@@ -256,7 +257,10 @@ SHARE = 0.1  # of a value, downwards and upwards
 
 
 def moves(config: Config, results: ResultsRecord) -> list[MoveRecord]:
-    """Return the assumed values that move a governing check of a mechanism: path, check and change of its utilisation."""
+    """Return the assumed values that move a governing check of a mechanism: path, check and change of its utilisation.
+
+    Mechanisms whose plugin cannot take arrays are left out, with those that refer to them.
+    """
     varied = {path: found for path in results.summary.assumed if (found := _number(config, path))}
     # the governing check of each mechanism, the press's first
     known = [results.governing, *(governing({name: data.checks}) for name, data in results.mechanisms.items())]
@@ -264,19 +268,30 @@ def moves(config: Config, results: ResultsRecord) -> list[MoveRecord]:
     if not varied or not names:
         return []
     count = 1 + 2 * len(varied)  # the config itself, then two machines for each input
-    given: dict[Input, Array] = {asked: np.full(count, value) for asked, value in varied.values()}
+    given = {asked: np.full(count, value) for asked, value in varied.values()}
     for index, column in enumerate(given.values()):
         column[1 + 2 * index : 3 + 2 * index] *= (1 - SHARE, 1 + SHARE)
-    columns = calculate_rows(config, given, count).columns
-    used = {name: columns[f"{name}.utilisation"] for name in names if f"{name}.utilisation" in columns}
-    moved = []
-    for index, path in enumerate(varied):
-        changes = {name: _change(column[0], column[1 + 2 * index : 3 + 2 * index]) for name, column in used.items()}
-        name = max(changes, key=lambda each: changes[each], default="")
-        if name and changes[name] > MOVES:
-            check, change = name.replace(".checks.", "."), float(f"{changes[name]:.6g}")
-            moved.append(MoveRecord(path=path, check=check, change=change))
-    return moved
+    try:
+        made = _calculated(config, given, count)
+    except (NotOnArrays, Mixed):  # not of one mechanism that could be left out: the order is that of the file
+        return []
+    try:
+        return list(_moved(made, list(varied), names))
+    finally:
+        made.release()
+
+
+def _calculated(config: Config, values: Mapping[Input, Array], count: int) -> CalculatedVariants:
+    """Return all variants of what can be calculated together; the others are as if their plugins were broken."""
+    left_out: dict[str, PluginError] = dict(config.broken)
+    while True:
+        try:
+            return calculated(replace(config, broken=left_out), values, count)
+        except NotOnArrays as fault:
+            names = [name for name, kind in config.kinds.items() if kind == fault.kind and name not in left_out]
+            if not names:
+                raise
+            left_out |= {name: PluginError(fault.message, fault.kind, name) for name in names}
 
 
 def _number(config: Config, path: str) -> tuple[Input, float] | None:
@@ -292,9 +307,21 @@ def _number(config: Config, path: str) -> tuple[Input, float] | None:
     return (asked, float(value)) if isinstance(value, int | float) else None
 
 
-def _change(today: float, others: Array) -> float:
-    changes = np.abs(others - today)
-    return 0.0 if math.isnan(today) else float(np.where(np.isnan(changes), 1.0, changes).max())
+def _moved(made: CalculatedVariants, paths: list[str], names: list[str]) -> Iterator[MoveRecord]:
+    found = verdicts(made.calculations, made.count)
+    rows = {name: index for index, name in enumerate(found.names)}
+    known = [name for name in names if name in rows]
+    for index, path in enumerate(paths):
+        at = [1 + 2 * index, 2 + 2 * index]
+        changes = {name: _change(found.ratios[rows[name]], at) for name in known}
+        name = max(changes, key=lambda each: changes[each], default="")
+        if name and changes[name] > MOVES:
+            yield MoveRecord(path=path, check=name.replace(".checks.", "."), change=float(f"{changes[name]:.6g}"))
+
+
+def _change(utilisation: Array, at: list[int]) -> float:
+    changes = np.abs(utilisation[at] - utilisation[0])
+    return 0.0 if math.isnan(utilisation[0]) else float(np.where(np.isnan(changes), 1.0, changes).max())
 
 
 # Numbers that differ by rounding alone.
