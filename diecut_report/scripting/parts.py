@@ -217,7 +217,7 @@ class CheckList(PartList[CheckResult], Tabular):
 
     def to_arrow(self) -> Any:
         """Return them as a table of pyarrow, a row each; demand, limit and margin in the SI unit of the column ``unit``."""
-        import pyarrow
+        from diecut_report.study.storage.parts import plain_table
 
         def row(check: CheckResult) -> dict[str, Any]:
             sides = {"demand": check.demand, "limit": check.limit, "margin": check.margin}
@@ -227,7 +227,7 @@ class CheckList(PartList[CheckResult], Tabular):
                 "unit": check.unit if check.demand else "", "utilisation": check.utilisation, "message": str(check.message),
             }  # fmt: skip
 
-        return pyarrow.Table.from_pylist(list(map(row, self)))
+        return plain_table(map(row, self))
 
     def __repr__(self) -> str:
         return super().__repr__() or "<no checks>"

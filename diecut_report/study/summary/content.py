@@ -241,9 +241,8 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     total = sum(states.values())
     goals = best.objectives(stored)
     aims = [goal.column for goal in goals]
-    used_columns = [value for value, _ in stored.checks.values()]
-    columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *aims, *used_columns]
-    spreads = data.spreads(stored, list(dict.fromkeys(columns)), total)
+    utilised_ = [WORST, *(value for value, _ in stored.checks.values())] if stored.checks else []
+    spreads = data.spreads(stored, list(dict.fromkeys([*stored.varied, *stored.outputs, *aims, *utilised_])), total)
     front = best.front(stored, goals, states["pass"] + states["warn"])
     varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
     used = data.utilisations(stored)
@@ -252,15 +251,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     still = {check for check, (each, _) in stored.checks.items() if each.name in fixed}
     governing = data.governing(stored, still)
     study = _parsed(stored.description.study)
-    asked = [
-        column for column in varying if column.name in map(str, (study.data.get("outputs") or ()) if study else ())
-    ]
-    # what matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others
-    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
-    every = dict.fromkeys(
-        [*aims, WORST, *asked, *failing, *(column for column in varying if column not in stored.varied)]
-    )
-    main = [column for column in every if column in varying]
+    main, asked = _main(stored, aims, varying, used, study)
     found = best.influences(stored, main[: min(TARGETS + len(asked), MAX_TARGETS)])
     inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
     choices = list(dict.fromkeys([*inputs, *main]))
@@ -271,8 +262,8 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     # the quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others
     limiting = dict.fromkeys([*(row.check for row in failures), *(row.check for row in governing)])
     limits = [stored.checks[check][0] for check in limiting if check in stored.checks]
-    wanted = dict.fromkeys([*aims, WORST, *limits[:MAX_CHECKS], *stored.varied, *limits, *varying])
-    panels = [spreads[column.name] for column in wanted if column in varying][:MAX_PANELS]
+    drawable = dict.fromkeys([*aims, WORST, *limits[:MAX_CHECKS], *stored.varied, *limits, *varying])
+    panels = [spreads[column.name] for column in drawable if column in varying][:MAX_PANELS]
     groups, shown, matrix = best.chosen(stored, total, first), best.columns(stored, goals), best.telling(made)
     base = _parsed(stored.description.base)
     return Summary(
@@ -293,6 +284,20 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
         figures=Figures(stored, states, sample, front, main, spreads).all(failures, panels, found),
         any_two=data.sample(stored, choices, drawn), varied=stored.varied, choices=choices,
     )  # fmt: skip
+
+
+def _main(
+    stored: Stored, aims: list[StoredColumn], varying: list[StoredColumn], used: list[data.Utilisation], study: yaml.Tree | None
+) -> tuple[list[StoredColumn], list[StoredColumn]]:  # fmt: skip
+    """Return what matters, the first most, and of it the outputs that the study file asks for by their names.
+
+    These are objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others.
+    """
+    named_ = {str(name) for name in study.data.get("outputs") or ()} if study else set()
+    asked = [column for column in varying if column.name in named_]
+    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
+    outputs = [column for column in varying if column not in stored.varied]
+    return [column for column in dict.fromkeys([*aims, WORST, *asked, *failing, *outputs]) if column in varying], asked
 
 
 def _is_telling(spread: Spread) -> bool:
