@@ -66,8 +66,9 @@ def _parsed(source: StudySource) -> yaml.Tree | None:
     return yaml.parse(source.content.decode("utf-8-sig"), source.file) if source.content is not None else None
 
 
-def asked_questions(stored: Stored, tree: yaml.Tree | None) -> Asked | None:
+def asked_questions(stored: Stored) -> Asked | None:
     """Return what the kept copy of the study file says; None where the copy is gone or changed."""
+    tree = _parsed(stored.description.study)
     if tree is None:
         return None
     given: Mapping[str, Any] = tree.data
@@ -250,8 +251,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     fixed = {name for name, spread in spreads.items() if not spread.varies}
     still = {check for check, (each, _) in stored.checks.items() if each.name in fixed}
     governing = data.governing(stored, still)
-    study = _parsed(stored.description.study)
-    main, asked = _main(stored, aims, varying, used, study)
+    main, asked = _main(stored, aims, varying, used)
     found = best.influences(stored, main[: min(TARGETS + len(asked), MAX_TARGETS)])
     inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
     choices = list(dict.fromkeys([*inputs, *main]))
@@ -269,7 +269,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     return Summary(
         title=_title(stored, base), folder=printable(stored.folder.resolve().name), study=stored.study, files=_files(stored),
         checks={check: said(stored.check_label(check)) for check in stored.checks},
-        total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored, study),
+        total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored),
         failures=failures, governing=governing, passing=data.passing_values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
         unchecked=sum(row.unchecked > 0 for row in used), assumed=_assumed(base.data if base else None),
@@ -287,12 +287,13 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
 
 
 def _main(
-    stored: Stored, aims: list[StoredColumn], varying: list[StoredColumn], used: list[data.Utilisation], study: yaml.Tree | None
-) -> tuple[list[StoredColumn], list[StoredColumn]]:  # fmt: skip
+    stored: Stored, aims: list[StoredColumn], varying: list[StoredColumn], used: list[data.Utilisation]
+) -> tuple[list[StoredColumn], list[StoredColumn]]:
     """Return what matters, the first most, and of it the outputs that the study file asks for by their names.
 
     These are objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others.
     """
+    study = _parsed(stored.description.study)
     named_ = {str(name) for name in study.data.get("outputs") or ()} if study else set()
     asked = [column for column in varying if column.name in named_]
     failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
