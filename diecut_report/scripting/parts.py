@@ -19,7 +19,7 @@ from diecut_report.quantities.units import unit
 from diecut_report.report.scope import STANDARD
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, PhaseRecord, ShownRecord
-from diecut_report.results.record import Record
+from diecut_report.results.record import CheckClass, CheckStatus, Record
 from diecut_report.scripting.values import QuantityValue, notebook_page, told_in
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
@@ -153,28 +153,33 @@ class OfRecord:
         return getattr(self.record, key)
 
 
-@dataclass(frozen=True, repr=False)
 class CheckResult(OfRecord):
     """Hold a check: what the machine needs (``demand``) against what it may (``limit``), and the verdict.
 
     ``status`` is ``pass``, ``warn``, ``fail`` or ``not_checked``, where ``missing`` names the keys that it needs; ``check_class`` is
     ``function``, ``strength``, ``practice`` or ``numerical``; ``margin`` is below zero where the limit is not kept; ``utilisation`` is
-    a share of 1, None where it cannot be told. ``id``, ``title``, ``operator``, ``message``, ``source`` and what else a check of the
-    results file has are attributes, too.
+    a share of 1, None where it cannot be told. What else a check of the results file has is an attribute, too.
     """
 
-    mechanism: str
     record: CheckRecord
+    id: str
+    title: str
+    check_class: CheckClass
+    status: CheckStatus
+    operator: str
+    unit: str
+    utilisation: float | None
+    message: str
+    source: str
+    missing: list[str]
+
+    def __init__(self, mechanism: str, record: CheckRecord) -> None:
+        self.mechanism, self.record = mechanism, record
 
     @property
     def name(self) -> str:
         """Return its id with its mechanism."""
         return f"{self.mechanism}.{self.record.id}"
-
-    @property
-    def utilisation(self) -> float | None:
-        """Return the demand as a share of the limit."""
-        return self.record.utilisation
 
     @property
     def demand(self) -> QuantityValue | None:
@@ -195,6 +200,9 @@ class CheckResult(OfRecord):
     def _side(self, value: float | None, shown: ShownRecord | None) -> QuantityValue | None:
         display = (shown.text, shown.unit) if shown else None
         return None if value is None else QuantityValue(value, self.record.unit, display=display)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, CheckResult) and vars(self) == vars(other)
 
     def __hash__(self) -> int:
         return hash(self.name)
@@ -222,7 +230,7 @@ class CheckList(PartList[CheckResult], Tabular):
 
     def to_arrow(self) -> Any:
         """Return them as a table of pyarrow, a row each; demand, limit and margin in the SI unit of the column ``unit``."""
-        import pyarrow
+        from diecut_report.study.storage.parts import plain_table
 
         def row(check: CheckResult) -> dict[str, Any]:
             sides = {"demand": check.demand, "limit": check.limit, "margin": check.margin}
@@ -232,7 +240,7 @@ class CheckList(PartList[CheckResult], Tabular):
                 "unit": check.unit if check.demand else "", "utilisation": check.utilisation, "message": str(check.message),
             }  # fmt: skip
 
-        return pyarrow.Table.from_pylist(list(map(row, self)))
+        return plain_table(map(row, self))
 
     def __repr__(self) -> str:
         return super().__repr__() or "<no checks>"
@@ -244,17 +252,24 @@ class CheckList(PartList[CheckResult], Tabular):
         return notebook_page("checks", material.words, rows=rows)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
 class CurveResult(OfRecord):
     """Hold a curve: ``values`` at the places of its abscissa, in ``unit`` (SI). A place that stands twice is a jump, before and after it.
 
     ``abscissa`` is the curve that it runs over, None of an abscissa itself. At ``breakpoints`` it may jump: from ``left`` to ``right``.
-    ``symbol``, ``description``, ``display_unit`` and what else a curve of the results file has are attributes, too.
+    What else a curve of the results file has is an attribute, too.
     """
 
-    name: str
     record: CurveRecord
-    abscissa: CurveResult | None
+    unit: str
+    symbol: str
+    description: str
+    display_unit: str
+    breakpoints: list[float]
+    left: list[float]
+    right: list[float]
+
+    def __init__(self, name: str, record: CurveRecord, abscissa: CurveResult | None) -> None:
+        self.name, self.record, self.abscissa = name, record, abscissa
 
     @cached_property
     def values(self) -> NDArray[np.float64]:
@@ -292,12 +307,16 @@ def curve_results(data: Mapping[str, CurveRecord]) -> dict[str, CurveResult]:
     return {name: found[name] for name in data}
 
 
-@dataclass(frozen=True, repr=False)
 class PhaseResult(OfRecord):
     """Hold a phase: what it is (``role``), the abscissa it runs over with its period, and its intervals, each from one place to another."""
 
-    name: str
     record: PhaseRecord
+    role: str
+    description: str
+    abscissa: str
+
+    def __init__(self, name: str, record: PhaseRecord) -> None:
+        self.name, self.record = name, record
 
     @property
     def period(self) -> QuantityValue:

@@ -191,7 +191,7 @@ def _filled(found: OptimisationResult, kind: str) -> str:
     return html._environment().get_template("optimisation.html.j2").render(
         r=found, o=asked, t=Catalogue(spoken_language()), language=spoken_language(), kind=kind, policy=html.policy(),
         style=Markup(style), version=__version__, title=_title(found), figure=partial(_figure, kind), figures=_figures(found),
-        asked=questions.asked_questions(found.stored, questions.parsed_source(found.stored.description.study)),
+        asked=questions.asked_questions(found.stored),
         heads=[titled(column) for column in found.front.columns],
         goals=[goal.label for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
         counts=capital(counts(found)), suggested=capital(suggested(found)), present=capital(present(found, named)),

@@ -6,7 +6,7 @@ import hashlib
 import os
 import time
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
@@ -70,6 +70,11 @@ def described_table(columns: Mapping[ResultColumn, Values | None], count: int) -
     fields = [_field(column) for column in columns]
     arrays = [array_of(field, values, count) for field, values in zip(fields, columns.values(), strict=True)]
     return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+
+
+def plain_table(rows: Iterable[dict[str, Any]]) -> pa.Table:
+    """Return rows of plain values as a table."""
+    return pa.Table.from_pylist(list(rows))
 
 
 def array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:

@@ -61,13 +61,14 @@ class Asked(NamedTuple):
     reports: str
 
 
-def parsed_source(source: StudySource) -> yaml.Tree | None:
+def _parsed(source: StudySource) -> yaml.Tree | None:
     """Return what stands in the kept copy of a file; None where the copy is gone or changed."""
     return yaml.parse(source.content.decode("utf-8-sig"), source.file) if source.content is not None else None
 
 
-def asked_questions(stored: Stored, tree: yaml.Tree | None) -> Asked | None:
+def asked_questions(stored: Stored) -> Asked | None:
     """Return what the kept copy of the study file says; None where the copy is gone or changed."""
+    tree = _parsed(stored.description.study)
     if tree is None:
         return None
     given: Mapping[str, Any] = tree.data
@@ -241,9 +242,8 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     total = sum(states.values())
     goals = best.objectives(stored)
     aims = [goal.column for goal in goals]
-    used_columns = [value for value, _ in stored.checks.values()]
-    columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *aims, *used_columns]
-    spreads = data.spreads(stored, list(dict.fromkeys(columns)), total)
+    shares = [WORST, *(value for value, _ in stored.checks.values())] if stored.checks else []
+    spreads = data.spreads(stored, list(dict.fromkeys([*stored.varied, *stored.outputs, *aims, *shares])), total)
     front = best.front(stored, goals, states["pass"] + states["warn"])
     varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
     used = data.utilisations(stored)
@@ -251,16 +251,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     fixed = {name for name, spread in spreads.items() if not spread.varies}
     still = {check for check, (each, _) in stored.checks.items() if each.name in fixed}
     governing = data.governing(stored, still)
-    study = parsed_source(stored.description.study)
-    asked = [
-        column for column in varying if column.name in map(str, (study.data.get("outputs") or ()) if study else ())
-    ]
-    # what matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others
-    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
-    every = dict.fromkeys(
-        [*aims, WORST, *asked, *failing, *(column for column in varying if column not in stored.varied)]
-    )
-    main = [column for column in every if column in varying]
+    main, asked = _main(stored, aims, varying, used)
     found = best.influences(stored, main[: min(TARGETS + len(asked), MAX_TARGETS)])
     inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
     choices = list(dict.fromkeys([*inputs, *main]))
@@ -271,14 +262,14 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     # the quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others
     limiting = dict.fromkeys([*(row.check for row in failures), *(row.check for row in governing)])
     limits = [stored.checks[check][0] for check in limiting if check in stored.checks]
-    wanted = dict.fromkeys([*aims, WORST, *limits[:MAX_CHECKS], *stored.varied, *limits, *varying])
-    panels = [spreads[column.name] for column in wanted if column in varying][:MAX_PANELS]
+    drawable = dict.fromkeys([*aims, WORST, *limits[:MAX_CHECKS], *stored.varied, *limits, *varying])
+    panels = [spreads[column.name] for column in drawable if column in varying][:MAX_PANELS]
     groups, shown, matrix = best.chosen(stored, total, first), best.columns(stored, goals), best.telling(made)
-    base = parsed_source(stored.description.base)
+    base = _parsed(stored.description.base)
     return Summary(
         title=_title(stored, base), folder=printable(stored.folder.resolve().name), study=stored.study, files=_files(stored),
         checks={check: said(stored.check_label(check)) for check in stored.checks},
-        total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored, study),
+        total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored),
         failures=failures, governing=governing, passing=data.passing_values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
         unchecked=sum(row.unchecked > 0 for row in used), assumed=_assumed(base.data if base else None),
@@ -293,6 +284,21 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
         figures=Figures(stored, states, sample, front, main, spreads).all(failures, panels, found),
         any_two=data.sample(stored, choices, drawn), varied=stored.varied, choices=choices,
     )  # fmt: skip
+
+
+def _main(
+    stored: Stored, aims: list[StoredColumn], varying: list[StoredColumn], used: list[data.Utilisation]
+) -> tuple[list[StoredColumn], list[StoredColumn]]:
+    """Return what matters, the first most, and of it the outputs that the study file asks for by their names.
+
+    These are objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others.
+    """
+    study = _parsed(stored.description.study)
+    wanted = {str(name) for name in study.data.get("outputs") or ()} if study else set()
+    asked = [column for column in varying if column.name in wanted]
+    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
+    outputs = [column for column in varying if column not in stored.varied]
+    return [column for column in dict.fromkeys([*aims, WORST, *asked, *failing, *outputs]) if column in varying], asked
 
 
 def _is_telling(spread: Spread) -> bool:
