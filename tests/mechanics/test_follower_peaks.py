@@ -249,18 +249,18 @@ def two() -> Any:
 
 
 @pytest.fixture
-def own_laws(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def own_laws() -> Iterator[None]:
     """Two laws of a user, taken back after the test."""
-    with monkeypatch.context() as patch:
-        patch.setattr(LAWS, "_laws", dict(LAWS._laws))
-        register(MotionLaw(name="stepping", title="Twelve small steps", position=stepping_position, velocity=stepping_velocity,
-                           acceleration=stepping_acceleration, jerk=stepping_jerk, peak_velocity=two,
-                           peak_acceleration=stepping_peak))  # fmt: skip
-        register(MotionLaw(name="hasty", title="Quick start, slow end", position=hasty_position, velocity=hasty_velocity,
-                           acceleration=hasty_acceleration, jerk=nothing, peak_velocity=two, peak_acceleration=hasty_peak,
-                           breakpoints=(3 / 10,), joint=hasty_joint))  # fmt: skip
-        yield
-    assert not {"stepping", "hasty"} & set(LAWS)
+    known = dict(LAWS)
+    register(MotionLaw(name="stepping", title="Twelve small steps", position=stepping_position, velocity=stepping_velocity,
+                       acceleration=stepping_acceleration, jerk=stepping_jerk, peak_velocity=two,
+                       peak_acceleration=stepping_peak))  # fmt: skip
+    register(MotionLaw(name="hasty", title="Quick start, slow end", position=hasty_position, velocity=hasty_velocity,
+                       acceleration=hasty_acceleration, jerk=nothing, peak_velocity=two, peak_acceleration=hasty_peak,
+                       breakpoints=(3 / 10,), joint=hasty_joint))  # fmt: skip
+    yield
+    LAWS.clear()
+    LAWS.update(known)
 
 
 @pytest.mark.usefixtures("own_laws")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
@@ -387,13 +388,16 @@ def six() -> Any:
 
 
 @pytest.fixture
-def more_laws(monkeypatch: pytest.MonkeyPatch) -> None:
+def more_laws() -> Iterator[None]:
     """Two further laws, taken back after the test."""
-    monkeypatch.setattr(LAWS, "_laws", dict(LAWS._laws))
+    known = dict(LAWS)
     register(MotionLaw(name="cubic", title="Cubic", position=cubic_position, velocity=cubic_velocity, acceleration=cubic_acceleration,
                        jerk=cubic_jerk, peak_velocity=three_halves, peak_acceleration=six))  # fmt: skip
     register(MotionLaw(name="lopsided", title="Lopsided", position=lopsided_position, velocity=lopsided_velocity,
                        acceleration=lopsided_acceleration, jerk=cubic_jerk, peak_velocity=three_halves, peak_acceleration=six))  # fmt: skip
+    yield
+    LAWS.clear()
+    LAWS.update(known)
 
 
 @pytest.mark.usefixtures("more_laws")
