@@ -22,7 +22,7 @@ from diecut_report.config.validation import (
     quoted,
     validate,
 )
-from diecut_report.config.yaml import KeyPath
+from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem, nearest
 from diecut_report.formulas.condition_parts import Expression
 from diecut_report.formulas.formula import Formula
@@ -259,6 +259,11 @@ class Slot:
     is_given: bool
     is_required: bool
 
+    @property
+    def name(self) -> str:
+        """What steps and checks call it: its key without the places in lists."""
+        return dotted(self.key)
+
 
 def slots(model: type[Block], data: Mapping[str, Any], key: KeyPath = ()) -> Iterator[Slot]:
     """All inputs of a block and of the blocks and lists given in it."""
@@ -319,7 +324,7 @@ class Instance:
         """The ids of the inputs that have a value: given, by default, or from the press."""
         found: set[str] = set(self.mechanism.facts) if self.mechanism else set()
         for slot in self.slots:
-            name = ".".join(part for part in slot.key if isinstance(part, str))
+            name = slot.name
             if isinstance(slot.value, Block):
                 found |= set(flatten(slot.value, f"{name}."))
             from_press = default_of(slot) is not None and slot.key not in self.without

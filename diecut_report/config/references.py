@@ -21,7 +21,7 @@ import yaml
 from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
 from diecut_report.config.model import PRESS, texts
 from diecut_report.config.validation import ConfigPlace, declared
-from diecut_report.config.yaml import LOADER, KeyPath, Tree, parse, seeming_latin
+from diecut_report.config.yaml import LOADER, KeyPath, Tree, dotted, parse, seeming_latin
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
@@ -205,7 +205,7 @@ class Linker:
     def _input(self, path: str, instance: Instance, parts: list[str]) -> Target:
         key: KeyPath = tuple(int(part) if part.isdigit() else part for part in parts)
         meta = declared(instance.model, key)
-        name = ".".join(part for part in key if isinstance(part, str))
+        name = dotted(key)
         if isinstance(meta, type):
             inner = ", ".join(meta.model_fields)
             words = "${{path}} is a block or a list; refer to one of its values ({inner})."

@@ -135,6 +135,11 @@ _INTEGER = re.compile(r"[-+]?[0-9]{1,300}")
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 
 
+def dotted(key: KeyPath) -> str:
+    """Return a key without its places in lists: ``("loads", 1, "torque")`` → ``loads.torque``."""
+    return ".".join(part for part in key if isinstance(part, str))
+
+
 @dataclass
 class YamlNode:
     """One value of the file: its place (from 1), its content, and its size and depth with all aliases expanded."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.yaml import KeyPath
+from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Check
@@ -328,7 +328,7 @@ def is_form(config: Config, design: DesignInput) -> bool:
     key = str(design.asked.key[-1])
     if instance is None or design.asked.instance == PRESS or design.is_whole or LIMIT.search(key):
         return False
-    id = ".".join(part for part in design.asked.key if isinstance(part, str))  # as its steps and checks call it
+    id = dotted(design.asked.key)  # as its steps and checks call it
     if (instance.mechanism and id in demanded(instance.mechanism)) or is_fixed(config, design.asked):
         return False
     own = design.meta.parsed_unit.si

@@ -14,7 +14,7 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.references import as_file
-from diecut_report.config.yaml import Tree
+from diecut_report.config.yaml import Tree, dotted
 from diecut_report.design.inputs import DesignInput
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import write_all
@@ -179,7 +179,7 @@ def _input(config: Config, made: CalculatedVariants, asked: Input) -> Array | No
         value = instance.value(asked.key) if instance and (PRESS, *asked.key) not in config.links else None
         return np.full(made.count, float(value)) if isinstance(value, int | float) else None
     calc = made.calculations.get(asked.instance)
-    name = ".".join(part for part in asked.key if isinstance(part, str))
+    name = dotted(asked.key)
     row = None if calc is None else calc.inputs.get(name)
     if not isinstance(row, np.ndarray):
         return None

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from diecut_report.config.yaml import dotted
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, declared_unit, unit_for
 from diecut_report.machine.printing.substitution import filled
@@ -76,7 +77,13 @@ def _head(check: Check) -> dict[str, Any]:
 
 def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
     """Return the inputs by which a check would hold because they were typed."""
-    return tuple(key for key in check.founded if key in calc.unfounded)
+    index = check.index
+    own = {
+        dotted(key)
+        for key in calc.unfounded
+        if index is None or index in key or all(isinstance(part, str) for part in key)
+    }
+    return tuple(name for name in check.founded if name in own)
 
 
 def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRecord:

@@ -146,6 +146,14 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
 # What the values of a run rest on: a reference carries the weakest basis of all that it is calculated from.
 
 
+def _is_default(block: Block, key: KeyPath) -> bool:
+    """Whether an input of a block, or of a block within it, has the value that it would have if nobody typed it."""
+    for part in key[:-1]:
+        block = block[part] if isinstance(part, int) else getattr(block, str(part))  # type: ignore[index]
+    name = str(key[-1])
+    return not np.any(getattr(block, name) != type(block).model_fields[name].get_default(call_default_factory=True))
+
+
 class Bases:
     """Follow the references of a run, of which all calculations are known that a value refers to."""
 
@@ -173,11 +181,11 @@ class Bases:
         """Return whether an input is at its default, or rests on what can be looked up."""
         return not self._is_given(node) or is_founded(self.of(node), self.said(node).note)
 
-    def unfounded(self, instance: Instance, block: Block) -> frozenset[str]:
+    def unfounded(self, instance: Instance, block: Block) -> frozenset[KeyPath]:
         """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default."""
         asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
-        typed = [name for name in asked if np.any(getattr(block, name) != type(block).model_fields[name].get_default())]
-        return frozenset(name for name in typed if not self.is_founded((instance.name, name)))
+        keys = [slot.key for slot in (instance.slots if asked else ()) if slot.name in asked]
+        return frozenset(key for key in keys if not (self.is_founded((instance.name, *key)) or _is_default(block, key)))
 
     def _of(self, node: Node) -> str:
         chain = [self.said(node).basis]
@@ -207,7 +215,7 @@ class Bases:
         steps = (step for _, step in calculation.mechanism.active(calculation.given) if step.id in names)
         used = set[str]().union(*map(taken, steps))
         for slot in instance.slots:
-            if ".".join(part for part in slot.key if isinstance(part, str)) in used:  # as its steps know it
+            if slot.name in used:
                 yield (instance.name, *slot.key)
 
 

@@ -62,7 +62,7 @@ class Told(NamedTuple):
     """Hold what changes how a calculation is told, and no number of it: its units, and what has no basis."""
 
     units: ChosenUnits
-    unfounded: frozenset[str]
+    unfounded: frozenset[tuple[str | int, ...]]
 
 
 class Remembered:

@@ -16,7 +16,7 @@ from diecut_report.config import yaml
 from diecut_report.config.loader import Config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
-from diecut_report.config.yaml import KeyPath
+from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import UserError
 from diecut_report.mechanism.chapters import in_unit
 from diecut_report.mechanism.inputs import Block, Quantity, meta_of, nested
@@ -78,7 +78,7 @@ def empty_lists(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) ->
 
 def input_of(path: KeyPath) -> str:
     """Return the id of a mechanism's input by its place in the configuration."""
-    return ".".join(part for part in path[2:] if isinstance(part, str))
+    return dotted(path[2:])
 
 
 def alone_with_its_needs(config: Config, name: str) -> dict[str, Any]:

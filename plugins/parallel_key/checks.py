@@ -12,14 +12,15 @@ ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
 # fmt: off
 
 SIZED = ("key_length",)
-TYPED = ("load_direction_factor", "flank_changes")
+FLANKS, DISTRIBUTION = ("load_direction_factor", "flank_changes"), "load_distribution_factor"
 LONGER = (Vary("key_length", "up", LENGTHS), "key_count")
 
 
 def _pressure(part: str) -> Check:
     return Check(id=f"pressure_{part}", check_class="strength", title=f"Pressure on the {part}", demand=f"pressure_{part}", limit=f"allowed_{part}",
-                 unit="MPa", tolerance=ROUNDING, needs=JUDGED, founded=TYPED, sized_unless=SIZED, demand_label="pressure", limit_label="allowed",
-                 source=METHOD, consequence=f"the {part} yields where the key bears; a thicker shaft or stronger material helps, too.", advise=LONGER)
+                 unit="MPa", tolerance=ROUNDING, needs=JUDGED, founded=(*FLANKS, DISTRIBUTION), sized_unless=SIZED, demand_label="pressure",
+                 limit_label="allowed", source=METHOD,
+                 consequence=f"the {part} yields where the key bears; a thicker shaft or stronger material helps, too.", advise=LONGER)
 
 
 CHECKS = (
@@ -27,8 +28,8 @@ CHECKS = (
     _pressure("hub"),
     _pressure("key"),
     Check(id="pressure_peak", check_class="strength", title="Pressure under the maximum torque", demand=1.0, limit="safety_peak", unit="1",
-        tolerance=ROUNDING, sized_unless=SIZED, demand_label="required safety factor", limit_label="minimum safety factor", source=METHOD,
-        consequence="a part yields at the peak; a thicker shaft or stronger material helps, too.", advise=LONGER),
+        founded=(DISTRIBUTION,), tolerance=ROUNDING, sized_unless=SIZED, demand_label="required safety factor", limit_label="minimum safety factor",
+        source=METHOD, consequence="a part yields at the peak; a thicker shaft or stronger material helps, too.", advise=LONGER),
     Check(id="shear", check_class="strength", title="Shear of the key", demand="shear_stress", limit="allowed_shear", unit="MPa", tolerance=ROUNDING,
         sized_unless=SIZED, demand_label="shear stress", limit_label="allowed", source="strength of materials",
         consequence="the key is sheared off; a thicker shaft or stronger material helps, too.", advise=LONGER),
@@ -36,7 +37,7 @@ CHECKS = (
         limit="longest_wanted", unit="mm", severity="warn", tolerance=ROUNDING, demand_label="bearing length", limit_label="1.3 diameters",
         source=METHOD, consequence="the load no longer spreads over so long a key; take a thicker shaft, two keys or stronger material."),
     Check(id="reversing", check_class="practice", title="Reversing torque", demand="reversal_left_out", limit=0.0, unit="1", severity="warn",
-        founded=TYPED, demand_label="reversing torque not considered", limit_label="accepted", source=METHOD,
+        founded=FLANKS, demand_label="reversing torque not considered", limit_label="accepted", source=METHOD,
         consequence="the key works loose where the torque turns round often; give required_life and cycle_speed, by which the changes of flank are "
             "counted, or flank_changes itself."),
     Check(id="two_keys", check_class="practice", title="Two keys in a brittle hub", demand="key_count", limit=1.0, unit="1", severity="warn",

@@ -16,7 +16,7 @@ SWINGS = "the life is calculated by the turned way and is optimistic; "
 
 CHECKS = (
     Check(id="life", check_class="strength", title="Life", demand="required_life", limit="life_modified", unit="h", demand_label="required",
-        limit_label="modified rating life", tolerance=ROUNDING, source=LIFE, **OF_BEARING,
+        limit_label="modified rating life", tolerance=ROUNDING, source=LIFE, founded=("bearings.a_iso",), **OF_BEARING,
         consequence="the bearing is worn out too soon; less load lets it live longer.", advise=(Vary("bearings.dynamic_rating", "up"),)),
     Check(id="static", check_class="strength", title="Static safety factor", demand="static_required", limit="static_safety", unit="1",
         demand_label="required", limit_label="static safety", tolerance=ROUNDING, source=FIXED, **OF_BEARING,

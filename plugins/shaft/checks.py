@@ -10,7 +10,7 @@ THICKER = (("sections.diameter", "sections.bore", "sections.fillet_radius"),)
 
 CHECKS = (
     Check(id="fatigue", check_class="strength", title="Fatigue", demand="required_fatigue_safety", limit="place_safety", unit="1",
-        demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-7",
+        founded=("reliability",), demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-7",
         consequence="a crack would begin at the {fatigue_place}, at {fatigue_position} from the left end; a stronger steel or bearings nearer to "
             "the loads helps, too.", advise=THICKER),
     Check(id="yield", check_class="strength", title="Yield", demand="required_yield_safety", limit="yield_safety", unit="1",

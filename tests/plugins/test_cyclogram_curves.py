@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from diecut_report.plugins.cyclogram import torques
-from diecut_report.report.profile_files import exports
+from diecut_report.report.profile_files import written
 from diecut_report.results.document import document
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import number
@@ -131,7 +131,9 @@ def test_without_any_torque_there_is_no_sum(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_the_curves_over_the_main_shaft_are_written_as_a_table() -> None:
-    files = exports(document(linked({"timing": {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross"))})))
+    files, _ = written(
+        document(linked({"timing": {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross"))}))
+    )
     heads, *rows = files["timing.main_shaft.csv"].decode().splitlines()
     assert heads.split(",")[0] == '"main_angle [deg]"'
     assert '"line_torque_2 [N*m]"' in heads.split(",")

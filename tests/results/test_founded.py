@@ -146,3 +146,37 @@ def test_a_life_of_a_second_is_no_life() -> None:
 def test_a_torque_that_goes_through_gears_keeps_its_speed() -> None:
     with pytest.raises(UserError, match="comes again with"):
         mended(gear_key={"torque": "${main_gears.torque_pinion_curve}", "cycle_speed": "49 rpm"})
+
+
+@pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
+def test_a_distribution_of_the_load_that_is_only_typed_proves_nothing(
+    tmp_path: Path, typed: dict[str, str], status: str
+) -> None:
+    own = {
+        "kind": "parallel_key",
+        "shaft_diameter": "40 mm",
+        "yield_shaft": "600 MPa",
+        "yield_hub": "600 MPa",
+        "torque": "300 N*m",
+        "application_factor": 1.25,
+    }
+    for check in ("pressure_peak", "pressure_shaft", "pressure_hub", "pressure_key"):
+        assert judged(tmp_path, own, check)["status"] == "pass"
+        assert judged(tmp_path, own | {"load_distribution_factor": {"value": 1, **typed}}, check)["status"] == status
+        assert judged(tmp_path, own | {"load_distribution_factor": 1.2}, check)["status"] == "pass"  # a typed default
+
+
+@pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
+def test_a_key_of_a_block_and_of_one_part_of_a_list_is_asked_for_its_basis(typed: dict[str, str], status: str) -> None:
+    file = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press_mended")
+    tree = load(file)
+    mechanisms = tree.data["mechanisms"]
+    mechanisms["train"]["vbelt"]["groove_friction"] = {"value": 0.6, **typed}
+    name = next(
+        name for name, block in mechanisms.items() if block["kind"] == "rolling_bearing" and len(block["bearings"]) > 1
+    )
+    mechanisms[name]["bearings"][0]["a_iso"] = {"value": 1.5, **typed}
+    found = Press.read(tree, Discovery()).calculate().results.mechanisms
+    (slip,) = (each.status for each in found["train"].checks if each.id == "vbelt_slip")
+    first, second, *_ = (each.status for each in found[name].checks if each.id.endswith("_life"))
+    assert (slip, first, second) == (status, status, "pass")

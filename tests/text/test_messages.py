@@ -25,6 +25,7 @@ MAKING = {
     "Unresolved",
     "PictureFault",
     "StandardFault",
+    "Undrawable",
 }
 FAULTS = (AssertionError, AttributeError, IndexError, RuntimeError, TypeError, ValueError)
 COUNTING = {

@@ -13,6 +13,7 @@ import numpy as np
 from diecut_report.config.instances import Target
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.yaml import dotted
 from diecut_report.formulas import Array
 from diecut_report.formulas.condition_numpy import JudgedRows, judged, shortfall
 from diecut_report.formulas.condition_parts import Name, read
@@ -164,7 +165,7 @@ def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: T
 def _fixed(base: Config, asked: Input) -> float | str:
     instance = base.instances[asked.instance]
     assert instance is not None, "an input of a broken plugin is not found"
-    name = ".".join(part for part in asked.key if isinstance(part, str))
+    name = dotted(asked.key)
     value = instance.value(asked.key) if name in instance.given else None
     if value is None:
         raise ConditionError(Phrase("“{path}” has no value in the base; give it there, or vary it.", path=asked.path))
