@@ -50,8 +50,10 @@ def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool =
             with in_words(path, NOTHING):
                 place = _place(path)
                 if keep is not None and path.exists() and keep.exists() and path.samefile(keep):
-                    words = "This is the configuration itself and would be overwritten. Choose another place with -o."
-                    raise refusal(words, path)
+                    template = (
+                        "This is the configuration itself and would be overwritten. Choose another place with -o."
+                    )
+                    raise refusal(template, path)
                 _refuse_stored(place)
                 ready.append((stack.enter_context(_beside(place, content, through)), place, path))
         for temporary, place, path in ready:
@@ -96,10 +98,10 @@ def _refuse_stored(place: Path) -> None:
     for folder in place.parents:
         inner = place.relative_to(folder).parts[0]
         if inner in STORED and (folder / "variants").is_dir() and (folder / "study.json").is_file():
-            words = (
+            template = (
                 "This belongs to the stored results of a study, which would be damaged. Choose another place with -o."
             )
-            raise refusal(words, place)
+            raise refusal(template, place)
 
 
 @contextmanager
@@ -212,8 +214,8 @@ def in_words(path: Path, after: str = KEPT) -> Iterator[None]:
         yield
     except OSError as error:
         kind = UserError if error.errno in MISNAMED else Unwritable
-        words = "This cannot be written: {reason}"
-        raise kind(Problem(Phrase(words, reason=reason(error, after)), str(path))) from error
+        template = "This cannot be written: {reason}"
+        raise kind(Problem(Phrase(template, reason=reason(error, after)), str(path))) from error
 
 
 def reason(error: OSError, after: str = NOTHING) -> str:
@@ -272,8 +274,8 @@ def _require_same(path: Path, sha256: str) -> None:
     with suppress(FileNotFoundError):
         if hashlib.sha256(path.read_bytes()).hexdigest() == sha256:
             return
-    words = "Another program has saved this file meanwhile. Nothing was written; look at it and write again."
-    raise refusal(words, path)
+    template = "Another program has saved this file meanwhile. Nothing was written; look at it and write again."
+    raise refusal(template, path)
 
 
 def write(path: Path, content: bytes | memoryview, *, instead_of: str | None = None) -> None:
@@ -306,10 +308,10 @@ def _for_temporary_files() -> Path:
     try:
         return Path(tempfile.gettempdir())
     except OSError as error:  # none of those that the system names can be written
-        words = (
+        template = (
             "No folder for temporary files has enough free space. Free some, or name a folder in the variable TMPDIR."
         )
-        raise Unwritable(Problem(phrase(words))) from error
+        raise Unwritable(Problem(phrase(template))) from error
 
 
 def remove_stale(folder: Path) -> None:
@@ -364,11 +366,11 @@ def standard_input(most: int, name: str) -> bytes:
     try:
         found = sys.stdin.buffer.read(most + 1)
     except (OSError, ValueError) as error:
-        words = "Standard input cannot be read: {told}. Name a file."
-        raise refusal(words, name, told=getattr(error, "strerror", None) or error) from error
+        template = "Standard input cannot be read: {told}. Name a file."
+        raise refusal(template, name, told=getattr(error, "strerror", None) or error) from error
     if len(found) > most:
-        words = "Standard input holds more than {most} MB, which is the most that is read."
-        raise refusal(words, name, most=f"{most / 1e6:g}")
+        template = "Standard input holds more than {most} MB, which is the most that is read."
+        raise refusal(template, name, most=f"{most / 1e6:g}")
     return found
 
 
@@ -404,8 +406,8 @@ def refuse_unreadable_name(folder: Path) -> None:
     try:
         str(folder.absolute()).encode()
     except UnicodeEncodeError as error:
-        words = "The name of this folder, or of one above it, is not UTF-8. Choose another one."
-        raise refusal(words, folder) from error
+        template = "The name of this folder, or of one above it, is not UTF-8. Choose another one."
+        raise refusal(template, folder) from error
 
 
 def _judge(path: Path, status: os.stat_result, most: int, wanted: str) -> None:
@@ -420,8 +422,8 @@ def _kind(mode: int) -> str:
 
 
 def _refuse_size(path: Path, size: int, most: int) -> NoReturn:
-    words = "The file is too large: {size} MB; at most {most} MB are allowed."
-    raise refusal(words, path, size=f"{size / 1e6:.1f}", most=f"{most / 1e6:g}")
+    template = "The file is too large: {size} MB; at most {most} MB are allowed."
+    raise refusal(template, path, size=f"{size / 1e6:.1f}", most=f"{most / 1e6:g}")
 
 
 @contextmanager
@@ -432,8 +434,8 @@ def _in_words(path: Path) -> Iterator[None]:
         raise refusal("There is no such file. Check the name and the folder.", path) from error
     except (OSError, ValueError) as error:  # a name with a zero byte is a ValueError
         told = getattr(error, "strerror", None) or error
-        words = "The file cannot be read: {told}. Check its name and its permissions."
-        raise refusal(words, path, told=told) from error
+        template = "The file cannot be read: {told}. Check its name and its permissions."
+        raise refusal(template, path, told=told) from error
 
 
 # Which files the code of a plugin or of the program is: its modules and its tables.

@@ -22,11 +22,11 @@ def house_style(folder: Path) -> HouseStyle:
         raise refusal("This is not a folder. Give the folder of your templates.", folder)
     files = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
     if len(files) > MOST_FILES:
-        words = "The folder has {count} files; at most {most_files} are allowed."
-        raise refusal(words, folder, count=len(files), most_files=MOST_FILES)
+        template = "The folder has {count} files; at most {most_files} are allowed."
+        raise refusal(template, folder, count=len(files), most_files=MOST_FILES)
     if outside := [path for path in files if not path.resolve().is_relative_to(folder.resolve())]:
-        words = "This is a link out of the folder: what lies elsewhere would go into the report. Put the file itself into the folder."
-        raise UserError([Problem(phrase(words), str(path)) for path in outside])
+        template = "This is a link out of the folder: what lies elsewhere would go into the report. Put the file itself into the folder."
+        raise UserError([Problem(phrase(template), str(path)) for path in outside])
     templates = {path.name: _text(path) for path in files if path.name.endswith(ENDING)}
     css = "".join(_text(path) for path in files if path.name == CSS)
     pictures = {path.name: _picture(path) for path in files if path.suffix.lower() in PICTURES}
@@ -57,9 +57,12 @@ def _unused(files: list[Path], made: HouseStyle) -> list[Problem]:
     """What would be left unused without a word: another style sheet, another ending of a template."""
     strange = [path for path in files if path.suffix in (".css", ".j2", ".html", ".jpg", ".jpeg", ".gif")]
     wrong = [path for path in strange if path.name not in (*made.templates, CSS)]
-    words = "Nothing asks for {name}{nearest}. A folder holds templates (NAME{ending}), {css}, and pictures (PNG, SVG)."
+    template = (
+        "Nothing asks for {name}{nearest}. A folder holds templates (NAME{ending}), {css}, and pictures (PNG, SVG)."
+    )
     told = [
-        Phrase(words, name=repr(each.name), nearest=nearest(each.name, [CSS]), ending=ENDING, css=CSS) for each in wrong
+        Phrase(template, name=repr(each.name), nearest=nearest(each.name, [CSS]), ending=ENDING, css=CSS)
+        for each in wrong
     ]
     return [Problem(each, str(path)) for each, path in zip(told, wrong, strict=True)]
 

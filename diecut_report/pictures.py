@@ -48,8 +48,8 @@ class PictureFault(MessageError, ValueError):
 def media_type(content: bytes) -> str:
     """Return what a picture is; PictureFault where it is neither PNG nor SVG, or one that is not taken."""
     if len(content) > MAX_BYTES:
-        words = "is too large: {count} kB; at most {most} kB are taken"
-        raise PictureFault(words, count=format(len(content) / 1000.0, ".0f"), most=format(MAX_BYTES / 1000.0, "g"))
+        template = "is too large: {count} kB; at most {most} kB are taken"
+        raise PictureFault(template, count=format(len(content) / 1000.0, ".0f"), most=format(MAX_BYTES / 1000.0, "g"))
     if content.startswith(SIGNATURE):
         _judge_png(content)
         return PNG
@@ -136,17 +136,17 @@ class _SvgJudge:
         ) as error:  # of an encoding that Python does not know, or the parser does not read
             raise PictureFault("is an SVG picture in another encoding than UTF-8; save it as UTF-8") from error
         if self.count * max(self.most_parts, self.rules) > MAX_DRAWING_STEPS:
-            words = "takes too long to draw: its clipping paths, gradients or styles have too many parts; give a simpler one"
-            raise PictureFault(words)
+            template = "takes too long to draw: its clipping paths, gradients or styles have too many parts; give a simpler one"
+            raise PictureFault(template)
 
     def _start(self, tag: str, given: Mapping[str, str]) -> None:
         space, _, name = tag.rpartition(" ")
         self.depth, self.count = self.depth + 1, self.count + 1
         if self.count > MAX_ELEMENTS or self.depth > MAX_DEPTH:
-            words = (
+            template = (
                 "has more than {most_elements} elements, or more than {deepest} within each other; give a simpler one"
             )
-            raise PictureFault(words, most_elements=MAX_ELEMENTS, deepest=MAX_DEPTH)
+            raise PictureFault(template, most_elements=MAX_ELEMENTS, deepest=MAX_DEPTH)
         if self.depth == 1:
             _judge_root(space, name, given)
         is_drawing = (
@@ -155,8 +155,8 @@ class _SvgJudge:
             else not (space in ("", XHTML_NAMESPACE) or OTHERS_DRAWING.fullmatch(name))
         )
         if not is_drawing:
-            words = "holds <{name}>; a logo holds shapes alone: save it as plain SVG, with its texts as paths"
-            raise PictureFault(words, name=name)
+            template = "holds <{name}>; a logo holds shapes alone: save it as plain SVG, with its texts as paths"
+            raise PictureFault(template, name=name)
         if self.style is not None:
             raise PictureFault("holds <{name}> within a style", name=name)
         self.style = [] if name == "style" else None
@@ -202,8 +202,8 @@ def _count_of_rules(style: str) -> int:
     found = tinycss2.parse_stylesheet(style, skip_comments=True)
     selectors = [each for rule in found if rule.type == "qualified-rule" for each in _selectors(rule.prelude)]
     if not all(map(_SIMPLE.fullmatch, selectors)):
-        words = "has a style for elements within or beside others, which may never end; name each by its class alone"
-        raise PictureFault(words)
+        template = "has a style for elements within or beside others, which may never end; name each by its class alone"
+        raise PictureFault(template)
     return len(selectors)
 
 
@@ -214,8 +214,8 @@ def _selectors(tokens: Sequence[Any]) -> list[str]:
 
 def _judge_root(space: str, name: str, given: Mapping[str, str]) -> None:
     if (space, name) != (SVG_NAMESPACE, "svg"):
-        words = "is not an SVG picture: its first element is <{name}>, without the name space {space}"
-        raise PictureFault(words, name=name, space=SVG_NAMESPACE)
+        template = "is not an SVG picture: its first element is <{name}>, without the name space {space}"
+        raise PictureFault(template, name=name, space=SVG_NAMESPACE)
     sized = all(_LENGTH.fullmatch(given.get(key, "")) for key in ("width", "height"))
     if not (_is_view(given["viewBox"]) if "viewBox" in given else sized):
         raise PictureFault("does not say its size; give it a viewBox, or width and height")

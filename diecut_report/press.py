@@ -135,20 +135,20 @@ class Press:
     def require_reportable(self, formats: Sequence[str], only: Sequence[str] = ()) -> None:
         """Raise UserError where a report in these formats, or of these mechanisms alone, is not possible."""
         known, file = list(self.config.kinds), self.config.tree.file
-        words = "--only {name} is not a mechanism{nearest}; the mechanisms: {known}."
+        template = "--only {name} is not a mechanism{nearest}; the mechanisms: {known}."
         told = {"known": ", ".join(known)}
         unknown = [
-            Phrase(words, told, name=repr(name), nearest=nearest(name, known)) for name in only if name not in known
+            Phrase(template, told, name=repr(name), nearest=nearest(name, known)) for name in only if name not in known
         ]
         if unknown:
             raise UserError([Problem(each, file) for each in unknown])
         # a PDF's memory grows with its sheets, by 25 to 80 MB for each mechanism
         if "pdf" in formats and len(known) > MAX_PRINTED_MECHANISMS:
-            words = (
+            template = (
                 "There are {count} mechanisms; the PDF of a report has at most {max_printed_mechanisms}. Leave the PDF out with "
                 "--format html,json, or split the configuration."
             )
-            raise refusal(words, file, count=len(known), max_printed_mechanisms=MAX_PRINTED_MECHANISMS)
+            raise refusal(template, file, count=len(known), max_printed_mechanisms=MAX_PRINTED_MECHANISMS)
 
     def calculate(self) -> CalculatedPress:
         """Return the results, with the plugins that broke; UserError with all that is wrong where the machine cannot exist."""
@@ -226,9 +226,9 @@ def _failed(results: ResultsRecord) -> Iterator[PluginError]:
 def _broken(results: ResultsRecord, places: Places, lost: Lost) -> PluginError:
     """What showed only in drawing that it cannot be drawn."""
     mechanism = results.calculated[lost.mechanism]
-    words = Phrase("{what} {id} cannot be drawn: {words} ({places})", what=lost.what, id=repr(lost.id), words=lost.words,
+    message = Phrase("{what} {id} cannot be drawn: {words} ({places})", what=lost.what, id=repr(lost.id), words=lost.words,
         places=places[lost.mechanism, lost.id])  # fmt: skip
-    return PluginError(words, mechanism.kind, lost.mechanism)
+    return PluginError(message, mechanism.kind, lost.mechanism)
 
 
 class Drawn(NamedTuple):

@@ -60,8 +60,8 @@ def in_time() -> Iterator[None]:
     except Overran as cause:
         if is_limited:
             raise
-        words = Phrase("it did not come back within {seconds} s; let its loops end", seconds=f"{PATIENCE:g}")
-        raise TooLong(words).with_traceback(cause.__traceback__) from cause
+        message = Phrase("it did not come back within {seconds} s; let its loops end", seconds=f"{PATIENCE:g}")
+        raise TooLong(message).with_traceback(cause.__traceback__) from cause
 
 
 @contextmanager

@@ -308,8 +308,8 @@ WORDS = ("suggested", "front")
 def _machines(_context: click.Context, _option: click.Parameter, given: str) -> list[str]:
     parts = split(given)
     if strange := [part for part in parts if part not in WORDS and not part.isdecimal()]:
-        words = "{given} is neither the number of a machine nor one of: {words}."
-        raise click.BadParameter(say(words, given=repr(strange[0]), words=", ".join(WORDS)))
+        template = "{given} is neither the number of a machine nor one of: {words}."
+        raise click.BadParameter(say(template, given=repr(strange[0]), words=", ".join(WORDS)))
     return parts
 
 
@@ -348,9 +348,9 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
                 study, target, where, resume=resume is not None, agreed=yes, reports=reports, shown=shown
             )
     except KeyboardInterrupt:
-        words = "stopped; what is finished is kept. Continue with: diecut-report optimise --resume {folder}"
+        template = "stopped; what is finished is kept. Continue with: diecut-report optimise --resume {folder}"
         is_kept = (target / RESULTS).exists()
-        tell([Phrase(words, folder=target) if is_kept else phrase("stopped; nothing was written.")])
+        tell([Phrase(template, folder=target) if is_kept else phrase("stopped; nothing was written.")])
         return INTERRUPTED
     emit({"text": lambda: as_lines(map(said, outcome.lines)), "csv": lambda: outcome.csv,
           "json": lambda: as_json(outcome.data)}[form]())  # fmt: skip

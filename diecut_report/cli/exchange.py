@@ -99,8 +99,8 @@ def _numbers(found: Agreement) -> str:
         return Phrase("{n} of {total} agree, {exactly}", n=found.numbers, total=found.numbers, exactly=exactly)
     others = len(found.differences) - found.differing
     texts = Counted(others, ", and {n} other value differs", ", and {n} other values differ") if others else ""
-    words = "{n} of {total} agree{texts}; in the report, and calculated now:"
-    return Phrase(words, n=max(agreeing, 0), total=found.numbers, texts=texts)
+    template = "{n} of {total} agree{texts}; in the report, and calculated now:"
+    return Phrase(template, n=max(agreeing, 0), total=found.numbers, texts=texts)
 
 
 def _value(value: object) -> str:
@@ -283,9 +283,9 @@ def _password() -> bytes:
     if given is not None:
         return given.encode()
     if not sys.stdin or not sys.stdin.isatty():
-        words = (
+        template = (
             "The key has a password. Set the variable {password}, or run the command on a terminal, which asks for it."
         )
-        raise refusal(words, password=PASSWORD)
+        raise refusal(template, password=PASSWORD)
     asked: str = click.prompt(say("Password of the key"), hide_input=True, err=True)
     return asked.encode()

@@ -64,8 +64,8 @@ def live(config: Path, port: int, is_opened: bool, discovery: Discovery) -> int:
     spoken = speaking(language, catalogues_of(language, discovery))
     with TemporaryDirectory(prefix="diecut-report-") as doors, spoken, _until_ended():
         serve(LiveApplication(session, discovery.folders, asked_language()), port, ready)
-    words = "changed on the page but not saved: {name}: {typed}"  # so that nothing is lost
-    tell(say(words, name=name, typed=typed) for name, typed in session.edits.items())
+    template = "changed on the page but not saved: {name}: {typed}"  # so that nothing is lost
+    tell(say(template, name=name, typed=typed) for name, typed in session.edits.items())
     return PASSED
 
 
@@ -94,14 +94,16 @@ def _door(folder: str, address: str) -> str:
 def _require_file(config: Path) -> None:
     """Refuse what cannot be followed: standard input, a folder, a file that is not there, a study."""
     if config == DASH:
-        words = "The live page follows a file that is saved repeatedly; standard input is read only once. Name a file."
-        raise refusal(words, SHOWN)
+        template = (
+            "The live page follows a file that is saved repeatedly; standard input is read only once. Name a file."
+        )
+        raise refusal(template, SHOWN)
     if os.path.isdir(config):
         raise refusal("This is a folder. Name one configuration in it.", config)
     folder, _, number = str(config).rpartition("#")
     if number.isdecimal() and os.path.isdir(folder) and not os.path.exists(config):
-        words = "A stored variant is not a file. Make it one: diecut-report take {variant} -o my_press.yaml"
-        raise refusal(words, config, variant=config)
+        template = "A stored variant is not a file. Make it one: diecut-report take {variant} -o my_press.yaml"
+        raise refusal(template, config, variant=config)
     if not os.path.isfile(config):
         raise refusal("There is no such file. Check the name and the folder.", config)
     try:

@@ -171,8 +171,10 @@ def _run(arguments: Sequence[str] | None) -> int:
         tell([str(error)])
         return PLUGIN_BROKE
     except Exception:
-        words = "This is a fault of diecut-report itself. Please report it with the lines above and the configuration."
-        tell([*traceback.format_exc().splitlines(), phrase(words)])
+        template = (
+            "This is a fault of diecut-report itself. Please report it with the lines above and the configuration."
+        )
+        tell([*traceback.format_exc().splitlines(), phrase(template)])
         return FAULT
 
 
@@ -272,8 +274,8 @@ def plugins(discovery: Discovery) -> int:
                 mechanism = discovery.mechanism(kind)
             title = said(mechanism.title, kind)
             lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].label)]
-            words = "    source {id}: {citation}"
-            lines += [say(words, id=source.id, citation=phrase(source.citation)) for source in mechanism.sources]
+            template = "    source {id}: {citation}"
+            lines += [say(template, id=source.id, citation=phrase(source.citation)) for source in mechanism.sources]
         except (DuplicateKind, PluginError) as error:
             tell([str(error)])
             codes.append(PLUGIN_BROKE)

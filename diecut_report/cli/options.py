@@ -71,8 +71,8 @@ def formats_option(
         unknown = [part for part in asked if part not in known]
         if unknown or not (asked or may_be_none):
             named = {"given": repr(unknown[0]), "nearest": nearest(unknown[0], known)} if unknown else {}
-            words = Phrase("{given} is not a format{nearest}", named) if unknown else phrase("no format is named")
-            raise click.BadParameter(say("{words}; known: {known}.", words=words, known=", ".join(known)))
+            message = Phrase("{given} is not a format{nearest}", named) if unknown else phrase("no format is named")
+            raise click.BadParameter(say("{words}; known: {known}.", words=message, known=", ".join(known)))
         return asked
 
     return click.option("--format", "formats", metavar="LIST", default=default, callback=read, help=help)
@@ -97,8 +97,8 @@ def read_mechanisms(_: click.Context, __: click.Parameter, given: str | None) ->
     """Return the mechanisms that are asked for; BadParameter where none is named."""
     names = tuple(dict.fromkeys(split(given or "")))
     if given is not None and not names:
-        words = "no mechanism is named; give names of the configuration, with commas: drive,clutch."
-        raise click.BadParameter(say(words))
+        template = "no mechanism is named; give names of the configuration, with commas: drive,clutch."
+        raise click.BadParameter(say(template))
     return names
 
 

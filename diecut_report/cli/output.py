@@ -205,8 +205,8 @@ def _language(context: click.Context, _: click.Parameter, given: str | None) -> 
 
 def language_option(command: Command) -> Command:
     """Give a command the option ``--language``, of which it need not know."""
-    words = "Language of messages and documents (en, uk), overriding the environment and the project."
-    option = click.option("--language", metavar="LANGUAGE", is_eager=True, expose_value=False, callback=_language, help=words,
+    template = "Language of messages and documents (en, uk), overriding the environment and the project."
+    option = click.option("--language", metavar="LANGUAGE", is_eager=True, expose_value=False, callback=_language, help=template,
                           shell_complete=one_of(languages))  # fmt: skip
     return option(command)
 
@@ -340,8 +340,8 @@ def emit(text: str) -> bool:
         from diecut_report.files import reason
 
         _close_output()
-        words = "Standard output cannot be written: {reason}"
-        raise Unwritable(Problem(Phrase(words, reason=reason(error)))) from error
+        template = "Standard output cannot be written: {reason}"
+        raise Unwritable(Problem(Phrase(template, reason=reason(error)))) from error
     return True
 
 

@@ -102,8 +102,8 @@ def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]
 def _draft_messages(made: Draft, file: Path | None) -> Iterator[str]:
     if file is not None:
         yield Phrase("written: {path}", path=file)
-    words = "added: {name} ({kind}), required by {asking}"
-    yield from (say(words, name=new.name, kind=new.kind, asking=asking.name) for new, asking in made.added)
+    template = "added: {name} ({kind}), required by {asking}"
+    yield from (say(template, name=new.name, kind=new.kind, asking=asking.name) for new, asking in made.added)
     if made.guessed:
         yield say("no example values exist for these; enter your own: {keys}", keys=", ".join(made.guessed))
     if made.open:
@@ -169,8 +169,8 @@ def check_plugin(
 
     known, kinds = meant(plugin, discovery.folders)
     if page is not None and len(kinds) > 1 and page.suffix:
-        words = "{folder} has {n} plugins; name one of them, or give a folder with -o."
-        raise click.UsageError(say(words, folder=plugin, n=len(kinds)))
+        template = "{folder} has {n} plugins; name one of them, or give a folder with -o."
+        raise click.UsageError(say(template, folder=plugin, n=len(kinds)))
     with without_output():
         language = asked_language() or spoken_language()
         found = [checked(known, kind, configs, language, write_po=write_po) for kind in kinds]

@@ -90,8 +90,8 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
                 study, target, where, resume=resume is not None, agreed=yes, formats=formats, shown=shown
             )
     except KeyboardInterrupt:
-        words = "stopped; what is finished is kept. Continue with: diecut-report batch --resume {folder}"
-        tell([Phrase(words, folder=target)])
+        template = "stopped; what is finished is kept. Continue with: diecut-report batch --resume {folder}"
+        tell([Phrase(template, folder=target)])
         return INTERRUPTED
     inform(_outcome_lines(outcome, target))
     tell(told_plugins({}, outcome.broken, outcome.doubtful, outcome.broken_reports))
@@ -123,8 +123,8 @@ def told_plugins(
     slow: Mapping[str, str], broken: Mapping[str, str], doubtful: Mapping[str, Any], broken_reports: Mapping[str, str]
 ) -> Iterator[str]:
     """Tell by their kinds which plugins were slow, which broke, and which have faults in their formulas."""
-    words = "{kind} does not support arrays and was calculated variant by variant, which is slow: {why}"
-    yield from (Phrase(words, kind=kind, why=phrase(why)) for kind, why in slow.items())
+    template = "{kind} does not support arrays and was calculated variant by variant, which is slow: {why}"
+    yield from (Phrase(template, kind=kind, why=phrase(why)) for kind, why in slow.items())
     broke = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
     yield from (Phrase(broke, kind=repr(kind), why=phrase(why)) for kind, why in broken.items())
     yield from (line for kind, faults in doubtful.items() for line in told_faults(kind, faults))
@@ -209,8 +209,8 @@ def take(variant: str, file: Path, digits: int | None, discovery: Discovery) -> 
 
     folder, _, number = variant.rpartition("#")
     if not folder or not number.isdecimal():
-        words = "{variant} names no variant; give the folder of a study and a number, as in build/study#17."
-        raise click.UsageError(say(words, variant=repr(variant)))
+        template = "{variant} names no variant; give the folder of a study and a number, as in build/study#17."
+        raise click.UsageError(say(template, variant=repr(variant)))
     refuse_sources(Path(folder), file)
     found = taken_config(Path(folder), int(number), discovery, digits)
     if file == DASH:
@@ -222,6 +222,6 @@ def take(variant: str, file: Path, digits: int | None, discovery: Discovery) -> 
         place = "<stdout>" if file == DASH else file
         tell([say("written: {file}; in the study: {status}, governed by {check}", file=place, **judged)])
         missing = {name: copy for name, copy in found.beside.items() if not (file.parent / name).exists()}
-        words = "it names {name}, which is looked up beside it; the study keeps a copy: {copy}"
-        tell(say(words, name=name, copy=copy) for name, copy in missing.items())
+        template = "it names {name}, which is looked up beside it; the study keeps a copy: {copy}"
+        tell(say(template, name=name, copy=copy) for name, copy in missing.items())
     return PASSED

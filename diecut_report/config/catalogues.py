@@ -59,8 +59,8 @@ def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:
         return None
     texts = [] if own is None else own.missing
     told = "; ".join(f"“{text}”" for text in texts[:MAX_LISTED])
-    words = "Reports in {language} need a translation of {kind}: {count} texts are not translated ({told} …). "
-    why = Phrase(words, language=catalogues.language, kind=kind, count=len(texts), told=told)
+    template = "Reports in {language} need a translation of {kind}: {count} texts are not translated ({told} …). "
+    why = Phrase(template, language=catalogues.language, kind=kind, count=len(texts), told=told)
     advised = Phrase("{words}Give language: {source_language}.", words=why, source_language=SOURCE_LANGUAGE)
     return Problem(advised, file, path="project.language")
 

@@ -48,11 +48,11 @@ def chosen(given: Sequence[str], discovery: Discovery) -> list[Drafted]:
         if fault := name_fault(name):
             problems.append(Problem(fault))
         elif asked.count(name) > 1:
-            words = "the name {name} is given to several mechanisms. Choose another one."
-            problems.append(Problem(Phrase(words, name=repr(name))))
+            template = "the name {name} is given to several mechanisms. Choose another one."
+            problems.append(Problem(Phrase(template, name=repr(name))))
     if len(given) > MAX_MECHANISMS:
-        words = "{count} mechanisms are requested; a configuration has at most {most}."
-        problems.append(Problem(Phrase(words, count=len(given), most=MAX_MECHANISMS)))
+        template = "{count} mechanisms are requested; a configuration has at most {most}."
+        problems.append(Problem(Phrase(template, count=len(given), most=MAX_MECHANISMS)))
     names = {name for _, _, name in parts if name}
     for kind, _, name in parts:
         try:
@@ -208,8 +208,8 @@ def _wire(
             try:
                 mechanism = discovery.mechanism(need.kind)
             except (UnknownKind, DuplicateKind) as fault:
-                words = Phrase("its example requires another mechanism: {fault}", fault=str(fault))
-                raise PluginError(words, asking.kind, asking.name) from fault
+                message = Phrase("its example requires another mechanism: {fault}", fault=str(fault))
+                raise PluginError(message, asking.kind, asking.name) from fault
             new = Drafted(_free_name(mechanism, [each.name for each in mechanisms]), need.kind, mechanism)
             mechanisms.append(new)
             added.append((new, asking))

@@ -149,21 +149,21 @@ class BlockData:
 
     def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
         if given.get("value") is None:
-            words = "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone"
-            yield self.place.problem(key, Phrase(words, unit=unit).replace("10 1,", "10,"))
+            template = "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone"
+            yield self.place.problem(key, Phrase(template, unit=unit).replace("10 1,", "10,"))
         for name in given:
             if name not in KEYS:
-                words = "is an unknown key{nearest}. A quantity that stands as a block has {keys}."
+                template = "is an unknown key{nearest}. A quantity that stands as a block has {keys}."
                 near, keys = nearest(name, KEYS), ", ".join(KEYS)
-                yield self.place.problem((*key, name), words, at_key=True, nearest=near, keys=keys)
+                yield self.place.problem((*key, name), template, at_key=True, nearest=near, keys=keys)
         basis, note = given.get("basis"), given.get("note")
         if "basis" in given and basis not in BASES:
             near = nearest(basis, BASES) if isinstance(basis, str) else ""
-            words = "is {basis}{near}; allowed: {bases}"
-            yield self.place.problem((*key, "basis"), words, basis=quoted(basis), near=near, bases=", ".join(BASES))
+            template = "is {basis}{near}; allowed: {bases}"
+            yield self.place.problem((*key, "basis"), template, basis=quoted(basis), near=near, bases=", ".join(BASES))
         if note is not None and not isinstance(note, str):
-            words = "is {note}; a text is needed, in quotes where it is a number"
-            yield self.place.problem((*key, "note"), words, note=quoted(note))
+            template = "is {note}; a text is needed, in quotes where it is a number"
+            yield self.place.problem((*key, "note"), template, note=quoted(note))
 
 
 def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:
@@ -178,20 +178,20 @@ def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:
 def _unknown_entry(table: str, name: str, known: Sequence[str]) -> str:
     if not known:
         file = phrase("in a file that materials: names")
-        words = "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}"
-        return Phrase(words, name=quoted(name), table=table, name_2=name, file=file)
-    words = "is {name}{nearest}; {table} has {known}"
+        template = "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}"
+        return Phrase(template, name=quoted(name), table=table, name_2=name, file=file)
+    template = "is {name}{nearest}; {table} has {known}"
     listed = ", ".join(known[:MAX_NAMED])
-    return Phrase(words, name=quoted(name), nearest=nearest(name, known), table=table, known=listed)
+    return Phrase(template, name=quoted(name), nearest=nearest(name, known), table=table, known=listed)
 
 
 def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Problem]:
     place, known = ConfigPlace(entry.tree, entry.path), list(rule.gives.values())
     for key in entry.keys:
         if key not in known:
-            words = "is an unknown key{nearest}. An entry of {table} has {text}."
+            template = "is an unknown key{nearest}. An entry of {table} has {text}."
             near, keys = nearest(key, known), ", ".join([SOURCE, *known])
-            yield place.problem((key,), words, at_key=True, nearest=near, table=rule.table, text=keys)
+            yield place.problem((key,), template, at_key=True, nearest=near, table=rule.table, text=keys)
     for own, theirs in rule.gives.items():
         if theirs in entry.keys:
             field = keys_of(model)[own].field
@@ -362,13 +362,13 @@ class Instance:
         """Why there is no such phase, in words."""
         if phase in self.declared_steps:
             missing = self.missing(phase)
-            words = "exists only if {missing} is given in {name}."
-            return Phrase(words, missing=" and ".join(missing), name=self.name)
+            template = "exists only if {missing} is given in {name}."
+            return Phrase(template, missing=" and ".join(missing), name=self.name)
         name, known = phase.removeprefix(PREFIX), [each.removeprefix(PREFIX) for each in self.phases]
         near = nearest(name, known)
-        told = Phrase(" Known: {known}.", known=", ".join(known)) if known else phrase(" Its kind has none.")
-        words = "names no phase: {name} has no phase {name_2}{near}.{told}"
-        return Phrase(words, name=self.name, name_2=repr(name), near=near, told=("" if near else told))
+        message = Phrase(" Known: {known}.", known=", ".join(known)) if known else phrase(" Its kind has none.")
+        template = "names no phase: {name} has no phase {name_2}{near}.{told}"
+        return Phrase(template, name=self.name, name_2=repr(name), near=near, told=("" if near else message))
 
     def missing(self, id: str) -> list[str]:
         """Return the inputs that a step of the mechanism needs and that are not given."""
@@ -445,8 +445,8 @@ def faults(given: Any, instances: Mapping[str, Instance | None], place: ConfigPl
     if given is None:
         return
     if not isinstance(given, dict):
-        words = "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}"
-        yield place.problem((UNITS,), words, given=quoted(given))
+        template = "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}"
+        yield place.problem((UNITS,), template, given=quoted(given))
         return
     for key, chosen in given.items():
         wanted = wanted_units(key, instances)
@@ -463,17 +463,17 @@ def wanted_units(key: Any, instances: Mapping[str, Instance | None]) -> tuple[st
     name, dot, quantity = str(key).partition(".")
     if not dot:
         near = nearest(name, DIMENSIONS)
-        words = "is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {dimensions}"
-        return Phrase(words, near=near, dimensions=", ".join(DIMENSIONS))
+        template = "is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {dimensions}"
+        return Phrase(template, near=near, dimensions=", ".join(DIMENSIONS))
     instance = instances.get(name)
     if instance is None:
         known = [each for each, found in instances.items() if found is not None]
-        words = "names {name}, which is not there{nearest}; known: {known}"
-        return Phrase(words, name=name, nearest=nearest(name, known), known=", ".join(known))
+        template = "names {name}, which is not there{nearest}; known: {known}"
+        return Phrase(template, name=name, nearest=nearest(name, known), known=", ".join(known))
     units = _units(instance)
     if quantity not in units:
-        words = "names {quantity}, which is not a quantity of {name} with a number{nearest}"
-        return Phrase(words, quantity=quantity, name=name, nearest=nearest(quantity, units))
+        template = "names {quantity}, which is not a quantity of {name} with a number{nearest}"
+        return Phrase(template, quantity=quantity, name=name, nearest=nearest(quantity, units))
     return units[quantity]
 
 
@@ -494,11 +494,11 @@ def _unit_fault(chosen: Any, wanted: tuple[str, ...]) -> str:
     try:
         found = unit(chosen)
     except UnitError as error:
-        words = "{error} Give a unit of {kind_name}, such as {wanted}."
-        return Phrase(words, error=error, kind_name=kind_name(unit(wanted[0])), wanted=wanted[0])
+        template = "{error} Give a unit of {kind_name}, such as {wanted}."
+        return Phrase(template, error=error, kind_name=kind_name(unit(wanted[0])), wanted=wanted[0])
     if found.si not in {unit(each).si for each in wanted}:
-        words = "is a unit of {kind_name}; one of {kind_name_2} is needed, such as {wanted}"
-        return Phrase(words, kind_name=kind_name(found), kind_name_2=kind_name(unit(wanted[0])), wanted=wanted[0])
+        template = "is a unit of {kind_name}; one of {kind_name_2} is needed, such as {wanted}"
+        return Phrase(template, kind_name=kind_name(found), kind_name_2=kind_name(unit(wanted[0])), wanted=wanted[0])
     return ""
 
 

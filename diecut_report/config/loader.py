@@ -57,8 +57,8 @@ def overruled(
 
 def typed_beside(reference: str) -> Phrase:
     """Return what is wrong with a value in place of what a block that compares others takes from them."""
-    words = "is given here, but {reference} already provides it and is compared with the others. Remove the key; change it there."
-    return Phrase(words, reference=reference)
+    template = "is given here, but {reference} already provides it and is compared with the others. Remove the key; change it there."
+    return Phrase(template, reference=reference)
 
 
 def compared(instance: Instance) -> dict[str, str]:
@@ -91,11 +91,11 @@ def partner_fault(partner: Partner, name: Any, kinds: Kinds) -> str:
     wanted = " or ".join(partner.kinds)
     if not isinstance(name, str) or name not in kinds:
         near = nearest(name, kinds) if isinstance(name, str) else ""
-        words = "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}."
-        return Phrase(words, name=quoted(name), wanted=wanted, near=near, kinds=", ".join(kinds))
+        template = "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}."
+        return Phrase(template, name=quoted(name), wanted=wanted, near=near, kinds=", ".join(kinds))
     if kinds[name] not in partner.kinds:
-        words = "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed."
-        return Phrase(words, name=name, kinds=kinds[name], wanted=wanted)
+        template = "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed."
+        return Phrase(template, name=name, kinds=kinds[name], wanted=wanted)
     return ""
 
 
@@ -133,9 +133,9 @@ def refuse_study(tree: Tree) -> None:
     """Raise UserError where a study is given for a configuration: with the command that takes it, and its base."""
     if is_study(tree):
         command = "optimise" if "optimise" in tree.data else "batch"
-        words = "This is a study: calculate it with diecut-report {command} {file}, or give its base, {base}"
+        template = "This is a study: calculate it with diecut-report {command} {file}, or give its base, {base}"
         base = PurePath(tree.file).parent / str(tree.data.get("base", "…"))
-        raise refusal(words, tree.file, command=command, file=tree.file, base=base)
+        raise refusal(template, tree.file, command=command, file=tree.file, base=base)
 
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
@@ -290,8 +290,8 @@ class _ConfigReader:
         if fault := name_fault(name):
             self.problems.append(place.problem((), fault, at_key=True))
         elif not isinstance(body, dict):
-            words = "is {body}; a block of keys with its kind is needed"
-            self.problems.append(place.problem((), words, body=quoted(body)))
+            template = "is {body}; a block of keys with its kind is needed"
+            self.problems.append(place.problem((), template, body=quoted(body)))
         elif not isinstance(body.get("kind"), str):
             origins, given = ", ".join(self.discovery.origins), quoted(body.get("kind"))
             absent = place.absent(("kind",), "is missing. Give one of: {origins}.", origins=origins)

@@ -53,8 +53,8 @@ class Project(Block):
     def without_reference(cls, given: Any) -> Any:
         """A text of the title block stands as it is."""
         if isinstance(given, str) and "${" in given:
-            words = "is “{given}”; references stand in press and mechanisms, the title block takes plain text"
-            raise ValueError(Phrase(words, given=given))
+            template = "is “{given}”; references stand in press and mechanisms, the title block takes plain text"
+            raise ValueError(Phrase(template, given=given))
         return given
 
 
@@ -167,18 +167,18 @@ def _is_required(model: type[Block], path: str) -> bool:
 
 def _wrong(meta: Quantity, press: FromPress, is_required: bool) -> Iterator[str]:
     if is_required:
-        words = "must be given, so that {path} is never taken; write Annotated[float | None, …] = None"
-        yield Phrase(words, path=press.path)
+        template = "must be given, so that {path} is never taken; write Annotated[float | None, …] = None"
+        yield Phrase(template, path=press.path)
     given = NUMBERS.get(press.path)
     if given is None:
         known = ", ".join(NUMBERS)
-        words = "takes {path}, which is not a number of the press{nearest}; it has {known}"
-        yield Phrase(words, path=press.path, nearest=nearest(press.path, NUMBERS), known=known)
+        template = "takes {path}, which is not a number of the press{nearest}; it has {known}"
+        yield Phrase(template, path=press.path, nearest=nearest(press.path, NUMBERS), known=known)
         return
     units = [meta.unit, *(other for _, other in meta.units)]
     if press.formula is None and all(unit(given.unit).kind != unit(other).kind for other in units):
-        words = "in {unit} takes {path}, which is in {own}; name a formula between them: FromPress(…, formula)"
-        yield Phrase(words, unit=meta.unit, path=press.path, own=given.unit)
+        template = "in {unit} takes {path}, which is in {own}; name a formula between them: FromPress(…, formula)"
+        yield Phrase(template, unit=meta.unit, path=press.path, own=given.unit)
 
 
 # Plain data of a file: dicts, lists and scalars.

@@ -75,8 +75,8 @@ class OwnTables:
         given = config.data.get(OWN_TABLES_KEY) if isinstance(config.data, dict) else None
         names = given if isinstance(given, list) else [] if given is None else [given]
         if len(names) > MAX_FILES:
-            words = "names {count} files; at most {most} are allowed. Put several tables into one file."
-            tables.problems.append(place.problem((OWN_TABLES_KEY,), words, count=len(names), most=MAX_FILES))
+            template = "names {count} files; at most {most} are allowed. Put several tables into one file."
+            tables.problems.append(place.problem((OWN_TABLES_KEY,), template, count=len(names), most=MAX_FILES))
             return tables
         for index, name in enumerate(names):
             key = (OWN_TABLES_KEY, index) if isinstance(given, list) else (OWN_TABLES_KEY,)
@@ -93,9 +93,9 @@ class OwnTables:
         for entry in () if excess else _entries(tree, self.problems):
             known = self.entries.setdefault(str(entry.path[0]), {})
             if entry.name in known:
-                words = "stands in {file} too; leave one of them out"
+                template = "stands in {file} too; leave one of them out"
                 file = known[entry.name].file
-                self.problems.append(ConfigPlace(tree).problem(entry.path, words, at_key=True, file=file))
+                self.problems.append(ConfigPlace(tree).problem(entry.path, template, at_key=True, file=file))
             known.setdefault(entry.name, entry)
 
     def names(self, table: str) -> list[str]:
@@ -117,8 +117,8 @@ def _entries(tree: Tree, problems: list[Problem]) -> Iterator[Entry]:
     """Yield the entries of a file, and add to ``problems`` what is wrong with it."""
     data, place = tree.data, ConfigPlace(tree)
     if not isinstance(data, dict):
-        words = "The file holds {data}; it needs a source and tables, as in steels: {NAME: {…}}."
-        problems.append(Problem(Phrase(words, data=quoted(data)), tree.file))
+        template = "The file holds {data}; it needs a source and tables, as in steels: {NAME: {…}}."
+        problems.append(Problem(Phrase(template, data=quoted(data)), tree.file))
         return
     for key, text in texts(data):
         if "${" in text:
@@ -130,8 +130,8 @@ def _entries(tree: Tree, problems: list[Problem]) -> Iterator[Entry]:
         if table in (SOURCE, VERSION):
             continue
         if not isinstance(rows, dict):
-            words = "is {rows}; entries by their names are needed, as in {table}: {NAME: {…}}"
-            problems.append(place.problem((table,), words, rows=quoted(rows), table=table))
+            template = "is {rows}; entries by their names are needed, as in {table}: {NAME: {…}}"
+            problems.append(place.problem((table,), template, rows=quoted(rows), table=table))
             continue
         for name, keys in rows.items():
             path = (table, name)
@@ -140,15 +140,17 @@ def _entries(tree: Tree, problems: list[Problem]) -> Iterator[Entry]:
             elif source := _source(keys, path, place, problems) or common:
                 yield Entry(name, {key: each for key, each in keys.items() if key != SOURCE}, source, tree, path)
             else:
-                words = "has no source; say in {source}: … where its numbers are from, here or at the top of the file"
-                problems.append(place.problem(path, words, source=SOURCE))
+                template = (
+                    "has no source; say in {source}: … where its numbers are from, here or at the top of the file"
+                )
+                problems.append(place.problem(path, template, source=SOURCE))
 
 
 def _source(data: Mapping[str, Any], path: KeyPath, place: ConfigPlace, problems: list[Problem]) -> str | None:
     given = data.get(SOURCE)
     if SOURCE in data and (not isinstance(given, str) or not names_something(given)):
-        words = "is {given}; a text is needed that says where the numbers are from"
-        problems.append(place.problem((*path, SOURCE), words, given=quoted(given)))
+        template = "is {given}; a text is needed that says where the numbers are from"
+        problems.append(place.problem((*path, SOURCE), template, given=quoted(given)))
         return None
     return given
 
@@ -156,8 +158,8 @@ def _source(data: Mapping[str, Any], path: KeyPath, place: ConfigPlace, problems
 def name_fault(name: Any) -> str:
     """Return what is wrong with the name of a file of tables; "" where it leads to a YAML file beside the configuration or below."""
     if not isinstance(name, str):
-        words = "is {name}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names"
-        return Phrase(words, name=quoted(name))
+        template = "is {name}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names"
+        return Phrase(template, name=quoted(name))
     if fault := place_fault(name, phrase("tables lie")):
         return fault
     if PurePosixPath(name).suffix not in (".yaml", ".yml"):
@@ -169,8 +171,10 @@ def place_fault(name: str, lie: str) -> str:
     """Return that a name leads elsewhere than beside the configuration or below; ``lie`` names what: "tables lie"."""
     windows = PureWindowsPath(name)
     if windows.is_absolute() or windows.drive or PurePosixPath(name).is_absolute() or ".." in windows.parts:
-        words = "is {name}; {lie} beside the configuration or in a folder below it: give a name without a folder above"
-        return Phrase(words, name=quoted(name), lie=lie)
+        template = (
+            "is {name}; {lie} beside the configuration or in a folder below it: give a name without a folder above"
+        )
+        return Phrase(template, name=quoted(name), lie=lie)
     return ""
 
 

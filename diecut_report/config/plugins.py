@@ -70,8 +70,8 @@ def _begin(package: str, file: Path) -> None:
     if OF_PROJECTS.pop(package, None):
         _forget(package)
     if package in sys.modules:
-        words = "another package {name} is loaded already, {place}; uninstall it, or give this one another name"
-        raise ImportError(Phrase(words, name=package, place=getattr(sys.modules[package], "__file__", None)))
+        template = "another package {name} is loaded already, {place}; uninstall it, or give this one another name"
+        raise ImportError(Phrase(template, name=package, place=getattr(sys.modules[package], "__file__", None)))
     try:
         _local_modules_loaded(package, file)
     except BaseException:
@@ -119,11 +119,11 @@ def beside(file: Path, cause: BaseException) -> str:
         cause.name and file.with_name(f"{cause.name.partition('.')[0]}.py").is_file()
     ):
         return ""
-    words = (
+    template = (
         "; a plugin of one file cannot import what lies beside it: make a folder {name}/ of it, with {file} as its __init__.py, "
         "and import from there, as in from ._helpers import …"
     )
-    return Phrase(words, name=file.stem, file=file.name)
+    return Phrase(template, name=file.stem, file=file.name)
 
 
 # The kinds that a package announces in its project file, as they lie in its sources.
@@ -175,11 +175,11 @@ def refuse_other_contract(file: Callable[[], Path]) -> None:
     except (KeyError, OSError):  # an installed package tells its needs to the installer; loading will tell of a file
         return
     if found and int(found[1]) != CONTRACT:
-        words = "it is written for contract {needed}, this program ({version}) has contract {own}; "
+        template = "it is written for contract {needed}, this program ({version}) has contract {own}; "
         newer = phrase("install a newer version of diecut-report")
         older = phrase("use a newer version of the plugin")
-        told = Phrase(words, needed=found[1], version=__version__, own=str(CONTRACT))
-        raise OtherContract(told + (newer if int(found[1]) > CONTRACT else older))
+        message = Phrase(template, needed=found[1], version=__version__, own=str(CONTRACT))
+        raise OtherContract(message + (newer if int(found[1]) > CONTRACT else older))
 
 
 def other_program(cause: BaseException) -> str:
@@ -187,8 +187,8 @@ def other_program(cause: BaseException) -> str:
     if not isinstance(cause, ImportError) or cause.name != API:
         return ""
     found = NAME.search(str(cause))
-    words = "{api} of this version ({version}) has no {name}; the plugin is written for another version"
-    return Phrase(words, api=API, version=__version__, name=repr(found[1])) if found else ""
+    template = "{api} of this version ({version}) has no {name}; the plugin is written for another version"
+    return Phrase(template, api=API, version=__version__, name=repr(found[1])) if found else ""
 
 
 GROUP = "diecut_report.plugins"
@@ -241,10 +241,10 @@ class Discovery:
 
     @cached_property
     def _extensions(self) -> list[Origin]:
-        words = "{name} of an installed package"
+        template = "{name} of an installed package"
         installed = entry_points(group=EXTENSIONS)
         found = [
-            Origin(each.name, Phrase(words, name=each.name), each.load, partial(file_of, each.module))
+            Origin(each.name, Phrase(template, name=each.name), each.load, partial(file_of, each.module))
             for each in installed
         ]
         files = [file for folder in self.folders for file in sorted(folder.glob(f"{EXTENSION}*.py"))]
@@ -281,8 +281,8 @@ class Discovery:
 
     def unknown(self, kind: str) -> Phrase:
         """Return what is said of a kind that nothing gives."""
-        words = "{kind} is not a known kind{nearest}. Known: {known}."
-        return Phrase(words, kind=repr(kind), nearest=nearest(kind, self.origins), known=", ".join(self.origins))
+        template = "{kind} is not a known kind{nearest}. Known: {known}."
+        return Phrase(template, kind=repr(kind), nearest=nearest(kind, self.origins), known=", ".join(self.origins))
 
     def _only_origin(self, kind: str) -> Origin:
         origins = self.origins.get(kind)
@@ -290,8 +290,8 @@ class Discovery:
             raise UnknownKind(self.unknown(kind))
         if len(origins) > 1:
             places = joined((origin.label for origin in origins), " and from ")
-            words = "The kind {kind} comes from {places}. Remove or rename one of them."
-            raise DuplicateKind(Phrase(words, kind=repr(kind), places=places))
+            template = "The kind {kind} comes from {places}. Remove or rename one of them."
+            raise DuplicateKind(Phrase(template, kind=repr(kind), places=places))
         return origins[0]
 
 
@@ -303,11 +303,11 @@ def _loaded(origin: Origin) -> Mechanism:
             found = origin.load()
         digest = module_hash(origin.file())
     except Exception as cause:
-        told = Phrase("it cannot be loaded from {told}: {said}", told=origin.label, said=said(cause))
-        raise PluginError(told + beside(origin.file(), cause), origin.kind) from cause
+        message = Phrase("it cannot be loaded from {told}: {said}", told=origin.label, said=said(cause))
+        raise PluginError(message + beside(origin.file(), cause), origin.kind) from cause
     if not isinstance(found, Mechanism):
-        words = "{told} gives a {name}, where a Mechanism is needed"
-        raise PluginError(Phrase(words, told=origin.label, name=type(found).__name__), origin.kind)
+        template = "{told} gives a {name}, where a Mechanism is needed"
+        raise PluginError(Phrase(template, told=origin.label, name=type(found).__name__), origin.kind)
     if found.kind != origin.kind:
         named = {"told": origin.label, "kind": repr(found.kind), "wanted": repr(origin.kind)}
         raise PluginError(Phrase("{told} gives the kind {kind}; name it {wanted} there", named), origin.kind)
@@ -326,8 +326,8 @@ def _judge_declarations(origin: Origin, mechanism: Mechanism) -> None:
         with in_time():
             found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
     except Exception as cause:
-        words = Phrase("the declarations of {told} cannot be read: {said}", told=origin.label, said=said(cause))
-        raise PluginError(words, origin.kind) from cause
+        message = Phrase("the declarations of {told} cannot be read: {said}", told=origin.label, said=said(cause))
+        raise PluginError(message, origin.kind) from cause
     if found:
         head = Phrase("{told} has invalid declarations", told=origin.label)
         lines = joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  ")

@@ -85,8 +85,8 @@ class Linker:
         if is_single or not isinstance(meta, Quantity | CurveInput | None):
             return None
         if isinstance(meta, CurveInput) and declared(instance.model, key):
-            words = "“{strip}” calculates a number; a curve is needed here, and is referred to whole"
-            raise Unresolved(words, strip=text.strip())
+            template = "“{strip}” calculates a number; a curve is needed here, and is referred to whole"
+            raise Unresolved(template, strip=text.strip())
         terms: dict[str, Target] = {}
         try:
             found = read_expression(text, lambda name: self._term(name, terms))
@@ -119,8 +119,8 @@ class Linker:
         if isinstance(meta, CurveInput) and not target.is_broken:
             single = target.unit is not None and not target.is_curve
             if not single or unit(str(target.unit)).kind != unit(meta.unit).kind:
-                words = "${{path}} is not a single quantity in {pretty}, as the other values are"
-                raise Unresolved(words, path=target.path, pretty=pretty(meta.unit))
+                template = "${{path}} is not a single quantity in {pretty}, as the other values are"
+                raise Unresolved(template, path=target.path, pretty=pretty(meta.unit))
         return target
 
     def _from_press(self, instance: Instance) -> None:
@@ -139,9 +139,9 @@ class Linker:
     def _no_default(self, instance: Instance, slot: Slot, default: FromPress) -> Problem:
         assert isinstance(slot.meta, Quantity)
         field, key = default.path.removeprefix(f"{PRESS}."), slot.key[-1]
-        words = "{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}."
+        template = "{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}."
         told = {"key": key, "field": field, "text": pretty(slot.meta.unit) or phrase("a number"), "path": default.path}
-        return instance.place.absent(slot.key, words, **told)
+        return instance.place.absent(slot.key, template, **told)
 
     # --- what a path stands for --------------------------------------------------------------------------------------
 
@@ -149,23 +149,25 @@ class Linker:
         """What a reference stands for; Unresolved in words where it stands for nothing."""
         match = WHOLE.fullmatch(text.strip())
         if match is None:
-            words = "“{text}” mixes a reference with text; a reference stands for a whole value, as in ${press.name}."
-            raise Unresolved(words, text=text)
+            template = (
+                "“{text}” mixes a reference with text; a reference stands for a whole value, as in ${press.name}."
+            )
+            raise Unresolved(template, text=text)
         path = match[1].strip()
         name, *rest = path.split(".")
         if name not in self.instances:
             if seeming := seeming_latin(name):
                 raise Unresolved(f"${{{path}}}: {seeming}")
             near = nearest(name, self.instances)
-            words = "${{path}}: there is no mechanism {name}{near}. Known: {instances}."
-            raise Unresolved(words, path=path, name=repr(name), near=near, instances=", ".join(self.instances))
+            template = "${{path}}: there is no mechanism {name}{near}. Known: {instances}."
+            raise Unresolved(template, path=path, name=repr(name), near=near, instances=", ".join(self.instances))
         instance = self.instances[name]
         if instance is None:
             return Target(path, name, is_broken=True)
         if not rest or not all(rest):
             example = next(iter(_known(instance)), "output")
-            words = "${{path}} names no value; add an output or input, as in ${{name}.{example}}."
-            raise Unresolved(words, path=path, name=name, example=example)
+            template = "${{path}} names no value; add an output or input, as in ${{name}.{example}}."
+            raise Unresolved(template, path=path, name=name, example=example)
         if rest[0] == PHASES and len(rest) > 1:
             phase = ".".join(rest)
             if phase not in instance.phases:
@@ -184,9 +186,9 @@ class Linker:
                 self.links[node] = Target(slot.value, slot.value, result="", is_broken=is_broken, is_mechanism=True)
             else:
                 self.unresolved.add(node)
-                words = "there is no mechanism {value}{nearest}. Known: {known}."
+                template = "there is no mechanism {value}{nearest}. Known: {known}."
                 value, near, names = repr(slot.value), nearest(slot.value, known), ", ".join(known)
-                fault = instance.place.problem(slot.key, words, value=value, nearest=near, known=names)
+                fault = instance.place.problem(slot.key, template, value=value, nearest=near, known=names)
                 self.problems.append(fault)
 
     def _result(self, path: str, instance: Instance, result: str) -> Target | None:
@@ -194,8 +196,8 @@ class Linker:
             si, many = instance.results[result]
             home = instance.rows.get(result)
             if home:
-                words = "${{path}} has a value for each of {home}; refer to one, as in ${{path}.0}."
-                raise Unresolved(words, path=path, home=home)
+                template = "${{path}} has a value for each of {home}; refer to one, as in ${{path}.0}."
+                raise Unresolved(template, path=path, home=home)
             return Target(path, instance.name, result=result, unit=si, is_curve=many)
         part = named(result, instance.declared)
         if part and part.role == "part" and part.id in instance.results and instance.results[part.id][1]:
@@ -208,8 +210,8 @@ class Linker:
         name = dotted(key)
         if isinstance(meta, type):
             inner = ", ".join(meta.model_fields)
-            words = "${{path}} is a block or a list; refer to one of its values ({inner})."
-            raise Unresolved(words, path=path, inner=inner)
+            template = "${{path}} is a block or a list; refer to one of its values ({inner})."
+            raise Unresolved(template, path=path, inner=inner)
         if meta is None:
             raise Unresolved(self._unknown(path, instance, ".".join(parts)))
         _check_index(path, instance.data, key)
@@ -217,15 +219,15 @@ class Linker:
             single = ", ".join(instance.model.spread[name])
             raise Unresolved("${{path}} is a list; refer to one of its values ({single}).", path=path, single=single)
         if name not in instance.given:
-            words = "${{path}} is not given; it is optional. Give {path}, or write the value itself here."
-            raise Unresolved(words, path=path)
+            template = "${{path}} is not given; it is optional. Give {path}, or write the value itself here."
+            raise Unresolved(template, path=path)
         listed = instance.data.get(name) if isinstance(meta, CurveInput) else None
         if isinstance(listed, list) and (held := [text for _, text in texts(listed) if "${" in text]):
-            words = "${{path}} is a list that holds references itself ({held}), and cannot be referred to; write its values here."
-            raise Unresolved(words, path=path, held=held[0])
+            template = "${{path}} is a list that holds references itself ({held}), and cannot be referred to; write its values here."
+            raise Unresolved(template, path=path, held=held[0])
         if isinstance(meta, Varying) and _varies(instance.data, key):
-            words = "${{path}} is not a single number, but may vary over a cycle; write here what it is given as."
-            raise Unresolved(words, path=path)
+            template = "${{path}} is not a single number, but may vary over a cycle; write here what it is given as."
+            raise Unresolved(template, path=path)
         si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
 
@@ -236,10 +238,10 @@ class Linker:
         if left_out and left_out.role in ("value", "place"):
             missing = instance.missing(left_out.id)
             excess = [n for n in instance.declared[left_out.id].lacks if n in instance.given]
-            words = Phrase("not calculated, as {excess} is given", excess=", ".join(excess))
+            message = Phrase("not calculated, as {excess} is given", excess=", ".join(excess))
             if missing:
-                words = Phrase("calculated only if {missing} is given", missing=" and ".join(missing))
-            return Phrase("${{path}} is {words} in {name}.", path=path, words=words, name=instance.name)
+                message = Phrase("calculated only if {missing} is given", missing=" and ".join(missing))
+            return Phrase("${{path}} is {words} in {name}.", path=path, words=message, name=instance.name)
         known = _known(instance)
         near = nearest(name, known)
         found = Phrase(
@@ -307,8 +309,8 @@ def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node,
     instance = instances[str(loop[0][0])]
     assert instance is not None, "a mechanism without a model has no links"
     told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
-    words = "refers to itself: {told}. Give one of these inputs a value of its own."
-    return instance.place.problem(loop[0][1:], words, told=" → ".join(told if len(told) > 1 else 2 * told))
+    template = "refers to itself: {told}. Give one of these inputs a value of its own."
+    return instance.place.problem(loop[0][1:], template, told=" → ".join(told if len(told) > 1 else 2 * told))
 
 
 # The text of a configuration with other values in some of its places; all else stays as it is, byte for byte.

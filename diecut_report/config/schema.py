@@ -79,9 +79,11 @@ def _report() -> Schema:
 
 
 def _materials() -> Schema:
-    words = "Files with tables of your own, beside this one or in a folder below: steels, gear_materials, chains, keys."
+    template = (
+        "Files with tables of your own, beside this one or in a folder below: steels, gear_materials, chains, keys."
+    )
     name = {"type": "string", "pattern": r"\.ya?ml$", "maxLength": MAX_TEXT}
-    return {"description": words, "anyOf": [name, {"type": "array", "items": name, "maxItems": MAX_FILES}]}
+    return {"description": template, "anyOf": [name, {"type": "array", "items": name, "maxItems": MAX_FILES}]}
 
 
 def _mechanism(mechanisms: Mapping[str, Mechanism], kinds: list[str]) -> Schema:

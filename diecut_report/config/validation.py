@@ -88,11 +88,11 @@ def spread_out(
         again = [name for name in single if found.get(name) is not None]
         if len(values) != len(single):
             count = {0: phrase("no values"), 1: "1 value"}.get(len(values), f"{len(values)} values")
-            words = "has {given}; give one for all, or {count}: for {single}"
-            problems.append(place.problem((key,), words, given=count, count=len(single), single=", ".join(single)))
+            template = "has {given}; give one for all, or {count}: for {single}"
+            problems.append(place.problem((key,), template, given=count, count=len(single), single=", ".join(single)))
         elif again:
-            words = "is a list for all of them, but {again} is given beside it; give the list, or single keys"
-            problems.append(place.problem((key,), words, again=" and ".join(again)))
+            template = "is a list for all of them, but {again} is given beside it; give the list, or single keys"
+            problems.append(place.problem((key,), template, again=" and ".join(again)))
         else:
             found |= dict(zip(single, values, strict=True))
             place = replace(place, listed={**place.listed, **{(name,): (key, i) for i, name in enumerate(single)}})
@@ -112,8 +112,8 @@ def validate(
         faults = [_Fault(model, place, fault) for fault in error.errors(include_url=False)]
         return None, chosen + [fault.problem() for fault in faults if fault.key not in open_keys]
     except Exception as cause:  # of a validator of the plugin's own
-        words = Phrase("its inputs {name__} cannot be validated: {said}", name__=model.__name__, said=said(cause))
-        raise PluginError(words, instance=str(place.root[-1])) from cause
+        message = Phrase("its inputs {name__} cannot be validated: {said}", name__=model.__name__, said=said(cause))
+        raise PluginError(message, instance=str(place.root[-1])) from cause
 
 
 def _choices(model: type[Block], data: Any, place: ConfigPlace) -> Iterator[Problem]:
@@ -228,8 +228,8 @@ class _Fault:
         if isinstance(meta, Quantity | CurveInput):
             allowed = f" ({meta.allowed})" if isinstance(meta, Quantity) and meta.allowed else ""
             unit = pretty(meta.unit) or phrase("plain numbers")
-            words = "is missing. Give it in {text}{allowed}: {description}."
-            return Phrase(words, text=unit, allowed=allowed, description=phrase(meta.description))
+            template = "is missing. Give it in {text}{allowed}: {description}."
+            return Phrase(template, text=unit, allowed=allowed, description=phrase(meta.description))
         described = ": " + phrase(meta.description) if isinstance(meta, Text) else ""
         return Phrase("is missing; it is required{described}.", described=described)
 
@@ -240,8 +240,8 @@ class _Fault:
             comma = phrase("YAML separates entries in braces at each comma; write a decimal point, as in {gap: 0.5 mm}")
             return Phrase("is the remainder of a number with a decimal comma: {words}.", words=comma)
         own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
-        words = "is an unknown key{nearest}. Known keys: {own}."
-        return Phrase(words, nearest=nearest(str(self.key[-1]), known), own=", ".join(own + known))
+        template = "is an unknown key{nearest}. Known keys: {own}."
+        return Phrase(template, nearest=nearest(str(self.key[-1]), known), own=", ".join(own + known))
 
     def _options(self) -> list[str]:
         expected = str(self.context["expected"]).replace(" or ", ", ")
@@ -251,8 +251,8 @@ class _Fault:
     def _choice(self) -> str:
         choices = self._options()
         near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
-        words = "is {given}{near}; allowed: {choices}"
-        return Phrase(words, given=quoted(self.given), near=near, choices=", ".join(choices))
+        template = "is {given}{near}; allowed: {choices}"
+        return Phrase(template, given=quoted(self.given), near=near, choices=", ".join(choices))
 
     def _other(self) -> str:
         meta = declared(self.model, self.key) if self.key else None
@@ -264,8 +264,8 @@ class _Fault:
             needed: str = self._needed(meta)
             if self.type.startswith("string") and isinstance(meta, Text):
                 needed = Phrase("a text ({description})", description=phrase(meta.description))
-            words = "${{path}} {number}; {needed} is needed here"
-            return Phrase(words, path=self.given.path, number=number, needed=needed)
+            template = "${{path}} {number}; {needed} is needed here"
+            return Phrase(template, path=self.given.path, number=number, needed=needed)
         if self.given is None:
             return Phrase("has no value; {needed} is needed, or remove the key", needed=self._needed(meta))
         return Phrase("is {given}; {needed} is needed", given=quoted(self.given), needed=self._needed(meta))

@@ -59,8 +59,8 @@ def decimal_commas(entries: Sequence[Any]) -> Iterator[tuple[int, Phrase]]:
     for index, is_glued in enumerate(glued):
         following = entries[index + 1].value if is_glued else ""
         if is_glued and (not all(glued) or not re.fullmatch(r"[\d.eE+-]+", following)):
-            words = "{typed} is read as two values. Write a decimal point, or a space after the comma."
-            yield index, Phrase(words, typed=f"{entries[index].value},{following}")
+            template = "{typed} is read as two values. Write a decimal point, or a space after the comma."
+            yield index, Phrase(template, typed=f"{entries[index].value},{following}")
 
 
 def _is_glued(one: Any, other: Any) -> bool:
@@ -103,8 +103,8 @@ def seeming_latin(name: str) -> str:
     if not strange or not meant.isascii():
         return ""
     told = ", ".join(f"“{letter}” ({unicodedata.name(letter).lower()})" for letter in dict.fromkeys(strange))
-    words = "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}."
-    return Phrase(words, name=name, told=told, meant=meant)
+    template = "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}."
+    return Phrase(template, name=name, told=told, meant=meant)
 
 
 def forbidden_character(text: str) -> str:
@@ -241,8 +241,8 @@ def read(path: Path, raw: bytes | None = None) -> Tree:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        words = phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8.")
-        raise UserError(Problem(words, str(path), line)) from error
+        message = phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8.")
+        raise UserError(Problem(message, str(path), line)) from error
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
 
@@ -256,8 +256,8 @@ def _parse(text: str, file: str, sha256: str) -> Tree:
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
         advice = phrase("Write it without.") if control[0] > " " else phrase("This is not YAML text. Give a text file.")
-        words = "The control character U+{ord} stands here. {advice}"
-        raise UserError(Problem(Phrase(words, ord=f"{ord(control[0]):04X}", advice=advice), file, *place))
+        template = "The control character U+{ord} stands here. {advice}"
+        raise UserError(Problem(Phrase(template, ord=f"{ord(control[0]):04X}", advice=advice), file, *place))
     builder = _Builder(file)
     try:
         root = builder.build(yaml.parse(text, Loader=LOADER))
@@ -301,10 +301,10 @@ class _Builder:
             return self._alias(event, path)
         self._count(1, event, path)
         if event.tag is not None:
-            words = "The tag {tag} is not allowed. {advice}"
+            template = "The tag {tag} is not allowed. {advice}"
             tag = event.tag.replace("tag:yaml.org,2002:", "!!")
             advice = phrase("Remove it; put the value in quotes where text is meant.")
-            self._report(Phrase(words, tag=tag, advice=advice), _position(event), path)
+            self._report(Phrase(template, tag=tag, advice=advice), _position(event), path)
         if event.anchor is not None:
             self._anchors[event.anchor] = None
         if isinstance(event, yaml.ScalarEvent):
@@ -375,8 +375,8 @@ class _Builder:
             self._report(phrase("Merge keys (<<) are not supported. Write the keys out, or alias whole values."), place, path)  # fmt: skip
         elif text in node.key_positions:
             first = node.key_positions[text][0]
-            words = "The key {text} stands here again; it is first in line {first}. Remove one of the two."
-            message = Phrase(words, text=repr(text), first=first)
+            template = "The key {text} stands here again; it is first in line {first}. Remove one of the two."
+            message = Phrase(template, text=repr(text), first=first)
             self._report(message, place, (*path, text))
         node.size += key.size
         node.key_positions.setdefault(text, place)
@@ -411,8 +411,8 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
     root = tree.root
     for path, value in values.items():
         if isinstance(value, str) and (found := forbidden_character(value)):
-            words = "The value that is to stand here holds the invisible character {found}; it is not taken."
-            raise UserError(Problem(Phrase(words, found=found), tree.file, path=".".join(map(str, path))))
+            template = "The value that is to stand here holds the invisible character {found}; it is not taken."
+            raise UserError(Problem(Phrase(template, found=found), tree.file, path=".".join(map(str, path))))
         root = _with_value(root, path, value)
     text = f"# {heading}\n{as_text(root)}"
     return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)
@@ -474,24 +474,24 @@ def too_much(tree: Tree) -> list[Problem]:
 def _excess(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
     match data:
         case str() if len(data) > MAX_TEXT:
-            words = "has {count} characters; at most {max_text} are allowed. Shorten it."
-            yield (path, Phrase(words, count=len(data), max_text=MAX_TEXT))
+            template = "has {count} characters; at most {max_text} are allowed. Shorten it."
+            yield (path, Phrase(template, count=len(data), max_text=MAX_TEXT))
         case dict():
             if path == ("mechanisms",) and len(data) > MAX_MECHANISMS:
-                words = "has {count} mechanisms; at most {max_mechanisms} are allowed. Split the configuration."
-                yield (path, Phrase(words, count=len(data), max_mechanisms=MAX_MECHANISMS))
+                template = "has {count} mechanisms; at most {max_mechanisms} are allowed. Split the configuration."
+                yield (path, Phrase(template, count=len(data), max_mechanisms=MAX_MECHANISMS))
                 return
             for key, part in data.items():
                 if len(key) > MAX_TEXT:
-                    words = "is a key of {count} characters; at most {max_text} are allowed. Shorten it."
-                    yield ((*path, key), Phrase(words, count=len(key), max_text=MAX_TEXT))
+                    template = "is a key of {count} characters; at most {max_text} are allowed. Shorten it."
+                    yield ((*path, key), Phrase(template, count=len(key), max_text=MAX_TEXT))
                 else:
                     yield from _excess(part, (*path, key))
         case list():
             most = MAX_PARTS if any(isinstance(part, dict | list) for part in data) else MAX_CURVE_VALUES
             if len(data) > most:
-                words = "has {count} entries; at most {most} are allowed. Give fewer."
-                yield (path, Phrase(words, count=len(data), most=most))
+                template = "has {count} entries; at most {most} are allowed. Give fewer."
+                yield (path, Phrase(template, count=len(data), most=most))
                 return
             for index, part in enumerate(data):
                 yield from _excess(part, (*path, index))

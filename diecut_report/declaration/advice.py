@@ -37,15 +37,15 @@ def _wrong(names: DeclaredNames, owner: Check | Require, judged: Iterable[str]) 
     advise: Any = owner.advise  # as an author wrote it
     if not isinstance(advise, tuple):
         if not isinstance(advise, str):  # which is told where words are
-            words = "has advise={given}; write a tuple of ways, with a comma behind a single one"
-            yield Phrase(words, given=repr(advise))
+            template = "has advise={given}; write a tuple of ways, with a comma behind a single one"
+            yield Phrase(template, given=repr(advise))
         return
     behind = _behind(names, judged) if all(map(names.givers, judged)) else None
     for way in advise:
         keys = (way.key,) if isinstance(way, Vary) else (way,) if isinstance(way, str) else way
         if not keys or not isinstance(keys, tuple) or not all(isinstance(key, str) for key in keys):
-            words = "advise holds {way}; write the key of an input, Vary(key, …), or a tuple of keys that are changed together"
-            yield Phrase(words, way=repr(way))
+            template = "advise holds {way}; write the key of an input, Vary(key, …), or a tuple of keys that are changed together"
+            yield Phrase(template, way=repr(way))
             continue
         found = [text for key in keys if (text := _not_changed(names, key, keys, behind))]
         yield from (Phrase("{field} names {text}", field="advise", text=text) for text in found)
@@ -95,9 +95,9 @@ def _vary(names: DeclaredNames, way: Vary) -> Iterator[str]:
         title = Phrase("the series “{title}”", title=series.title)
         yield from unlike_units(title, series.unit, names.units(way.key), way.key)
     elif not wrong:
-        words = "has {value} in its series{nearest}; allowed: {texts}"
+        template = "has {value} in its series{nearest}; allowed: {texts}"
         wrong += [
-            Phrase(words, value=repr(text), nearest=nearest(str(text), known.texts), texts=", ".join(known.texts))
+            Phrase(template, value=repr(text), nearest=nearest(str(text), known.texts), texts=", ".join(known.texts))
             for text in (series if known.texts else ()) if text not in known.texts
         ]  # fmt: skip
         wrong += () if known.texts else _numbers_wrong(known.meta, series)
@@ -106,12 +106,12 @@ def _vary(names: DeclaredNames, way: Vary) -> Iterator[str]:
 
 def _numbers_wrong(meta: Any, series: tuple[Any, ...]) -> Iterator[str]:
     for strange in [each for each in series if isinstance(each, bool) or not isinstance(each, int | float)][:1]:
-        words = "has {value} in its series; write plain numbers, which count in its unit ({unit})"
-        yield Phrase(words, value=repr(strange), unit=meta.unit)
+        template = "has {value} in its series; write plain numbers, which count in its unit ({unit})"
+        yield Phrase(template, value=repr(strange), unit=meta.unit)
         return
     for one, other in [pair for pair in pairwise(series) if pair[0] >= pair[1]][:1]:
         yield Phrase("has a series that does not ascend ({one} before {other}); put it in order", one=one, other=other)
     refused = [fault_of(meta, each) for each in series]
     if refused and all(refused):
-        words = "has a series of which no value is allowed: {why}; its numbers count in {unit}"
-        yield Phrase(words, why=refused[0], unit=meta.unit)
+        template = "has a series of which no value is allowed: {why}; its numbers count in {unit}"
+        yield Phrase(template, why=refused[0], unit=meta.unit)

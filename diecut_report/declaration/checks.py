@@ -53,8 +53,8 @@ def _empty(demand: Node, limit: Node) -> str:
     if _ordered(demand) == _ordered(limit):
         return phrase("compares {one} with {other}, which is the same expression: it can never fail")
     if not symbols(demand) and not symbols(limit):
-        words = "compares {one} with {other}, neither of which depends on an input: its verdict is always the same"
-        return phrase(words)
+        template = "compares {one} with {other}, neither of which depends on an input: its verdict is always the same"
+        return phrase(template)
     if limit in _arguments(demand, "minimum") or demand in _arguments(limit, "maximum"):
         return phrase("compares {one} with {other}, by which it is bounded itself: it can never fail")
     return ""
@@ -151,13 +151,13 @@ def _key(names: DeclaredNames, key: str) -> Iterator[str]:
     parts = [part for part in key.split(".") if not part.isdigit() and not NAMED.fullmatch(part)]
     path, keys = ".".join(parts), names.world.keys
     if path not in keys:
-        words = "the key {key} is not an input{nearest}; name the input that is to be changed"
-        yield Phrase(words, key=repr(key), nearest=nearest(path, keys))
+        template = "the key {key} is not an input{nearest}; name the input that is to be changed"
+        yield Phrase(template, key=repr(key), nearest=nearest(path, keys))
 
 
 def _unfilled(mechanism: Mechanism) -> Iterator[Fault]:
     """Texts with ``{id}`` that are printed as they stand."""
-    words = "{braced} stands in braces in {field}, where nothing is filled in; write it without, or say it in a message or consequence"
+    template = "{braced} stands in braces in {field}, where nothing is filled in; write it without, or say it in a message or consequence"
     for declared in (
         *mechanism.chapters,
         *(step for _, step in mechanism.steps),
@@ -168,7 +168,7 @@ def _unfilled(mechanism: Mechanism) -> Iterator[Fault]:
         plain += [(phrase("the words of a case"), case.words) for case in getattr(declared, "cases", ())]
         for field, text in plain:
             if found := NAMED.search(text.replace(MISSING, "") if field == "absent" else text):
-                yield fault(declared, Phrase(words, braced=found[0], field=field))
+                yield fault(declared, Phrase(template, braced=found[0], field=field))
 
 
 PLAIN = (
@@ -225,8 +225,8 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
         return
     axes = {giver.axis for givers in sides.values() for giver in givers if giver.axis}
     if len(axes) > 1:
-        words = "compares what runs over {axes}; compare numbers, or curves over one abscissa"
-        yield Phrase(words, axes=named(sorted(axes), " with what runs over "))
+        template = "compares what runs over {axes}; compare numbers, or curves over one abscissa"
+        yield Phrase(template, axes=named(sorted(axes), " with what runs over "))
     yield from empty(names, check)
     yield from _names_of_parts(names, check)
     made = _when(names, check)
@@ -242,11 +242,11 @@ def _names_of_parts(names: DeclaredNames, check: Check) -> Iterator[str]:
     if not check.named_by:
         return
     if not any(giver.kind == "row" for name in check.named for giver in names.givers(name)):
-        words = "is one check for each of {named_by}, but compares no row over repeated parts; leave named_by out"
-        yield Phrase(words, named_by=check.named_by)
+        template = "is one check for each of {named_by}, but compares no row over repeated parts; leave named_by out"
+        yield Phrase(template, named_by=check.named_by)
     elif check.named_by not in names.world.keys or names.kinds(check.named_by) - {"text"}:
-        words = "is one check for each of {named_by}, which is not a text of repeated parts"
-        yield Phrase(words, named_by=check.named_by)
+        template = "is one check for each of {named_by}, which is not a text of repeated parts"
+        yield Phrase(template, named_by=check.named_by)
 
 
 def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
@@ -256,11 +256,11 @@ def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
 
 
 def _instead(name: str, kind: str) -> str:
-    words = "places that may be none or many; compare {name}_count, or one of them as {name}_1"
+    template = "places that may be none or many; compare {name}_count, or one of them as {name}_1"
     return {
         "text": phrase("a text; compare a number"),
         "abscissa": phrase("an abscissa, which takes all its values; compare a curve over it"),
-        "crossings": Phrase(words, name=name),
+        "crossings": Phrase(template, name=name),
         "curve input": phrase("a curve input; take it over by FromCurve and compare that curve"),
         "block": phrase("a block; compare one of its inputs"),
     }[kind]
@@ -300,8 +300,8 @@ def _fault(file: Path, defined: Defined) -> Fault:
     subject = Phrase("chapter {title}", title=ast.unparse(title) if title else name)
     instead = Phrase("name {name} in chapters=(…) of the Mechanism", name=name)
     if defined.until != float("inf"):
-        words = "line {until} calls another one {name}: give one of them another name, and name both in chapters=(…)"
-        instead = Phrase(words, until=defined.until, name=name)
+        template = "line {until} calls another one {name}: give one of them another name, and name both in chapters=(…)"
+        instead = Phrase(template, until=defined.until, name=name)
     return Fault(place, subject, Phrase("is in no mechanism, {lost}; {instead}", lost=lost, instead=instead))
 
 
@@ -387,11 +387,11 @@ def _hidden(names: DeclaredNames, number: int, step: Step, key: Key) -> Iterator
     given = names.world.example(when, list(_takers(names, key.path)))
     if given is not None:
         where = told(given, when.needs | when.lacks)
-        words = (
+        template = (
             "has the id of an input, so that what the user gives for {id} counts nowhere{where}; name the step otherwise, "
             'or let a formula take the input as "inputs.{id}"'
         )
-        yield fault(step, Phrase(words, id=step.id, where=Phrase(" {where}", where=where) if where else ""))
+        yield fault(step, Phrase(template, id=step.id, where=Phrase(" {where}", where=where) if where else ""))
 
 
 def _takers(names: DeclaredNames, path: str) -> Iterator[When]:
@@ -437,5 +437,5 @@ def _made_twice(
     if given is None:
         return
     what = Phrase("that of another step (at {place})", place=short(place)) if place else phrase("that of an input")
-    words = "gives {name} as {made}, and this name is {what}; name one of them otherwise"
-    yield fault(step, Phrase(words, name=made.name, made=MADE[made.role], what=what))
+    template = "gives {name} as {made}, and this name is {what}; name one of them otherwise"
+    yield fault(step, Phrase(template, name=made.name, made=MADE[made.role], what=what))

@@ -37,10 +37,10 @@ def import_faults(mechanism: Mechanism) -> Iterator[Fault]:
         for line, module, names in _imports(parsed(file)):
             if module.split(".")[0] == PROGRAM and not any(f"{module}.".startswith(f"{each}.") for each in ALLOWED):
                 public = ", ".join(name for name in names if name in api.__all__)
-                words = "import {public} from {allowed}"
-                instead = Phrase(words, public=public, allowed=ALLOWED[0]) if public else phrase("do without it")
-                words = "a plugin may import {allowed} of the program, nothing else; {instead}"
-                text = Phrase(words, allowed=named(ALLOWED, " and "), instead=instead)
+                template = "import {public} from {allowed}"
+                instead = Phrase(template, public=public, allowed=ALLOWED[0]) if public else phrase("do without it")
+                template = "a plugin may import {allowed} of the program, nothing else; {instead}"
+                text = Phrase(template, allowed=named(ALLOWED, " and "), instead=instead)
                 yield Fault(f"{file}:{line}", Phrase("import of {module}", module=module), text)
 
 
@@ -106,9 +106,9 @@ def impure_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]
             for where, what in _used(node, _scope(function)):
                 yield _fault(file, where, what, code.co_name)
             for where in _of_loops(parsed(file), node):
-                words = "takes {name} of the loop around it, which is the last one when it is called; write functools.partial(function, {name})"
+                template = "takes {name} of the loop around it, which is the last one when it is called; write functools.partial(function, {name})"
                 subject = Phrase("function {name}", name=code.co_name)
-                yield Fault(f"{file}:{where.lineno}", subject, Phrase(words, name=where.id))
+                yield Fault(f"{file}:{where.lineno}", subject, Phrase(template, name=where.id))
     for file in files.values():
         module = next((each for each in [*sys.modules.values()] if getattr(each, "__file__", "") == str(file)), None)
         for where, what in _used_at_load(parsed(file), vars(module) if module else {}):
@@ -132,12 +132,12 @@ def _of_loops(tree: ast.Module, node: ast.AST) -> Iterator[ast.Name]:
 
 
 def _fault(file: Path, where: ast.expr, what: str, name: str) -> Fault:
-    words = "uses {what} ({code}), so that equal inputs give different results; take it as an input, or read a table when the module is loaded"
+    template = "uses {what} ({code}), so that equal inputs give different results; take it as an input, or read a table when the module is loaded"
     if what == END:
-        words = "ends the whole program ({code}) without a message to the user; raise Refusal(…), or an exception"
+        template = "ends the whole program ({code}) without a message to the user; raise Refusal(…), or an exception"
     if what == LEAVE:
-        words = "leaves the working folder of the program ({code}), so that reports are written elsewhere; name files by their absolute path"
-    text = Phrase(words, what=what, code=ast.unparse(where))
+        template = "leaves the working folder of the program ({code}), so that reports are written elsewhere; name files by their absolute path"
+    text = Phrase(template, what=what, code=ast.unparse(where))
     return Fault(f"{file}:{where.lineno}", Phrase("function {name}", name=name), text)
 
 

@@ -140,16 +140,16 @@ class _Walk:
     def _said(self, node: Node, inner: Found, power: int) -> Found:
         """What is said to be a number or an angle; KindError where it is that already."""
         if inner is None or inner[ANGLE_AT] == power:
-            words = "{part} says that rad {text}, but {inner} is {kind} already"
+            template = "{part} says that rad {text}, but {inner} is {kind} already"
             filling = {"part": _shortened(node), "text": phrase("comes in") if power else phrase("drops")}
-            raise KindError(Phrase(words, filling, inner=_shortened(node.args[1]), kind=kind_text(inner)))
+            raise KindError(Phrase(template, filling, inner=_shortened(node.args[1]), kind=kind_text(inner)))
         return _turned(inner, power)
 
     def _needed(self, kind: Kind, argument: Node) -> Kind:
         found, part = self.kind(argument), _shortened(argument)
         if found not in (ANY, kind):
-            words = "{part} is {kind}, {wanted} is needed"
-            wrong = Phrase(words, part=part, kind=kind_text(found), wanted=kind_text(kind))
+            template = "{part} is {kind}, {wanted} is needed"
+            wrong = Phrase(template, part=part, kind=kind_text(found), wanted=kind_text(kind))
             raise KindError(wrong + angle_hint(found, kind, part))
         return kind
 
@@ -162,9 +162,9 @@ class _Walk:
             if not alike(common, found):
                 one, other = _shortened(first), _shortened(part)
                 kinds = {"kind": kind_text(common), "other_kind": kind_text(found)}
-                words = "{part} brings together {kind} ({one}) and {other_kind} ({other})"
+                template = "{part} brings together {kind} ({one}) and {other_kind} ({other})"
                 hint = angle_hint(found, common, other) or angle_hint(common, found, one)
-                raise KindError(Phrase(words, kinds, part=_shortened(node), one=one, other=other) + hint)
+                raise KindError(Phrase(template, kinds, part=_shortened(node), one=one, other=other) + hint)
             common = found if common is None else common if found in (ANY, common) else _turned(common, 0)
         return common
 
@@ -240,8 +240,8 @@ def relations(mechanism: Mechanism) -> Iterator[str]:
             sides.setdefault(step.id, []).append(_given(link, units))
     for name, (a, b) in sides.items():
         if not alike(a, b):
-            words = "{name}: the relation equals {one} with {other}"
-            yield Phrase(words, name=name, one=kind_text(a), other=kind_text(b))
+            template = "{name}: the relation equals {one} with {other}"
+            yield Phrase(template, name=name, one=kind_text(a), other=kind_text(b))
 
 
 def _given(link: Bound, units: dict[str, str]) -> Found:

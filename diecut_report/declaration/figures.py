@@ -43,8 +43,8 @@ def _wrong(figure: Figure, names: DeclaredNames) -> Iterator[str]:
                 yield from _drawn(figure, names, one.curve, own, CURVE, axis)
             yield from _range(figure, names, figure.range, own, "")
             if isinstance(figure.range, tuple) and isinstance(figure.range[0], int | float) and figure.range[0] < 0:
-                words = "has the range {range}, but no distance from the pole is below zero"
-                yield Phrase(words, range=repr(figure.range))
+                template = "has the range {range}, but no distance from the pole is below zero"
+                yield Phrase(template, range=repr(figure.range))
         case Bars(groups=groups):
             for group in groups:
                 for _, name in group.bars:
@@ -81,8 +81,8 @@ def _range(figure: Figure, names: DeclaredNames, ends: object, wanted: str, wher
     if ends is None:
         return
     if not isinstance(ends, tuple) or len(ends) != 2 or not all(isinstance(e, str | int | float | None) for e in ends):
-        words = "has the range {ends}{where}; write its two ends, (0, None), each a number, an id or None"
-        yield Phrase(words, ends=repr(ends), where=where)
+        template = "has the range {ends}{where}; write its two ends, (0, None), each a number, an id or None"
+        yield Phrase(template, ends=repr(ends), where=where)
         return
     for end in ends:
         if isinstance(end, str):
@@ -100,8 +100,8 @@ def _drawn(
         yield Phrase("draws {absent}", absent=absent)
     elif not kinds & allowed:
         wanted = KINDS["curve" if allowed is CURVE else "number"]
-        words = "draws {name}, which is {kinds}; {wanted} is wanted there"
-        yield Phrase(words, name=name, kinds=kinds_told(kinds), wanted=wanted)
+        template = "draws {name}, which is {kinds}; {wanted} is wanted there"
+        yield Phrase(template, name=name, kinds=kinds_told(kinds), wanted=wanted)
     elif axis and axis not in axes:
         yield Phrase("draws {name}, which runs over {axes}, over {axis}", name=name, axes=", ".join(axes), axis=axis)
     else:
@@ -143,15 +143,17 @@ def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> I
     for each in (*step.union, *step.rest_of):
         yield from _held(step, each, names.when(number), names, known)
     for bare in (end for span in step.spans for end in span if not isinstance(end, str) and end != 0):
-        words = "goes to {place}, a number without a unit; name the input or the step that gives the place, by its id"
-        yield Phrase(words, place=f"{bare:g}")
+        template = (
+            "goes to {place}, a number without a unit; name the input or the step that gives the place, by its id"
+        )
+        yield Phrase(template, place=f"{bare:g}")
     axis = {giver.unit for giver in names.givers(step.abscissa) if giver.unit}
     for place in (end for span in step.spans for end in span if isinstance(end, str)):
         units = {each for giver in names.givers(place) for each in giver.units_when(step.needs)}
         if units and not any(kind_of(one) == kind_of(other) for one in units for other in axis):
             filling = {"units": named(sorted(units), " or "), "axis": named(sorted(axis), " or ")}
-            words = "goes to {place}, in {units}; its abscissa {abscissa} is in {axis}"
-            yield Phrase(words, filling, place=place, abscissa=step.abscissa)
+            template = "goes to {place}, in {units}; its abscissa {abscissa} is in {axis}"
+            yield Phrase(template, filling, place=place, abscissa=step.abscissa)
 
 
 def _held(step: Phase, name: str, when: When, names: DeclaredNames, known: Known) -> Iterator[str]:
@@ -167,8 +169,8 @@ def _held(step: Phase, name: str, when: When, names: DeclaredNames, known: Known
     given = names.world.example(when, [other for _, other, _ in others])
     if given is not None:
         where = told(given, set().union(*(part for each in (when, *(w for _, w, _ in others)) for part in each)))
-        words = "takes the phase {name}, which there is not {where}; give both the same needs"
-        yield Phrase(words, name=name, where=where)
+        template = "takes the phase {name}, which there is not {where}; give both the same needs"
+        yield Phrase(template, name=name, where=where)
 
 
 def _of_period(step: Abscissa) -> Iterator[str]:
@@ -177,19 +179,21 @@ def _of_period(step: Abscissa) -> Iterator[str]:
     if isinstance(given, str | Constant):
         return
     if kind_of(step.unit) != kind_of("rad"):
-        words = "has the period {given}, a number without a unit; name the input or the step that gives it, by its id"
-        yield Phrase(words, given=f"{given:g}")
+        template = (
+            "has the period {given}, a number without a unit; name the input or the step that gives it, by its id"
+        )
+        yield Phrase(template, given=f"{given:g}")
     elif not isclose(parts := PARTS_OF_A_TURN * given / pi, round(parts), rel_tol=1e-12):
-        words = "has the period {given}, a number of radians that is not a part of a turn; write 2 * np.pi for a turn, or name what gives it"
-        yield Phrase(words, given=f"{given:g}")
+        template = "has the period {given}, a number of radians that is not a part of a turn; write 2 * np.pi for a turn, or name what gives it"
+        yield Phrase(template, given=f"{given:g}")
 
 
 def _of_speed(step: Abscissa, names: DeclaredNames) -> Iterator[str]:
     wanted = f"{step.unit}/s"
     units = {each for giver in names.givers(step.speed) for each in giver.units_when(step.needs)}
     if units and not any(kind_of(one) == kind_of(wanted) for one in units):
-        words = "is run through with {speed}, in {units}; a speed in {wanted} is needed"
-        yield Phrase(words, speed=step.speed, units=named(sorted(units), " or "), wanted=wanted)
+        template = "is run through with {speed}, in {units}; a speed in {wanted} is needed"
+        yield Phrase(template, speed=step.speed, units=named(sorted(units), " or "), wanted=wanted)
 
 
 # Spectra: curves over a range of their own have ids of their own, and a number for each place of the range.

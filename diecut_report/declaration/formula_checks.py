@@ -50,8 +50,8 @@ def idle_inputs(mechanism: Mechanism) -> Iterator[str]:
     for path, meta in fields(mechanism.inputs):
         if not isinstance(meta, Text) and path not in used and path.rpartition(".")[2] not in told:
             place = short(of_input(mechanism.inputs, path, mechanism.at))
-            words = "{place}: input {path}: nothing uses it, so it affects no result; use it in a step, or remove it"
-            yield Phrase(words, place=place, path=path)
+            template = "{place}: input {path}: nothing uses it, so it affects no result; use it in a step, or remove it"
+            yield Phrase(template, place=place, path=path)
 
 
 def _used(mechanism: Mechanism) -> Iterator[str]:
@@ -144,8 +144,8 @@ def printing(mechanism: Mechanism) -> Iterator[str]:
             computed = link.formula(**taken)
         if not np.allclose(printed, computed, rtol=1e-12, equal_nan=True):
             filling = {"id": step.id, "part": part.part, "formula": link.formula.__name__}
-            words = "{id}: the {part} {formula} prints {printed}, computes {computed}"
-            yield Phrase(words, filling, printed=printed, computed=computed)
+            template = "{id}: the {part} {formula} prints {printed}, computes {computed}"
+            yield Phrase(template, filling, printed=printed, computed=computed)
 
 
 # What is wrong with the formulas of a plugin, remembered by the content of its files in the user's folder for what can be made again.
@@ -187,11 +187,11 @@ def doubts(mechanism: Mechanism) -> Iterator[str]:
     for step, _, link in formulas(mechanism):
         for number in dict.fromkeys(_numbers(link.formula.tree)):
             if float(number) in BY_HAND:
-                words = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
-                yield Phrase(words, place=short(step.at), id=step.id, number=number)
+                template = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
+                yield Phrase(template, place=short(step.at), id=step.id, number=number)
     for citing, name in unlisted(mechanism, PAPER):
-        words = "{place}: {subject} cites {name}, which is not a source; list it: sources=(Source({id}, …),)"
-        yield Phrase(words, place=short(citing.at), subject=subject(citing), name=name, id=repr(name))
+        template = "{place}: {subject} cites {name}, which is not a source; list it: sources=(Source({id}, …),)"
+        yield Phrase(template, place=short(citing.at), subject=subject(citing), name=name, id=repr(name))
     yield from _exchanged(mechanism)
     yield from _idle_chapters(mechanism)
 
@@ -203,8 +203,10 @@ def _exchanged(mechanism: Mechanism) -> Iterator[str]:
     for check in mechanism.checks:
         demand, limit = (str(side).removeprefix("inputs.") for side in (check.demand, check.limit))
         if symbols.get(demand, "").startswith("[") and limit in given:
-            words = "{place}: check {id}: its demand {demand} ({symbol}) has the symbol of what is allowed, and its limit {limit} is calculated; exchange them where the limit is what must not be too great"  # noqa: E501
-            yield Phrase(words, place=short(check.at), id=check.id, demand=demand, symbol=symbols[demand], limit=limit)
+            template = "{place}: check {id}: its demand {demand} ({symbol}) has the symbol of what is allowed, and its limit {limit} is calculated; exchange them where the limit is what must not be too great"  # noqa: E501
+            yield Phrase(
+                template, place=short(check.at), id=check.id, demand=demand, symbol=symbols[demand], limit=limit
+            )
 
 
 def _numbers(node: object) -> Iterator[str]:
@@ -234,8 +236,8 @@ def _idle_chapters(mechanism: Mechanism) -> Iterator[str]:
             others = (step for other in mechanism.chapters if other is not chapter for step in other.steps)
             used = asked.union(*({*taken(step), *named_in(step)} for step in others))
             if not any(step.id in used or written[step.id] > 1 for step in chapter.steps):
-                words = (
+                template = (
                     "{place}: chapter {title}: no check, key result, figure or other chapter uses its results; name its result in "
                     "key_results, or check it"
                 )
-                yield Phrase(words, place=short(chapter.at), title=repr(chapter.title))
+                yield Phrase(template, place=short(chapter.at), title=repr(chapter.title))

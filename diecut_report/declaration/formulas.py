@@ -60,19 +60,19 @@ def lacking(names: DeclaredNames, name: str, when: When, before: int | None = No
     later = [giver for giver in givers if before is not None and giver.number >= before]
     if later and names.missing(name, when) is None:
         place = short(later[0].step.at) if later[0].step else ""
-        words = "{name} before it is calculated (at {place}); move that step up, or this one down"
-        return Phrase(words, name=name, place=place)
+        template = "{name} before it is calculated (at {place}); move that step up, or this one down"
+        return Phrase(template, name=name, place=place)
     key = names.world.keys.get(name.removeprefix("inputs."))
     home = names.world.keys.get(key.home) if key else None
     if home and home.may_be_absent and home.path not in when.needs:
-        words = (
+        template = (
             '{name}, but {home} may have no parts, by its default; write needs=("{home}",), or take its default away'
         )
-        return Phrase(words, name=name, home=home.path)
+        return Phrase(template, name=name, home=home.path)
     tokens = set().union(*(part for each in (when, *(giver.when for giver in givers)) for part in each))
     where = told(given, tokens)
-    words = "{name}, which nothing gives{where}; give it there too, or leave this out by needs or lacks"
-    return Phrase(words, name=name, where=Phrase(" {where}", where=where) if where else "")
+    template = "{name}, which nothing gives{where}; give it there too, or leave this out by needs or lacks"
+    return Phrase(template, name=name, where=Phrase(" {where}", where=where) if where else "")
 
 
 def _in_two_chapters(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -81,11 +81,11 @@ def _in_two_chapters(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fau
         shared = [step for step in second.steps if first is not second and any(step is other for other in first.steps)]
         whens = {s.id: When(frozenset(first.needs + second.needs + s.needs), frozenset(s.lacks)) for s in shared}
         if doubled := [id for id, both in whens.items() if names.world.example(both) is not None]:
-            words = (
+            template = (
                 "has {doubled} of another chapter too, {title} (at {place}), so that they are calculated twice; "
                 "add them to one of the two, or let their needs exclude each other"
             )
-            text = Phrase(words, doubled=", ".join(doubled), title=repr(first.title), place=short(first.at))
+            text = Phrase(template, doubled=", ".join(doubled), title=repr(first.title), place=short(first.at))
             yield fault(second, text)
 
 
@@ -100,12 +100,12 @@ def pairs(names: DeclaredNames, another: str, declared: list[tuple[Any, When]]) 
             given = names.world.example(both) if first is not second else None
             if given is not None:
                 where = told(given, both.needs | both.lacks)
-                words = (
+                template = (
                     "has the id of {another} (at {place}), and both are made{where}; name one of them otherwise, "
                     "or let their needs exclude each other"
                 )
                 where = Phrase(" {where}", where=where) if where else ""
-                yield fault(second, Phrase(words, another=another, place=short(first.at), where=where))
+                yield fault(second, Phrase(template, another=another, place=short(first.at), where=where))
                 break
 
 
@@ -131,8 +131,8 @@ def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
     try:
         _ = link.formula.tree
     except RecursionError:
-        words = "the {part} {formula} calls itself; name it otherwise than what it calls"
-        yield fault(step, Phrase(words, part=part, formula=link.formula.__name__), place)
+        template = "the {part} {formula} calls itself; name it otherwise than what it calls"
+        yield fault(step, Phrase(template, part=part, formula=link.formula.__name__), place)
     except Exception as why:
         yield fault(step, Phrase("the {part} cannot be printed: {why}", part=part, why=why), place)
 
@@ -144,8 +144,8 @@ def _function_faults(step: Step) -> Iterator[str]:
         return
     function: object = getattr(step, "function", None)
     if not callable(function):
-        words = "the function is {function}, which cannot be called; name one without brackets"
-        yield Phrase(words, function=repr(function))
+        template = "the function is {function}, which cannot be called; name one without brackets"
+        yield Phrase(template, function=repr(function))
         return
     try:
         parameters = signature(function)
@@ -201,9 +201,9 @@ def units_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 
         for what, found in step.same_units(units, names):
             if found and not any(kind_of(one) == kind_of(other) for one in own for other in found):
-                words = "is in {own}, {what} in {units}; give it the unit of what it takes over"
+                template = "is in {own}, {what} in {units}; give it the unit of what it takes over"
                 filling = {"own": named(own, " or "), "what": what, "units": named(sorted(found), " or ")}
-                yield fault(step, Phrase(words, filling))
+                yield fault(step, Phrase(template, filling))
 
 
 def kind_of(text: str) -> object:

@@ -44,11 +44,11 @@ def allowed_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault
         yield from (fault(declared, text) for text in allowed_wrong(declared))
     for check in mechanism.checks:
         if not 0 <= check.tolerance <= MOST_TOLERANCE:
-            words = (
+            template = (
                 "has the tolerance {tolerance}, a share of the limit; allowed: 0 to {most} (1 %), for rounding alone; "
                 "put what is allowed into the limit"
             )
-            yield fault(check, Phrase(words, tolerance=repr(check.tolerance), most=MOST_TOLERANCE))
+            yield fault(check, Phrase(template, tolerance=repr(check.tolerance), most=MOST_TOLERANCE))
 
 
 def allowed_wrong(declared: Any) -> Iterator[str]:
@@ -57,8 +57,8 @@ def allowed_wrong(declared: Any) -> Iterator[str]:
         value = getattr(declared, name)
         if words and value not in words:
             near, told = nearest(str(value), map(str, words)), ", ".join(map(repr, words))
-            said = "has {name}={value}{nearest}; allowed: {told}"
-            yield Phrase(said, name=name, value=repr(value), nearest=near, told=told)
+            template = "has {name}={value}{nearest}; allowed: {told}"
+            yield Phrase(template, name=name, value=repr(value), nearest=near, told=told)
         elif kind is bool and not isinstance(value, bool):
             yield Phrase("has {name}={value}; allowed: True, False", name=name, value=repr(value))
         elif kind is tuple and isinstance(value, str):
@@ -131,8 +131,8 @@ def _forms(forms: Iterable[tuple[str, str]], keys: dict[str, Key]) -> Iterator[s
     for name, _ in forms:
         key = keys.get(name)
         if key is None:
-            words = "has units beside {name}, which is not an input{nearest}"
-            yield Phrase(words, name=name, nearest=nearest(name, keys))
+            template = "has units beside {name}, which is not an input{nearest}"
+            yield Phrase(template, name=name, nearest=nearest(name, keys))
         elif not key.may_be_absent or key.has_default or "." in name or getattr(key.meta, "press", None):
             yield Phrase("has units beside {name}, which is not an optional input without a default", name=name)
 
@@ -152,35 +152,35 @@ def _beside(declared: FieldInfo) -> Iterator[str]:
     """What is declared of an input beside its quantity, and would be held against SI numbers in silence."""
     known = Quantity | Text | Referred | str
     if others := [type(each).__name__ for each in declared.metadata if not isinstance(each, known)]:
-        words = (
+        template = (
             "has {names} beside its quantity, by which another value than the user's may count; give bounds to the quantity, "
             "and calculate in a step"
         )
-        yield Phrase(words, names=", ".join(others))
+        yield Phrase(template, names=", ".join(others))
 
 
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
     whole = of_class(model, place), Phrase("class {name}", name=model.__name__)
     if changed := [name for name, value in Block.model_config.items() if model.model_config.get(name) != value]:
-        words = "changes {names} in its model_config, so that keys that are misspelt may pass unread; take it away"
-        yield Fault(*whole, Phrase(words, names=", ".join(changed)))
+        template = "changes {names} in its model_config, so that keys that are misspelt may pass unread; take it away"
+        yield Fault(*whole, Phrase(template, names=", ".join(changed)))
     if own := list(_own_code(model)):
-        words = (
+        template = (
             "reads its inputs by code of its own ({names}), so that another value than the user's may count; calculate in a step, "
             "and refuse by require"
         )
-        yield Fault(*whole, Phrase(words, names=", ".join(own)))
+        yield Fault(*whole, Phrase(template, names=", ".join(own)))
     for name, declared in model.model_fields.items():
         inner, subject = nested(declared.annotation), Phrase("input {path}", path=f"{prefix}{name}")
         told = [] if inner else list(_wrong(name, declared, meta_of(model, name)))
         if name in RESERVED and not prefix:
-            words = "has the name of a key that the program reads itself ({reserved}), so that nobody can give it; name it otherwise"
-            told.append(Phrase(words, reserved=", ".join(RESERVED)))
+            template = "has the name of a key that the program reads itself ({reserved}), so that nobody can give it; name it otherwise"
+            told.append(Phrase(template, reserved=", ".join(RESERVED)))
         for text in (*_absent(declared), *_beside(declared), *told):
             yield Fault(of_field(model, name, place), subject, text)
         for kind in _strange(declared.annotation):
-            words = "is made of {name}, which is not a block of inputs; write class {name}(Block)"
-            yield Fault(of_class(kind, place), subject, Phrase(words, name=kind.__name__))
+            template = "is made of {name}, which is not a block of inputs; write class {name}(Block)"
+            yield Fault(of_class(kind, place), subject, Phrase(template, name=kind.__name__))
         if inner:
             yield from _block(inner[0], place, f"{prefix}{name}.")
     yield from (Fault(place, subject, text) for subject, text in _rules(model))
@@ -199,8 +199,8 @@ def _rules(model: type[Block]) -> Iterator[tuple[Phrase, Phrase]]:
             yield subject, Phrase("names {key}, which is not an input{nearest}", key=key, nearest=near)
     for key, curve in model.curve_keys.items():
         if not isinstance(known.get(key), Quantity) or not isinstance(known.get(curve), CurveInput):
-            words = "lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed"
-            yield Phrase("curve_keys of {name}", name=name), Phrase(words, key=key, curve=curve)
+            template = "lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed"
+            yield Phrase("curve_keys of {name}", name=name), Phrase(template, key=key, curve=curve)
 
 
 def _absent(declared: FieldInfo) -> Iterator[str]:
@@ -210,11 +210,11 @@ def _absent(declared: FieldInfo) -> Iterator[str]:
                       for kind in kinds if kind is not type(None))  # fmt: skip
     may_be_none = type(None) in kinds  # Any alone does not tell that it may be left out
     if declared.is_required() and may_be_none:
-        words = "may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}"
-        yield Phrase(words, said=said)
+        template = "may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}"
+        yield Phrase(template, said=said)
     if not declared.is_required() and declared.get_default(call_default_factory=True) is None and not may_be_none:
-        words = "has the default None, but may not be None; annotate it as {said} | None, or give it a value"
-        yield Phrase(words, said=said)
+        template = "has the default None, but may not be None; annotate it as {said} | None, or give it a value"
+        yield Phrase(template, said=said)
 
 
 def _kinds(annotation: Any) -> tuple[Any, ...]:
@@ -244,8 +244,8 @@ def _bounds(meta: Quantity) -> Iterator[str]:
     given = {name: getattr(meta, name) for name, _ in BOUNDS if getattr(meta, name) is not None}
     for name, limit in given.items():
         if isinstance(limit, bool) or not isinstance(limit, int | float):
-            words = "has the bound {name}={bound}; write a plain number, which counts in its unit ({unit}): {name}=0"
-            yield Phrase(words, name=name, bound=repr(limit), unit=meta.unit)
+            template = "has the bound {name}={bound}; write a plain number, which counts in its unit ({unit}): {name}=0"
+            yield Phrase(template, name=name, bound=repr(limit), unit=meta.unit)
             return
     low = max((given[name] for name in ("gt", "ge") if name in given), default=-math.inf)
     high = min((given[name] for name in ("lt", "le") if name in given), default=math.inf)
@@ -259,8 +259,8 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
         kind = getattr(declared.annotation, "__name__", str(declared.annotation))
         what = f'Quantity("SYMBOL", "UNIT", "description")' if kind in ("int", "float") else 'Text("description")'  # noqa: F541
         value = "" if declared.is_required() else f" = {default!r}"
-        words = "is a plain {kind}, of which nothing is known; write {name}: Annotated[{kind}, {what}]{value}"
-        yield Phrase(words, kind=kind, name=name, what=what, value=value)
+        template = "is a plain {kind}, of which nothing is known; write {name}: Annotated[{kind}, {what}]{value}"
+        yield Phrase(template, kind=kind, name=name, what=what, value=value)
         return
     if isinstance(meta, Quantity):
         wrong = list(_bounds(meta))
@@ -268,10 +268,10 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
             yield from wrong
             return
         if int in _kinds(declared.annotation) and not meta.integer:
-            words = (
+            template = (
                 "is annotated as int, but takes any number; write integer=True in its Quantity, or annotate it as float"
             )
-            yield phrase(words)
+            yield phrase(template)
         if meta.plausible:
             yield from _sizes(meta, meta.plausible)
         if meta.integer and (meta.unit != "1" or meta.units):
@@ -287,8 +287,8 @@ def _sizes(meta: Quantity, ends: tuple[str, str]) -> Iterator[str]:
         _ = own.ends  # which are judged when they are read
         kinds = [unit(text).kind for text in (meta.unit, *(other for _, other in meta.units))]
         if own.kind not in kinds:
-            words = "has plausible sizes {low} to {high}; a quantity in {unit} is needed"
-            yield Phrase(words, low=ends[0], high=ends[1], unit=meta.unit)
+            template = "has plausible sizes {low} to {high}; a quantity in {unit} is needed"
+            yield Phrase(template, low=ends[0], high=ends[1], unit=meta.unit)
     except (TypeError, ValueError) as why:
         yield Phrase("has plausible sizes that are none: {why}", why=why)
 
@@ -298,8 +298,8 @@ def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:
         texts = tuple(allowed(annotation, meta))
         said = str(default).lower() if isinstance(default, bool) else str(default)
         if texts and said not in texts:
-            words = "has the default {default}{nearest}; allowed: {texts}"
-            yield Phrase(words, default=repr(default), nearest=nearest(said, texts), texts=", ".join(texts))
+            template = "has the default {default}{nearest}; allowed: {texts}"
+            yield Phrase(template, default=repr(default), nearest=nearest(said, texts), texts=", ".join(texts))
         return
     try:
         meta.validate(default)
@@ -319,12 +319,12 @@ def conditions_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fa
         for each in step.formulas():
             if each.is_condition:
                 strange = [link.formula.__name__ for link in each.options if not _decides(link, names)]
-                words = "the {part} gives a number, not yes or no; compare it with something ({formula} > 0)"
+                template = "the {part} gives a number, not yes or no; compare it with something ({formula} > 0)"
                 part = phrase("condition exists") if each.part == "exists" else each.part
-                yield from (fault(step, Phrase(words, part=part, formula=name)) for name in strange[:1])
+                yield from (fault(step, Phrase(template, part=part, formula=name)) for name in strange[:1])
         if step.exists is not None and not step.may_be_absent:
-            words = "has exists, which holds for {kinds} alone; put it on what this step takes"
-            yield fault(step, Phrase(words, kinds="value, choice, computed"))
+            template = "has exists, which holds for {kinds} alone; put it on what this step takes"
+            yield fault(step, Phrase(template, kinds="value, choice, computed"))
         yield from (fault(step, text) for text in _flag(step, names))
 
 

@@ -300,17 +300,17 @@ class DeclaredNames:
             return  # told where ids are
         if not key.texts:
             allowed = ", ".join(map(repr, rows))
-            words = (
+            template = (
                 "is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]"
             )
-            yield Phrase(words, by=by, allowed=allowed)
+            yield Phrase(template, by=by, allowed=allowed)
             return
         missing = [text for text in key.texts if text not in rows]
         chosen = {text: when.with_(When(frozenset((f"{by}={text}",)))) for text in missing}
         if missing := [text for text in missing if key.home or self.world.example(chosen[text])]:
-            words = "has {none} for {by}={missing}; add {them}, or forbid the text"
+            template = "has {none} for {by}={missing}; add {them}, or forbid the text"
             them = phrase("it" if len(missing) == 1 else "them")
-            yield Phrase(words, none=none, by=by, missing=", ".join(missing), them=them)
+            yield Phrase(template, none=none, by=by, missing=", ".join(missing), them=them)
 
     def kinds(self, name: str) -> set[str]:
         """Return what a name may be: number, row, curve, …"""

@@ -56,9 +56,11 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
     if not (isinstance(model, type) and issubclass(model, Inputs)):
         kind = model if isinstance(model, type) else type(model)
         given = kind.__name__ if kind is model else repr(model)
-        words = "has inputs={given}; give the class of its inputs, which is a subclass of Inputs: class {name}(Inputs)"
+        template = (
+            "has inputs={given}; give the class of its inputs, which is a subclass of Inputs: class {name}(Inputs)"
+        )
         place = of_class(kind, mechanism.at) if kind is model else mechanism.at
-        yield place, Phrase(words, given=given, name=kind.__name__)
+        yield place, Phrase(template, given=given, name=kind.__name__)
     for name, kind in HOLDS.items():
         given = getattr(mechanism, name)
         several = given if isinstance(given, tuple | list) else None
@@ -66,16 +68,16 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
         if strange:
             at = getattr(strange[0], "at", "")
             where = f", {type(strange[0]).__name__}" + (Phrase(" (at {place})", place=short(at)) if at else "")
-            words = "has {name} of another kind{where}; write a tuple of {kind}, with a comma behind a single one: {name}=(…,)"
-            yield mechanism.at, Phrase(words, name=name, where=where, kind=kind.__name__)
+            template = "has {name} of another kind{where}; write a tuple of {kind}, with a comma behind a single one: {name}=(…,)"
+            yield mechanism.at, Phrase(template, name=name, where=where, kind=kind.__name__)
 
 
 def _of_step(step: Step) -> Iterator[str]:
     if not ID.fullmatch(step.id):
         yield phrase("is not an id; write letters, digits and underscores")
     elif step.id in RESERVED or iskeyword(step.id):  # inputs.KEY is a name; a formula takes a step as its argument
-        words = "has a name that is reserved; choose another one than {reserved} or a word of Python"
-        yield Phrase(words, reserved=", ".join(RESERVED))
+        template = "has a name that is reserved; choose another one than {reserved} or a word of Python"
+        yield Phrase(template, reserved=", ".join(RESERVED))
     if step.digits < 1:
         yield Phrase("has digits={digits}; at least one digit is printed", digits=repr(step.digits))
     yield from tuple_faults(step, "needs", "lacks")
@@ -90,14 +92,14 @@ def _of_formula(part: object) -> Iterator[str]:
     if isinstance(part, Bound):
         taken: dict[str, Any] = dict(part.names)
         strange = [name for name, value in taken.items() if not isinstance(value, str | int | float)]
-        words = "binds {name} to {taken}; give an id or a number"
-        yield from (Phrase(words, name=name, taken=repr(taken[name])) for name in strange)
+        template = "binds {name} to {taken}; give an id or a number"
+        yield from (Phrase(template, name=name, taken=repr(taken[name])) for name in strange)
     formula = part.formula if isinstance(part, Bound) else part
     if isinstance(formula, Formula) and formula.function.__defaults__:
-        words = (
+        template = (
             "takes the formula {formula}, whose parameters have a default; each takes a quantity: remove the default"
         )
-        yield Phrase(words, formula=formula.__name__)
+        yield Phrase(template, formula=formula.__name__)
 
 
 # What a plugin's files define twice under one name: Python keeps the last and says nothing.
@@ -122,8 +124,10 @@ def _keys_twice(file: Path, tree: ast.Module) -> Iterator[Fault]:
                 continue
             written = ast.unparse(key)
             if written in seen:
-                told = "stands twice in a table, at first in line {line}, and only the last one counts; take one of them away"
-                yield Fault(f"{file}:{key.lineno}", Phrase("key {key}", key=written), Phrase(told, line=seen[written]))
+                template = "stands twice in a table, at first in line {line}, and only the last one counts; take one of them away"
+                yield Fault(
+                    f"{file}:{key.lineno}", Phrase("key {key}", key=written), Phrase(template, line=seen[written])
+                )
             seen.setdefault(written, key.lineno)
 
 
@@ -132,9 +136,11 @@ def _twice(file: Path, scope: ast.Module | Defined) -> Iterator[Fault]:
     for statement in scope.body:
         name = _name(statement, isinstance(scope, ast.ClassDef))
         if name and name in seen:
-            told = "twice, at first in line {line}, and only the last one counts; give one of them another name, or take it away"
+            template = "twice, at first in line {line}, and only the last one counts; give one of them another name, or take it away"
             is_field = isinstance(statement, ast.AnnAssign)
-            text = Phrase("is a field {told}" if is_field else "is defined {told}", told=Phrase(told, line=seen[name]))
+            text = Phrase(
+                "is a field {told}" if is_field else "is defined {told}", told=Phrase(template, line=seen[name])
+            )
             yield Fault(f"{file}:{statement.lineno}", name, text)
         if name:
             seen[name] = statement.lineno

@@ -124,8 +124,8 @@ def token_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         for field in TOKENS:
             tokens = getattr(declared, field, None) or ()
             if isinstance(tokens, str) and field != "scaled_by":
-                words = '{field} is the text {tokens}; write a tuple, {field}=("{tokens}",)'
-                yield fault(declared, Phrase(words, field=field, tokens=tokens))
+                template = '{field} is the text {tokens}; write a tuple, {field}=("{tokens}",)'
+                yield fault(declared, Phrase(template, field=field, tokens=tokens))
                 continue
             for text in filter(
                 None, (_told(names, token) for token in ((tokens,) if isinstance(tokens, str) else tokens))
@@ -154,8 +154,8 @@ def _told(names: DeclaredNames, token: str) -> str:
     if key.home:
         return Phrase("{token}, but each part of {home} has a text of its own", token=token, home=key.home)
     if not key.texts:
-        words = "{token}, but {path} is not a text with allowed values; name {path} alone"
-        return Phrase(words, token=token, path=path)
+        template = "{token}, but {path} is not a text with allowed values; name {path} alone"
+        return Phrase(template, token=token, path=path)
     if text in key.texts:
         return ""
     near, texts = nearest(text, key.texts), ", ".join(key.texts)
@@ -176,8 +176,8 @@ def document_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Faul
     yield from _titles(mechanism, names)
     for first, second in combinations(mechanism.sources, 2):
         if first.id == second.id:
-            words = "has the id of another source (at {place}); give it another"
-            yield fault(second, Phrase(words, place=short(first.at)))
+            template = "has the id of another source (at {place}); give it another"
+            yield fault(second, Phrase(template, place=short(first.at)))
     yield from _errata(mechanism, names)
     for name in mechanism.key_results:
         text = _key_result(names, name)
@@ -194,8 +194,8 @@ def _errata(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     silent = {step.id for _, step in mechanism.steps if isinstance(step, SilentStep)}
     for erratum in mechanism.errata:
         if erratum.source not in known:
-            words = "is of no listed source{nearest}; listed: {known}"
-            yield fault(erratum, Phrase(words, nearest=nearest(erratum.source, known), known=", ".join(known)))
+            template = "is of no listed source{nearest}; listed: {known}"
+            yield fault(erratum, Phrase(template, nearest=nearest(erratum.source, known), known=", ".join(known)))
         for name in erratum.touches:
             if not names.givers(name) and name not in silent:
                 yield fault(erratum, Phrase("touches {unknown}", unknown=unknown(name, names.known)))
@@ -206,16 +206,16 @@ def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for first, second in combinations(mechanism.chapters, 2):
         both = When(frozenset(first.needs + second.needs))
         if first.title == second.title and names.world.example(both) is not None:
-            words = "has the title of another chapter (at {place}); give it another, or put their steps into one"
-            yield fault(second, Phrase(words, place=short(first.at)))
+            template = "has the title of another chapter (at {place}); give it another, or put their steps into one"
+            yield fault(second, Phrase(template, place=short(first.at)))
 
 
 def _sources(mechanism: Mechanism) -> Iterator[Fault]:
     """Sources that are cited by their id and not listed; a mechanism that lists none cites elsewhere."""
     known = [source.id for source in mechanism.sources]
     for citing, name in unlisted(mechanism, CITED) if known else ():
-        words = "cites {name}, which is not a source{nearest}; listed: {known}"
-        yield fault(citing, Phrase(words, name=name, nearest=nearest(name, known), known=", ".join(known)))
+        template = "cites {name}, which is not a source{nearest}; listed: {known}"
+        yield fault(citing, Phrase(template, name=name, nearest=nearest(name, known), known=", ".join(known)))
 
 
 def unlisted(mechanism: Mechanism, pattern: re.Pattern[str]) -> Iterator[tuple[Step | Check, str]]:
@@ -247,8 +247,8 @@ def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 def _export(profile: Profile, names: DeclaredNames) -> Iterator[str]:
     if isinstance(profile, CurveTable):
         if [names.kinds(name) for name in profile.columns] != [{"abscissa"}]:
-            words = 'has columns={columns}; name the abscissa of its curves alone: ("angle",)'
-            yield Phrase(words, columns=repr(profile.columns))
+            template = 'has columns={columns}; name the abscissa of its curves alone: ("angle",)'
+            yield Phrase(template, columns=repr(profile.columns))
         return
     if len(profile.columns) < 2:
         yield phrase("has fewer than two columns; name x and y at least")
@@ -274,8 +274,8 @@ def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparis
             yield Phrase("takes {unknown} in {kind}", unknown=unknown(name, names.known), kind=kind)
     for name, declared in comparison.mechanism.inputs.model_fields.items():
         if declared.is_required() and name not in comparison.takes:
-            words = "fills nothing into {name}, which is required; add it to takes, or give it a default"
-            yield Phrase(words, name=name)
+            template = "fills nothing into {name}, which is required; add it to takes, or give it a default"
+            yield Phrase(template, name=name)
 
 
 # Symbols: within a mechanism no two quantities that may be there together are printed by one symbol.
@@ -308,8 +308,10 @@ def symbol_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]
     for symbol, each in chain(_whole(mechanism, names), _single(mechanism, names)):
         by_symbol.setdefault(symbol, []).append(each)
         if letters := NO_SYMBOLS.intersection(symbol):
-            words = "has the symbol {symbol} with {letters}; a symbol is plain text, not LaTeX: write α_1, F_max, [σ]"
-            yield _of(mechanism, each, Phrase(words, symbol=symbol, letters=" ".join(sorted(letters))))
+            template = (
+                "has the symbol {symbol} with {letters}; a symbol is plain text, not LaTeX: write α_1, F_max, [σ]"
+            )
+            yield _of(mechanism, each, Phrase(template, symbol=symbol, letters=" ".join(sorted(letters))))
     told: set[tuple[str, str]] = set()
     for symbol, alike in by_symbol.items():
         for one, other in combinations(alike, 2):
@@ -322,11 +324,11 @@ def symbol_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]
 def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> Fault:
     """The fault of the other; inputs stand where they are declared, their quantity may be one of the program."""
     place = short(one.at if one.step else of_input(mechanism.inputs, one.name, one.at))
-    words = (
+    template = (
         "has the symbol {symbol} of {name} ({points}at {place}): both would be printed as one quantity; give it another"
     )
     points = "POINTS, " * one.is_points
-    return _of(mechanism, other, Phrase(words, symbol=symbol, name=one.name, points=points, place=place))
+    return _of(mechanism, other, Phrase(template, symbol=symbol, name=one.name, points=points, place=place))
 
 
 def _of(mechanism: Mechanism, each: Printed, text: str) -> Fault:

@@ -327,8 +327,8 @@ def lines(found: Mended) -> Iterator[str]:
     """Yield what became of the machine, in words."""
     failing, machine = found.before.failing, found.machine
     if not failing:
-        words = "no check fails: nothing to fix (governing: {check})"
-        yield Phrase(words, check=found.before.governing or phrase("none"))
+        template = "no check fails: nothing to fix (governing: {check})"
+        yield Phrase(template, check=found.before.governing or phrase("none"))
         return
     checks = ", ".join(failing)
     yield Counted(
@@ -345,8 +345,8 @@ def lines(found: Mended) -> Iterator[str]:
         before, after = each.before or phrase("not given"), _as_written(each.after)
         name = each.design.name.ljust(width)
         yield Phrase("  {name}  {before} → {after}{share}", name=name, before=before, after=after, share=share)
-    words = "total change: {size} % of the present values; governing: {check}"
-    yield Phrase(words, size=localised(number_text(100 * found.size, 3)), check=machine.governing or phrase("none"))
+    template = "total change: {size} % of the present values; governing: {check}"
+    yield Phrase(template, size=localised(number_text(100 * found.size, 3)), check=machine.governing or phrase("none"))
     if warned := machine.checks("warn"):
         yield Phrase("with a warning: {checks}", checks=", ".join(warned))
 
@@ -368,9 +368,9 @@ def _as_written(typed: str) -> str:
 
 
 def _without(found: Mended) -> Iterator[Phrase]:
-    words = "none of the {machines} machines calculated with other values of the free inputs ({free}) passes"
+    template = "none of the {machines} machines calculated with other values of the free inputs ({free}) passes"
     if found.calculated:
-        yield Phrase(words, machines=found.calculated, free=found.free)
+        yield Phrase(template, machines=found.calculated, free=found.free)
     if found.is_ended:
         yield phrase("the search stopped at its limit and has not converged; increase --most")
     if found.calculated and found.left:
@@ -380,8 +380,8 @@ def _without(found: Mended) -> Iterator[Phrase]:
     if found.conflict:
         yield from _conflict(found.conflict)
     if found.untried:
-        words = "not tried, as --free must name them, and then names all that may be changed: {names}"
-        yield Phrase(words, names=", ".join(found.untried))
+        template = "not tried, as --free must name them, and then names all that may be changed: {names}"
+        yield Phrase(template, names=", ".join(found.untried))
     yield phrase("allow more inputs to change with --free, or change the concept of the machine")
 
 
@@ -393,12 +393,12 @@ def _conflict(found: CheckConflict) -> Iterator[Phrase]:
         many = "proved: {checks} do not depend on any free input and fail for all of their values"
         yield Counted(count, one, many, checks=checks)
     elif count == 1:
-        words = "no machine was found that satisfies {checks}; this does not prove that none exists"
-        yield Phrase(words, checks=checks)
+        template = "no machine was found that satisfies {checks}; this does not prove that none exists"
+        yield Phrase(template, checks=checks)
     elif found.is_least:
-        words = "no machine was found that satisfies all of these; this does not prove that none exists: {checks}"
-        yield Phrase(words, checks=checks)
+        template = "no machine was found that satisfies all of these; this does not prove that none exists: {checks}"
+        yield Phrase(template, checks=checks)
         yield phrase("if any one of them is dropped, a calculated machine satisfies the others")
     else:
-        words = "no machine was found that satisfies all of these; a smaller set may conflict already: {checks}"
-        yield Phrase(words, checks=checks)
+        template = "no machine was found that satisfies all of these; a smaller set may conflict already: {checks}"
+        yield Phrase(template, checks=checks)

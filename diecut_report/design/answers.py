@@ -79,11 +79,11 @@ def question(config: Config, text: str) -> DesignQuestion:
         return DesignQuestion(quantity(config, extreme["name"]), "max" if extreme["way"] == "max" else "min")
     compared = COMPARED.fullmatch(text)
     if compared is None:
-        words = (
+        template = (
             "{text} is not a question; write one such as “drive.crank_torque_peak = 400 N*m”, "
             "“cylinder.mass <= 90 kg” or “max press.productivity”."
         )
-        raise UserError(Problem(Phrase(words, text=repr(text)), path="--for"))
+        raise UserError(Problem(Phrase(template, text=repr(text)), path="--for"))
     asked = quantity(config, compared["name"])
     try:
         return DesignQuestion(asked, SIGNS[compared["sign"]], parse_quantity(compared["value"], asked.unit))
@@ -120,19 +120,19 @@ def _utilisation(config: Config, home: str, check: str) -> AskedNumber:
 def _unknown(config: Config, home: str, own: str) -> Phrase:
     mechanisms = [name for name in config.instances if name != PRESS]
     if home not in config.instances:
-        words = "{name}: there is no mechanism {home}{near}. Known: {known}."
+        template = "{name}: there is no mechanism {home}{near}. Known: {known}."
         near = nearest(home, mechanisms)
-        return Phrase(words, name=f"{home}.{own}", home=repr(home), near=near, known=", ".join(mechanisms))
+        return Phrase(template, name=f"{home}.{own}", home=repr(home), near=near, known=", ".join(mechanisms))
     known = [name.removeprefix(f"{home}.") for name in quantities(config) if name.startswith(f"{home}.")]
     if not own:
-        words = "{home} names no number; add one, as in {example}."
-        return Phrase(words, home=home, example=f"{home}.{next(iter(known), 'output')}")
+        template = "{home} names no number; add one, as in {example}."
+        return Phrase(template, home=home, example=f"{home}.{next(iter(known), 'output')}")
     near = nearest(own, known)
     if not near and len(known) > SHOWN:
         near = Phrase("; it gives {names} and {n} more", names=", ".join(known[:SHOWN]), n=len(known) - SHOWN)
     near = near or Phrase("; it gives {names}", names=", ".join(known) or phrase("none"))
-    words = "{name} is neither a number that {home} gives nor an input of it{near}."
-    return Phrase(words, name=f"{home}.{own}", home=home, near=near)
+    template = "{name} is neither a number that {home} gives nor an input of it{near}."
+    return Phrase(template, name=f"{home}.{own}", home=home, near=near)
 
 
 Role = Literal["root", "lower", "upper", "extreme", "today", "nearest"]
@@ -197,8 +197,8 @@ def lines(answer: Answer) -> Iterator[str]:
     now = phrase("not given at present")
     if present is not None:
         now = Phrase("at present {value}", value=localised(design.told(present)))
-    words = "{question}{passing}, by {input} ({now}{reached})"
-    yield Phrase(words, question=answer.question.told, passing=passing, input=design.name, now=now, reached=reached)
+    template = "{question}{passing}, by {input} ({now}{reached})"
+    yield Phrase(template, question=answer.question.told, passing=passing, input=design.name, now=now, reached=reached)
     for line in _found(answer) if answer.found else _nearest(answer):
         yield Phrase("  {line}", line=line)
     for place in answer.jumps:
@@ -211,23 +211,23 @@ def lines(answer: Answer) -> Iterator[str]:
 def _found(answer: Answer) -> Iterator[str]:
     design, asked, machine, first = answer.design, answer.question.quantity, answer.machine, answer.found[0]
     what = phrase("is already satisfied") if first.role == "today" else f"{design.name} = {first.typed}"
-    words = "{what}: {asked} is {value}{end}"
-    yield Phrase(words, what=what, asked=asked.name, value=asked.told(first.reached), end=_end(first))
+    template = "{what}: {asked} is {value}{end}"
+    yield Phrase(template, what=what, asked=asked.name, value=asked.told(first.reached), end=_end(first))
     if machine is not None and first.failing:
         one = "recalculated as a single machine: {n} check fails: {checks}"
         many = "recalculated as a single machine: {n} checks fail: {checks}"
         yield Counted(len(first.failing), one, many, checks=", ".join(first.failing))
     elif machine is not None:
-        words = "recalculated as a single machine: no check fails; governing: {check}"
-        yield Phrase(words, check=machine.governing or phrase("none"))
+        template = "recalculated as a single machine: no check fails; governing: {check}"
+        yield Phrase(template, check=machine.governing or phrase("none"))
     if first.beyond:
         yield Phrase("just beyond it, these fail: {checks}", checks=", ".join(first.beyond))
     for low, high in answer.ranges:
         yield Phrase("satisfied from {low} to {high}", low=_side(low), high=_side(high))
     others = () if answer.ranges else answer.found[1:]  # of which a text names the nearest
     for each in others[:SHOWN]:
-        words = "also {input} = {typed}: {asked} is {value}"
-        yield Phrase(words, input=design.name, typed=each.typed, asked=asked.name, value=asked.told(each.reached))
+        template = "also {input} = {typed}: {asked} is {value}"
+        yield Phrase(template, input=design.name, typed=each.typed, asked=asked.name, value=asked.told(each.reached))
     if len(others) > SHOWN:
         more = "and {n} more values; --format json has all of them"
         yield Counted(len(others) - SHOWN, "and {n} more value; --format json has all of them", more)
@@ -248,8 +248,8 @@ def _nearest(answer: Answer) -> Iterator[str]:
     if near is not None:
         fails: str = Phrase(", and these checks fail: {checks}", checks=", ".join(near.failing)) if near.failing else ""
         reached = {"asked": asked.name, "value": asked.told(near.reached), "end": _end(near), "fails": fails}
-        words = "nearest: {input} = {typed}, where {asked} is {value}{end}{fails}"
-        yield Phrase(words, reached, input=design.name, typed=near.typed)
+        template = "nearest: {input} = {typed}, where {asked} is {value}{end}{fails}"
+        yield Phrase(template, reached, input=design.name, typed=near.typed)
     if answer.always:
         one = "at any value, {checks} fails: change another input first; `advise` looks for one"
         many = "at any value, {checks} fail: change another input first; `advise` looks for one"

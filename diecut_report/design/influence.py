@@ -126,10 +126,10 @@ def tornados(
     asked = asked or [quantity(config, name) for name in _governing(config)]
     for number in asked:
         if not np.isfinite(made.values(number.column)[0]):
-            words = (
+            template = (
                 "{asked} has no value at present: an input that it needs is not given, or the check is not performed."
             )
-            raise UserError(Problem(Phrase(words, asked=number.name), config.tree.file, path="--of"))
+            raise UserError(Problem(Phrase(template, asked=number.name), config.tree.file, path="--of"))
     left = 0 if defaults else sum(1 for each in standing if each.present and each.asked.path not in own)
     return [_tornado(made, each, inputs, ends, left) for each in asked]
 
@@ -139,11 +139,11 @@ def by_input(sizes: Iterable[tuple[DesignInput, float]]) -> dict[DesignInput, fl
     found: dict[str, tuple[DesignInput, float]] = {}
     for design, size in sizes:
         if design.is_whole or design.present is None:
-            words = "{input} is a whole number or has no value at present, so it cannot have a tolerance."
-            raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
+            template = "{input} is a whole number or has no value at present, so it cannot have a tolerance."
+            raise UserError(Problem(Phrase(template, input=design.name), path="--tolerance"))
         if design.asked.path in found:
-            words = "{input} is given more than one tolerance; leave one of them."
-            raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
+            template = "{input} is given more than one tolerance; leave one of them."
+            raise UserError(Problem(Phrase(template, input=design.name), path="--tolerance"))
         found[design.asked.path] = design, size
     return dict(found.values())
 
@@ -298,8 +298,8 @@ def _tolerances(found: TolerancesRecord) -> Iterator[Phrase]:
         (each.name, _told(each.value, each.unit, 6), _told(each.tolerance, each.unit, 6)) for each in found.inputs
     )
     given = ", ".join(f"{name} {value} ± {size}" for name, value, size in scatter)
-    words = "within tolerances ({way}; {n} machines, seed {seed}): {inputs}"
-    yield Phrase(words, way=way, n=found.count, seed=found.seed, inputs=given)
+    template = "within tolerances ({way}; {n} machines, seed {seed}): {inputs}"
+    yield Phrase(template, way=way, n=found.count, seed=found.seed, inputs=given)
     yield Phrase("  no check fails: {chance}", chance=_chance_told(found.whole))
     unsure = [each for each in found.checks if each.held < each.count]
     width = max((len(each.check) for each in unsure), default=0)
@@ -354,8 +354,8 @@ def page(found: Sequence[Tornado], drawn: TolerancesRecord | None, name: str) ->
     for index, each in enumerate(each.record for each in found):
         told = say("Influence of inputs on {asked}", asked=each.name)
         figure = tornado(each.today, each.bars, told, f"tornado-{index}", decimal_sign()).text if each.bars else ""
-        words = "In {unit}; blue: input increased; brown: input decreased; ×: cannot exist; line: present value."
-        caption = say(words, unit=pretty(each.unit) or phrase("a fraction"))
+        template = "In {unit}; blue: input increased; brown: input decreased; ×: cannot exist; line: present value."
+        caption = say(template, unit=pretty(each.unit) or phrase("a fraction"))
         parts += [
             f"<h2>{html.escape(each.name)}</h2>",
             figure,

@@ -130,22 +130,22 @@ def design_input(config: Config, name: str) -> DesignInput:
         if target is None or target.is_default:
             break
         if target.expression or target.result is not None or target.is_broken:
-            words = (
+            template = (
                 "{name} follows from {what}, {told}, and is not changed by itself; "
                 "change an input that {origins} follows from, or write a number at {path} first."
             )
             what = phrase("an expression") if target.expression else phrase("an output")
             origins = ", ".join(sorted({single.path for single in target.single}))
             raise refusal(
-                words, config.tree.file, name=name, what=what, told=target.told, origins=origins, path=asked.path
+                template, config.tree.file, name=name, what=what, told=target.told, origins=origins, path=asked.path
             )
         asked = find_input(config, _path(target.instance, target.key))
     if not isinstance(asked.meta, Quantity):
-        words = "{name} is a text, a choice or a yes/no; name an input that is a number."
-        raise refusal(words, config.tree.file, name=name)
+        template = "{name} is a text, a choice or a yes/no; name an input that is a number."
+        raise refusal(template, config.tree.file, name=name)
     if asked.meta is POINTS:
-        words = "{name} only sets how densely curves are listed; it does not affect the machine."
-        raise refusal(words, config.tree.file, name=name)
+        template = "{name} only sets how densely curves are listed; it does not affect the machine."
+        raise refusal(template, config.tree.file, name=name)
     return _made(config, asked)
 
 
@@ -254,8 +254,8 @@ def nothing_free(config: Config, left_out: Collection[str]) -> Phrase:
     found = [each.name for each in known if each.asked.path not in left_out]
     if not found:
         return Phrase("nothing is free to be changed: keep fewer inputs by --keep.")
-    words = "nothing is free to be changed: name inputs by --free, such as --free {first}, or keep fewer by --keep; the file has {names}"
-    return Phrase(words, first=found[0], names=", ".join(found[:NAMED]) + (" …" if len(found) > NAMED else "."))
+    template = "nothing is free to be changed: name inputs by --free, such as --free {first}, or keep fewer by --keep; the file has {names}"
+    return Phrase(template, first=found[0], names=", ".join(found[:NAMED]) + (" …" if len(found) > NAMED else "."))
 
 
 def untried(config: Config, instances: Collection[str], known: Collection[str]) -> tuple[str, ...]:
@@ -315,8 +315,8 @@ def changeable(
     """
     for each in free:
         if not each.present:
-            words = "{input} has no value at present, or is zero, and cannot be varied by a percentage; give it a value first."
-            raise UserError(Problem(Phrase(words, input=each.name), config.tree.file, path="--free"))
+            template = "{input} has no value at present, or is zero, and cannot be varied by a percentage; give it a value first."
+            raise UserError(Problem(Phrase(template, input=each.name), config.tree.file, path="--free"))
     own = free or [*(each for each in given_numbers(config) if is_form(config, each)), *advised]
     left = [each for each in own if not each.is_stepped and each.present and each.asked.path not in keep]
     return list({each.asked.path: each for each in left}.values())

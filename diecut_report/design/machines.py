@@ -297,6 +297,6 @@ def write_config(tree: Tree, machine: ProvedMachine, target: Path) -> None:
     """Write the machine's text as a file: whole, or not at all. UserError where it could not be read there as it is here."""
     home, config = Path(tree.file).resolve().parent, machine.press.config
     if config.files and target.resolve().parent != home:
-        words = "The configuration names files beside it ({files}), which would not be found there. Write it into the folder {folder}."
-        raise UserError(Problem(Phrase(words, files=", ".join(config.files), folder=home), str(target)))
+        template = "The configuration names files beside it ({files}), which would not be found there. Write it into the folder {folder}."
+        raise UserError(Problem(Phrase(template, files=", ".join(config.files), folder=home), str(target)))
     write_all({target: as_file(tree, config.tree.text)}, keep=Path(tree.file), through=True)

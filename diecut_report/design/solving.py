@@ -39,14 +39,14 @@ def searched_range(design: DesignInput, low: float | None, high: float | None) -
     if len(known):
         return float(known[0]) if low is None else low, float(known[-1]) if high is None else high
     if (low is None or high is None) and not present:
-        words = "{input} has no value at present; give the range to search with --from and --to."
-        raise UserError(Problem(Phrase(words, input=design.name), path="--vary"))
+        template = "{input} has no value at present; give the range to search with --from and --to."
+        raise UserError(Problem(Phrase(template, input=design.name), path="--vary"))
     around = sorted((present / WIDER, present * WIDER)) if present else (math.nan, math.nan)
     first = max(around[0], least) if low is None else low
     last = min(around[1], most) if high is None else high
     if not first < last:
-        words = "{input}: the range from {low} to {high} is empty; give --from below --to."
-        empty = Phrase(words, input=design.name, low=design.told(first), high=design.told(last))
+        template = "{input}: the range from {low} to {high} is empty; give --from below --to."
+        empty = Phrase(template, input=design.name, low=design.told(first), high=design.told(last))
         raise UserError(Problem(empty, path="--from"))
     return first, last
 
@@ -100,9 +100,9 @@ def _proved(answer: Answer, press: Press) -> Answer:
         reached = machine.outputs.get(answer.question.quantity.column, first.reached)
         first = replace(first, reached=reached, failing=machine.failing)
         return replace(answer, found=(first, *answer.found[index + 1 :]), machine=machine)
-    words = "{input} = {typed} satisfies it, but the machine then cannot exist: {reason}"
+    template = "{input} = {typed} satisfies it, but the machine then cannot exist: {reason}"
     typed, reason = answer.found[0].typed, faults[0].problems[0].message
-    raise refusal(words, press.config.tree.file, input=answer.design.name, typed=typed, reason=reason)
+    raise refusal(template, press.config.tree.file, input=answer.design.name, typed=typed, reason=reason)
 
 
 @dataclass
@@ -151,14 +151,14 @@ class _RangeSearch:
         known, file = y[np.isfinite(y)], self.config.tree.file
         name, asked = self.design.name, self.question.quantity
         if not made.exists.any():
-            words = "no machine of the range of {input} can be calculated: {reason}"
+            template = "no machine of the range of {input} can be calculated: {reason}"
             reason = next(filter(None, made.errors))
-            raise impossible(self.config, reason, Phrase(words, input=name, reason=reason))
+            raise impossible(self.config, reason, Phrase(template, input=name, reason=reason))
         if not len(known):
             raise refusal("{asked} has no value in the whole range of {input}.", file, asked=asked.name, input=name)
         if np.ptp(known) <= SAME * np.abs(known).max() and len(known) > 1:
-            words = "{asked} does not vary with {input}: it is {value} in the whole range."
-            raise refusal(words, file, asked=asked.name, input=name, value=told(float(known[0]), asked.unit, 6))
+            template = "{asked} does not vary with {input}: it is {value} in the whole range."
+            raise refusal(template, file, asked=asked.name, input=name, value=told(float(known[0]), asked.unit, 6))
 
     # --- what is looked for ------------------------------------------------------------------------------------------
 

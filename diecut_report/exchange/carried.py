@@ -34,16 +34,18 @@ def linked_results(content: bytes, most: int, file: str) -> bytes | None:
     if not found:
         return None
     if len(found) > 1:
-        words = "The page carries {count} results files, and a report has one. Give the file as the program wrote it."
-        raise refusal(words, file, count=len(found))
+        template = (
+            "The page carries {count} results files, and a report has one. Give the file as the program wrote it."
+        )
+        raise refusal(template, file, count=len(found))
     unpacking = zlib.decompressobj(GZIP)
     try:
         content = unpacking.decompress(base64.b64decode(found[0], validate=True), most + 1)
     except (binascii.Error, zlib.error) as error:
         raise refusal(DAMAGED, file) from error
     if len(content) > most:
-        words = "What the page carries is too large: it unpacks to more than {most} MB."
-        raise refusal(words, file, most=f"{most / 1e6:g}")
+        template = "What the page carries is too large: it unpacks to more than {most} MB."
+        raise refusal(template, file, most=f"{most / 1e6:g}")
     if not unpacking.eof or unpacking.unused_data:
         raise refusal(DAMAGED, file)
     return content
@@ -80,8 +82,8 @@ def carried_results(path: Path) -> CarriedResults:
     whole = content(path, MOST, phrase("a report (PDF, HTML) or a results file (JSON)"))
     form = form_of(whole)
     if form is None:
-        words = "This is neither a report (PDF, HTML) nor a results file (JSON). Give a file that `diecut-report report` wrote."
-        raise refusal(words, path)
+        template = "This is neither a report (PDF, HTML) nor a results file (JSON). Give a file that `diecut-report report` wrote."
+        raise refusal(template, path)
     found = _results_content(whole, form, str(path))
     results = results_of(found, str(path))
     config, tables = _config(whole, form, results.config, str(path)), _tables(results.config, str(path))
@@ -100,15 +102,15 @@ def _results_content(whole: bytes, form: Form, file: str) -> bytes:
     if form == "json":
         found: bytes | None = whole
         if len(whole) > MOST_RESULTS:
-            words = "The file is too large: {count} MB; results have at most {most_results} MB."
-            raise refusal(words, file, count=f"{len(whole) / 1e6:.1f}", most_results=f"{MOST_RESULTS / 1e6:g}")
+            template = "The file is too large: {count} MB; results have at most {most_results} MB."
+            raise refusal(template, file, count=f"{len(whole) / 1e6:.1f}", most_results=f"{MOST_RESULTS / 1e6:g}")
     elif form == "html":
         found = linked_results(whole, MOST_RESULTS, file)
     else:
         found = _attached(whole, "results.json", file)
     if found is None:
-        words = "This file carries no results: another program made it, or an earlier version of diecut-report, or it was printed anew."
-        raise refusal(words, file)
+        template = "This file carries no results: another program made it, or an earlier version of diecut-report, or it was printed anew."
+        raise refusal(template, file)
     return found
 
 
@@ -122,8 +124,8 @@ def _config(whole: bytes, form: Form, config: CarriedConfigRecord, file: str) ->
     """The configuration in the results; that of the PDF, which is attached for a reader's convenience, must be the same."""
     found = config_content(config)
     if form == "pdf" and _attached(whole, "config.yaml", file) not in (None, found):
-        words = "The configuration that is attached is not the one in the attached results. Somebody has exchanged one of the two."
-        raise refusal(words, file)
+        template = "The configuration that is attached is not the one in the attached results. Somebody has exchanged one of the two."
+        raise refusal(template, file)
     return found
 
 
@@ -132,9 +134,9 @@ def _tables(config: CarriedConfigRecord, file: str) -> dict[str, bytes]:
     faults = [Phrase("The name of a table {fault}.", fault=fault) for name in found if (fault := name_fault(name))]
     faults += [Phrase("The name of the logo {fault}.", fault=fault) for name in logo if (fault := logo_fault(name))]
     found |= logo
-    words = "The name of a file is longer than {longest_name} bytes: {name}…."
+    template = "The name of a file is longer than {longest_name} bytes: {name}…."
     long = [name for name in found if max(len(part.encode()) for part in Path(name).parts) > LONGEST_NAME]
-    faults += [Phrase(words, longest_name=LONGEST_NAME, name=name[:80]) for name in long]
+    faults += [Phrase(template, longest_name=LONGEST_NAME, name=name[:80]) for name in long]
     if faults:
         raise UserError([Problem(fault, file) for fault in faults])
     return found
@@ -152,8 +154,8 @@ def extract(report: Path, folder: Path) -> list[Path]:
     found = carried_results(report)
     contents = {f"{report.stem}.yaml": found.config_content, f"{report.stem}.json": found.results_content}
     if doubled := sorted(contents.keys() & found.tables.keys()):
-        words = "The configuration names a file {doubled}, and would be called so itself. Rename the report."
-        raise refusal(words, report, doubled=doubled[0])
+        template = "The configuration names a file {doubled}, and would be called so itself. Rename the report."
+        raise refusal(template, report, doubled=doubled[0])
     files = {folder / name: each for name, each in (contents | found.tables).items()}
     if problems := list(_refused(files, folder)):
         raise UserError(problems)
@@ -164,11 +166,11 @@ def extract(report: Path, folder: Path) -> list[Path]:
 def _refused(files: Mapping[Path, bytes], folder: Path) -> Iterator[Problem]:
     for path, wanted in files.items():
         if os.path.lexists(path) and not _is_same(path, wanted):
-            words = phrase("Another file of this name exists and is not overwritten: choose another folder with -o.")
-            yield Problem(words, str(path))
+            message = phrase("Another file of this name exists and is not overwritten: choose another folder with -o.")
+            yield Problem(message, str(path))
         elif not Path(os.path.realpath(path.parent)).is_relative_to(os.path.realpath(folder)):
-            words = phrase("A link leads out of the folder here, and is not followed: choose another folder with -o.")
-            yield Problem(words, str(path))
+            message = phrase("A link leads out of the folder here, and is not followed: choose another folder with -o.")
+            yield Problem(message, str(path))
 
 
 def _is_same(path: Path, wanted: bytes) -> bool:

@@ -46,8 +46,10 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
     except pikepdf.PasswordError as error:
         raise refusal("The PDF is encrypted, and opens only with a password. Give one without.", file) from error
     except FAULTS as error:
-        words = "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it."
-        raise refusal(words, file, most=f"{most / 1e6:g}") from error
+        template = (
+            "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it."
+        )
+        raise refusal(template, file, most=f"{most / 1e6:g}") from error
 
 
 def opened(content: bytes) -> pikepdf.Pdf:
@@ -73,8 +75,8 @@ def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
         raise refusal(SEVERAL, file, count=len(found), name=name)
     content = found[0].read_bytes()
     if len(content) > most:
-        words = "What is attached is too large: {count} MB; at most {most} MB are taken."
-        raise refusal(words, file, count=f"{len(content) / 1e6:.1f}", most=f"{most / 1e6:g}")
+        template = "What is attached is too large: {count} MB; at most {most} MB are taken."
+        raise refusal(template, file, count=f"{len(content) / 1e6:.1f}", most=f"{most / 1e6:g}")
     return bytes(content)
 
 
@@ -82,8 +84,8 @@ def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, fi
     """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
     ends = [end.end() for end in END.finditer(content)][:-1]
     if len(ends) > MOST_REVISIONS:
-        words = "The PDF was added to {count} times. Give the file as the program wrote it."
-        raise refusal(words, file, count=len(ends))
+        template = "The PDF was added to {count} times. Give the file as the program wrote it."
+        raise refusal(template, file, count=len(ends))
     for end in ends:
         try:
             with opened(content[:end]) as pdf:

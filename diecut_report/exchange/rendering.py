@@ -51,23 +51,23 @@ def document(
     """Return a report of results, as ``drawn`` does; UserError where these are not results of the program."""
     count = len(results.mechanisms)
     if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
-        words = "There are {count} mechanisms; a PDF has at most {most}. Leave it out with --format html."
-        raise refusal(words, file, count=count, most=MAX_PRINTED_MECHANISMS)
+        template = "There are {count} mechanisms; a PDF has at most {most}. Leave it out with --format html."
+        raise refusal(template, file, count=count, most=MAX_PRINTED_MECHANISMS)
     try:
         return drawn(results, formats, discovery, tell, house, file)
     except UserError:
         raise
     except Exception as cause:  # of any kind: whoever wrote the file may have put anything in any place
         missing = Phrase("{cause} is missing", cause=cause) if isinstance(cause, KeyError) else None
-        words = "The report cannot be made of these results: {told}. Give results as the program wrote them."
-        told = Phrase(words, told=missing or f"{type(cause).__name__}: {cause}")
-        raise UserError([Problem(each, file) for each in (told, other_form(results.data())) if each]) from cause
+        template = "The report cannot be made of these results: {told}. Give results as the program wrote them."
+        message = Phrase(template, told=missing or f"{type(cause).__name__}: {cause}")
+        raise UserError([Problem(each, file) for each in (message, other_form(results.data())) if each]) from cause
 
 
 def told(lost: Iterable[Lost]) -> list[str]:
     """Return in words what could not be drawn."""
-    words = "{what} {id} of mechanism {mechanism} cannot be drawn: {words}"
-    return [Phrase(words, what=phrase(each.what), id=repr(each.id), mechanism=repr(each.mechanism), words=phrase(each.words))
+    template = "{what} {id} of mechanism {mechanism} cannot be drawn: {words}"
+    return [Phrase(template, what=phrase(each.what), id=repr(each.id), mechanism=repr(each.mechanism), words=phrase(each.words))
             for each in lost]  # fmt: skip
 
 

@@ -40,7 +40,7 @@ def refuse_other_form(results: Mapping[str, Any], file: str) -> None:
     what = (
         "Install a newer diecut-report." if given > SCHEMA_VERSION else "Calculate them anew from their configuration."
     )
-    words = Phrase(
+    message = Phrase(
         "These results are of {theirs}{by}; this program reads form {own} and older ones that begin with {first}. {what}",
         theirs=Phrase("form {version}", version=told if _is_version(told) else str(given)[:20]),
         by=_by(results),
@@ -48,7 +48,7 @@ def refuse_other_form(results: Mapping[str, Any], file: str) -> None:
         first="1.",
         what=phrase(what),
     )
-    raise UserError(Problem(words, file, path="schema_version"))
+    raise UserError(Problem(message, file, path="schema_version"))
 
 
 def other_form(results: Mapping[str, Any]) -> str:
@@ -58,8 +58,8 @@ def other_form(results: Mapping[str, Any]) -> str:
         return ""
     former = Phrase("a form before {first}", first=TOLD_SINCE)
     theirs = Phrase("form {version}", version=told) if _is_version(told) else former
-    words = "These results are of {theirs}{by}, this program has form {own}: they may lack what it needs."
-    return Phrase(words, theirs=theirs, by=_by(results), own=FORM_VERSION)
+    template = "These results are of {theirs}{by}, this program has form {own}: they may lack what it needs."
+    return Phrase(template, theirs=theirs, by=_by(results), own=FORM_VERSION)
 
 
 def _by(results: Mapping[str, Any]) -> str:
@@ -106,8 +106,8 @@ def _refuse_logo(logo: LogoRecord, file: str) -> None:
         told = Phrase("the logo {fault}", fault=fault)
     except ValueError:  # an error of base64
         pass  # what is no picture is not of this type either
-    words = Phrase("is not what stands there in results: {told}. {ask}", told=told, ask=ASK)
-    raise UserError(Problem(words, file, path="config.logo"))
+    message = Phrase("is not what stands there in results: {told}. {ask}", told=told, ask=ASK)
+    raise UserError(Problem(message, file, path="config.logo"))
 
 
 def _words(fault: ErrorDetails) -> Phrase:
@@ -119,15 +119,15 @@ def _words(fault: ErrorDetails) -> Phrase:
 def parsed(content: bytes, file: str) -> dict[str, Any]:
     """Return the block of keys that a JSON file holds; UserError where it holds none, or too much."""
     if content.count(b",") + content.count(b"[") + content.count(b"{") > MOST_VALUES:
-        words = "The file holds more than {most_values} values. {ask}"
-        raise refusal(words, file, most_values=f"{MOST_VALUES:,}", ask=ASK)
+        template = "The file holds more than {most_values} values. {ask}"
+        raise refusal(template, file, most_values=f"{MOST_VALUES:,}", ask=ASK)
     try:
         found = json.loads(
             content, parse_constant=_refuse_constant, parse_float=_finite, object_pairs_hook=_without_doubles
         )
     except (ValueError, RecursionError) as error:
-        words = "This is not a JSON file that can be read: {told}. {ask}"
-        raise refusal(words, file, told=_told(error), ask=ASK) from error
+        template = "This is not a JSON file that can be read: {told}. {ask}"
+        raise refusal(template, file, told=_told(error), ask=ASK) from error
     if not isinstance(found, dict):
         raise refusal("This JSON file does not hold results. {ask}", file, ask=ASK)
     return found
@@ -184,5 +184,5 @@ def _refuse_hidden(data: Any, file: str) -> None:
         elif isinstance(part, list):
             waiting += [each for each in part if not isinstance(each, float)]
         elif isinstance(part, str) and (found := CONTROL.search(part)):
-            words = "The file holds the control character U+{code}. {ask}"
-            raise refusal(words, file, code=f"{ord(found[0]):04X}", ask=ASK)
+            template = "The file holds the control character U+{code}. {ask}"
+            raise refusal(template, file, code=f"{ord(found[0]):04X}", ask=ASK)

@@ -55,8 +55,10 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     """
     roots = certificates_in(content(trusted, MOST, phrase("certificates (PEM)")), trusted) if trusted else None
     if b"/ByteRange" not in whole:  # which stands in clear in each file that is signed
-        words = phrase("none, where --trust asks for one: nobody has signed the report, or the signatures were removed")
-        return [] if roots is None else [Signature(words, False)]
+        message = phrase(
+            "none, where --trust asks for one: nobody has signed the report, or the signatures were removed"
+        )
+        return [] if roots is None else [Signature(message, False)]
     if found_fault := fault(whole):
         return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
     try:
@@ -162,8 +164,8 @@ def _outdated(signature: Any, attested: datetime | None) -> str:
     filling = {"first": f"{first:%Y-%m-%d}", "last": f"{last:%Y-%m-%d}"}
     if told is not None and told.tzinfo is not None and not first <= told <= last:
         return Phrase("the certificate was not valid when it was used: from {first} to {last}", filling)
-    words = "the certificate is not valid now ({first} to {last}), and no timestamp proves that it was used then"
-    return "" if first <= (attested or datetime.now(UTC)) <= last else Phrase(words, filling)
+    template = "the certificate is not valid now ({first} to {last}), and no timestamp proves that it was used then"
+    return "" if first <= (attested or datetime.now(UTC)) <= last else Phrase(template, filling)
 
 
 def _other_name(signature: Any) -> str:
@@ -188,8 +190,8 @@ def _signer(signature: Any, time: datetime | None) -> str:
 def _fingerprint(signature: Any) -> str:
     cert = signature.signer_cert
     by = phrase("itself") if cert.self_signed != "no" else cell(cert.issuer.human_friendly)
-    words = "; certificate {digest} by {by}, whose name anybody may have chosen: compare it, or give --trust"
-    return Phrase(words, digest=cert.sha256.hex()[:SHORT], by=by)
+    template = "; certificate {digest} by {by}, whose name anybody may have chosen: compare it, or give --trust"
+    return Phrase(template, digest=cert.sha256.hex()[:SHORT], by=by)
 
 
 @contextmanager

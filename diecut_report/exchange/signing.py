@@ -65,8 +65,8 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     """
     whole = content(asked.report, MOST, phrase("a report as PDF"))
     if form_of(whole) != "pdf":
-        words = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
-        raise refusal(words, asked.report)
+        template = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
+        raise refusal(template, asked.report)
     try:
         with silent():
             field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
@@ -74,8 +74,8 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
         with silent():
             signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
     except (PdfError, SigningError, *PDF_FAULTS) as error:
-        words = "The PDF cannot be signed: {error}. Give the file as the program wrote it."
-        raise refusal(words, asked.report, error=error) from error
+        template = "The PDF cannot be signed: {error}. Give the file as the program wrote it."
+        raise refusal(template, asked.report, error=error) from error
     if not only_signed(whole, signed):
         raise refusal(AMBIGUOUS, asked.report)
     write_all({asked.target: signed}, keep=key.file)
@@ -108,12 +108,12 @@ def _chosen(free: list[str], asked: Signing) -> str:
     if not free:
         raise refusal(NONE_FREE, asked.report)
     if asked.field is None and len(free) > 1:
-        words = "Several fields are free; name one with --field: {free}."
-        raise refusal(words, asked.report, free=", ".join(free))
+        template = "Several fields are free; name one with --field: {free}."
+        raise refusal(template, asked.report, free=", ".join(free))
     if asked.field is not None and asked.field not in free:
         near = nearest(asked.field, free)
-        words = "There is no free field {field}{nearest}; free are: {free}."
-        raise refusal(words, asked.report, field=repr(asked.field), nearest=near, free=", ".join(free))
+        template = "There is no free field {field}{nearest}; free are: {free}."
+        raise refusal(template, asked.report, field=repr(asked.field), nearest=near, free=", ".join(free))
     return asked.field or free[0]
 
 

@@ -52,8 +52,8 @@ def name_of(certificate: x509.Certificate) -> str:
 def weak_key(kind: str, bits: int | None) -> str:
     """Return what is told of a key that can be broken; "" of one that cannot."""
     least = SHORTEST.get(kind, 0)
-    words = "the key is too short: {kind} with {bits} bits, at least {least} are needed"
-    return "" if bits is None or bits >= least else Phrase(words, kind=kind.upper(), bits=bits, least=least)
+    template = "the key is too short: {kind} with {bits} bits, at least {least} are needed"
+    return "" if bits is None or bits >= least else Phrase(template, kind=kind.upper(), bits=bits, least=least)
 
 
 def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
@@ -66,8 +66,10 @@ def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
         raise refusal("The file holds no certificate. Give that of the key with --cert.", key)
     own = next((each for each in found if each.public_key() == private.public_key()), None)
     if own is None:
-        words = "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert."
-        raise refusal(words, certificates or key)
+        template = (
+            "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert."
+        )
+        raise refusal(template, certificates or key)
     kinds = {rsa.RSAPrivateKey: "rsa", dsa.DSAPrivateKey: "dsa", ec.EllipticCurvePrivateKey: "ec"}
     kind = next((name for type_, name in kinds.items() if isinstance(private, type_)), "")
     if weak := weak_key(kind, private.key_size if kind else None):
@@ -75,8 +77,8 @@ def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
     first, last = own.not_valid_before_utc, own.not_valid_after_utc
     if not first <= datetime.now(UTC) <= last:
         told = {"not_valid_before_utc": f"{first:%Y-%m-%d}", "last": f"{last:%Y-%m-%d}"}
-        words = "The certificate is not valid now: from {not_valid_before_utc} to {last}."
-        raise refusal(words, certificates or key, **told)
+        template = "The certificate is not valid now: from {not_valid_before_utc} to {last}."
+        raise refusal(template, certificates or key, **told)
     return SigningKey(key, private, own, tuple(each for each in found if each != own))
 
 

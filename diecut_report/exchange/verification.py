@@ -155,8 +155,8 @@ def recalculated(
     again = again.with_(changes=given.changes, former=given.former) if lost else again
     found = [options, *([(lost, False)] if lost else [])]
     if previous is None and given.changes != again.changes:
-        words = "not those that come of the former configuration in the report; where another program calculated that, --previous FILE proves them"
-        found.append((phrase(words), False))
+        template = "not those that come of the former configuration in the report; where another program calculated that, --previous FILE proves them"
+        found.append((phrase(template), False))
     return again, made.broken, tuple(found)
 
 
@@ -194,8 +194,8 @@ def _options(given: ResultsRecord, again: ResultsRecord, asked: AskedReport) -> 
     ]
     named = " ".join(filter(None, told))
     none = "none: the report shows what its configuration asks for, and no changes since a former revision"
-    words = "made with {options}; all else follows from the configuration"
-    return Phrase(words, options=named) if named else phrase(none), True
+    template = "made with {options}; all else follows from the configuration"
+    return Phrase(template, options=named) if named else phrase(none), True
 
 
 # --- the former revision -----------------------------------------------------------------------------------------------
@@ -209,17 +209,17 @@ def _former(
     if previous is not None or not carried.results.changes:
         return previous, ""
     if not former:
-        words = (
+        template = (
             "not proved: the report does not carry the former configuration; --previous FILE names the former report"
         )
-        return None, phrase(words)
+        return None, phrase(template)
     try:
         with _tables(carried.former_tables) as find:
             tree = _tree(former, f"{carried.path} (its former configuration)")
             return Press.read(tree, discovery, tell, find=find).calculate().results, ""
     except UserError:
-        words = "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
-        return None, phrase(words)
+        template = "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
+        return None, phrase(template)
 
 
 # Whether a document is, byte for byte, what this program makes of the results in it, but for signatures.
@@ -236,20 +236,22 @@ def compared(
     if content == made:
         return phrase("byte for byte what the program makes of these results"), True
     if not (carried.form == "pdf" and content.startswith(made)):
-        words = (
+        template = (
             "not what the program makes of these results: it was changed or saved by another program, or set with other libraries of "
             "the system. The numbers above are those that it carries; what its pages show may be others"
         )
-        return phrase(words), False
+        return phrase(template), False
     if not signed or not all(each.holds for each in signed):
-        words = "what the program makes of these results, with {more} bytes that were added later (a signature, a note)"
-        return Phrase(words, more=len(content) - len(made)), False
+        template = (
+            "what the program makes of these results, with {more} bytes that were added later (a signature, a note)"
+        )
+        return Phrase(template, more=len(content) - len(made)), False
     from diecut_report.exchange.later_changes import only_signed
 
     if only_signed(made, content):
         return phrase("byte for byte what the program makes of these results, and after it the signatures"), True
-    words = "not what the program makes of these results: what was added later, with a signature, changes what the document shows or holds"
-    return phrase(words), False
+    template = "not what the program makes of these results: what was added later, with a signature, changes what the document shows or holds"
+    return phrase(template), False
 
 
 def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
@@ -348,13 +350,13 @@ def _program(first_results: ResultsRecord, again_results: ResultsRecord) -> Foun
     first, again = first_results.program, again_results.program
     named, old, new = f"{first.name} {first.version}", first.source_sha256, again.source_sha256
     if (first.version, old, first.extensions) == (again.version, new, again.extensions):
-        words = "{named}, source {old}: the same{others}"
-        return Phrase(words, named=named, old=old[:SHORT], others=_others(first, again)), True
+        template = "{named}, source {old}: the same{others}"
+        return Phrase(template, named=named, old=old[:SHORT], others=_others(first, again)), True
     if first.version != again.version:
         return Phrase("{named} made the report, this is {version}", named=named, version=again.version), False
     if old != new:
-        words = "{named}, but its source is another one ({old} then, {new} now)"
-        return Phrase(words, named=named, old=old[:SHORT], new=new[:SHORT]), False
+        template = "{named}, but its source is another one ({old} then, {new} now)"
+        return Phrase(template, named=named, old=old[:SHORT], new=new[:SHORT]), False
     return Phrase("{named}, but its extensions are others", named=named), False
 
 
@@ -405,8 +407,8 @@ def _config(carried: CarriedResults) -> Found:
     for name, content in contents.items():
         found = sha256(content).hexdigest()
         if found != hashes[name]:
-            words = "{name} is not the one that the report names (SHA-256 {hashes}, found {found})"
-            return Phrase(words, name=cell(name), hashes=hashes[name][:SHORT], found=found[:SHORT]), False
+            template = "{name} is not the one that the report names (SHA-256 {hashes}, found {found})"
+            return Phrase(template, name=cell(name), hashes=hashes[name][:SHORT], found=found[:SHORT]), False
     told = {"files": ", ".join(map(cell, contents)), "digest": config.sha256[:SHORT]}
     one = "{files}, SHA-256 {digest}: the one that the report names"
     return Counted(len(contents), one, "{files}, SHA-256 {digest}: the ones that the report names", told), True

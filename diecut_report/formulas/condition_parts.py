@@ -110,8 +110,8 @@ def quantity(part: ConditionPart, beside: ConditionPart | None = None) -> Condit
     if part.what == "quantity":
         return part
     if not isinstance(part.node, TextLiteral):
-        words = "{shown} is a {what}; a quantity is needed to calculate with or to compare by size."
-        raise ConditionError(words, part.place, shown=part.shown, what=part.what)
+        template = "{shown} is a {what}; a quantity is needed to calculate with or to compare by size."
+        raise ConditionError(template, part.place, shown=part.shown, what=part.what)
     name = beside.name if beside else None
     wanted = unit(name.display or name.unit) if name else None
     try:
@@ -157,8 +157,8 @@ def _pair(sign: str, left: ConditionPart, right: ConditionPart) -> Node:
         return Compared(sign, left.node, right.node)
     if "text" in whats:
         other = next(part.what for part in (left, right) if part.what not in ("text", "quoted"))
-        words = "{shown} and {shown_2} are a text and a {other}; put texts in quotes."
-        raise ConditionError(words, right.place, shown=left.shown, shown_2=right.shown, other=other)
+        template = "{shown} and {shown_2} are a text and a {other}; put texts in quotes."
+        raise ConditionError(template, right.place, shown=left.shown, shown_2=right.shown, other=other)
     left, right = quantity(left, right), quantity(right, left)
     _alike(left, right, sign)
     return Compared(sign, left.node, right.node)
@@ -167,8 +167,8 @@ def _pair(sign: str, left: ConditionPart, right: ConditionPart) -> Node:
 def like(text: ConditionPart, pattern: ConditionPart) -> ConditionPart:
     """Return whether a text is like a pattern in quotes."""
     if text.what != "text" or not isinstance(pattern.node, TextLiteral) or not isinstance(text.node, ColumnName):
-        words = "'like' compares a column of words with a pattern in quotes, such as 'drive.%'."
-        raise ConditionError(words, pattern.place)
+        template = "'like' compares a column of words with a pattern in quotes, such as 'drive.%'."
+        raise ConditionError(template, pattern.place)
     return ConditionPart(Like(text.node, pattern.node.value), "condition", text.place)
 
 
@@ -212,19 +212,19 @@ def raised(base: ConditionPart, power: ConditionPart) -> ConditionPart:
     """Return a power; its exponent must be known where the base has a unit."""
     base, power = quantity(base), quantity(power)
     if power.kind != NUMBER:
-        words = "the exponent {shown} is {kind}; a number is needed."
-        raise ConditionError(words, power.place, shown=power.shown, kind=_kind(power))
+        template = "the exponent {shown} is {kind}; a number is needed."
+        raise ConditionError(template, power.place, shown=power.shown, kind=_kind(power))
     constant = _constant(power.node)
     if base.exact and (constant is None or not constant.is_integer()):
-        words = "the exponent {shown} is not a whole number that is written here; take sqrt(…) for a root."
-        raise ConditionError(words, power.place, shown=power.shown)
+        template = "the exponent {shown} is not a whole number that is written here; take sqrt(…) for a root."
+        raise ConditionError(template, power.place, shown=power.shown)
     node = Power(base.node, power.node)
     if base.kind == NUMBER:
         return ConditionPart(node, "quantity", base.place, bare=base.bare and power.bare, loose=True)
     exponent = _constant(power.node)
     if exponent is None or not abs(exponent) <= MAX_EXPONENT:
-        words = "the exponent of {shown} must be a number between -{max_exponent} and {max_exponent}."
-        raise ConditionError(words, power.place, shown=base.shown, max_exponent=MAX_EXPONENT)
+        template = "the exponent of {shown} must be a number between -{max_exponent} and {max_exponent}."
+        raise ConditionError(template, power.place, shown=base.shown, max_exponent=MAX_EXPONENT)
     return ConditionPart(
         node, "quantity", base.place, tuple(round(exponent * share, 9) for share in base.kind), loose=True
     )
@@ -282,15 +282,15 @@ def _bare(
     kinds = Phrase("{kinds}; ", kinds=_unlike(left, right)) if left.kind != right.kind else ""
     if bare.exact:
         own = pretty(other.name.display) if other.name and other.name.display else phrase("its unit")
-        words = "{kinds}the number {shown} beside {other} needs {unit}."
-        return ConditionError(words, bare.place, kinds=kinds, shown=bare.shown, other=other.shown, unit=own)
+        template = "{kinds}the number {shown} beside {other} needs {unit}."
+        return ConditionError(template, bare.place, kinds=kinds, shown=bare.shown, other=other.shown, unit=own)
     if other.name is None or not other.name.display:
-        words = "{kinds}{sign} needs the same kind on both sides. Quote the quantity with its unit."
-        return ConditionError(words, bare.place, kinds=kinds, sign=sign)
+        template = "{kinds}{sign} needs the same kind on both sides. Quote the quantity with its unit."
+        return ConditionError(template, bare.place, kinds=kinds, sign=sign)
     example = f"'{bare.typed or 5} {other.name.display}'"
-    words = "{kinds}a number beside {name} needs {pretty}, for example {example}."
+    template = "{kinds}a number beside {name} needs {pretty}, for example {example}."
     return ConditionError(
-        words, bare.place, kinds=kinds, name=other.name.name, pretty=pretty(other.name.display), example=example
+        template, bare.place, kinds=kinds, name=other.name.name, pretty=pretty(other.name.display), example=example
     )
 
 
@@ -339,8 +339,8 @@ class ConditionReader:
 
     def _part(self, at: ast.expr, depth: int) -> ConditionPart:
         if depth > MAX_DEPTH:
-            words = "the condition is nested deeper than {deepest} levels. Write several conditions."
-            raise ConditionError(words, self._place(at), deepest=MAX_DEPTH)
+            template = "the condition is nested deeper than {deepest} levels. Write several conditions."
+            raise ConditionError(template, self._place(at), deepest=MAX_DEPTH)
         match at:
             case ast.Name():
                 return self._leaf(at)
@@ -367,8 +367,8 @@ class ConditionReader:
 
     def _unfit(self, at: ast.expr) -> ConditionError:
         word = self.whole.word(at)
-        words = "{shown} does not fit here; use brackets. Allowed: {allowed}."
-        return ConditionError(words, word.place, shown=word.shown, allowed=ALLOWED)
+        template = "{shown} does not fit here; use brackets. Allowed: {allowed}."
+        return ConditionError(template, word.place, shown=word.shown, allowed=ALLOWED)
 
     # --- names, numbers, texts ---
 
@@ -390,8 +390,8 @@ class ConditionReader:
         word = self.whole.word(at)
         if word.text not in FUNCTIONS:
             near = nearest(word.text, FUNCTIONS)
-            words = "there is no function {text}{near}; known: {functions}."
-            raise ConditionError(words, word.place, text=repr(word.text), near=near, functions=", ".join(FUNCTIONS))
+            template = "there is no function {text}{near}; known: {functions}."
+            raise ConditionError(template, word.place, text=repr(word.text), near=near, functions=", ".join(FUNCTIONS))
         return word.text
 
     # --- arithmetic ---
@@ -496,9 +496,9 @@ class Expression:
         needed = unit(wanted)
         if alike(self.kind, needed.kind):
             return ""
-        words = "“{text}” gives {told_kind}; {told_kind_2} in {wanted} is needed here"
+        template = "“{text}” gives {told_kind}; {told_kind_2} in {wanted} is needed here"
         return Phrase(
-            words,
+            template,
             text=self.text,
             told_kind=told_kind(self.kind),
             told_kind_2=told_kind(needed.kind, wanted),

@@ -113,8 +113,8 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
     if match is None:
         raise _not_allowed(given, place, CALCULATED)
     if match["comma"]:
-        words = "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values."
-        raise ConditionError(words, place, match=match[0])
+        template = "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values."
+        raise ConditionError(template, place, match=match[0])
     if match["word"]:
         if not given[match.end() :].lstrip().startswith("("):
             advice = phrase("a value of the configuration stands as ${NAME.KEY}, a unit behind its number")
@@ -134,8 +134,8 @@ def _not_allowed(given: str, place: int, allowed: str) -> ConditionError:
 def tokens(given: str, known: Collection[str]) -> list[Token]:
     """Split a condition into its words, the end among them; known names are taken whole, whatever they are made of."""
     if len(given) > MAX_LENGTH:
-        words = "the condition has {count} characters; at most {most_letters} are allowed. Write several conditions."
-        raise ConditionError(words, count=len(given), most_letters=MAX_LENGTH)
+        template = "the condition has {count} characters; at most {most_letters} are allowed. Write several conditions."
+        raise ConditionError(template, count=len(given), most_letters=MAX_LENGTH)
     whole = re.compile("(" + "|".join(map(re.escape, sorted(known, key=len, reverse=True))) + r")(?![\w.])")
 
     def word_at(place: int) -> tuple[Token, int]:
@@ -155,8 +155,8 @@ def _token(given: str, place: int, known: Collection[str]) -> tuple[Token, int]:
     if match is None:
         raise _not_allowed(given, place, ALLOWED)
     if match["quantity"]:
-        words = "“{quantity}”: put a quantity in quotes: '{value} {unit}'."
-        raise ConditionError(words, place, quantity=match["quantity"], value=match["value"], unit=match["unit"])
+        template = "“{quantity}”: put a quantity in quotes: '{value} {unit}'."
+        raise ConditionError(template, place, quantity=match["quantity"], value=match["value"], unit=match["unit"])
     text = match[0]
     if match["quoted"]:
         inside = text[1:-1].replace(text[0] * 2, text[0])
@@ -247,8 +247,8 @@ class _GrammarWriter:
         self.at += 1
 
     def _lack(self) -> NoReturn:
-        words = "{operand} is missing before {shown}."
-        raise ConditionError(words, self.next.place, operand=OPERAND, shown=self.next.shown)
+        template = "{operand} is missing before {shown}."
+        raise ConditionError(template, self.next.place, operand=OPERAND, shown=self.next.shown)
 
     def _unexpected(self) -> ConditionError:
         return ConditionError("{shown} is not expected here.", self.next.place, shown=self.next.shown)
@@ -337,8 +337,8 @@ class _GrammarWriter:
 
     def _need(self, wanted: str) -> None:
         if not self._is(wanted):
-            words = "{wanted} is missing before {shown}."
-            raise ConditionError(words, self.next.place, wanted=repr(wanted), shown=self.next.shown)
+            template = "{wanted} is missing before {shown}."
+            raise ConditionError(template, self.next.place, wanted=repr(wanted), shown=self.next.shown)
 
     def _close(self, by: str) -> None:
         self._decided()
@@ -352,8 +352,8 @@ class _GrammarWriter:
 
     def _decided(self) -> None:
         if self.open[-1].waiting:
-            words = "'and' is missing before {shown}: write between … and …."
-            raise ConditionError(words, self.next.place, shown=self.next.shown)
+            template = "'and' is missing before {shown}: write between … and …."
+            raise ConditionError(template, self.next.place, shown=self.next.shown)
 
 
 # The kinds of quantities in conditions and expressions, in words.

@@ -172,11 +172,11 @@ def instead(node: ast.AST, value: object) -> str:
         case ast.Call(func=ast.Name(id=name) | ast.Attribute(value=ast.Name(id="math"), attr=name)) if name in OF_NUMPY:
             return Phrase("write np.{of_numpy}, which takes arrays too", of_numpy=OF_NUMPY[name])
         case ast.Name(id=name) if isinstance(value, int | float) and not isinstance(value, bool):
-            words = (
+            template = (
                 "write the number itself, or bind it: bind(…, {name}={value}), or make it one of the constants, "
                 "Constant(value, symbol, unit), which are printed with their symbols"
             )
-            return Phrase(words, name=name, value=format(value, "g"))
+            return Phrase(template, name=name, value=format(value, "g"))
     return LISTED
 
 
@@ -300,16 +300,16 @@ class _BodyReader:
                     continue  # the docstring
                 case _:
                     raise self._refuse(statement)
-        words = "{place}: formula {name} returns nothing"
-        raise FormulaError(Phrase(words, place=self.owner.place, name=self.owner.__name__))
+        template = "{place}: formula {name} returns nothing"
+        raise FormulaError(Phrase(template, place=self.owner.place, name=self.owner.__name__))
 
     def _statements(self) -> list[ast.stmt]:
         try:
             return body(self.function.__code__)
         except Unreadable as error:
-            words = "{place}: the source of formula {name} cannot be read: {error}"
+            template = "{place}: the source of formula {name} cannot be read: {error}"
             named = {"place": self.owner.place, "name": self.owner.__name__, "error": error}
-            raise FormulaError(Phrase(words, named)) from None
+            raise FormulaError(Phrase(template, named)) from None
 
     def _node(self, expression: ast.expr) -> Node:
         match expression:
@@ -355,9 +355,9 @@ class _BodyReader:
         """FormulaError where a function is called with more or fewer than it takes."""
         wanted, call = 2 if name in OF_TWO else 1, repr(ast.unparse(at))
         if len(args) != wanted:
-            words = "{place}: formula {name} calls {called} with {count}, in {call}; it takes {wanted}"
+            template = "{place}: formula {name} calls {called} with {count}, in {call}; it takes {wanted}"
             named = {"place": self._place(at), "name": self.owner.__name__, "called": ast.unparse(at.func)}
-            raise FormulaError(Phrase(words, named, count=len(args), call=call, wanted=wanted))
+            raise FormulaError(Phrase(template, named, count=len(args), call=call, wanted=wanted))
 
     def _called(self, callee: Formula, args: tuple[Node, ...], at: ast.Call) -> Node:
         """A call of another formula: its expression in place of the call, or its name with what it is given."""
@@ -397,9 +397,9 @@ class _BodyReader:
 
     def _refuse(self, node: ast.AST) -> FormulaError:
         value = self._object(node) if isinstance(node, ast.Name) else None
-        words = "formula {name} cannot print {node}; {instead}"
-        told = Phrase(words, name=self.owner.__name__, node=repr(ast.unparse(node)), instead=instead(node, value))
-        return FormulaError(joined((self._place(node), told), ": "))
+        template = "formula {name} cannot print {node}; {instead}"
+        message = Phrase(template, name=self.owner.__name__, node=repr(ast.unparse(node)), instead=instead(node, value))
+        return FormulaError(joined((self._place(node), message), ": "))
 
     def _place(self, node: ast.AST) -> str:
         return f"{self.function.__code__.co_filename}:{getattr(node, 'lineno', '?')}"

@@ -113,9 +113,9 @@ class Constant(float):
     def __new__(cls, value: float, symbol: str, unit: str) -> Constant:
         given = known(unit)
         if abs(given.factor - 1) > ROUNDING:
-            words = "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}"
+            template = "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}"
             given_text, in_si = format(given.factor, "g"), format(value * given.factor, "g")
-            raise TypeError(Phrase(words, symbol=symbol, unit=unit, factor=given_text, si=given.si, value=in_si))
+            raise TypeError(Phrase(template, symbol=symbol, unit=unit, factor=given_text, si=given.si, value=in_si))
         self = super().__new__(cls, value)
         self.symbol, self.unit = symbol, unit
         return self

@@ -432,6 +432,6 @@ def _bound(port: int) -> socket.socket:
         found.close()
         is_taken = error.errno == errno.EADDRINUSE
         why = phrase("another program is using it") if is_taken else (error.strerror or f"{error.errno}")
-        words = "Port {port} of this machine is not available: {why}. Omit --port to use a free one."
-        raise refusal(words, port=port, why=why) from error
+        template = "Port {port} of this machine is not available: {why}. Omit --port to use a free one."
+        raise refusal(template, port=port, why=why) from error
     return found

@@ -121,8 +121,8 @@ class LiveSession:
         """
         self.read()  # as it stands now, whatever the editor has saved meanwhile
         if self.faults or self.tree is None:
-            words = "Nothing is saved because this cannot be calculated; undo a change, or fix the file first."
-            raise refusal(words, self.file)
+            template = "Nothing is saved because this cannot be calculated; undo a change, or fix the file first."
+            raise refusal(template, self.file)
         tree, text = self.tree, rewritten(self.tree, self._edited()).text
         if text != tree.text:
             write(self.file.resolve(), as_file(tree, text), instead_of=tree.sha256)
@@ -196,14 +196,14 @@ def in_time(file: Path) -> Iterator[None]:
         with limited(SESSION_PATIENCE):
             yield
     except Overran as cause:
-        words = "it did not finish within {seconds} s ({said})"
-        raise refusal(words, file, seconds=f"{SESSION_PATIENCE:g}", said=said(cause)) from cause
+        template = "it did not finish within {seconds} s ({said})"
+        raise refusal(template, file, seconds=f"{SESSION_PATIENCE:g}", said=said(cause)) from cause
 
 
 def _chosen(asked: DesignInput, typed: str) -> str:
     if typed not in asked.options:
-        words = "{given} is not a value of {name}; allowed: {options}."
-        raise refusal(words, given=repr(typed[:MAX_TYPED_LENGTH]), name=asked.name, options=", ".join(asked.options))
+        template = "{given} is not a value of {name}; allowed: {options}."
+        raise refusal(template, given=repr(typed[:MAX_TYPED_LENGTH]), name=asked.name, options=", ".join(asked.options))
     return typed
 
 
@@ -278,8 +278,8 @@ class LiveReports:
         except TimeoutError:
             process.kill()
             await process.wait()
-            words = "The report was not finished within {seconds} s and was aborted."
-            raise refusal(words, seconds=f"{PATIENCE:g}") from None
+            template = "The report was not finished within {seconds} s and was aborted."
+            raise refusal(template, seconds=f"{PATIENCE:g}") from None
         files = list((folder / "made").glob(f"*.{form}"))
         if not files:
             raise refusal(told.decode(errors="replace").strip() or phrase("The report was not generated."))

@@ -154,8 +154,8 @@ def _of_input(name: str, calc: Calculation) -> Quantity:
     if path not in inputs:
         given = [each.name for step in calc.steps.values() for each in names_ahead(step)]
         near = nearest(path, [*given, *inputs])
-        words = "{name} is not a quantity of this machine{near}; name a step or an input"
-        raise Misdeclared(Phrase(words, name=repr(name), near=near), calc.mechanism.at)
+        template = "{name} is not a quantity of this machine{near}; name a step or an input"
+        raise Misdeclared(Phrase(template, name=repr(name), near=near), calc.mechanism.at)
     return cast(Quantity, inputs[path])
 
 

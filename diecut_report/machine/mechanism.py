@@ -140,8 +140,8 @@ def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
     found = [[cell if isinstance(cell, str | None) else float(cell) for cell in row] for row in step.function(known)]
     for row in found:
         if len(row) != len(step.columns) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
-            words = "step {id}: its function gives the row {row}; {count} texts and finite numbers are wanted"
-            raise Misdeclared(Phrase(words, id=step.id, row=row, count=len(step.columns)), step.at)
+            template = "step {id}: its function gives the row {row}; {count} texts and finite numbers are wanted"
+            raise Misdeclared(Phrase(template, id=step.id, row=row, count=len(step.columns)), step.at)
     return found
 
 

@@ -48,30 +48,30 @@ class CurveInput:
             return given
         if isinstance(given, list) and not self.referred:
             if len(given) < 4:
-                words = "has {count} values; a curve needs at least 4 over its period"
-                raise ValueError(Phrase(words, count=len(given)))
+                template = "has {count} values; a curve needs at least 4 over its period"
+                raise ValueError(Phrase(template, count=len(given)))
             if len(given) > MAX_CURVE_VALUES:
-                words = "has {count} values; at most {max_curve_values} are allowed for a curve"
-                raise ValueError(Phrase(words, count=len(given), max_curve_values=MAX_CURVE_VALUES))
+                template = "has {count} values; at most {max_curve_values} are allowed for a curve"
+                raise ValueError(Phrase(template, count=len(given), max_curve_values=MAX_CURVE_VALUES))
             return tuple(self._listed(value) for value in given)
         if hasattr(given, "curve_id"):
             return given
         or_list = "" if self.referred else phrase(" or a list of values")
-        words = "is {given}; a reference to a curve{or_list} in {unit} is needed"
-        raise ValueError(Phrase(words, given=repr(given), or_list=or_list, unit=self.unit))
+        template = "is {given}; a reference to a curve{or_list} in {unit} is needed"
+        raise ValueError(Phrase(template, given=repr(given), or_list=or_list, unit=self.unit))
 
     def _listed(self, given: Any) -> float:
         """Return one value of a list in SI; one that is referred to is in SI already."""
         if isinstance(given, SI) and unit(given.unit).kind != unit(self.unit).kind:
-            words = "{told} is in {unit}; a quantity in {unit_2} is needed here"
-            raise ValueError(Phrase(words, told=given.told, unit=given.unit, unit_2=self.unit))
+            template = "{told} is in {unit}; a quantity in {unit_2} is needed here"
+            raise ValueError(Phrase(template, told=given.told, unit=given.unit, unit_2=self.unit))
         value = float(given.value) if isinstance(given, SI) else parse_quantity(given, self.unit)
         sizes = plausible(self.unit)
         if not sizes.holds(value):
             shown = f"{to_display(value, self.unit):.6g} {pretty(self.unit)}".rstrip()
             source = Phrase(" (from {told})", told=given.told) if isinstance(given, SI) else ""
-            words = "holds {shown}{source}, which is not plausible; plausible: {told}, or 0"
-            raise ValueError(Phrase(words, shown=shown, source=source, told=sizes.told))
+            template = "holds {shown}{source}, which is not plausible; plausible: {told}, or 0"
+            raise ValueError(Phrase(template, shown=shown, source=source, told=sizes.told))
         return value
 
 
@@ -123,8 +123,8 @@ class PhaseInput:
             named = f"${{{given.path}}}" if isinstance(given, Pending) else f"{given!r}"
             raise ValueError(Phrase("{named} is not a phase; {needed}", named=named, needed=self.needed))
         if unit(other).kind != unit(self.unit).kind:
-            words = "is a phase over an abscissa in {pretty}; one in {pretty_2} is needed here"
-            raise ValueError(Phrase(words, pretty=pretty(other), pretty_2=pretty(self.unit)))
+            template = "is a phase over an abscissa in {pretty}; one in {pretty_2} is needed here"
+            raise ValueError(Phrase(template, pretty=pretty(other), pretty_2=pretty(self.unit)))
         return given
 
     @property
@@ -150,8 +150,8 @@ class MechanismInput:
         if getattr(given, "is_mechanism", False):
             return given
         named = f"${{{given.path}}}" if isinstance(given, Pending) else f"{given!r}"
-        words = "{named} is not a mechanism; the name of one is needed, as in mechanism: drive"
-        raise ValueError(Phrase(words, named=named))
+        template = "{named} is not a mechanism; the name of one is needed, as in mechanism: drive"
+        raise ValueError(Phrase(template, named=named))
 
 
 class GivenMechanism(Protocol):

@@ -124,8 +124,8 @@ class Quantity:
             case bool() | list() | dict():
                 kind = phrase("a block of keys") if isinstance(given, dict) else str(given).lower()
                 kind = phrase("a list") if isinstance(given, list) else kind
-                words = "is {kind}; a number or a text such as “{rstrip}” is needed"
-                raise ValueError(Phrase(words, kind=kind, rstrip=f"10 {pretty(self.unit)}".rstrip()))
+                template = "is {kind}; a number or a text such as “{rstrip}” is needed"
+                raise ValueError(Phrase(template, kind=kind, rstrip=f"10 {pretty(self.unit)}".rstrip()))
         value = self._parsed(given)
         return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
 
@@ -357,8 +357,8 @@ class Varying(Quantity):
         """Return what the plugin's code takes; ValueError in words where it is not allowed."""
         if isinstance(given, Pending) and given.is_curve:
             if given.unit is None or unit(given.unit).kind != self.parsed_unit.kind:
-                words = "${{path}} is not a curve in {unit}, but in {own}"
-                raise ValueError(Phrase(words, path=given.path, unit=pretty(self.unit), own=given.unit))
+                template = "${{path}} is not a curve in {unit}, but in {own}"
+                raise ValueError(Phrase(template, path=given.path, unit=pretty(self.unit), own=given.unit))
             return given
         if isinstance(given, Extremes) or hasattr(given, "curve_id"):
             return given

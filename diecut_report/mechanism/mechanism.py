@@ -215,8 +215,8 @@ class Comparison:
     def __post_init__(self) -> None:
         foreign = [key for key, (kind, _) in self.takes.items() if kind not in self.kinds]
         if foreign or self.mechanism.checks:
-            words = "{kind}: a comparison has no checks, and takes from its own kinds only"
-            raise Misdeclared(Phrase(words, kind=self.mechanism.kind))
+            template = "{kind}: a comparison has no checks, and takes from its own kinds only"
+            raise Misdeclared(Phrase(template, kind=self.mechanism.kind))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

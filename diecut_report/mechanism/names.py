@@ -173,8 +173,8 @@ class OneOf:
         told = ", or ".join(listed(group) for group in self.groups)
         heads = list(dict.fromkeys(group[0] for group in self.groups if group[0] in known))
         if len(heads) > 1:
-            words = "{listed} are both given, but only one can hold; give {told}."
-            return Phrase(words, listed=listed(heads), told=told)
+            template = "{listed} are both given, but only one can hold; give {told}."
+            return Phrase(template, listed=listed(heads), told=told)
         complete = [group for group in self.groups if known.issuperset(group)]
         idle = known & {key for group in self.groups for key in group} - {*self.shared}.union(*complete[:1])
         if complete and not idle:
@@ -189,8 +189,8 @@ class OneOf:
             nearest = min(begun, key=lambda group: len(set(group) - known))
             missing = [key for key in nearest if key not in known]
             beside = [key for key in nearest if key in known]
-            words = "{listed} is missing beside {present}; give {told}."
-            return Phrase(words, listed=listed(missing), present=listed(beside), told=told)
+            template = "{listed} is missing beside {present}; give {told}."
+            return Phrase(template, listed=listed(missing), present=listed(beside), told=told)
         chosen = Phrase(" with {key}", key=self.when.replace("=", ": ")) if self.when else ""
         return "" if self.optional else Phrase("{told} is needed{chosen}.", told=told, chosen=chosen)
 
@@ -225,8 +225,8 @@ def bind(formula: Formula | Callable[..., Any], **names: str | float) -> Bound:
     unknown = sorted(set(names) - set(formula.parameters))
     if unknown:
         known = ", ".join(formula.parameters) or "none"
-        words = "formula {name} has no parameter {unknown}; it has {known}"
-        raise Misdeclared(Phrase(words, name=formula.__name__, unknown=", ".join(unknown), known=known))
+        template = "formula {name} has no parameter {unknown}; it has {known}"
+        raise Misdeclared(Phrase(template, name=formula.__name__, unknown=", ".join(unknown), known=known))
     return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
 
 
@@ -267,15 +267,15 @@ def as_binding(part: Written, name: str) -> Binding:
 
 def _formula(function: Any, name: str) -> Formula:
     if not isinstance(function, FunctionType):
-        words = "{name} needs a formula, and {function} is none; write a lambda, or a def with @formula above it"
-        raise Misdeclared(Phrase(words, name=name, function=repr(function)))
+        template = "{name} needs a formula, and {function} is none; write a lambda, or a def with @formula above it"
+        raise Misdeclared(Phrase(template, name=name, function=repr(function)))
     optional = [p.name for p in signature(function).parameters.values() if p.default is not p.empty]
     if optional:
-        words = (
+        template = (
             "the formula of {name} has a default for {optional}, which is never used: each parameter takes "
             "a quantity; remove it, or bind a number: bind(…, {first}=2)"
         )
-        raise Misdeclared(Phrase(words, name=name, optional=", ".join(optional), first=optional[0]))
+        raise Misdeclared(Phrase(template, name=name, optional=", ".join(optional), first=optional[0]))
     return Formula(function, name)
 
 

@@ -69,8 +69,8 @@ class Plausible:
     def __post_init__(self) -> None:
         given: tuple[object, ...] = (self.least, self.most)  # by an author, who may have written numbers
         if not all(isinstance(text, str) for text in given):
-            words = "{least} and {most} are not plausible sizes; give two texts, such as 1 mm and 10 m."
-            raise UnitError(words, least=repr(self.least), most=repr(self.most))
+            template = "{least} and {most} are not plausible sizes; give two texts, such as 1 mm and 10 m."
+            raise UnitError(template, least=repr(self.least), most=repr(self.most))
 
     @cached_property
     def kind(self) -> Kind:
@@ -86,8 +86,8 @@ class Plausible:
         wanted = [number_and_unit(text)[1] or "1" for text in (self.least, self.most)]
         least, most = (parse_quantity(text, own) for text, own in zip((self.least, self.most), wanted, strict=True))
         if not 0 < least < most:
-            words = "{least} to {most} is not a range of sizes; give two above zero, the lesser first."
-            raise UnitError(words, least=self.least, most=self.most)
+            template = "{least} to {most} is not a range of sizes; give two above zero, the lesser first."
+            raise UnitError(template, least=self.least, most=self.most)
         return least, most
 
     def holds(self, values: Any) -> Any:

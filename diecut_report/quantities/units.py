@@ -174,9 +174,9 @@ def _read_with_pint(canonical: str, typed: str) -> Unit:
     readable = len(canonical) <= MAX_UNIT_LENGTH and _GRAMMAR.fullmatch(canonical)
     measured = measure_with_pint(canonical) if readable else None
     if measured is None:
-        words = "{text} is not a known unit.{suggestion}"
+        template = "{text} is not a known unit.{suggestion}"
         raise UnitError(
-            words, text=_shortened(typed), suggestion=suggestion(typed[:MAX_UNIT_LENGTH], _table()["units"])
+            template, text=_shortened(typed), suggestion=suggestion(typed[:MAX_UNIT_LENGTH], _table()["units"])
         )
     factor, kind = measured
     return Unit(canonical, factor, si_text(kind), kind)
@@ -304,13 +304,15 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str
     Raises UnitError, which names the `wanted` unit, for a text that does not begin with one finite number.
     """
     if len(text) > MAX_QUANTITY:
-        words = "{text} has {count} characters; a number with a unit has at most {most}."
-        raise UnitError(_and_needed(Phrase(words, text=_shortened(text), count=len(text), most=MAX_QUANTITY), wanted))
+        template = "{text} has {count} characters; a number with a unit has at most {most}."
+        raise UnitError(
+            _and_needed(Phrase(template, text=_shortened(text), count=len(text), most=MAX_QUANTITY), wanted)
+        )
     text = text.strip().replace("−", "-")
     match = _QUANTITY.fullmatch(text)
     if re.match(r"[+-]?[0-9]*,[0-9]", text) or (match and re.match(r",\s*[0-9]", match[2])):
-        words = "{text} holds a comma; write a decimal point and no thousands separator."
-        raise UnitError(words, text=_shortened(text))
+        template = "{text} holds a comma; write a decimal point and no thousands separator."
+        raise UnitError(template, text=_shortened(text))
     if match is None:
         raise _unfit(_shortened(text), phrase("does not begin with a finite number"), wanted)
     own = match[2].strip().removeprefix("*").strip()

@@ -88,11 +88,11 @@ def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
 
 def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRecord:
     """Return a check that would hold by what was typed alone, in the form of those that are not made."""
-    words = (
+    template = (
         "Not checked: it would pass only because of {keys}, not yet substantiated; give the basis there, as in "
         "{value: 1.2, basis: standard, note: …}: measured, drawing, or the standard or catalogue that the note names."
     )
-    return not_made(calc, check, keys).with_(message=Phrase(words, keys=listed(keys)))
+    return not_made(calc, check, keys).with_(message=Phrase(template, keys=listed(keys)))
 
 
 def check_unit(calc: Calculation, check: Check, sides: list[float]) -> str:

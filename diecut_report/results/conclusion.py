@@ -123,8 +123,8 @@ def doubtful(results: ResultsRecord, discovery: Discovery | None = None) -> list
 
 def told_faults(kind: str, faults: Sequence[str]) -> list[str]:
     """Return what is said of a plugin whose formulas have faults, and below it the first of them with file and line."""
-    words = "The formulas of the plugin of {kind} have faults; do not rely on its results."
-    lines: list[str] = [Phrase(words, kind=repr(kind)), *(f"  {fault}" for fault in faults[:TOLD])]
+    template = "The formulas of the plugin of {kind} have faults; do not rely on its results."
+    lines: list[str] = [Phrase(template, kind=repr(kind)), *(f"  {fault}" for fault in faults[:TOLD])]
     if (more := len(faults) - TOLD) > 0:
         one = "  {n} more fault, which `diecut-report check-plugin {kind}` tells"
         many = "  {n} more faults, which `diecut-report check-plugin {kind}` tells"
@@ -205,10 +205,10 @@ class Open(NamedTuple):
             failed = Counted(found.fail, "{n} of {total} checks fails", "{n} of {total} checks fail", total=made)
             return Phrase("{failed}; {left}.", failed=failed, left=left) if left else Phrase("{failed}.", failed=failed)
         if self.lost:
-            words = "{n} of {total} mechanisms were not calculated."
+            template = "{n} of {total} mechanisms were not calculated."
             if self.are_compared:
-                words = "{n} of {total} mechanisms and comparisons were not calculated."
-            return Phrase(words, n=self.lost, total=self.parts)
+                template = "{n} of {total} mechanisms and comparisons were not calculated."
+            return Phrase(template, n=self.lost, total=self.parts)
         if not made:
             return Phrase("Nothing was checked, and {left}.", left=left) if found.not_checked else phrase("There are no checks.")  # fmt: skip
         return Phrase("No check fails, but {left}.", left=left) if left else phrase("All checks pass.")

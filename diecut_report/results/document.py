@@ -61,8 +61,8 @@ def document(run: Run) -> ResultsRecord:
     checks = {name: data.checks for name, data in mechanisms.items()}
     left_out = None
     if comparisons and run.left_out:
-        words = Phrase(LEFT_OUT, count=len(run.left_out), first=run.left_out[0], most=MAX_COMPARISONS)
-        left_out = LeftOutRecord(message=words, names=run.left_out)
+        message = Phrase(LEFT_OUT, count=len(run.left_out), first=run.left_out[0], most=MAX_COMPARISONS)
+        left_out = LeftOutRecord(message=message, names=run.left_out)
     made = ResultsRecord(
         schema_version=1,
         form_version=FORM_VERSION,

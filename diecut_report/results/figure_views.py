@@ -65,9 +65,9 @@ def guarded(make: Callable[[], R], lost: Callable[[str], R], place: str) -> R:
         return lost(f"{unfit} ({place})")
     except ValidationError as cause:  # what cannot stand in a results file
         fault = cause.errors(include_url=False)[0]
-        words = "{where}: {fault}; a figure holds finite numbers, texts and lists of these, and None for an absent number in a line"
-        told = Phrase(words, where=".".join(map(str, fault["loc"])), fault=fault["msg"])
-        return lost(f"{told} ({place})")
+        template = "{where}: {fault}; a figure holds finite numbers, texts and lists of these, and None for an absent number in a line"
+        message = Phrase(template, where=".".join(map(str, fault["loc"])), fault=fault["msg"])
+        return lost(f"{message} ({place})")
     except Exception as cause:
         return lost(Phrase("{said}, asked for at {place}", said=said(cause), place=place))
 
@@ -84,8 +84,8 @@ def curve_named(calc: Calculation, name: str, abscissa: str | None = None) -> st
         what = phrase("a curve that is not an output") if name in calc.curves else what
         raise Undrawable("{name} is {what}; it takes a curve that the results hold", name=repr(name), what=what)
     if abscissa is not None and found != abscissa:
-        words = "{name} runs over {found}, not over {abscissa}; both must have one abscissa"
-        raise Undrawable(words, name=repr(name), found=repr(found), abscissa=repr(abscissa))
+        template = "{name} runs over {found}, not over {abscissa}; both must have one abscissa"
+        raise Undrawable(template, name=repr(name), found=repr(found), abscissa=repr(abscissa))
     return found
 
 
@@ -109,8 +109,8 @@ def moving_shapes(title: str, frames: Sequence[Sequence[Shape]]) -> list[Shape]:
     """Return the shapes of all frames once: as it is what stands still, others with their numbers in each frame (``moves``)."""
     forms = [[_form(shape) for shape in frame] for frame in frames]
     if any(form != forms[0] for form in forms) or not all(_is_movable(shape) for shape in frames[0]):
-        words = "what moves in {title} must be the same {movable} at each place"
-        raise Undrawable(words, title=repr(title), movable=f"{', '.join(MOVABLE)}, rigid")
+        template = "what moves in {title} must be the same {movable} at each place"
+        raise Undrawable(template, title=repr(title), movable=f"{', '.join(MOVABLE)}, rigid")
     return [_moved(shapes) for shapes in zip(*frames, strict=True)]
 
 
@@ -173,8 +173,8 @@ def _placed(rigid: Shape) -> list[Shape]:
             case "point":
                 placed.append(point(of(shape["at"]), shape["role"], shape.get("label", "")))
             case kind:
-                words = "{kind} cannot be part of what is rigid; it takes {movable}"
-                raise Undrawable(words, kind=repr(kind), movable=", ".join(MOVABLE))
+                template = "{kind} cannot be part of what is rigid; it takes {movable}"
+                raise Undrawable(template, kind=repr(kind), movable=", ".join(MOVABLE))
     return placed
 
 
@@ -200,13 +200,15 @@ def checked(panel: Data, lines: Lines) -> Data:
     name = repr(panel.get("title") or panel["label"])
     ends = ["…" if end is None else told(end, panel["unit"]) for end in (low, high)]
     if low is not None and high is not None and not low < high:
-        words = "the range of {name} goes from {low} to {high}, which is none"
-        raise Undrawable(words, name=name, low=ends[0], high=ends[1])
+        template = "the range of {name} goes from {low} to {high}, which is none"
+        raise Undrawable(template, name=name, low=ends[0], high=ends[1])
     room = SAME * max(abs(end) for end in (low, high, 0.0) if end is not None)
     for label, value in _heights(panel, lines):
         if (low is not None and value < low - room) or (high is not None and value > high + room):
-            words = "{label} reaches {value}, outside of the range of {name}, {limits}; widen it"
-            raise Undrawable(words, label=label, value=told(value, panel["unit"]), name=name, limits=" to ".join(ends))
+            template = "{label} reaches {value}, outside of the range of {name}, {limits}; widen it"
+            raise Undrawable(
+                template, label=label, value=told(value, panel["unit"]), name=name, limits=" to ".join(ends)
+            )
     return panel
 
 
@@ -396,8 +398,8 @@ def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:
     if not isinstance(drawn, list) or not all(isinstance(shape, dict) for shape in drawn):
         name, kind = getattr(build, "__name__", phrase("its function")), type(drawn).__name__
         given = "nothing" if drawn is None else f"a {kind}" if kind != "list" else phrase("other things in its list")
-        words = "{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give"
-        raise Undrawable(words, name=name, given=given)
+        template = "{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give"
+        raise Undrawable(template, name=name, given=given)
     return drawn
 
 
@@ -447,8 +449,8 @@ def _polar(figure: Polar, view: MachineView, head: Data) -> Data:
     distances = [(one.label, [abs(value) for value in view.curve(one.curve)]) for one in figure.series if figure.range]
     ranged = declared(head | made, figure.range, view, distances)
     if (ranged.get("range", [None])[0] or 0) < 0:
-        words = "the range of {title} begins below zero, where no distance from the pole is"
-        raise Undrawable(words, title=repr(figure.title))
+        template = "the range of {title} begins below zero, where no distance from the pole is"
+        raise Undrawable(template, title=repr(figure.title))
     return ranged
 
 

@@ -94,8 +94,8 @@ def _spectrum(spectrum: Spectrum) -> Data:
 
 def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
     if not np.isfinite(np.asarray(values, dtype=float)).all():
-        words = "{description} ({id}) is a curve that has no value at some of its places"
-        raise Unproven(Phrase(words, description=step.description, id=step.id), step.at)
+        template = "{description} ({id}) is a curve that has no value at some of its places"
+        raise Unproven(Phrase(template, description=step.description, id=step.id), step.at)
     return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
             "description": step.description, "display_unit": display, "source": step.source,
             **({"source_symbol": step.source_symbol} if isinstance(step, Step) and step.source_symbol else {})}  # fmt: skip
@@ -187,8 +187,8 @@ class SelfTestFailed(Exception):
 
     def __init__(self, checks: list[CheckRecord]) -> None:
         told = " ".join(f"{check.title}: {check.message}" for check in checks)
-        words = "The calculation contradicts itself, and its numbers must not be used. {told}"
-        super().__init__(Phrase(words, told=told))
+        template = "The calculation contradicts itself, and its numbers must not be used. {told}"
+        super().__init__(Phrase(template, told=told))
         self.checks = checks
 
 

@@ -106,9 +106,9 @@ def _block(case: Found, values: Mapping[str, Any]) -> Block:
             raise  # a fault of what is declared
         kind, name = case.comparison.takes[key]
         instance, told = case.between[kind], fault["msg"].removeprefix("Value error, ")
-        words = "The comparison {name} takes {output}: {fault}."
+        template = "The comparison {name} takes {output}: {fault}."
         raise Uncomparable(
-            Phrase(words, name=case.name, output=f"{instance}.{name}", fault=told), instance, name
+            Phrase(template, name=case.name, output=f"{instance}.{name}", fault=told), instance, name
         ) from error
 
 

@@ -58,8 +58,8 @@ def where(run: WarmRun, name: str) -> FoundPlace:
     if instance is None or not own or instance.mechanism is None:
         known = [each for each in run.config.kinds if run.config.instances.get(each)]
         near = "" if mechanism in known else nearest(mechanism, known)
-        words = "write MECHANISM.NAME; the mechanisms are: {known}{nearest}"
-        raise UnknownName(Problem(Phrase(words, known=", ".join(known), nearest=near), name))
+        template = "write MECHANISM.NAME; the mechanisms are: {known}{nearest}"
+        raise UnknownName(Problem(Phrase(template, known=", ".join(known), nearest=near), name))
     if mechanism not in run.calculations:
         raise UserError(Problem(phrase("this mechanism could not be calculated; `calc` tells why"), mechanism))
     return _PlaceFinder(instance, run.calculations[mechanism]).found(own)
@@ -84,8 +84,8 @@ class _PlaceFinder:
             groups = numbers(self.calc)
             own = (*(f"{INPUTS}{path}" for path in self.inputs), *(f"checks.{id}" for id in self.checks))
             near = nearest(name, [*groups["outputs"], *groups["values"], *own])
-            words = Phrase("{kind} gives nothing of this name{nearest}", kind=self.calc.mechanism.kind, nearest=near)
-            raise UnknownName(Problem(words, f"{self.instance.name}.{name}"))
+            message = Phrase("{kind} gives nothing of this name{nearest}", kind=self.calc.mechanism.kind, nearest=near)
+            raise UnknownName(Problem(message, f"{self.instance.name}.{name}"))
         compared = tuple(self.check(check) for check in self.checks.values() if {name, step.id} & {*check.named})
         return self.quantity(step, name, takes=tuple(self._taken(step)), checks=compared)
 

@@ -136,9 +136,9 @@ class Tabular(ABC):
         try:
             return import_module(name)
         except ImportError as cause:
-            words = "{library} is not installed; install it (pip install {library}), or take the table of pyarrow by to_arrow()."
+            template = "{library} is not installed; install it (pip install {library}), or take the table of pyarrow by to_arrow()."
             with told_in(self.language):
-                raise ConfigError(Problem(Phrase(words, library=name))) from cause
+                raise ConfigError(Problem(Phrase(template, library=name))) from cause
 
 
 class OfRecord:

@@ -111,8 +111,8 @@ def mended_press(asked: Press, make: Make[PressT], free: Iterable[str], keep: It
 def influence_of(config: Config, names: Sequence[str], share: float, *, defaults: bool = False) -> InfluenceTable:
     """Return what inputs do to numbers, as the command gives it; ConfigError where the share is not between 0 and 1."""
     if not (math.isfinite(share) and 0 < share <= 1):
-        words = "{share} is not a share between 0 and 1, such as 0.1 for a tenth."
-        raise ConfigError(Problem(Phrase(words, share=repr(share)), path="share"))
+        template = "{share} is not a share between 0 and 1, such as 0.1 for a tenth."
+        raise ConfigError(Problem(Phrase(template, share=repr(share)), path="share"))
     found = influence.tornados(config, list(names), share, {}, defaults=defaults)
     text = "\n".join(influence.lines(found, None, "defaults=True"))
     return InfluenceTable(influence.data(found), text)

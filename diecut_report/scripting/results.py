@@ -99,8 +99,8 @@ class MechanismResults(Mapping[str, QuantityValue]):
                 return found[name]
         with told_in(self._results.language):
             if self.error:
-                words = Phrase("{name} gives no results: {error}", name=self.name, error=self.error)
-                raise UnknownName(Problem(words, path=f"{self.name}.{name}"))
+                message = Phrase("{name} gives no results: {error}", name=self.name, error=self.error)
+                raise UnknownName(Problem(message, path=f"{self.name}.{name}"))
             raise unknown(
                 Phrase("{mechanism} gives no", mechanism=self.name), name, [*self.outputs, *self.intermediate]
             )
@@ -176,8 +176,8 @@ class MechanismResults(Mapping[str, QuantityValue]):
                 return FigureResult(figure.id, str(figure.title), svg)
             except Exception as error:  # of any kind: what a plugin gives to be drawn is its own
                 why, cause = f"{type(error).__name__}: {error}", error
-        words = Phrase("This figure cannot be drawn: {cause}", cause=why)
-        raise ConfigError(Problem(words, path=f"{self.name}.{figure.id}")) from cause
+        message = Phrase("This figure cannot be drawn: {cause}", cause=why)
+        raise ConfigError(Problem(message, path=f"{self.name}.{figure.id}")) from cause
 
     def _named(self, missing: str, parts: Mapping[str, PartT]) -> NamedParts[PartT]:
         return NamedParts(parts, Phrase(missing, mechanism=self.name), self._results.language)
@@ -335,14 +335,14 @@ class Results(NamedParts[MechanismResults]):
 def _form(path: Path) -> str:
     form = path.suffix.removeprefix(".").lower()
     if form not in DRAWN:
-        words = "{form} is not a format of a report; known: {known}."
-        raise ConfigError(Problem(Phrase(words, form=repr(path.suffix), known=", ".join(DRAWN)), str(path)))
+        template = "{form} is not a format of a report; known: {known}."
+        raise ConfigError(Problem(Phrase(template, form=repr(path.suffix), known=", ".join(DRAWN)), str(path)))
     return form
 
 
 def _detail(detail: str | None) -> str | None:
     if detail is None or detail in DETAILS:
         return detail
-    words = "{given} is not a detail{nearest}; known: {known}."
-    message = Phrase(words, given=repr(detail), nearest=nearest(detail, DETAILS), known=", ".join(DETAILS))
+    template = "{given} is not a detail{nearest}; known: {known}."
+    message = Phrase(template, given=repr(detail), nearest=nearest(detail, DETAILS), known=", ".join(DETAILS))
     raise ConfigError(Problem(message, path="detail"))

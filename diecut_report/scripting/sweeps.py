@@ -114,9 +114,9 @@ def swept(
     data = {"schema_version": 1, "base": config.tree.name, "sample": dict(sample), "vary": values, **asked}
     study = study_of(parse(yaml.safe_dump(data, allow_unicode=True, sort_keys=False), FILE), config, discovery)
     if study.sample.count > MOST:
-        words = Phrase("there are {count} machines; a table has at most {most}. Calculate them as a study, with the command batch.",
+        message = Phrase("there are {count} machines; a table has at most {most}. Calculate them as a study, with the command batch.",
                        count=study.sample.count, most=MOST)  # fmt: skip
-        raise ConfigError(Problem(words, path="vary"))
+        raise ConfigError(Problem(message, path="vary"))
     done = calculate(study, Chunk(0, 0, study.sample.count))
     if done.broken and all(done.columns["status"] == "error"):
         kind, words_of_plugin = next(iter(done.broken.items()))

@@ -72,8 +72,8 @@ class QuantityValue:
         own, number = unit(self.unit), self.si  # which a text has not
         if wanted.kind != own.kind:
             given = Phrase("{unit} is {kind}", unit=other, kind=phrase(kind_name(wanted)))
-            words = Phrase("is {kind} in {unit}; {given}", kind=phrase(kind_name(own)), unit=self.unit, given=given)
-            raise self._unfit(words)
+            message = Phrase("is {kind} in {unit}; {given}", kind=phrase(kind_name(own)), unit=self.unit, given=given)
+            raise self._unfit(message)
         return wanted.from_si(number)
 
     @property
@@ -125,8 +125,8 @@ class QuantityValue:
     def __float__(self) -> float:
         """Return a pure number; TypeError of one with a unit, of which ``to("N*m").value`` is the number."""
         if pretty(self.unit):
-            words = "{value} has a unit; take the number of one, as in .to({unit}).value"
-            raise TypeError(Phrase(words, value=self, unit=repr(self.unit)))
+            template = "{value} has a unit; take the number of one, as in .to({unit}).value"
+            raise TypeError(Phrase(template, value=self, unit=repr(self.unit)))
         return self.magnitude
 
     def __bool__(self) -> bool:
@@ -203,8 +203,8 @@ def scalar(given: Any, path: str) -> float | int | bool | str:
         given = given.item()
     if isinstance(given, bool | str | int) or (isinstance(given, float) and math.isfinite(given)):
         return given
-    words = Phrase("is {kind}; {needed}.", kind=f"{given!r:.60}", needed=NEEDED)
-    raise ConfigError(Problem(words, path=path))
+    message = Phrase("is {kind}; {needed}.", kind=f"{given!r:.60}", needed=NEEDED)
+    raise ConfigError(Problem(message, path=path))
 
 
 def _is_array(given: Any) -> bool:

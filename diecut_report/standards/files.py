@@ -94,8 +94,8 @@ def _key_fault(key: str, kind: str, *, is_csv: bool) -> str:
         line = Phrase("write a line # {key}: … above the columns", key=key) if is_csv else WANTED[key]
         return Phrase("{key} is missing; {wanted}", key=key, wanted=line)
     if key not in WANTED:
-        words = "{key} is not a key of a table{near}; known: {known}"
-        return Phrase(words, key=key, near=nearest(key, WANTED), known=", ".join(WANTED))
+        template = "{key} is not a key of a table{near}; known: {known}"
+        return Phrase(template, key=key, near=nearest(key, WANTED), known=", ".join(WANTED))
     return Phrase("{key} is something else than it must be; {wanted}", key=key, wanted=WANTED[key])
 
 
@@ -124,8 +124,8 @@ def _once(node: Any) -> Any:
         for key, _ in node.value:
             line = key.start_mark.line + 1
             if key.value in seen:
-                words = "{twice} stands twice, in line {line} already; write it once"
-                raise _OddLine(line, Phrase(words, twice=repr(key.value), line=seen[key.value]))
+                template = "{twice} stands twice, in line {line} already; write it once"
+                raise _OddLine(line, Phrase(template, twice=repr(key.value), line=seen[key.value]))
             seen[key.value] = line
         return {key.value: _once(value) for key, value in node.value}
     if isinstance(node, yaml.SequenceNode):
@@ -168,12 +168,14 @@ def _judged(spoken: list[tuple[int, str, str]]) -> dict[str, int]:
     lines: dict[str, int] = {}
     for number, word, _ in spoken:
         if word not in OF_CSV:
-            words = "“# {word}:” says nothing here{near}; known: {known}; in a comment no colon follows the first word"
+            template = (
+                "“# {word}:” says nothing here{near}; known: {known}; in a comment no colon follows the first word"
+            )
             known = ", ".join(f"# {each}:" for each in OF_CSV)
-            raise _OddLine(number, Phrase(words, word=word, near=nearest(word, OF_CSV), known=known))
+            raise _OddLine(number, Phrase(template, word=word, near=nearest(word, OF_CSV), known=known))
         if word in lines and word != "source":
-            words = "“# {word}:” stands in line {line} already; write it once"
-            raise _OddLine(number, Phrase(words, word=word, line=lines[word]))
+            template = "“# {word}:” stands in line {line} already; write it once"
+            raise _OddLine(number, Phrase(template, word=word, line=lines[word]))
         lines[word] = number
     return lines
 
@@ -278,8 +280,8 @@ def _judge_order(values: Sequence[float], limits: list[float]) -> None:
         raise ValueError(phrase("has no values"))
     for before, after in pairwise(values):
         if not before < after:
-            words = "must ascend without repetition, but {after} follows {before}"
-            raise ValueError(Phrase(words, after=format(after, "g"), before=format(before, "g")))
+            template = "must ascend without repetition, but {after} follows {before}"
+            raise ValueError(Phrase(template, after=format(after, "g"), before=format(before, "g")))
     if [values[0], values[-1]] != limits:
         ends = zip(("first", "last", "low", "high"), (values[0], values[-1], *limits), strict=True)
         told = {name: f"{value:g}" for name, value in ends}
@@ -291,8 +293,8 @@ def data_file(id: str, folder: Path) -> AnyData:
     """Return what stands in the file of an id; StandardFault where there is none or it cannot be trusted."""
     names = {path.stem: path for path in folder.glob("*.json")}
     if id not in names:
-        words = "There is no standard series {id}; there are: {names}."
-        raise StandardFault(words, id=repr(id), names=", ".join(sorted(names)))
+        template = "There is no standard series {id}; there are: {names}."
+        raise StandardFault(template, id=repr(id), names=", ".join(sorted(names)))
     try:
         data = json.loads(names[id].read_text(encoding="utf-8"), object_pairs_hook=_file_forms_once)
     except ValueError as error:

@@ -95,8 +95,8 @@ class StandardTable:
         known = {column.name: column for column in self.columns}
         if name not in known:
             asked = Phrase("has no column {name}", name=repr(name)) if name else phrase("has several columns; name one")
-            words = "The table “{title}” {asked}; it has {known}."
-            raise StandardFault(words, title=self.title, asked=asked, known=", ".join(known))
+            template = "The table “{title}” {asked}; it has {known}."
+            raise StandardFault(template, title=self.title, asked=asked, known=", ".join(known))
         return known[name]
 
     def by_name(self, column: str = "") -> Mapping[str, float]:
@@ -116,10 +116,10 @@ class StandardTable:
 
 def sources_told(taken_from: StandardTable | StandardSeries) -> str:
     """Return in one line what a table or series is and where it comes from."""
-    told = Phrase("{title}: {sources}", title=phrase(taken_from.title), sources=joined(taken_from.sources, "; "))
+    message = Phrase("{title}: {sources}", title=phrase(taken_from.title), sources=joined(taken_from.sources, "; "))
     if not taken_from.only_source:
-        return told
-    return Phrase("{told} (one source: {reason})", told=told, reason=phrase(taken_from.only_source))
+        return message
+    return Phrase("{told} (one source: {reason})", told=message, reason=phrase(taken_from.only_source))
 
 
 # Tables and series of an author's own, with their sources, checked where they are written.
@@ -188,8 +188,8 @@ def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
     names = [row[0] for row in listed]
     for number, name in enumerate(names):
         if not isinstance(name, str) or not name.strip():
-            told = Phrase("has the name {strange} of a row, which is not a text", strange=repr(name))
-            _fault(title, told, row=number)
+            message = Phrase("has the name {strange} of a row, which is not a text", strange=repr(name))
+            _fault(title, message, row=number)
         if name in names[:number]:
             _fault(title, Phrase("has two rows of the name {twice}", twice=repr(name)), row=number)
     return names, [row[1:] for row in listed]
@@ -197,16 +197,16 @@ def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
 
 def _row(title: str, where: object, row: tuple[Any, ...], count: int, number: int) -> None:
     if len(row) != count:
-        words = "has {count} values in the row {where}, where {wanted} are needed"
-        _fault(title, Phrase(words, count=len(row), where=repr(where), wanted=count), row=number)
+        template = "has {count} values in the row {where}, where {wanted} are needed"
+        _fault(title, Phrase(template, count=len(row), where=repr(where), wanted=count), row=number)
     for value in row:
         _number(title, Phrase("the row {where}", where=repr(where)), value, number)
 
 
 def _number(title: str, where: str, value: object, row: int | None = None) -> None:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        words = "holds {value} in {where}, which is not a finite number"
-        _fault(title, Phrase(words, value=repr(value), where=where), row=row)
+        template = "holds {value} in {where}, which is not a finite number"
+        _fault(title, Phrase(template, value=repr(value), where=where), row=row)
 
 
 def _units(title: str, columns: Iterable[Column]) -> None:
@@ -221,15 +221,15 @@ def _units(title: str, columns: Iterable[Column]) -> None:
 def _ascending(title: str, columns: Sequence[Column], least: int = 2) -> None:
     """Check the first column; a table that goes by numbers needs two rows and a column of values."""
     if len(columns) < least:
-        words = "goes by the numbers of its first column and has no other; name its rows, or add a column"
-        _fault(title, phrase(words))
+        template = "goes by the numbers of its first column and has no other; name its rows, or add a column"
+        _fault(title, phrase(template))
     if len(columns[0].values) < least:
         _fault(title, phrase("has too few values; give two rows at least") if least > 1 else phrase("has no values"))
     for number, (before, after) in enumerate(pairwise(columns[0].values), 1):
         if not before < after:
-            words = "must ascend in {name} without repetition, but {after} follows {before}"
-            told = Phrase(words, name=columns[0].name, after=format(after, "g"), before=format(before, "g"))
-            _fault(title, told, row=number)
+            template = "must ascend in {name} without repetition, but {after} follows {before}"
+            message = Phrase(template, name=columns[0].name, after=format(after, "g"), before=format(before, "g"))
+            _fault(title, message, row=number)
 
 
 def _fault(title: str, what: str, cause: Exception | None = None, row: int | None = None) -> NoReturn:

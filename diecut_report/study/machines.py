@@ -71,12 +71,12 @@ def configurations(given: Sequence[Path]) -> FoundFiles:
                 found.files.append(inner)
     found.files = list(dict.fromkeys(found.files))
     if not found.files:
-        words = "There is no configuration in {given}. Name files, or folders with .yaml files."
+        template = "There is no configuration in {given}. Name files, or folders with .yaml files."
         others = [Problem(Phrase("skipped: {why}", why=why), str(path)) for path, why in found.passed_over.items()]
-        raise UserError([Problem(Phrase(words, given=", ".join(map(str, given)))), *others])
+        raise UserError([Problem(Phrase(template, given=", ".join(map(str, given)))), *others])
     if len(found.files) > MAX_MACHINES:
-        words = "These are {count} configurations; at most {most} are checked at once."
-        raise UserError(Problem(Phrase(words, count=len(found.files), most=MAX_MACHINES)))
+        template = "These are {count} configurations; at most {most} are checked at once."
+        raise UserError(Problem(Phrase(template, count=len(found.files), most=MAX_MACHINES)))
     return found
 
 

@@ -200,8 +200,8 @@ class ContractTest:
                 warnings.simplefilter("ignore", RuntimeWarning)  # of NumPy: what comes out is judged, not on the way
                 return tried()
         except Overran as cause:
-            words = "it did not finish within {seconds} s ({said})"
-            return rule(id, "", [Phrase(words, seconds=f"{MAX_RULE_SECONDS:g}", said=said(cause))], "broke")
+            template = "it did not finish within {seconds} s ({said})"
+            return rule(id, "", [Phrase(template, seconds=f"{MAX_RULE_SECONDS:g}", said=said(cause))], "broke")
         except UserError as refused:
             return rule(id, "", [str(problem) for problem in refused.problems])
         except (Exception, SystemExit) as cause:
@@ -211,14 +211,14 @@ class ContractTest:
 
     def declaration(self) -> TriedRule:
         """Try whether what is declared can be."""
-        told = Phrase(
+        message = Phrase(
             "steps: {steps}, checks: {checks}, figures: {figures}", steps=len(self.mechanism.steps),
             checks=len(self.mechanism.checks), figures=len(self.mechanism.figures),
         )  # fmt: skip
         own = built_in(self.mechanism.kind)
         is_built_in = own is not None and Path(self.mechanism.at).is_relative_to(own.parent)
         tried = faults if is_built_in else faults_at_load  # what comes with the program imports itself by its name
-        return rule("declaration", told, map(str, tried(self.mechanism)))
+        return rule("declaration", message, map(str, tried(self.mechanism)))
 
     def dimensions(self) -> TriedRule:
         """Try whether the dimensions of the formulas balance, in each unit that holds by form."""
@@ -244,16 +244,18 @@ class ContractTest:
         if self.refused:
             return rule("example", phrase("its configuration is refused"), map(str, self.refused))
         if self.config is None:
-            words = (
+            template = (
                 "no machine of this kind is available to test the rest; give a configuration that has one with --config"
             )
-            return TriedRule("example", "note", faults=(phrase(words),))
+            return TriedRule("example", "note", faults=(phrase(template),))
         found = self.results.mechanisms.get(self.name)
         if self.name in self.run.errors:
             return rule("example", "", [str(self.run.errors[self.name].message)], "broke")
         skipped = [text for name, text in self.run.skipped.items() if name == self.name]
-        told = Phrase("{file}, mechanism {name}", file=self.config.tree.name, name=self.name)
-        return rule("example", told, skipped or ([] if found and not found.error else [phrase("it gives no results")]))
+        message = Phrase("{file}, mechanism {name}", file=self.config.tree.name, name=self.name)
+        return rule(
+            "example", message, skipped or ([] if found and not found.error else [phrase("it gives no results")])
+        )
 
     @cached_property
     def run(self) -> Run:
@@ -284,18 +286,18 @@ class ContractTest:
         except Unproven:
             raise
         except Exception as cause:  # a refusal too, which refuses all for one of them
-            words = "does not support arrays, so that a study calculates it variant by variant: {said}"
-            return rule("alone", told, [Phrase(words, said=said(cause))], "note")
+            template = "does not support arrays, so that a study calculates it variant by variant: {said}"
+            return rule("alone", told, [Phrase(template, said=said(cause))], "note")
         return rule("alone", told, (at_place(self.mechanism, name, text) for name, text in found))
 
     def verdicts(self) -> TriedRule:
         """Note the checks whose verdict is the same in all machines that were tried."""
-        told = phrase("machines far from the example")
+        message = phrase("machines far from the example")
         try:
             found = list(constant(self.case, FAR, SEED))
         except Exception:  # a plugin that cannot take arrays, as the rule before has said
             return TriedRule("verdicts", "not_tried", phrase("it cannot calculate many machines at once"))
-        return rule("verdicts", told, (at_place(self.mechanism, name, text) for name, text in found), "note")
+        return rule("verdicts", message, (at_place(self.mechanism, name, text) for name, text in found), "note")
 
     def hostile(self) -> TriedRule:
         """Try whether single extreme values give numbers, or are refused in words."""
@@ -341,16 +343,16 @@ class ContractTest:
         for text, of in self.words.untranslated(language):
             yield Phrase("{language}: “{text}” ({of}) is not translated", language=language, text=text, of=of)
         for text in self.words.unused(language):
-            words = "{language}: “{text}” is in the catalogue but no longer used; --write-po marks it as obsolete"
-            yield Phrase(words, language=language, text=text)
+            template = "{language}: “{text}” is in the catalogue but no longer used; --write-po marks it as obsolete"
+            yield Phrase(template, language=language, text=text)
 
     def _as_given(self, language: str) -> str:
         found = self.words.sources_as_given(language)
         if not found:
             return ""
         more = Counted(len(found) - MAX_LISTED, " and {n} other", " and {n} others") if len(found) > MAX_LISTED else ""
-        words = "; sources that stay as they are given: {named}{more}"
-        return Phrase(words, named="; ".join(found[:MAX_LISTED]), more=more)
+        template = "; sources that stay as they are given: {named}{more}"
+        return Phrase(template, named="; ".join(found[:MAX_LISTED]), more=more)
 
     def speed(self) -> TriedRule:
         """Tell how long a thousand variants take, as far as the mechanism itself is concerned."""

@@ -173,9 +173,9 @@ class TriedExtremes:
     @property
     def summary(self) -> str:
         """Return what was tried, and what came of it where nothing is wrong."""
-        words = (
+        template = (
             "one input at a time set to an extreme value: {numbers} gave numbers, {refused} were refused with a message"
         )
-        told = Phrase(words, numbers=self.numbers, refused=self.refused)
+        message = Phrase(template, numbers=self.numbers, refused=self.refused)
         chosen, all = len(self.cases[0]), self.cases[1]
-        return told + Phrase("; they are a sample of {all}", all=all) if chosen < all else told
+        return message + Phrase("; they are a sample of {all}", all=all) if chosen < all else message

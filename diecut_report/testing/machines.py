@@ -137,8 +137,8 @@ def _nudged(value: Any, draw: np.random.Generator) -> Any:
 def _refused_alone(why: str, together: Calculation, i: int) -> str:
     if i in together.flaws:
         other = phrase(together.flaws[i][1])
-        words = "a machine is refused on its own ({why}), and in a batch for another reason ({other})"
-        return Phrase(words, why=phrase(why), other=other)
+        template = "a machine is refused on its own ({why}), and in a batch for another reason ({other})"
+        return Phrase(template, why=phrase(why), other=other)
     return Phrase("a machine is refused on its own ({why}), but calculated in a batch", why=phrase(why))
 
 

@@ -92,9 +92,9 @@ def _tests(first: ContractTest, others: Sequence[Machine]) -> Iterator[ContractT
 def _merged(first: ContractTest, found: TriedRule, also: Sequence[tuple[ContractTest, TriedRule]]) -> TriedRule:
     faults = list(found.faults)
     for test, own in also:
-        words = "{file}, mechanism {name}: {fault}"
+        template = "{file}, mechanism {name}: {fault}"
         place = {"file": _file(test), "name": test.name}
-        faults += [Phrase(words, place, fault=fault) for fault in own.faults if fault not in found.faults]
+        faults += [Phrase(template, place, fault=fault) for fault in own.faults if fault not in found.faults]
     status = max((found, *(own for _, own in also)), key=lambda each: WORST_LAST.index(each.status)).status
     told = _machines([first, *(test for test, _ in also)]) if found.id == "example" and found.summary else found.summary
     if told and found.id != "example":
@@ -106,8 +106,8 @@ def _machines(tests: Sequence[ContractTest]) -> str:
     told = []
     for file, group in groupby(tests, key=_file):
         names = [test.name for test in group]
-        words = "{file}, mechanism {name}" if len(names) == 1 else "{file}, mechanisms {name}"
-        told.append(Phrase(words, file=file, name=", ".join(names)))
+        template = "{file}, mechanism {name}" if len(names) == 1 else "{file}, mechanisms {name}"
+        told.append(Phrase(template, file=file, name=", ".join(names)))
     return joined(told, "; ")
 
 
@@ -163,8 +163,8 @@ def meant(asked: str, folders: Sequence[Path]) -> tuple[Discovery, list[str]]:
     for folder in (place, place / PLUGINS):
         if own := list(in_folder(folder)) if folder.is_dir() else []:
             return Discovery([folder, *folders], own), [origin.kind for origin in own]
-    words = "There is no plugin in this folder: a plugin is NAME.py, or a folder NAME with an __init__.py."
-    raise refusal(words, asked)
+    template = "There is no plugin in this folder: a plugin is NAME.py, or a folder NAME with an __init__.py."
+    raise refusal(template, asked)
 
 
 def checked(

@@ -45,17 +45,17 @@ def scaffold(name: str, folder: Path, *, as_package: bool, like: str = "parts") 
 def _wrong(name: str) -> str:
     """Why a name cannot be that of a kind, and what may; nothing where it can."""
     if not NAME.fullmatch(name) or len(name) > MAX_NAME_LENGTH:
-        words = (
+        template = (
             "{name} cannot be the name of a kind: give small letters a to z, digits and underscores, a letter first, "
             "at most {longest} in all, such as gripper_chain."
         )
-        return Phrase(words, name=repr(name), longest=MAX_NAME_LENGTH)
+        return Phrase(template, name=repr(name), longest=MAX_NAME_LENGTH)
     if keyword.iskeyword(name) or name in RESERVED or name.startswith(EXTENSION):
         return Phrase("{name} is reserved and cannot be the name of a kind; choose another one.", name=repr(name))
     known = Discovery().origins.get(name, [])
     if known:
-        words = "There is a kind {name} already, from {origin}; choose another name."
-        return Phrase(words, name=repr(name), origin=known[0].label)
+        template = "There is a kind {name} already, from {origin}; choose another name."
+        return Phrase(template, name=repr(name), origin=known[0].label)
     return ""
 
 

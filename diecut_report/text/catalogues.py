@@ -39,10 +39,10 @@ class TextCatalogue:
             self._plural = c2py(found.plural_expr)
             judge(found, self._plural)
         except Exception as error:  # of any kind: that of a plugin may hold anything
-            words = (
+            template = (
                 "This catalogue of texts cannot be read: {error}. Fix it, or remove it: its texts are then in English."
             )
-            raise refusal(words, file, error=error) from error
+            raise refusal(template, file, error=error) from error
         self._texts: dict[tuple[str | None, str], tuple[str, ...]] = {}
         self.missing: list[str] = []
         for message in found:
@@ -94,8 +94,8 @@ def languages() -> tuple[str, ...]:
 def known(language: str) -> str:
     """Return the language, if the program has its words; UnknownLanguage if not."""
     if language not in languages():
-        words = "is {language}, of which the program has no catalogue; allowed: {languages}"
-        raise UnknownLanguage(Phrase(words, language=repr(language), languages=", ".join(languages())))
+        template = "is {language}, of which the program has no catalogue; allowed: {languages}"
+        raise UnknownLanguage(Phrase(template, language=repr(language), languages=", ".join(languages())))
     return language
 
 

@@ -34,14 +34,14 @@ def read(file: Path, language: str) -> Catalog:
     """Return the catalogue of a file; ValueError, or another exception of Babel's, where it is none."""
     content = file.read_bytes()
     if any(int(count[:9]) > MAX_PLURAL_FORMS for count in _FORMS.findall(content)):  # Babel makes a list of so many
-        words = "a language has at most {most_forms} forms of a word for a number"
-        raise ValueError(Phrase(words, most_forms=MAX_PLURAL_FORMS))
+        template = "a language has at most {most_forms} forms of a word for a number"
+        raise ValueError(Phrase(template, most_forms=MAX_PLURAL_FORMS))
     for number, line in enumerate(map(str.strip, content.decode("utf-8").split("\n")), 1):
         if line and not line.startswith("#") and not _LINE.fullmatch(line):
-            words = (
+            template = (
                 "line {number} is {line}; write msgid or msgstr, and a text that begins and ends with a quotation mark"
             )
-            raise ValueError(Phrase(words, number=number, line=repr(line)))
+            raise ValueError(Phrase(template, number=number, line=repr(line)))
     found = _EachOnce(locale=language, charset="utf-8")
     PoFileParser(found, abort_invalid=True).parse(BytesIO(content))
     return found
@@ -53,8 +53,8 @@ class _EachOnce(Catalog):
     def __setitem__(self, id: Any, message: Message) -> None:
         before = self.get(id, message.context) if id else None
         if before is not None:
-            words = "line {line} translates {id}, as line {before} does; keep one of them"
-            raise ValueError(Phrase(words, line=message.lineno, id=repr(id), before=before.lineno))
+            template = "line {line} translates {id}, as line {before} does; keep one of them"
+            raise ValueError(Phrase(template, line=message.lineno, id=repr(id), before=before.lineno))
         super().__setitem__(id, message)
 
 
@@ -63,8 +63,8 @@ def judge(catalogue: Catalog, plural: Callable[[int], int]) -> None:
     for message in catalogue:
         said = (message.string or "",) if isinstance(message.string, str | None) else message.string
         if letter := next(filter(None, map(_HIDDEN.search, said)), None):
-            words = "the translation of {id} holds U+{code}"
-            raise ValueError(Phrase(words, id=repr(message.id), code=format(ord(letter[0]), "04X")))
+            template = "the translation of {id} holds U+{code}"
+            raise ValueError(Phrase(template, id=repr(message.id), code=format(ord(letter[0]), "04X")))
         if not message.fuzzy and all(said):
             _judge_filling(message, said)
     for count in range(200):
@@ -80,9 +80,9 @@ def _judge_filling(message: Message, said: Iterable[str]) -> None:
     for text in said:
         there = set(_FILLED.findall(text))
         if there - may or must - there:
-            words = "line {line}: the translation of {id} is filled with {there}, the text itself with {wanted}; write the same names"
+            template = "line {line}: the translation of {id} is filled with {there}, the text itself with {wanted}; write the same names"
             told = [", ".join(sorted(names)) or phrase("nothing") for names in (there, may)]
-            raise ValueError(Phrase(words, line=message.lineno, id=repr(texts[0]), there=told[0], wanted=told[1]))
+            raise ValueError(Phrase(template, line=message.lineno, id=repr(texts[0]), there=told[0], wanted=told[1]))
 
 
 def written(catalogue: Catalog) -> bytes:

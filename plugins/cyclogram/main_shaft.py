@@ -101,8 +101,8 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
         )
     automatic = [str(index) for index, each in enumerate(found) if each.is_auto]
     if len(automatic) > 1:
-        words = "is auto, and so is another line's; one offset at most can be found, give the others a number"
-        raise Refusal(f"lines.{automatic[1]}.offset", words)
+        template = "is auto, and so is another line's; one offset at most can be found, give the others a number"
+        raise Refusal(f"lines.{automatic[1]}.offset", template)
     return tuple(found)
 
 
@@ -113,11 +113,11 @@ def _sound(mechanism: Any, index: int, before: list[LineOnShaft]) -> None:
             Phrase("is {name}, which is a line already; name each mechanism once", name=mechanism.name),
         )
     if not mechanism.has_period:
-        words = Phrase(
+        message = Phrase(
             "is {name}, which runs over nothing that comes again, so that it has no phases; leave it out",
             name=mechanism.name,
         )
-        raise Refusal(f"lines.{index}.mechanism", words)
+        raise Refusal(f"lines.{index}.mechanism", message)
 
 
 def of_part(row: Any, index: int) -> Any:
@@ -130,11 +130,11 @@ def turns_of(text: str, key: str) -> Fraction:
     try:
         return exact_turns(Fraction(text.replace(" ", "")))
     except (ValueError, ZeroDivisionError):
-        words = Phrase(
+        message = Phrase(
             "is “{text}”; a number or a ratio above zero such as 1/2 is needed, with a denominator of at most 64",
             text=text,
         )
-        raise Refusal(key, words) from None
+        raise Refusal(key, message) from None
 
 
 def _own_phases(phases: Mapping[str, GivenPhase]) -> dict[str, OwnPhase]:
@@ -149,12 +149,12 @@ def _passing(mechanism: GivenMechanism, stretches: tuple[Stretch, ...], key: str
     found: dict[str, OwnPhase] = {}
     for index, each in enumerate(stretch.of_machine(0) for stretch in stretches):
         if each.name in mechanism.phases or each.name in found:
-            words = Phrase(
+            message = Phrase(
                 "is {name}, the name of another phase of {name_2}; give it one of its own",
                 name=each.name,
                 name_2=mechanism.name,
             )
-            raise Refusal(f"{key}.{index}.name", words)
+            raise Refusal(f"{key}.{index}.name", message)
         each.require(mechanism, f"{key}.{index}")
         turned = TURN * (each.first % each.every)
         found[each.name] = OwnPhase(((each.begins + turned, each.ends + turned),), each.every)
@@ -181,10 +181,10 @@ def named_phase(lines: tuple[LineOnShaft, ...], text: str, key: str) -> tuple[in
     if phase not in own:
         raise Refusal(key, Phrase("is “{text}”, but {no_phase}", text=text, no_phase=_no_phase(lines[index], phase)))
     if number and not (number.isdecimal() and int(number) < len(own[phase].intervals)):
-        words = Phrase(
+        message = Phrase(
             "is “{text}”, but the phase has {len} intervals, counted from 0", text=text, len=len(own[phase].intervals)
         )
-        raise Refusal(key, words)
+        raise Refusal(key, message)
     return index, phase, int(number) if number else None
 
 

@@ -51,10 +51,10 @@ class Stretch:
             )
         if not self.start < self.end <= step * LONGER:
             way = Phrase("goes from {start} to {end}", start=told(self.start, "mm", 6), end=told(self.end, "mm", 6))
-            words = Phrase(
+            message = Phrase(
                 "{way}; it must go forward, and no further than the step of {step}", way=way, step=told(step, "mm")
             )
-            raise Refusal(key, words)
+            raise Refusal(key, message)
 
 
 def _of_row(values: Any, row: int) -> Any:

@@ -132,8 +132,8 @@ def _least(least: LeastClearance) -> Any:
 def _needed(cylinder: GivenMechanism) -> Any:
     height = cylinder.numbers("carriage_clearance")
     if height is None:
-        words = "is {name}, which has no carriage_clearance to hold the room against; give it there"
-        raise Refusal("station.cylinder", Phrase(words, name=cylinder.name))
+        template = "is {name}, which has no carriage_clearance to hold the room against; give it there"
+        raise Refusal("station.cylinder", Phrase(template, name=cylinder.name))
     return height
 
 

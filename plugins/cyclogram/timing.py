@@ -164,8 +164,8 @@ class Timing:
         """Return a phase in words, with its line, and with the number of the interval that alone is meant."""
         index, phase, number = side
         line = self.drawn[index]
-        told = Phrase("“{phase}” of {line}", phase=line.words[phase], line=line.name)
-        return told if number is None else Phrase("{told}, interval {number}", told=told, number=number)
+        message = Phrase("“{phase}” of {line}", phase=line.words[phase], line=line.name)
+        return message if number is None else Phrase("{told}, interval {number}", told=message, number=number)
 
     def trial(self, index: int) -> Timing | None:
         """Return the timing with an offset to be found that an interlock depends on: the automatic one, else its later line's.
@@ -235,11 +235,11 @@ def timing_of(given: Mapping[str, Any]) -> Timing:
     names = [each.name for each in held]
     strange = next((index for index, name in enumerate(names) if not NAME.fullmatch(name)), None)
     if strange is not None:
-        words = Phrase(
+        message = Phrase(
             "is “{names}”; its check is called after it, so that it must be letters, digits and _, such as sheet_rests",
             names=names[strange],
         )
-        raise Refusal(f"interlocks.{strange}.name", words)
+        raise Refusal(f"interlocks.{strange}.name", message)
     again = next((index for index, name in enumerate(names) if name in names[:index]), None)
     if again is not None:
         raise Refusal(
@@ -253,12 +253,12 @@ def _held(given: Mapping[str, Any], index: int, lines: tuple[LineOnShaft, ...]) 
     key = f"interlocks.{index}"
     within, apart = (given[f"interlocks.{side}"][index] for side in ("within", "apart_from"))
     if bool(within) == bool(apart):
-        words = (
+        message = (
             phrase("needs one of within and apart_from")
             if not within
             else phrase("has both within and apart_from; give one of them")
         )
-        raise Refusal(key, words)
+        raise Refusal(key, message)
     margins = given["interlocks.margin"]
     margin = margins[index] if isinstance(margins, tuple) else margins[0, index]
     in_time = isinstance(margin, InOtherUnit)

@@ -171,12 +171,12 @@ def lines_of_all(given: Mapping[str, Any]) -> list[LineOfMachines]:
 def _torque(line: LineOfMachines, key: str) -> ShaftCurve | None:
     curve = line.mechanism.curve(torque_name(line.mechanism, line.torque_curve))
     if curve is None and line.torque_curve:
-        words = Phrase(
+        message = Phrase(
             "is “{torque_curve}”, but {name} has no curve of this name; leave it out, and its kind's own is taken",
             torque_curve=line.torque_curve,
             name=line.name,
         )
-        raise Refusal(key, words)
+        raise Refusal(key, message)
     return None if curve is None else line.curve(curve)
 
 

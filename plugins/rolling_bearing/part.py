@@ -99,11 +99,11 @@ class GivenBearing:
         """Refuse a cycle rate that is not the one with which the angle comes again."""
         own, rate = self.number("cycle_speed", 0.0), angle.rate
         if ((rate > 0) & (np.abs(own - rate) > ONE_SPEED * rate)).any():
-            words = (
+            template = (
                 "is not the {rate} with which the curve of relative_angle comes again; refer to the speed with which that "
                 "curve is calculated"
             )
-            raise Refusal(self.key("cycle_speed"), Phrase(words, rate=told(float(np.max(rate)), "rpm")))
+            raise Refusal(self.key("cycle_speed"), Phrase(template, rate=told(float(np.max(rate)), "rpm")))
 
     def knows_factors(self) -> bool:
         """Return whether it is known by which factors an axial force counts."""

@@ -257,10 +257,12 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
         if pitch_radius is not None and not isinstance(pitch_radius, np.ndarray) and pitch_radius[index] is None:
             continue
         if pitch_radius is not None:
-            words = "has a gear, whose forces need the torque at each instant; give the torque as a number or a curve, or the forces without gear"
+            template = "has a gear, whose forces need the torque at each instant; give the torque as a number or a curve, or the forces without gear"
             raise Refusal(
                 f"loads.{index}.torque",
-                Phrase("is known by its extremes alone, but the load {names} {words}", names=names[index], words=words),
+                Phrase(
+                    "is known by its extremes alone, but the load {names} {words}", names=names[index], words=template
+                ),
             )
 
 

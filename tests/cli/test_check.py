@@ -45,8 +45,8 @@ def test_a_folder_gives_one_table(firm: Path, capfd: Capture) -> None:
         ["old/good", "pass", "a.moment", "75.0", "%", "0", "0", "0", "0"],
         ["firm/weak", "fail", "a.moment", "133.3", "%", "1", "0", "0", "0"],
     ]
-    told = "skipped: it is a study, which batch calculates"
-    assert err == f"{firm / 'study.yaml'}: {told}\n3 machines: 2 pass, 1 fail.\n"
+    template = "skipped: it is a study, which batch calculates"
+    assert err == f"{firm / 'study.yaml'}: {template}\n3 machines: 2 pass, 1 fail.\n"
 
 
 def test_a_machine_that_passes_on_what_is_assumed_is_conditional(tmp_path: Path, capfd: Capture) -> None:

@@ -198,10 +198,10 @@ def test_an_extension_that_breaks_names_its_package_or_file_and_the_cause(
 ) -> None:
     entries = [EntryPoint("laws", "no_such_module_of_laws", plugins.EXTENSIONS)]
     monkeypatch.setattr(plugins, "entry_points", lambda group: [e for e in entries if e.group == group])
-    words = "This extension cannot be loaded: "
-    with pytest.raises(UserError, match=f"laws of an installed package: {words}.*no_such_module"):
+    template = "This extension cannot be loaded: "
+    with pytest.raises(UserError, match=f"laws of an installed package: {template}.*no_such_module"):
         Discovery().extend()
     monkeypatch.setattr(plugins, "entry_points", lambda group: [])
     (tmp_path / "extend_bad.py").write_text("1 / 0\n", "utf-8")
-    with pytest.raises(UserError, match=f"extend_bad.py: {words}ZeroDivisionError.*extend_bad.py:1"):
+    with pytest.raises(UserError, match=f"extend_bad.py: {template}ZeroDivisionError.*extend_bad.py:1"):
         Discovery([tmp_path]).extend()

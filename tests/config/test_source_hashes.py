@@ -132,8 +132,8 @@ def test_results_tell_whether_the_formulas_of_a_plugin_are_sound_and_judge_them_
         saved(folder, content, "lever.py")
         outcome = Press.read(saved(folder, LEVER), Discovery([folder])).calculate()
         assert outcome.results.mechanisms["a"].plugin_check == check
-        words = "The formulas of the plugin of 'lever' have faults; do not rely on its results."
-        assert outcome.warnings[:1] == ((words,) if check == "failed" else ())
+        template = "The formulas of the plugin of 'lever' have faults; do not rely on its results."
+        assert outcome.warnings[:1] == ((template,) if check == "failed" else ())
         assert all(fault.startswith("  lever.py:") for fault in outcome.warnings[1:])
 
 

@@ -85,11 +85,11 @@ def test_what_would_be_tried_if_it_were_named_is_told(tmp_path: Path, capfd: Cap
     saved(tmp_path, PLUGIN, "pin.py")
     command = ["advise", str(file), "--plugins", str(tmp_path)]
     assert main(command) == 1
-    words = "not tried, as --free must name them, and then names all that may be changed: pin.grade, pin.count"
-    assert words in capfd.readouterr().out
+    template = "not tried, as --free must name them, and then names all that may be changed: pin.grade, pin.count"
+    assert template in capfd.readouterr().out
     assert main([*command, "--free", "pin.bore", "--keep", "pin.bore"]) == 2
-    words = "nothing is free to be changed: name inputs by --free, such as --free pin.grade, or keep fewer by --keep; the file has pin.grade"
-    assert words in capfd.readouterr().err
+    template = "nothing is free to be changed: name inputs by --free, such as --free pin.grade, or keep fewer by --keep; the file has pin.grade"
+    assert template in capfd.readouterr().err
 
 
 def test_several_of_them_are_changed_where_one_is_not_enough(tmp_path: Path, capfd: Capture) -> None:

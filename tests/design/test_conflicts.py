@@ -41,8 +41,8 @@ def found(capfd: Capture, press: Path, *more: object) -> dict[str, Any]:
 def test_the_least_set_that_conflicts_is_told_and_what_is_not_proved(tmp_path: Path, capfd: Capture) -> None:
     assert advise(saved(tmp_path, TEXT), "--free", "a.arm", "--free", "c.arm") == 1
     out = capfd.readouterr().out
-    words = "no machine was found that satisfies all of these; this does not prove that none exists: {}\n"
-    assert words.format("a.moment, b.moment") in out
+    template = "no machine was found that satisfies all of these; this does not prove that none exists: {}\n"
+    assert template.format("a.moment, b.moment") in out
     assert "if any one of them is dropped, a calculated machine satisfies the others" in out
 
 

@@ -108,5 +108,5 @@ def test_the_schema_knows_it(capfd: Capture) -> None:
 @pytest.mark.parametrize(("asked", "told"), [("{}", True), ("{defaults: true}", False)])
 def test_the_chapter_tells_of_inputs_at_their_default(tmp_path: Path, asked: str, told: bool) -> None:
     assert report(tmp_path, config(asked, "uk")) == 0
-    words = "вхідна величина має типове значення і не змінюється; report.influence.defaults змінює і її."
-    assert (words in (tmp_path / "press.html").read_text("utf-8")) == told
+    template = "вхідна величина має типове значення і не змінюється; report.influence.defaults змінює і її."
+    assert (template in (tmp_path / "press.html").read_text("utf-8")) == told

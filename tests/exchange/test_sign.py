@@ -255,8 +255,8 @@ def test_a_wrong_password_is_told(
 
 def test_a_field_that_is_not_there_or_not_free_is_told(signed: Path, key: Path, capfd: Capture) -> None:
     refused(capfd, "Several fields are free; name one with --field: prepared, checked.", signed, "--key", key)
-    words = "no free field 'approved'; free are: prepared, checked."
-    refused(capfd, words, signed, "--key", key, "--field", "approved")
+    template = "no free field 'approved'; free are: prepared, checked."
+    refused(capfd, template, signed, "--key", key, "--field", "approved")
     refused(capfd, "no free field 'cheked' (did you mean 'checked'?)", signed, "--key", key, "--field", "cheked")
 
 

@@ -244,8 +244,8 @@ def test_each_crossing_can_be_referred_to() -> None:
 def test_a_root_without_a_change_of_sign_names_its_bracket() -> None:
     step = ROOTED.chapters[0].steps[0]
     shifted = replace(ROOTED, chapters=(Chapter("Root", steps=(replace(step, low=bind(same, quantity="target")),)),))
-    words = r"Cube root \(x, toy\.py:\d+\): the equation does not change its sign between low = 2000 and high = 2001"
-    with pytest.raises(Unproven, match=words):
+    template = r"Cube root \(x, toy\.py:\d+\): the equation does not change its sign between low = 2000 and high = 2001"
+    with pytest.raises(Unproven, match=template):
         calculate(shifted, {"target": 2000.0})
 
 

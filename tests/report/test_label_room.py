@@ -147,9 +147,9 @@ def _layout(
 def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
     """Two long titles and a legend in rows, in the narrowest size."""
     line = {"x": [0.0, 1.0], "y": [0.0, 1.0], "label": ""}
-    words = "A quantity with so long a name that no narrow diagram has room for it in one line"
+    template = "A quantity with so long a name that no narrow diagram has room for it in one line"
     panel = {
-        "title": words, "unit": "mm", "x": {"title": words, "symbol": "φ", "unit": "deg"}, "fills": [], "marks": [],
+        "title": template, "unit": "mm", "x": {"title": template, "symbol": "φ", "unit": "deg"}, "fills": [], "marks": [],
         "lines": [line | {"label": f"law number {n} with a long name"} for n in range(3)], "levels": [], "verticals": [],
     }  # fmt: skip
     figure = chart("narrow", "Narrow", [panel, panel])

@@ -166,8 +166,8 @@ def test_a_huge_grid_says_its_size_and_asks(tmp_path: Path, capfd: Capture) -> N
     arms = "  mechanisms.a.arm: {from: 1 mm, to: 900 mm, count: 1000000}\n"
     text = varied("{from: 1 kN, to: 2 kN, count: 1000000}", rest=arms)
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
-    words = "the sample has 1,000,000,000,000 variants, more than 10,000,000. Vary less, or give --yes"
-    assert words in capfd.readouterr().err
+    template = "the sample has 1,000,000,000,000 variants, more than 10,000,000. Vary less, or give --yes"
+    assert template in capfd.readouterr().err
     assert not (tmp_path / "out").exists()
 
 

@@ -33,8 +33,8 @@ def test_a_variant_without_a_value_is_told_and_leaves_its_neighbours_alone(tmp_p
     found = variants(tmp_path).reasons
     assert sorted(found) == [0, 1, 2]
     assert "is out of range" in found[0]  # a width below zero
-    told = "mechanisms.b.width: “10 mm * 5 kN / (${a.force} - 3 kN)” has no value: a division by zero"
-    assert found[2].startswith(told)
+    template = "mechanisms.b.width: “10 mm * 5 kN / (${a.force} - 3 kN)” has no value: a division by zero"
+    assert found[2].startswith(template)
 
 
 def test_a_constraint_may_name_an_input_that_is_an_expression(tmp_path: Path) -> None:

@@ -192,10 +192,10 @@ def test_a_column_of_a_table_gives_the_values_of_a_path(tmp_path: Path) -> None:
 
 def test_a_column_that_a_table_lacks_is_told_with_those_that_it_has(tmp_path: Path) -> None:
     saved(tmp_path, "load [kN],other\n1,x\n", "loads.csv")
-    told = "loads.csv:1: the table has no column laod (did you mean 'load'?). Its columns: load, other"
+    template = "loads.csv:1: the table has no column laod (did you mean 'load'?). Its columns: load, other"
     assert [
         line.removeprefix(f"{tmp_path}/") for line in faults(tmp_path, varied("{table: loads.csv, column: laod}"))
-    ] == [told]
+    ] == [template]
 
 
 TABLES = [  # the file, and what is told of it

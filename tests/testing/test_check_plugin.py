@@ -180,9 +180,9 @@ def test_each_list_is_tried_as_an_empty_one(tmp_path: Path, monkeypatch: pytest.
 
 
 def test_a_text_that_a_lambda_makes_is_one_of_the_plugin(tmp_path: Path) -> None:
-    words = 'springs.words("more", lambda rate: Phrase("make it {rate}", rate=rate), takes=("rate",))\n'
+    template = 'springs.words("more", lambda rate: Phrase("make it {rate}", rate=rate), takes=("rate",))\n'
     home = contract(
-        tmp_path, ("strength = Chapter", f"{words}strength = Chapter"), ("    Mechanism,\n", "    Mechanism,\n    Phrase,\n"),
+        tmp_path, ("strength = Chapter", f"{template}strength = Chapter"), ("    Mechanism,\n", "    Mechanism,\n    Phrase,\n"),
         ('consequence="', 'consequence="{more}; '), ("yields; a thinner wire", "yields")
     )  # fmt: skip
     assert any(
@@ -219,14 +219,14 @@ def test_catalogues_of_the_program_are_not_written(capfd: Capture) -> None:
 
 def test_a_plugin_that_cannot_take_arrays_is_noted(tmp_path: Path) -> None:
     tried = contract(tmp_path, *odd("return travel.item() * 1e5")).tried_alone("alone")
-    words = "does not support arrays, so that a study calculates it variant by variant: ValueError"
-    assert tried.status == "note" and words in tried.faults[0]
+    template = "does not support arrays, so that a study calculates it variant by variant: ValueError"
+    assert tried.status == "note" and template in tried.faults[0]
 
 
 def test_a_plugin_that_breaks_for_an_extreme_value_is_told(tmp_path: Path) -> None:
     tried = contract(tmp_path, *odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5")).tried_alone("hostile")
-    words = r"toggle.py:42: travel: with 100000: the plugin breaks: .*KeyError: False \(toggle.py:54\)"
-    assert tried.status == "fail" and re.search(words, tried.faults[0])
+    template = r"toggle.py:42: travel: with 100000: the plugin breaks: .*KeyError: False \(toggle.py:54\)"
+    assert tried.status == "fail" and re.search(template, tried.faults[0])
 
 
 def test_a_value_that_is_not_a_number_is_told(tmp_path: Path) -> None:

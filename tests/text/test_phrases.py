@@ -31,13 +31,13 @@ from tests.cli.test_cli import Capture, run
 
 
 def test_a_phrase_is_its_english_text() -> None:
-    said = Phrase("set {key} to {low:up}", {"key": "radius", "low:up": "40 mm"})
-    assert said == "set radius to 40 mm" and json.dumps([said]) == '["set radius to 40 mm"]'
+    message = Phrase("set {key} to {low:up}", {"key": "radius", "low:up": "40 mm"})
+    assert message == "set radius to 40 mm" and json.dumps([message]) == '["set radius to 40 mm"]'
 
 
 def test_a_phrase_keeps_its_parts_through_str_and_pickle() -> None:
-    said = Phrase("take {count}", count=3)
-    for copy in (str(said), pickle.loads(pickle.dumps(said))):
+    message = Phrase("take {count}", count=3)
+    for copy in (str(message), pickle.loads(pickle.dumps(message))):
         assert isinstance(copy, Phrase) and (copy.template, copy.values) == ("take {count}", {"count": "3"})
 
 

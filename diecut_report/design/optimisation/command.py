@@ -145,8 +145,8 @@ def _asked(file: Path | None, directory: Path, where: Where) -> Study:
     """The study, which must say what is searched for."""
     study = loaded(file, directory, where)
     if study.optimise is None:
-        words = "is missing; say what is searched for, such as optimise: {objectives: [{minimise: cylinder.mass}], evaluations: 2000}."
-        raise UserError(Problem(phrase(words), str(study.file), path="optimise"))
+        template = "is missing; say what is searched for, such as optimise: {objectives: [{minimise: cylinder.mass}], evaluations: 2000}."
+        raise UserError(Problem(phrase(template), str(study.file), path="optimise"))
     return study
 
 
@@ -155,16 +155,16 @@ def _refuse(study: Study, reports: Sequence[str], agreed: bool) -> None:
     assert study.optimise is not None
     count = study.optimise.evaluations
     if count > LARGEST and not agreed:
-        words = Phrase("are {n}, more than {most}; give fewer, or --yes.", n=f"{count:,}", most=f"{LARGEST:,}")
-        raise UserError(Problem(words, str(study.file), path="optimise.evaluations"))
+        message = Phrase("are {n}, more than {most}; give fewer, or --yes.", n=f"{count:,}", most=f"{LARGEST:,}")
+        raise UserError(Problem(message, str(study.file), path="optimise.evaluations"))
     for number in (int(name) for name in reports if name.isdecimal()):
         if number >= count:
-            words = Phrase(
+            message = Phrase(
                 "there is no machine {number}; those that are tried are numbered from 0 to {last}.",
                 number=number,
                 last=count - 1,
             )
-            raise UserError(Problem(words, str(study.file), path="--report"))
+            raise UserError(Problem(message, str(study.file), path="--report"))
 
 
 def _files(found: OptimisationResult, csv: str, where: Where) -> dict[Path, bytes]:

@@ -249,17 +249,17 @@ def _figures(found: OptimisationResult) -> dict[str, SummaryFigure]:
     figures = {"progress": _progress(found)} | ({} if found.front.is_single else {"front": _front(found)})
     if listed := [each for each in found.bounds if not each.is_text]:
         told = "; ".join(_held(found)) or say("No point lies at a limit of its range.")
-        words = (
+        template = (
             "Position of the front points within the search ranges; a red bar marks a limit that is active for some."
         )
-        figures["bounds"] = SummaryFigure(drawn(partial(_bounds_chart, listed), told, "bounds"), say(words), told)
+        figures["bounds"] = SummaryFigure(drawn(partial(_bounds_chart, listed), told, "bounds"), say(template), told)
     return figures
 
 
 def _front(found: OptimisationResult) -> SummaryFigure:
     goals = " / ".join(named(goal.column) for goal in found.front.objectives)
-    words = "Pareto front for each pair of objectives: {goals}; {n} machines on it."
-    told = say(words, goals=goals, n=len(found.front.variants))
+    template = "Pareto front for each pair of objectives: {goals}; {n} machines on it."
+    told = say(template, goals=goals, n=len(found.front.variants))
     caption = say(
         "Machines tried and the Pareto front: no other machine is better than one on the front in all objectives. "
         "Machines far from it lie outside."
@@ -269,8 +269,8 @@ def _front(found: OptimisationResult) -> SummaryFigure:
 
 def _progress(found: OptimisationResult) -> SummaryFigure:
     gained, tried = found.progress.last_gain, found.tried
-    words = "The last thousandth of the gain was reached after {n} of {all} machines."
-    told = say(words, n=number(str(gained)), all=number(str(tried)))
+    template = "The last thousandth of the gain was reached after {n} of {all} machines."
+    told = say(template, n=number(str(gained)), all=number(str(tried)))
     if gained > 0.9 * tried and not found.is_all:
         told += " " + say("The search was still improving: more evaluations may find better machines.")
     return SummaryFigure(

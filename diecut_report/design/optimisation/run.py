@@ -417,11 +417,11 @@ class SearchRun:
             used = "; ".join(
                 f"{name} {', '.join(store.state['libraries'].get(name, ['?']))}" for name in ("numpy", PYMOO)
             )
-            words = (
+            template = (
                 "These results belong to another search, so it cannot be resumed. They were started with {used}: continue with those "
                 "versions, or start again in another folder with -o."
             )
-            raise refusal(words, store.directory, used=used)
+            raise refusal(template, store.directory, used=used)
         return Tried(known, *_judged(self.study, broken, known, known[VIOLATION.name]))
 
     def _count(self, tried: Tried, rows: int, is_there: bool) -> None:
@@ -443,11 +443,11 @@ class SearchRun:
         for index, (objective, values) in enumerate(zip(objectives, np.abs(costs.T), strict=True)):
             there = values[np.isfinite(values)]
             if not len(there) or np.ptp(there) <= STILL * there.max():
-                words = "has no value" if not len(there) else "is the same"
+                template = "has no value" if not len(there) else "is the same"
                 what = Phrase(
                     "{name} {words} in all of the first {n} machines tried: it does not depend on the varied inputs. Name another objective, or "
                     "vary inputs that affect it.",
-                    name=objective.output, words=phrase(words), n=len(values),
+                    name=objective.output, words=phrase(template), n=len(values),
                 )  # fmt: skip
                 raise UserError(_of_objective(self.study, index, what))
 

@@ -115,8 +115,8 @@ def present(found: OptimisationResult, name: Callable[[StoredColumn], str] = cal
         shown = quantity(value, goal.column) if math.isfinite(value) else "–"
         told.append(Phrase("{name} {value}", name=name(goal.column), value=shown))
     verdict = phrase("it is feasible") if found.known.violations[0] == 0 else phrase("it is not feasible")
-    words = "the present machine is {number} ({verdict}): {told}"
-    return Phrase(words, number=0, verdict=verdict, told=joined(told, ", "))
+    template = "the present machine is {number} ({verdict}): {told}"
+    return Phrase(template, number=0, verdict=verdict, told=joined(told, ", "))
 
 
 def held(each: InputPlace, is_single: bool) -> str:
@@ -154,14 +154,14 @@ def recheck_lines(found: OptimisationResult) -> Iterator[str]:
     yield Counted(len(differing), one, "recalculated individually: {n} of {all} differ", all=count)
     for each in differing[:TOLD]:
         if each.fault:
-            told = Phrase("{number}: {fault}", number=each.variant, fault=phrase(each.fault))
+            message = Phrase("{number}: {fault}", number=each.variant, fault=phrase(each.fault))
         elif each.status != each.alone:
-            words = "{number}: {status} in the batch, {alone} on its own"
-            told = Phrase(words, number=each.variant, status=phrase(each.status), alone=phrase(each.alone))
+            template = "{number}: {status} in the batch, {alone} on its own"
+            message = Phrase(template, number=each.variant, status=phrase(each.status), alone=phrase(each.alone))
         else:
-            words = "{number}: {name} differs by {share} of its value"
-            told = Phrase(words, number=each.variant, name=each.name, share=f"{each.share:.2g}")
-        yield "  " + told
+            template = "{number}: {name} differs by {share} of its value"
+            message = Phrase(template, number=each.variant, name=each.name, share=f"{each.share:.2g}")
+        yield "  " + message
 
 
 def conflict_lines(why: Conflict) -> Iterator[str]:

@@ -138,8 +138,8 @@ class Page:
         if not elsewhere:
             return False, {"at": place}
         told = f"{place['symbol']} = {with_unit(place['text'], place['unit'])}"
-        words = "Shown at {place}, in the middle of its smooth piece, over which it is constant."
-        return True, {"at": place, "note": Phrase(words, place=told)}
+        template = "Shown at {place}, in the middle of its smooth piece, over which it is constant."
+        return True, {"at": place, "note": Phrase(template, place=told)}
 
     def _is_elsewhere(self, step: FormulaStep, axis: str) -> bool:
         """Whether a flag has to be shown in the middle of its smooth piece: where curves are shown its formula gives another."""

@@ -445,12 +445,12 @@ def contradicted(step: Step, part: Bound, found: Contradiction) -> str:
             break
     result, again = (with_unit(text, step.unit) for text in said)
     formula = part.formula
-    words = (
+    template = (
         "{description} ({id}) is {result}, but its formula {name} as it is printed gives {again}, which "
         "is more than rounding; it must compute by its parameters and constants alone ({place})"
     )
     return Phrase(
-        words,
+        template,
         description=step.description,
         id=step.id,
         result=result,

@@ -48,13 +48,13 @@ def _inputs(mechanism: Mechanism, changed: Mapping[str, Any], count: int) -> Ite
         if name not in known:
             yield Phrase("changes {name}, which is not an input{near}", name=name, near=nearest(name, known))
         elif not isinstance(value, tuple) and np.ndim(value) and len(value) != count:
-            words = "gets {n} values of {name} for {count} trials; give one for each"
-            yield Phrase(words, n=len(value), name=name, count=count)
+            template = "gets {n} values of {name} for {count} trials; give one for each"
+            yield Phrase(template, n=len(value), name=name, count=count)
         elif is_text(value):
             yield from _text(known[name], value)
         elif known[name].texts:
-            words = "tries numbers for {name}, which is a text: {texts}"
-            yield Phrase(words, name=name, texts=", ".join(known[name].texts))
+            template = "tries numbers for {name}, which is a text: {texts}"
+            yield Phrase(template, name=name, texts=", ".join(known[name].texts))
 
 
 def _text(key: Key, value: Any) -> Iterator[str]:
@@ -62,15 +62,15 @@ def _text(key: Key, value: Any) -> Iterator[str]:
     tried = dict.fromkeys(np.ravel(np.asarray(value, dtype=object)))
     if isinstance(key.meta, Quantity):
         shown = pretty(key.meta.unit) or "1"
-        words = "tries {value} for {name}, which is a number: give it in SI, si(…, {unit})"
-        yield Phrase(words, value=repr(next(iter(tried))), name=key.path, unit=repr(shown))
+        template = "tries {value} for {name}, which is a number: give it in SI, si(…, {unit})"
+        yield Phrase(template, value=repr(next(iter(tried))), name=key.path, unit=repr(shown))
     elif key.home or key.block:
-        words = "tries texts for {name}, a key of a list's parts, of which numbers alone can be tried"
-        yield Phrase(words, name=key.path)
+        template = "tries texts for {name}, a key of a list's parts, of which numbers alone can be tried"
+        yield Phrase(template, name=key.path)
     for text in tried if key.texts and not isinstance(key.meta, Quantity) else ():
         if (str(text).lower() if isinstance(text, bool) else text) not in key.texts:
-            words = "tries {text} for {name}; allowed: {texts}"
-            yield Phrase(words, text=repr(text), name=key.path, texts=", ".join(key.texts))
+            template = "tries {text} for {name}; allowed: {texts}"
+            yield Phrase(template, text=repr(text), name=key.path, texts=", ".join(key.texts))
 
 
 def _asked(mechanism: Mechanism, names: Sequence[str]) -> Iterator[str]:

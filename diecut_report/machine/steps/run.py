@@ -90,9 +90,9 @@ class MachineRun(Calculation):
         self.proof[step.id] = float(np.max(residual[self.possible & ~unproved], initial=0.0))
         if unproved.any():
             left = format(np.max(residual[unproved]), ".1e")
-            words = "{description}: the proof leaves {residual}, not {tolerance}"
-            told = Phrase(words, description=step.description, residual=left, tolerance=format(tolerance, ".0e"))
-            self.mark(step, unproved, told + soundness.sharpest(self, step))
+            template = "{description}: the proof leaves {residual}, not {tolerance}"
+            message = Phrase(template, description=step.description, residual=left, tolerance=format(tolerance, ".0e"))
+            self.mark(step, unproved, message + soundness.sharpest(self, step))
 
     def require_finite(self, step: Step) -> None:
         """Require that no number of a possible machine is NaN or infinite, but for an absent output and the padding of crossings."""
@@ -106,8 +106,8 @@ class MachineRun(Calculation):
             return
         bad = ~is_finite.all(axis=1) & self.possible
         if bad.any():
-            words = "{description} ({id}) has no value with these inputs"
-            self.mark(step, bad, Phrase(words, description=step.description, id=step.id))
+            template = "{description} ({id}) has no value with these inputs"
+            self.mark(step, bad, Phrase(template, description=step.description, id=step.id))
 
     def require_whole(self, step: Step) -> None:
         """Require that what is marked as a count is whole: the results would round it."""
@@ -117,10 +117,10 @@ class MachineRun(Calculation):
         numbers = values / unit(step.unit).factor
         bad = (np.abs(numbers - np.round(numbers)) > WHOLE * np.maximum(np.abs(numbers), 1)).any(axis=1) & self.possible
         if bad.any():
-            words = "{description} ({id}, {name}) is {given}, but is marked as a count (whole=True)"
+            template = "{description} ({id}, {name}) is {given}, but is marked as a count (whole=True)"
             given = f"{numbers[np.flatnonzero(bad)[0]].ravel()[0]:.6g}"
-            told = Phrase(words, description=step.description, id=step.id, name=Path(step.at).name, given=given)
-            self.mark(step, bad, Phrase("{words}; round it in its formula, or take whole=True away", words=told))
+            message = Phrase(template, description=step.description, id=step.id, name=Path(step.at).name, given=given)
+            self.mark(step, bad, Phrase("{words}; round it in its formula, or take whole=True away", words=message))
 
     def reasons(self, steps: Sequence[Step]) -> Iterator[tuple[str, str]]:
         """Yield why else a machine cannot exist, as far as it can be told from what is known already."""
@@ -187,8 +187,8 @@ class MachineRun(Calculation):
             for index, name in enumerate(names):
                 if name is not None and name in names[:index]:
                     home, first = path.rpartition(".")[0], names.index(name) + 1
-                    words = "is {name}, as is that of part {first} of {home}; give each part a name of its own"
-                    raise _of_part(path, index, Phrase(words, name=name, first=first, home=home))
+                    template = "is {name}, as is that of part {first} of {home}; give each part a name of its own"
+                    raise _of_part(path, index, Phrase(template, name=name, first=first, home=home))
         self._require_distinct_checks()
 
     def _require_distinct_checks(self) -> None:
@@ -197,8 +197,8 @@ class MachineRun(Calculation):
             for made in by_part([check], self.inputs.get):
                 own = check.id, made.part_name
                 if made.index is not None and known.get(made.id, own) != own:
-                    words = "is {name}, with which its check {id} would be called as another one; take another name"
-                    raise _of_part(check.named_by, made.index, Phrase(words, name=made.part_name, id=made.id))
+                    template = "is {name}, with which its check {id} would be called as another one; take another name"
+                    raise _of_part(check.named_by, made.index, Phrase(template, name=made.part_name, id=made.id))
                 known[made.id] = own
 
     def name_row(self, step: Step) -> None:
@@ -217,8 +217,8 @@ class MachineRun(Calculation):
             called = part_result(name, step)
             is_given = called in self.inputs or self.names.result(called, self.steps) is not None
             if is_given or self.row_of.get(called, step.id) != step.id:
-                words = "is {name}, with which its result {called} would be called as another one; take another name"
-                raise _of_part(step.named_by, index, Phrase(words, name=name, called=called))
+                template = "is {name}, with which its result {called} would be called as another one; take another name"
+                raise _of_part(step.named_by, index, Phrase(template, name=name, called=called))
         return names
 
 

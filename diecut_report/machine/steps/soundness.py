@@ -53,8 +53,8 @@ def _words(calc: Calculation, found: JumpFault) -> str:
     decided = written(_in_symbols(calc, found.condition))
     of: str = Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
     of = phrase("its formula") if step.id == curve.id else of
-    words = "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
-    return Phrase(words, where=where, place=place, decided=decided, of=of, fix=fix)
+    template = "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
+    return Phrase(template, where=where, place=place, decided=decided, of=of, fix=fix)
 
 
 def _in_symbols(calc: Calculation, condition: BranchCondition) -> Node:
@@ -98,8 +98,8 @@ def require_whole(calc: Calculation, curve: str) -> None:
         return
     require(calc, curve, curve)  # tells the condition that jumps there, if one does
     told = _told(calc, curve, place)
-    words = Phrase("{where} jumps or has a pole inside a smooth piece, near {place}; {instead}", told)
-    raise Unproven(words, calc.curves[curve].at)
+    message = Phrase("{where} jumps or has a pole inside a smooth piece, near {place}; {instead}", told)
+    raise Unproven(message, calc.curves[curve].at)
 
 
 def sharpest(calc: Calculation, step: Step) -> str:

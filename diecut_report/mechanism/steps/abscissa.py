@@ -28,8 +28,8 @@ def require_length(calc: StepEngine, step: Step, length: Array) -> None:
     """Mark the variants in which what curves are laid over has no length."""
     empty = ~(length > 0)[:, 0] & calc.possible
     if empty.any():
-        words = "{description} ({id}) has no length to run over with these inputs"
-        calc.mark(step, empty, Phrase(words, description=step.description, id=step.id))
+        template = "{description} ({id}) has no length to run over with these inputs"
+        calc.mark(step, empty, Phrase(template, description=step.description, id=step.id))
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,8 +59,8 @@ class Abscissa(QuantityStep):
     def shape_faults(self) -> Iterator[str]:
         yield from super().shape_faults()
         if self.intervals < 2:
-            words = "has intervals={intervals}; the search for extremes needs at least 2, usually 32 or 64"
-            yield Phrase(words, intervals=repr(self.intervals))
+            template = "has intervals={intervals}; the search for extremes needs at least 2, usually 32 or 64"
+            yield Phrase(template, intervals=repr(self.intervals))
 
     def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:
         if isinstance(self.period, str):
@@ -99,8 +99,8 @@ class Breakpoints(SilentStep):
     def shape_faults(self) -> Iterator[str]:
         yield from super().shape_faults()
         if not all(isinstance(each, str) for each in self.places):
-            words = 'has places={places}; name them one after another, each an id: "first", "second"'
-            yield Phrase(words, places=repr(self.places))
+            template = 'has places={places}; name them one after another, each an id: "first", "second"'
+            yield Phrase(template, places=repr(self.places))
 
     def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:
         yield from ((name, of(name), of(self.abscissa)) for name in (*self.places, self.every) if name)

@@ -48,8 +48,8 @@ def form(make: Callable[P, Step]) -> Callable[Concatenate[StepHolder, P], None]:
     def declare(self: StepHolder, /, *args: P.args, **options: P.kwargs) -> None:
         for name in options.keys() - own.keys() - shared.__annotations__.keys():
             known = (*own, *shared.__annotations__)
-            words = "{id} has no option {name}{near}"
-            raise Misdeclared(Phrase(words, id=[*args, ""][0], name=name, near=nearest(name, known)))
+            template = "{id} has no option {name}{near}"
+            raise Misdeclared(Phrase(template, id=[*args, ""][0], name=name, near=nearest(name, known)))
         try:
             step = make(*args, **options)
         except Misdeclared:
@@ -82,11 +82,11 @@ def _options(make: Callable[..., Step], step_type: type[Step]) -> tuple[dict[str
 
 def tuple_faults(declared: Any, *names: str) -> Iterator[str]:
     """Yield fields that are no tuples of texts."""
-    words = 'has {name}={given}; write a tuple of texts, with a comma behind a single one: {name}=("key",)'
+    template = 'has {name}={given}; write a tuple of texts, with a comma behind a single one: {name}=("key",)'
     for name in names:
         given = getattr(declared, name)
         if not isinstance(given, tuple) or not all(isinstance(each, str) for each in given):
-            yield Phrase(words, name=name, given=repr(given))
+            yield Phrase(template, name=name, given=repr(given))
 
 
 class Options(TypedDict, total=False):
@@ -268,8 +268,8 @@ class Step:
             if not isinstance(
                 given := getattr(self, name), str | tuple | (int | float if name in self.NUMBERS else str)
             ):
-                words = "has {name}={given}; name the input or the step that gives it, by its id"
-                yield Phrase(words, name=name, given=repr(given))
+                template = "has {name}={given}; name the input or the step that gives it, by its id"
+                yield Phrase(template, name=name, given=repr(given))
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
         """Yield what is wrong with what it takes."""

@@ -86,15 +86,15 @@ class Choice(FormulaStep):
         if not cases:
             yield phrase("has no cases; give at least one Case")
         if not all(isinstance(each, Case) for each in cases):
-            words = 'has cases that are none; give them one after another: case(value, "why", condition), case(value, "why")'
-            yield phrase(words)
+            template = 'has cases that are none; give them one after another: case(value, "why", condition), case(value, "why")'
+            yield phrase(template)
             return
         for each in cases:
             if not isinstance(each.words, str):
                 yield phrase('has a case whose words are not a text; write case(value, "why it is taken", condition)')
             if not isinstance(each.value, str | Binding):
-                words = "has a case of the value {value}; write a text, or a lambda that gives a number"
-                yield Phrase(words, value=repr(each.value))
+                template = "has a case of the value {value}; write a text, or a lambda that gives a number"
+                yield Phrase(template, value=repr(each.value))
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
         yield from super().faults(names, when)
@@ -107,8 +107,8 @@ class Choice(FormulaStep):
             )
         for number, each in enumerate(self.cases[:-1], 1):
             if each.condition is None:
-                words = "has no condition in case {number} of {all}, so that those after it are never taken; add one"
-                yield Phrase(words, number=number, all=len(self.cases))
+                template = "has no condition in case {number} of {all}, so that those after it are never taken; add one"
+                yield Phrase(template, number=number, all=len(self.cases))
 
     def values(self, apply: Callable[[Written], Array]) -> Array:
         held = [apply(each.condition) for each in self.cases if each.condition is not None]

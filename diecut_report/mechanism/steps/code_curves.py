@@ -39,8 +39,8 @@ class ComputedCurve(QuantityStep):
     @property
     def called(self) -> Called:
         first = phrase("the part's index, ") if self.named_by else ""
-        words = "it is called with {first}the object, x, the middles of the pieces and the rows"
-        return Called(4 + bool(self.named_by), Phrase(words, first=first))
+        template = "it is called with {first}the object, x, the middles of the pieces and the rows"
+        return Called(4 + bool(self.named_by), Phrase(template, first=first))
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("curve", self.abscissa)}

@@ -148,13 +148,13 @@ class CurvePeriod(QuantityStep):
     def run(self, calc: StepEngine) -> None:
         curve = calc.inputs[self.given]
         if not hasattr(curve, "abscissa"):
-            words = "is a list of values, which tells no period; {otherwise}"
-            raise Impossible([(self.given, Phrase(words, otherwise=self.otherwise))])
+            template = "is a list of values, which tells no period; {otherwise}"
+            raise Impossible([(self.given, Phrase(template, otherwise=self.otherwise))])
         declared = curve.abscissa
         if unit(declared.unit).kind != unit(self.unit).kind:
-            words = "runs over {id}, in {unit}; {otherwise}"
+            template = "runs over {id}, in {unit}; {otherwise}"
             named = {"id": declared.id, "unit": pretty(declared.unit), "otherwise": self.otherwise}
-            raise Impossible([(self.given, Phrase(words, named))])
+            raise Impossible([(self.given, Phrase(template, named))])
         calc.values[self.id] = np.broadcast_to(curve.domain.period, (calc.count, 1))
 
     def items(self, page: StepPrinter) -> list[Item]:

@@ -118,8 +118,8 @@ class Between(Formula):
 
 def _columns(table: object, column: str) -> tuple[Column, Column]:
     if not isinstance(table, StandardTable):
-        words = "{table} is not a table; write one with own_table(…), rows of numbers and its sources."
-        raise StandardFault(Phrase(words, table=repr(table)))
+        template = "{table} is not a table; write one with own_table(…), rows of numbers and its sources."
+        raise StandardFault(Phrase(template, table=repr(table)))
     if table.names:
         raise StandardFault("The table “{title}” goes by names; one that goes by numbers is needed.", title=table.title)
     if column == table.columns[0].name:
@@ -132,14 +132,14 @@ def _columns(table: object, column: str) -> tuple[Column, Column]:
 def _line(table: StandardTable, columns: tuple[Column, Column], interpolation: Interpolation) -> Formula:
     if interpolation not in LINES:
         near = nearest(str(interpolation), LINES)
-        words = "interpolation is {interpolation}{near}; allowed: {lines}."
-        raise StandardFault(Phrase(words, interpolation=repr(interpolation), near=near, lines=", ".join(LINES)))
+        message = "interpolation is {interpolation}{near}; allowed: {lines}."
+        raise StandardFault(Phrase(message, interpolation=repr(interpolation), near=near, lines=", ".join(LINES)))
     for own in (columns[number] for number in LOGARITHMIC[interpolation]):
         if below := [value for value in own.values if value <= 0]:
-            said = "has the number {value} in its column {name}, which has no logarithm"
-            words = Phrase(said, value=format(below[0], "g"), name=own.name)
+            template = "has the number {value} in its column {name}, which has no logarithm"
+            message = Phrase(template, value=format(below[0], "g"), name=own.name)
             raise StandardFault(
-                "The table “{title}” {words}; interpolate linearly there.", title=table.title, words=words
+                "The table “{title}” {words}; interpolate linearly there.", title=table.title, words=message
             )
     return LINES[interpolation]
 
@@ -244,12 +244,12 @@ class Interpolated(Value):
         own, declared = self.between.columns[0], calc.step_or_input(self.of)
         first, last = (with_unit(number_text(end, MOST_DIGITS), own.unit) for end in (own.values[0], own.values[-1]))
         is_input = self.of not in calc.steps and not self.key
-        words = (
+        template = (
             "{text} {shown}, outside of the table “{title}” for {description} ({symbol}), which goes from "
             "{first} to {last}"
         )
         return Phrase(
-            words,
+            template,
             text=phrase("is") if is_input else phrase("leads to"),
             shown=f"{declared.symbol} = {with_unit(_beyond(value / unit(own.unit).factor, own.values), own.unit)}",
             title=self.table.title,

@@ -101,8 +101,8 @@ class Lookup(TableStep):
         if isinstance(table, StandardTable):
             return
         if not isinstance(table, Mapping):
-            words = 'takes from {table}; give a table, then the text input by which: table, by="…"'
-            yield Phrase(words, table=repr(table))
+            template = 'takes from {table}; give a table, then the text input by which: table, by="…"'
+            yield Phrase(template, table=repr(table))
             return
         wrong = [key for key, value in table.items() if isinstance(value, bool) or not isinstance(value, int | float)]
         if wrong:
@@ -127,17 +127,20 @@ class Lookup(TableStep):
             if step.is_text and (cases := getattr(step, "cases", ())):
                 missing = [each.value for each in cases if isinstance(each.value, str) and each.value not in rows]
                 if missing:
-                    words = "has no row in the table for {by}={missing}; the rows are {rows}"
-                    yield Phrase(words, by=self.by, missing=", ".join(map(str, missing)), rows=", ".join(rows))
+                    template = "has no row in the table for {by}={missing}; the rows are {rows}"
+                    yield Phrase(template, by=self.by, missing=", ".join(map(str, missing)), rows=", ".join(rows))
             elif step.is_made_late:
-                words = "by is {by}, words that are made where a message asks for them; let choice or computed(…, is_text=True) give the row's name"
-                yield Phrase(words, by=self.by)
+                template = (
+                    "by is {by}, words that are made where a message asks for them; "
+                    "let choice or computed(…, is_text=True) give the row's name"
+                )
+                yield Phrase(template, by=self.by)
 
     def _column_faults(self) -> Iterator[str]:
         if not isinstance(self.table, StandardTable):
             if self.column:
-                words = "names the column {column}, but its table has none; write it with own_table(…, columns=…)"
-                yield Phrase(words, column=self.column)
+                template = "names the column {column}, but its table has none; write it with own_table(…, columns=…)"
+                yield Phrase(template, column=self.column)
             return
         try:
             own = self.table.column(self.column)
@@ -150,8 +153,8 @@ class Lookup(TableStep):
         """What is wrong with the number by which a row is sought."""
         if not self.is_by_number:
             if self.key:
-                words = "names the key {key}, but its row is that of a text, which is always there; take key away"
-                yield Phrase(words, key=self.key)
+                template = "names the key {key}, but its row is that of a text, which is always there; take key away"
+                yield Phrase(template, key=self.key)
             return
         assert isinstance(self.table, StandardTable)
         try:
@@ -160,8 +163,8 @@ class Lookup(TableStep):
             yield str(fault).removesuffix(".")
             return
         if len(set(own.values)) < len(own.values):
-            words = "seeks the row by the column {name} of the table “{title}”, which has a number twice; take another column"
-            yield Phrase(words, name=own.name, title=self.table.title)
+            template = "seeks the row by the column {name} of the table “{title}”, which has a number twice; take another column"
+            yield Phrase(template, name=own.name, title=self.table.title)
         yield from unlike_units(column_title(own), own.unit, names.units(self.by), self.by)
         missing = phrase("be a number that the table does not have")
         yield from key_faults(self.key, self.by, names, self._is_picked(names), missing)
@@ -176,11 +179,11 @@ class Lookup(TableStep):
         key = names.world.keys.get(self.by)
         if key is None or not key.texts or isinstance(self.table, StandardTable):
             return
-        words = "has a row for {row}{nearest}, which {by} can never be; allowed: {texts}; take the row away, or allow its text"
+        template = "has a row for {row}{nearest}, which {by} can never be; allowed: {texts}; take the row away, or allow its text"
         for row in self.table:
             if row not in key.texts:
                 near = nearest(row, key.texts)
-                yield Phrase(words, row=repr(row), nearest=near, by=self.by, texts=", ".join(key.texts))
+                yield Phrase(template, row=repr(row), nearest=near, by=self.by, texts=", ".join(key.texts))
 
     # Run.
 
@@ -212,9 +215,9 @@ class Lookup(TableStep):
         numbers, display = self.rows()
         found_texts = (text for text in texts[calc.possible].flat if isinstance(text, str))
         if strange := [text for text in found_texts if text not in numbers]:
-            words = "step {id}: {by} is {text}, which is not a row of its table; the rows are {rows}"
+            template = "step {id}: {by} is {text}, which is not a row of its table; the rows are {rows}"
             filling = {"id": self.id, "by": self.by, "text": repr(strange[0]), "rows": ", ".join(numbers)}
-            raise Misdeclared(Phrase(words, filling), calc.steps[self.by].at)
+            raise Misdeclared(Phrase(template, filling), calc.steps[self.by].at)
         found = np.array([si(numbers.get(text, np.nan), display) for text in texts.flat], dtype=float)
         return found.reshape(texts.shape)
 
@@ -247,10 +250,10 @@ class Lookup(TableStep):
             "rows": with_unit(", ".join(number_text(each, MOST_DIGITS) for each in near), own.unit),
         }
         if self.by in calc.steps or self.key:
-            words = "leads to {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}"
-            return Phrase(words, filling)
-        words = "is {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}"
-        return Phrase(words, filling)
+            template = "leads to {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}"
+            return Phrase(template, filling)
+        template = "is {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}"
+        return Phrase(template, filling)
 
     # Print.
 

@@ -64,6 +64,6 @@ class Phase(SilentStep):
                 or len(span) != 2
                 or not all(isinstance(end, str | int | float) for end in span)
             ):
-                words = 'goes between {span}; write a start and an end in brackets: ("begins", "ends")'
-                yield Phrase(words, span=repr(span))
+                template = 'goes between {span}; write a start and an end in brackets: ("begins", "ends")'
+                yield Phrase(template, span=repr(span))
         yield from tuple_faults(self, "union", "rest_of")

@@ -77,8 +77,8 @@ class Pick(TableStep):
         if isinstance(self.series, tuple) and not self.series:
             yield phrase("picks from an empty series; give its values")
         if isinstance(self.series, Mapping) and not self.by:
-            words = 'picks from several series ({series}); name the text input that chooses one: by="…"'
-            yield Phrase(words, series=", ".join(map(str, self.series)))
+            template = 'picks from several series ({series}); name the text input that chooses one: by="…"'
+            yield Phrase(template, series=", ".join(map(str, self.series)))
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
         if isinstance(self.series, Mapping):
@@ -135,9 +135,9 @@ class Pick(TableStep):
 
     def _beyond(self, calc: StepEngine, value: float, end: Phrase) -> Phrase:
         declared = calc.step_or_input(self.of)
-        words = "{description} ({id}): {sought} is beyond {title}, of which {end}"
+        template = "{description} ({id}): {sought} is beyond {title}, of which {end}"
         return Phrase(
-            words,
+            template,
             description=self.description,
             id=self.id,
             sought=f"{declared.description}, {declared.symbol} = {told(value, declared.unit)},",
@@ -152,7 +152,7 @@ class Pick(TableStep):
         values, display, standard = self._own(page.calc)
         index = int(page.calc.branch[self.id][0, 0])
         beside = [with_unit(f"{values[i]:g}", display) for i in (index - 1, index + 1) if 0 <= i < len(values)]
-        words = Phrase(SERIES_WORDS[self.rule], value=page.printed(self.of), beside=", ".join(beside))
+        message = Phrase(SERIES_WORDS[self.rule], value=page.printed(self.of), beside=", ".join(beside))
         item = {"type": "reduction", "of": page.calc.step_or_input(self.of).symbol, "result": result}
         series = {"series": standard.title} if standard else {}
-        return [self.head() | item | {"operation": "pick", "method": words} | series | sources(standard)]
+        return [self.head() | item | {"operation": "pick", "method": message} | series | sources(standard)]

@@ -98,5 +98,5 @@ def _numbers(step: Any, found: Any, wanted: str) -> Array:
 def misgiven(step: Any, given: str, wanted: str) -> Misdeclared:
     """Return that a step's function gives something else than it must."""
     name = getattr(step.function, "__name__", repr(step.function))
-    words = "step {id}: its function {name} gives {given}; it must return {wanted}"
-    return Misdeclared(Phrase(words, id=step.id, name=name, given=given, wanted=wanted), step.at)
+    template = "step {id}: its function {name} gives {given}; it must return {wanted}"
+    return Misdeclared(Phrase(template, id=step.id, name=name, given=given, wanted=wanted), step.at)

@@ -53,8 +53,8 @@ class Prepared(HoldingStep):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.again and not self.for_many:
-            words = "{id} is prepared again=True, which calculates all machines at once: write it for many, with for_many=True"
-            raise ValueError(Phrase(words, id=self.id))
+            template = "{id} is prepared again=True, which calculates all machines at once: write it for many, with for_many=True"
+            raise ValueError(Phrase(template, id=self.id))
 
     def run(self, calc: StepEngine) -> None:
         known = self.known(calc)

@@ -48,8 +48,8 @@ class Root(QuantityStep):
     def faults(self, names: Names, when: Any) -> Iterator[str]:
         takes = bound(self.equation).names.values()
         if self.unknown not in takes:
-            words = "the unknown {unknown} is nothing that the equation takes; it takes {asked}"
-            yield Phrase(words, unknown=self.unknown, asked=", ".join(map(str, takes)))
+            template = "the unknown {unknown} is nothing that the equation takes; it takes {asked}"
+            yield Phrase(template, unknown=self.unknown, asked=", ".join(map(str, takes)))
 
     def run(self, calc: StepEngine) -> None:
         found, residual = calc.root(self)
@@ -58,8 +58,8 @@ class Root(QuantityStep):
             first = np.flatnonzero(lost)[0]
             low, high = (told(float(calc.apply(end)[first, 0]), self.unit) for end in (self.low, self.high))
             where = f"{self.description} ({self.id}, {Path(self.at).name})"
-            words = "{where}: the equation does not change its sign between low = {low} and high = {high}; let the bracket hold the root, or require what it needs to exist"  # noqa: E501
-            calc.mark(self, lost, Phrase(words, where=where, low=low, high=high))
+            template = "{where}: the equation does not change its sign between low = {low} and high = {high}; let the bracket hold the root, or require what it needs to exist"  # noqa: E501
+            calc.mark(self, lost, Phrase(template, where=where, low=low, high=high))
             residual = np.where(lost[:, None], 0.0, residual)
         calc.prove(self, residual, self.tolerance)
 

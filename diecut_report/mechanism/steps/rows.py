@@ -109,8 +109,8 @@ class Part(RowStep):
             number = self.index + 1 if self.index >= 0 else -self.index
             which = Phrase("part {number}" if self.index >= 0 else "part {number} from the last", number=number)
             many = Counted(count, "{n} entry", "{n} entries")
-            words = "has {count}, but {description} ({id}) takes {which}; add what is missing"
-            filled = Phrase(words, count=many, description=self.description, id=self.id, which=which)
+            template = "has {count}, but {description} ({id}) takes {which}; add what is missing"
+            filled = Phrase(template, count=many, description=self.description, id=self.id, which=which)
             raise Impossible([(calc.axis[self.of], filled)])
         calc.values[self.id] = calc[self.of][:, [self.index]]
 

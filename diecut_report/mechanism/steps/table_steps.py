@@ -70,14 +70,14 @@ def given_faults(step: Any, other: str, taken: str, names: Names) -> Iterator[st
     key, by = keys.get(path), keys.get(taken)
     if key is None or not isinstance(key.meta, Quantity):
         known = [name for name, each in keys.items() if isinstance(each.meta, Quantity)]
-        words = "given is {path}, which is not an input that is a number{nearest}"
-        yield Phrase(words, path=path, nearest=nearest(path, known))
+        template = "given is {path}, which is not an input that is a number{nearest}"
+        yield Phrase(template, path=path, nearest=nearest(path, known))
         return
     if not key.may_be_absent or key.has_default:
         yield Phrase("given is {path}, which is always there; let it be float | None with the default None", path=path)
     if by is not None and by.home != key.home:
-        words = "given is {path}, {other} is {second}; both must be inputs of one list, or of none"
-        yield Phrase(words, path=path, other=other, second=by.path)
+        template = "given is {path}, {other} is {second}; both must be inputs of one list, or of none"
+        yield Phrase(template, path=path, other=other, second=by.path)
     yield from unlike_units(Phrase("given, {path},", path=path), key.meta.unit, step.all_units, phrase("the step"))
 
 
@@ -87,8 +87,8 @@ def key_faults(key: str, taken: str, names: Names, is_covered: bool, beyond: str
     if key and key not in inputs:
         yield Phrase("key is {key}, which is not an input{nearest}", key=key, nearest=nearest(key, inputs))
     elif not key and taken.removeprefix("inputs.") not in inputs and not is_covered:
-        words = 'takes {taken}, which may {where}; name the input that is then to be changed, key="…"'
-        yield Phrase(words, taken=taken, where=beyond)
+        template = 'takes {taken}, which may {where}; name the input that is then to be changed, key="…"'
+        yield Phrase(template, taken=taken, where=beyond)
 
 
 def key_to_change(step: Any, taken: str, calc: MachineValues, part: int) -> str:
@@ -112,5 +112,5 @@ def unlike_units(what: str, own: str, wanted: set[str], whose: str) -> Iterator[
     except ValueError:
         return
     if not is_alike:
-        words = "{what} is in {own}, {whose} in {units}"
-        yield Phrase(words, what=what, own=own, whose=whose, units=", ".join(sorted(wanted)))
+        template = "{what} is in {own}, {whose} in {units}"
+        yield Phrase(template, what=what, own=own, whose=whose, units=", ".join(sorted(wanted)))

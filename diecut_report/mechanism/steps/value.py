@@ -64,8 +64,8 @@ class FormulaStep(QuantityStep):
             told = joined(
                 [Phrase("{name} runs over {axis}", name=name, axis=axis) for name, axis in sole.items()], ", "
             )
-            words = "mixes what runs over unlike places: {told}; take a single number of one of them first"
-            yield Phrase(words, told=told)
+            template = "mixes what runs over unlike places: {told}; take a single number of one of them first"
+            yield Phrase(template, told=told)
         if self.per_piece and not any(each.step is self and each.kind == "curve" for each in names.givers(self.id)):
             yield Phrase(
                 "has per_piece=True, which marks a flag of a curve's smooth pieces, but takes no curve and no abscissa; take it away"

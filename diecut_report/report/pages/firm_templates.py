@@ -217,20 +217,20 @@ def problems(house: HouseStyle, programs: Path) -> list[Problem]:
     environment = Environment(loader=FileSystemLoader(programs), **OPTIONS)
     found = [each for name, text in house.templates.items() for each in _judged(house, name, text, known, environment)]
     for what, line in fetched_by_css(house.css):
-        words = Phrase("{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write "
+        message = Phrase("{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write "
                        "them as data: addresses.", what=what)  # fmt: skip
-        found.append(Problem(words, house.path(CSS), line))
+        found.append(Problem(message, house.path(CSS), line))
     return found
 
 
 def _judged(house: HouseStyle, name: str, text: str, known: list[str], environment: Environment) -> Iterator[Problem]:
     if name not in known and not name.startswith("_"):
-        words = Phrase(
+        message = Phrase(
             "{name} is not a template of the program{nearest}, so nothing asks for it. Your own begin with _.",
             name=repr(name),
             nearest=nearest(name, known),
         )
-        yield Problem(words, house.path(name))
+        yield Problem(message, house.path(name))
     try:
         tree = environment.parse(text)
         asked_for = list(tree.find_all(nodes.Extends))
@@ -243,13 +243,13 @@ def _judged(house: HouseStyle, name: str, text: str, known: list[str], environme
     for asked in [each.template.value for each in asked_for if isinstance(each.template, nodes.Const)]:
         program = str(asked).removeprefix(OWN)
         if program not in known:
-            words = Phrase(
+            message = Phrase(
                 "{asked} is not a template of the program{nearest}.", asked=repr(asked), nearest=nearest(program, known)
             )
-            yield Problem(words, house.path(name))
+            yield Problem(message, house.path(name))
         elif asked == name:
-            words = Phrase('A template cannot extend itself. Write {% extends "{name}" %}.', name=f"{OWN}{name}")
-            yield Problem(words, house.path(name), 1)
+            message = Phrase('A template cannot extend itself. Write {% extends "{name}" %}.', name=f"{OWN}{name}")
+            yield Problem(message, house.path(name), 1)
         else:
             yield from _unknown_blocks(house, name, tree, blocks(program, environment))
 
@@ -257,13 +257,13 @@ def _judged(house: HouseStyle, name: str, text: str, known: list[str], environme
 def _unknown_blocks(house: HouseStyle, name: str, tree: nodes.Template, known: list[str]) -> Iterator[Problem]:
     for block in tree.find_all(nodes.Block):
         if block.name not in known:
-            words = Phrase(
+            message = Phrase(
                 "{name} is not a block of the template{nearest}; its blocks: {known}.",
                 name=repr(block.name),
                 nearest=nearest(block.name, known),
                 known=", ".join(known),
             )
-            yield Problem(words, house.path(name), block.lineno)
+            yield Problem(message, house.path(name), block.lineno)
 
 
 def blocks(name: str, environment: Environment) -> list[str]:
@@ -293,8 +293,8 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
         said = f"{cause}"
         if isinstance(cause, TemplateNotFound):
             said = Phrase("{name} is not a template of the folder or the program", name=repr(cause.name))
-        words = Phrase("The template cannot be filled: {reason}.", reason=said.rstrip(".") or type(cause).__name__)
-        raise UserError(Problem(words, places[-1].filename, places[-1].lineno)) from cause
+        message = Phrase("The template cannot be filled: {reason}.", reason=said.rstrip(".") or type(cause).__name__)
+        raise UserError(Problem(message, places[-1].filename, places[-1].lineno)) from cause
 
 
 # How long a firm's templates may take, and how much memory: what strangers wrote need not end.
@@ -311,12 +311,12 @@ def bounded(house: HouseStyle | None) -> Iterator[None]:
         with limited(SECONDS if house else None):
             yield
     except Overran:
-        words = Phrase(
+        message = Phrase(
             "With these templates the report was not finished within {seconds} s and was aborted. Look for an "
             "endless loop, and for a style or a picture that the page engine cannot handle.",
             seconds=f"{SECONDS:g}",
         )
-        raise UserError(Problem(words, house.folder if house else "")) from None
+        raise UserError(Problem(message, house.folder if house else "")) from None
 
 
 @contextmanager

@@ -38,18 +38,18 @@ def told_of_page(folder: str) -> Iterator[None]:
     except FatalURLFetchingError as error:  # no Exception: it would pass by all who tell of faults
         if not folder:
             raise RuntimeError(str(error)) from error
-        words = Phrase("{error}: a report fetches nothing. Put what it needs into the folder.", error=error)
-        raise UserError(Problem(words, folder)) from error
+        message = Phrase("{error}: a report fetches nothing. Put what it needs into the folder.", error=error)
+        raise UserError(Problem(message, folder)) from error
     except (OSError, UserError):
         raise
     except Exception as error:  # of any kind: a template or a style may ask for anything
         if not folder:
             raise
-        words = Phrase(
+        message = Phrase(
             "The sheets cannot be set with these templates: {error}. Give HTML alone, or plainer ones.",
             error=f"{type(error).__name__}: {error}",
         )
-        raise UserError(Problem(words, folder)) from error
+        raise UserError(Problem(message, folder)) from error
 
 
 def _references(pdf: Any) -> tuple[bytes, ...]:

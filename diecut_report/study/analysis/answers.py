@@ -66,11 +66,11 @@ class Notation:
     def __post_init__(self) -> None:
         for given, allowed in ((self.units, UNITS), (self.separator, SEPARATORS), (self.decimal, DECIMALS)):
             if given not in allowed:
-                words = "{given} is not known here; allowed: {allowed}."
-                raise UserError(Problem(Phrase(words, given=repr(given), allowed=", ".join(allowed))))
+                template = "{given} is not known here; allowed: {allowed}."
+                raise UserError(Problem(Phrase(template, given=repr(given), allowed=", ".join(allowed))))
         if self.separator == self.decimal == "comma":
-            words = "A comma cannot separate both values and decimals; add --separator semicolon, or tab."
-            raise UserError(Problem(phrase(words)))
+            template = "A comma cannot separate both values and decimals; add --separator semicolon, or tab."
+            raise UserError(Problem(phrase(template)))
 
     def unit_of(self, column: StoredColumn) -> str:
         """Return the unit that the column's values are written in."""
@@ -108,11 +108,11 @@ def answer(
     A table that compares variants leaves out what is the same for all, and says how much that is, unless the columns are named.
     """
     if format not in FORMATS:
-        words = "{format} is not a format of variants; known: {formats}."
-        raise UserError(Problem(Phrase(words, format=repr(format), formats=", ".join(FORMATS))))
+        template = "{format} is not a format of variants; known: {formats}."
+        raise UserError(Problem(Phrase(template, format=repr(format), formats=", ".join(FORMATS))))
     if transposed and format == "json":
-        words = "JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx."
-        raise UserError(Problem(phrase(words)))
+        template = "JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx."
+        raise UserError(Problem(phrase(template)))
     if width is None and sys.stdout.isatty():
         width = shutil.get_terminal_size().columns
     with opened(directory) as stored:
@@ -140,11 +140,11 @@ def answer_workbook(directory: Path, asked: Request, notation: Notation = SI, *,
             heads = list(map(notation.head, found.columns))
             rows = [list(map(_finite, row)) for row in islice(_written(stored, found, notation), SHEET_ROWS)]
             if len(rows) == SHEET_ROWS or len(heads) > SHEET_COLUMNS:
-                words = (
+                template = (
                     "A sheet holds {sheet_rows} variants and {sheet_columns} columns; ask for fewer (--where, "
                     "--top, --columns), or for csv."
                 )
-                raise UserError(Problem(Phrase(words, sheet_rows=SHEET_ROWS - 1, sheet_columns=SHEET_COLUMNS)))
+                raise UserError(Problem(Phrase(template, sheet_rows=SHEET_ROWS - 1, sheet_columns=SHEET_COLUMNS)))
         return workbook({say("variants"): [heads, *rows]})
 
 
@@ -152,9 +152,9 @@ def unfinished(directory: Path) -> Iterator[str]:
     """Yield a warning where a study is not calculated to its end: its best variant may still come."""
     state = read_state(directory)
     if state.get("state") != "complete":
-        words = "This study is not finished: {parts} of {all} parts are calculated. Continue with: {continued}"
+        template = "This study is not finished: {parts} of {all} parts are calculated. Continue with: {continued}"
         done, every = len(list((directory / "variants").glob("part-*.parquet"))), -(-state["rows"] // state["chunk"])
-        yield Phrase(words, {"all": every}, parts=done, continued=continuing(directory, state["columns"]))
+        yield Phrase(template, {"all": every}, parts=done, continued=continuing(directory, state["columns"]))
 
 
 def is_doubtful(folder: Path) -> bool:
@@ -208,10 +208,10 @@ def _side_by_side(stored: Stored, question: Question, notation: Notation) -> tup
     """
     rows: list[Row] = list(islice(question.rows(stored), MAX_COMPARED + 1))
     if len(rows) > MAX_COMPARED:
-        words = (
+        template = (
             "More than {most_compared} variants cannot stand side by side; choose some with --pick, --where or --top."
         )
-        raise UserError(Problem(Phrase(words, most_compared=MAX_COMPARED)))
+        raise UserError(Problem(Phrase(template, most_compared=MAX_COMPARED)))
     head, lines = ["quantity", "unit"], []
     for index, column in enumerate(question.columns):
         own = notation.unit_of(column)

@@ -149,8 +149,8 @@ def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
 def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:
     """Return the column of a name; UserError with the nearest where there is none."""
     if name not in columns:
-        words = "{name} is not a column of these variants{nearest}."
-        raise UserError(Problem(Phrase(words, name=repr(name), nearest=nearest(name, columns))))
+        template = "{name} is not a column of these variants{nearest}."
+        raise UserError(Problem(Phrase(template, name=repr(name), nearest=nearest(name, columns))))
     return columns[name]
 
 
@@ -227,8 +227,8 @@ def _refuse_strange(stored: Stored, picked: Sequence[int]) -> None:
     found = {number for (number,) in stored.rows(f"SELECT variant FROM v WHERE variant IN ({listed})")}
     if missing := [number for number in picked if number not in found]:
         first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
-        words = "There is no variant {listed} here. The stored ones are within {first} … {last}."
-        message = Phrase(words, listed=", ".join(map(str, missing)), first=first, last=last)
+        template = "There is no variant {listed} here. The stored ones are within {first} … {last}."
+        message = Phrase(template, listed=", ".join(map(str, missing)), first=first, last=last)
         raise UserError(Problem(message, str(stored.folder)))
 
 

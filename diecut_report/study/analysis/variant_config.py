@@ -97,9 +97,9 @@ def _variant(stored: Stored, variant: int, discovery: Discovery, *, in_error: bo
         raise UserError(Problem(_missing(stored, variant), str(stored.folder)))
     status, governing, reason, *row = rows[0]
     if status == "error" and not in_error:
-        words = Phrase("Variant {variant} cannot be calculated: {reason}", variant=variant,
+        message = Phrase("Variant {variant} cannot be calculated: {reason}", variant=variant,
                        reason=reason or phrase("no reason was stored"))  # fmt: skip
-        raise UserError(Problem(words, str(stored.folder)))
+        raise UserError(Problem(message, str(stored.folder)))
     copies, file = kept(stored.folder), stored.description.base.file
     base = yaml.load(copies[file])
     given = ((column, value) for column, value in zip(stored.varied, row, strict=True) if value is not None)
@@ -110,11 +110,11 @@ def _variant(stored: Stored, variant: int, discovery: Discovery, *, in_error: bo
 
 def _missing(stored: Stored, variant: int) -> Phrase:
     first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
-    words = "There is no variant {variant} here. The stored ones are within {first} … {last}; a number in between that is missing {why}"
+    template = "There is no variant {variant} here. The stored ones are within {first} … {last}; a number in between that is missing {why}"
     is_complete = stored.study.get("state") == "complete"
     unfinished = phrase("was excluded by a constraint or is not calculated yet.")
     why = phrase("was excluded by a constraint.") if is_complete else unfinished
-    return Phrase(words, variant=variant, first=first, last=last, why=why)
+    return Phrase(template, variant=variant, first=first, last=last, why=why)
 
 
 def _place(base: Tree, name: str, discovery: Discovery) -> KeyPath:

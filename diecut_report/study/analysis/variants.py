@@ -130,8 +130,8 @@ def opened(folder: Path) -> Iterator[Stored]:
     paths = store.whole_parts()
     if not paths:
         columns = dict.fromkeys(column.name for column in store.description.columns)
-        words = "No variants are stored here yet. Continue the run with: {continued}"
-        raise UserError(Problem(Phrase(words, continued=continuing(folder, columns)), str(folder)))
+        template = "No variants are stored here yet. Continue the run with: {continued}"
+        raise UserError(Problem(Phrase(template, continued=continuing(folder, columns)), str(folder)))
     config: dict[str, str | bool | int | float | list[str]] = {
         "memory_limit": MEMORY,
         "temp_directory": tempfile.gettempdir(),
@@ -149,8 +149,10 @@ def opened(folder: Path) -> Iterator[Stored]:
             raise KeyboardInterrupt from error
         except duckdb.Error as error:
             # the parts are as they were written: what is asked gives no answer, or there is no room
-            words = "The query on the stored variants failed ({first}). Ask for something else, or for less at a time."
-            message = Phrase(words, first=str(error).splitlines()[0])
+            template = (
+                "The query on the stored variants failed ({first}). Ask for something else, or for less at a time."
+            )
+            message = Phrase(template, first=str(error).splitlines()[0])
             raise UserError(Problem(message, str(folder))) from error
 
 
@@ -195,12 +197,12 @@ def other_code(sources: Mapping[str, str], kinds: Iterable[str], discovery: Disc
     now |= {f"extension {name}": digest for name, digest in discovery.extended.items()}
     gone = [name for name in sources if name.startswith("extension ") and name not in now]
     changed = [name for name in (*now, *gone) if sources.get(name, "") != now.get(name, "")]
-    words = (
+    template = (
         "The source of the {name} is not what the study was calculated by (SHA-256 {old} then, {new} now): the numbers of this "
         "variant may differ from those that are stored."
     )
     return [
-        Phrase(words, name=source_name(name), old=short_hash(sources.get(name)), new=short_hash(now.get(name)))
+        Phrase(template, name=source_name(name), old=short_hash(sources.get(name)), new=short_hash(now.get(name)))
         for name in changed
         if name.isprintable()  # a name of study.json may be by anybody
     ]

@@ -69,8 +69,8 @@ def find_input(base: Config, path: str) -> Input:
         first = f"{path}.{'0.' if is_list else ''}{next(iter(meta.model_fields))}"
         raise UnknownPath(Phrase("is a block or a list; vary one of its values, such as {path}.", path=first))
     if isinstance(meta, PhaseInput | MechanismInput):
-        words = "stands for something of another mechanism, which cannot be varied; vary what it is made of."
-        raise UnknownPath(phrase(words))
+        template = "stands for something of another mechanism, which cannot be varied; vary what it is made of."
+        raise UnknownPath(phrase(template))
     if isinstance(meta, CurveInput):
         raise UnknownPath(phrase("is a curve; curves cannot be varied, only numbers, texts and choices."))
     if meta is None:
@@ -78,8 +78,8 @@ def find_input(base: Config, path: str) -> Input:
     _check_list(instance.data, key)
     single = instance.model.spread.get(str(key[0]), ()) if len(key) == 1 else ()
     if any(name in instance.data for name in single):
-        words = "is given in the base by its single values; vary one of these: {names}."
-        raise UnknownPath(Phrase(words, names=", ".join(single)))
+        template = "is given in the base by its single values; vary one of these: {names}."
+        raise UnknownPath(Phrase(template, names=", ".join(single)))
     home = declared(instance.model, key[:-1]) if len(key) > 1 else instance.model
     assert isinstance(home, type)
     field = keys_of(home)[str(key[-1])].field
@@ -99,8 +99,8 @@ def _instance(base: Config, path: str) -> tuple[Instance, list[str]]:
         raise UnknownPath(_no_instance(base, path))
     instance = base.instances[name]
     if instance is None:
-        words = "cannot be varied, as its plugin is broken: {error}"
-        raise UnknownPath(Phrase(words, error=base.broken.get(name, "unknown")))
+        template = "cannot be varied, as its plugin is broken: {error}"
+        raise UnknownPath(Phrase(template, error=base.broken.get(name, "unknown")))
     return instance, keys
 
 
@@ -110,16 +110,16 @@ def _no_instance(base: Config, path: str) -> Phrase:
     if first in names:
         return Phrase("is not a path of an input; write {path}.", path=f"{MECHANISMS}.{path}")
     if first == MECHANISMS and rest:
-        words = "there is no mechanism {name}{near}. Known: {names}."
-        return Phrase(words, name=repr(rest[0]), near=nearest(rest[0], names), names=", ".join(names))
+        template = "there is no mechanism {name}{near}. Known: {names}."
+        return Phrase(template, name=repr(rest[0]), near=nearest(rest[0], names), names=", ".join(names))
     if first == "project":
-        words = "is in the title block, which cannot be varied; vary fields of {press} and inputs of {mechanisms}."
-        return Phrase(words, press=PRESS, mechanisms=MECHANISMS)
+        template = "is in the title block, which cannot be varied; vary fields of {press} and inputs of {mechanisms}."
+        return Phrase(template, press=PRESS, mechanisms=MECHANISMS)
     known = [each for name in base.instances for each in known_paths(base, name)]
     alike = next((each for each in known if each.endswith(f".{rest[-1] if rest else first}")), None)
     near = Phrase(" (did you mean {key}?)", key=repr(alike)) if alike else nearest(path, known)
-    words = "is not a path of an input{near}; paths are {mechanisms}.NAME.KEY and {press}.KEY. Mechanisms: {names}."
-    return Phrase(words, near=near, mechanisms=MECHANISMS, press=PRESS, names=", ".join(names))
+    template = "is not a path of an input{near}; paths are {mechanisms}.NAME.KEY and {press}.KEY. Mechanisms: {names}."
+    return Phrase(template, near=near, mechanisms=MECHANISMS, press=PRESS, names=", ".join(names))
 
 
 def _no_input(instance: Instance, keys: list[str]) -> Phrase:
@@ -129,13 +129,13 @@ def _no_input(instance: Instance, keys: list[str]) -> Phrase:
     if name == "kind":
         return phrase("cannot be varied; a mechanism keeps its kind in all variants.")
     if name in instance.results:
-        words = "is an output of {home}; only inputs can be varied{near}."
-        return Phrase(words, home=instance.name, near=nearest(name, known))
+        template = "is an output of {home}; only inputs can be varied{near}."
+        return Phrase(template, home=instance.name, near=nearest(name, known))
     place = next((part for part in keys if part.isdigit()), "0")  # of the part that is meant
     near = nearest(name, [key.replace(".0.", f".{place}.") for key in known])
-    words = "{name} is not an input of {home}{near}. Known: {names}."
+    template = "{name} is not an input of {home}{near}. Known: {names}."
     listed = _known(instance, each_part=True)
-    return Phrase(words, name=repr(name), home=instance.name, near=near, names=", ".join(listed))
+    return Phrase(template, name=repr(name), home=instance.name, near=near, names=", ".join(listed))
 
 
 def known_paths(base: Config, name: str) -> list[str]:

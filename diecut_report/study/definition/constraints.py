@@ -89,8 +89,8 @@ class Constraint:
 def why_dropped(counts: Mapping[str, Any]) -> str:
     """Return what to add where the dropped variants are counted: how many of them because a constraint has no value."""
     found = counts.get("without_value")
-    words = ", {n} of them because a constraint has no value there ({why})"
-    return Phrase(words, n=found, why=WITHOUT_VALUE) if found else ""
+    template = ", {n} of them because a constraint has no value there ({why})"
+    return Phrase(template, n=found, why=WITHOUT_VALUE) if found else ""
 
 
 def parse(text: str, find: Callable[[str], Term], known: Collection[str] = ()) -> Constraint:
@@ -103,8 +103,8 @@ def parse(text: str, find: Callable[[str], Term], known: Collection[str] = ()) -
 
     def name(path: str) -> Name:
         if "." not in path and path not in known:
-            words = "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and texts in quotes"
-            advice = phrase(words)
+            template = "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and texts in quotes"
+            advice = phrase(template)
             raise ConditionError(Phrase("“{path}” is not a path of an input; {advice}.", path=path, advice=advice))
         term = found[path] = find(path)
         if term.is_truth:
@@ -115,8 +115,8 @@ def parse(text: str, find: Callable[[str], Term], known: Collection[str] = ()) -
     outputs = tuple(path for path, term in found.items() if term.is_output)
     made = Constraint(text, tree, {path: term.node for path, term in found.items()}, outputs)
     if not made.paths:
-        words = "“{text}” names no varied path, so it would keep all variants or none; name one of vary."
-        raise ConditionError(Phrase(words, text=text))
+        template = "“{text}” names no varied path, so it would keep all variants or none; name one of vary."
+        raise ConditionError(Phrase(template, text=text))
     return made
 
 
@@ -148,11 +148,11 @@ def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
 def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Node:
     """Return the value of what an input refers to, by the formula of its default where it has one."""
     if target.result is not None or target.is_broken:
-        words = (
+        template = (
             "“{path}” refers to ${{target}}, which is known only after calculating; in a constraint an output is named by "
             "itself, as in NAME.OUTPUT."
         )
-        raise ConditionError(Phrase(words, path=asked.path, target=target.path))
+        raise ConditionError(Phrase(template, path=asked.path, target=target.path))
     head = PRESS if target.instance == PRESS else f"{MECHANISMS}.{target.instance}"
     node = term(base, varied, ".".join([head, *map(str, target.key)])).node
     if target.formula is None:

@@ -109,8 +109,8 @@ class SampleReader:
                 yield path, find_input(self.base, path)
             except UnknownPath as fault:
                 round_ = re.fullmatch(r"([\w.-]+)\s*\(([^()]*)\)", path)
-                words = " A unit stands in square brackets: {path} [{unit}]."
-                unit = Phrase(words, path=round_[1], unit=round_[2]) if round_ else ""
+                template = " A unit stands in square brackets: {path} [{unit}]."
+                unit = Phrase(template, path=round_[1], unit=round_[2]) if round_ else ""
                 self.problems.append(column.problem(Phrase("the column's name {fault}{unit}", fault=fault, unit=unit)))
 
     def _sample(self, form: SampleForm, variables: list[Variable]) -> Sample | None:
@@ -128,8 +128,8 @@ class SampleReader:
         others = [first | {asked: text} for asked in first if not asked.unit for text in texts[asked][1:]]
         made = [with_values(self.base, values) for values in (first, *others)]
         if all(problems for _, problems in made):
-            words = "with these paths varied, the base is wrong: {path}: {message}"
-            wrong = [Phrase(words, path=problem.path, message=problem.message) for problem in made[0][1]]
+            template = "with these paths varied, the base is wrong: {path}: {message}"
+            wrong = [Phrase(template, path=problem.path, message=problem.message) for problem in made[0][1]]
             self.problems += [self.place.problem(("vary",), each, at_key=True) for each in wrong]
         return [config for config, _ in made]
 
@@ -140,8 +140,8 @@ class SampleReader:
             if isinstance(given, list):
                 return self._listed(asked, given)
             if not isinstance(given, dict):
-                words = "is {given}; {needed}."
-                raise SampleError(Phrase(words, given=quoted(given), needed=NEEDED))
+                template = "is {given}; {needed}."
+                raise SampleError(Phrase(template, given=quoted(given), needed=NEEDED))
             if "table" in given:
                 return self._from_table(asked, given)
             if asked.unit is None:
@@ -167,8 +167,8 @@ class SampleReader:
             return None
         block = self._validated(form, {"value": given}, place)
         if block and asked.unit is not None and isinstance(block.value, str):
-            told = "is {given}, which stands in place of a number: a study varies numbers. Write a study for each word, with it in the base."
-            self.problems.append(place.problem(("value",), Phrase(told, given=quoted(given))))
+            template = "is {given}, which stands in place of a number: a study varies numbers. Write a study for each word, with it in the base."
+            self.problems.append(place.problem(("value",), Phrase(template, given=quoted(given))))
             return None
         return stored_value(block.value) if block else None
 
@@ -183,8 +183,8 @@ class SampleReader:
         law, place = given["distribution"], self._place(asked)
         if law not in DISTRIBUTIONS:
             near = nearest(law, DISTRIBUTIONS) if isinstance(law, str) else ""
-            words = "is {name}{near}; allowed: {names}"
-            message = Phrase(words, name=quoted(law), near=near, names=", ".join(DISTRIBUTIONS))
+            template = "is {name}{near}; allowed: {names}"
+            message = Phrase(template, name=quoted(law), near=near, names=", ".join(DISTRIBUTIONS))
             self.problems.append(place.problem(("distribution",), message))
             return None
         block = self._validated(distribution_form(asked, law), given, place)
@@ -223,8 +223,8 @@ class SampleReader:
             self._tables[name] = None
             path = self.find(name)
             if not os.path.exists(path):  # false also for a name that can be none
-                words = "there is no file {path}. The table is sought from the study's folder; check its name."
-                self.problems.append(self.place.problem(key, Phrase(words, path=path)))
+                template = "there is no file {path}. The table is sought from the study's folder; check its name."
+                self.problems.append(self.place.problem(key, Phrase(template, path=path)))
                 return None
             try:
                 self._tables[name] = read_table(path)
@@ -254,8 +254,8 @@ class SampleReader:
             if found := validate(form, {"value": text}, self.place)[1]:
                 wrong[text] = found[0].message
             if len(wrong) > MAX_WRONG_TEXTS:
-                words = "more than {different} different texts are none that {path} takes: {wrong}"
-                message = Phrase(words, different=MAX_WRONG_TEXTS, path=asked.path, wrong=wrong[text])
+                template = "more than {different} different texts are none that {path} takes: {wrong}"
+                message = Phrase(template, different=MAX_WRONG_TEXTS, path=asked.path, wrong=wrong[text])
                 yield column.problem(message, column.cells.row(texts.index(text)))
                 return
         places = [place for place, text in enumerate(texts) if text in wrong]
@@ -282,18 +282,20 @@ def misused(form: SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Pr
     used = {"count": DRAWN, "seed": DRAWN, "indices": ("sobol",), "file": ("table",)}
     for key, users in used.items():
         if getattr(form, key) not in (None, False) and form.method not in users:
-            words = "has no use with method {method}; remove it, or choose {users}."
-            message = Phrase(words, method=form.method, users=named(users, " or "))
+            template = "has no use with method {method}; remove it, or choose {users}."
+            message = Phrase(template, method=form.method, users=named(users, " or "))
             yield place.problem(("sample", key), message, at_key=True)
     if form.method in DRAWN and form.count is None:
-        words = "is missing; {method} needs the number of variants."
-        yield place.absent(("sample", "count"), Phrase(words, method=form.method))
+        template = "is missing; {method} needs the number of variants."
+        yield place.absent(("sample", "count"), Phrase(template, method=form.method))
     if form.method == "table" and form.file is None:
-        words = "is missing; give a CSV, Parquet or XLSX file whose columns are paths."
-        yield place.absent(("sample", "file"), phrase(words))
+        template = "is missing; give a CSV, Parquet or XLSX file whose columns are paths."
+        yield place.absent(("sample", "file"), phrase(template))
     if form.method == "table" and has_vary:
-        words = "has no use with method table, where the columns of the file say what varies; remove it, or choose zip."
-        yield place.problem(("vary",), phrase(words), at_key=True)
+        template = (
+            "has no use with method table, where the columns of the file say what varies; remove it, or choose zip."
+        )
+        yield place.problem(("vary",), phrase(template), at_key=True)
     elif form.method != "table" and not has_vary:
         yield place.absent(("vary",), phrase("is missing or empty; vary at least one path."))
 

@@ -91,11 +91,11 @@ class Grid(_Varied):
     def __post_init__(self) -> None:
         for variable in self.variables:
             if isinstance(variable, Distribution):
-                words = "a distribution has no list of values for sample: {method}; give a list or a range, or sample: latin_hypercube or sobol"
-                raise SampleError(Phrase(words, method=self.method), variable.path)
+                template = "a distribution has no list of values for sample: {method}; give a list or a range, or sample: latin_hypercube or sobol"
+                raise SampleError(Phrase(template, method=self.method), variable.path)
             if variable.count is None:
-                words = "count is missing; sample: {method} needs it"
-                raise SampleError(Phrase(words, method=self.method), variable.path)
+                template = "count is missing; sample: {method} needs it"
+                raise SampleError(Phrase(template, method=self.method), variable.path)
 
     @cached_property
     def counts(self) -> tuple[int, ...]:
@@ -130,8 +130,8 @@ class Zip(Grid):
         if len(set(self.counts)) > 1:
             counts = zip(self.paths, self.counts, strict=True)
             lengths = joined((Phrase("{path} has {count}", path=path, count=count) for path, count in counts), ", ")
-            words = "sample: zip needs as many values of each path: {lengths}. Fill up, or use sample: grid"
-            raise SampleError(Phrase(words, lengths=lengths))
+            template = "sample: zip needs as many values of each path: {lengths}. Fill up, or use sample: grid"
+            raise SampleError(Phrase(template, lengths=lengths))
 
     @property
     def count(self) -> int:
@@ -160,8 +160,8 @@ class LatinHypercube(_Varied):
         size = 8 * self.points * len(self.variables)
         if size < NOTED_SIZE:
             return None
-        words = "The Latin hypercube holds {held} MB in each process; method: sobol holds nothing."
-        return Phrase(words, held=f"{size / 2**20:.0f}")
+        template = "The Latin hypercube holds {held} MB in each process; method: sobol holds nothing."
+        return Phrase(template, held=f"{size / 2**20:.0f}")
 
     def _rows(self, start: int, stop: int) -> dict[str, Values]:
         shares = _hypercube(self.points, len(self.variables), self.seed)[:, start:stop]
@@ -196,11 +196,11 @@ class Sobol(_Varied):
 
     def __post_init__(self) -> None:
         if self.points > SOBOL_POINTS:
-            words = "sample: sobol has at most {sobol_points} different points; give a smaller count"
-            raise SampleError(Phrase(words, sobol_points=SOBOL_POINTS))
+            template = "sample: sobol has at most {sobol_points} different points; give a smaller count"
+            raise SampleError(Phrase(template, sobol_points=SOBOL_POINTS))
         if self._dimensions > SOBOL_DIMENSIONS:
-            words = "sample: sobol serves at most {sobol_dimensions} dimensions; vary fewer paths"
-            raise SampleError(Phrase(words, sobol_dimensions=SOBOL_DIMENSIONS))
+            template = "sample: sobol serves at most {sobol_dimensions} dimensions; vary fewer paths"
+            raise SampleError(Phrase(template, sobol_dimensions=SOBOL_DIMENSIONS))
 
     @property
     def size(self) -> int:
@@ -220,10 +220,10 @@ class Sobol(_Varied):
         below = 2 ** (self.points.bit_length() - 1)
         if below == self.points:
             return None
-        words = (
+        template = (
             "Sobol samples are balanced when their size is a power of two: {below} or {above} are better than {points}."
         )
-        return Phrase(words, below=below, above=2 * below, points=self.points)
+        return Phrase(template, below=below, above=2 * below, points=self.points)
 
     def _rows(self, start: int, stop: int) -> dict[str, Values]:
         point, place = np.divmod(np.arange(start, stop), self.size)

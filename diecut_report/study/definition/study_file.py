@@ -202,18 +202,18 @@ class _StudyReader:
             return self.given
         path = self._find(self.data["base"])
         if path.resolve() == Path(self.tree.file).resolve():
-            words = "is this study itself; name the configuration whose inputs it varies."
-            self.problems.append(self.place.problem(("base",), phrase(words)))
+            template = "is this study itself; name the configuration whose inputs it varies."
+            self.problems.append(self.place.problem(("base",), phrase(template)))
             return None
         if not os.path.exists(path):
-            words = "there is no file {path}. The base is sought from the study's folder; check its name."
-            self.problems.append(self.place.problem(("base",), Phrase(words, path=path)))
+            template = "there is no file {path}. The base is sought from the study's folder; check its name."
+            self.problems.append(self.place.problem(("base",), Phrase(template, path=path)))
             return None
         try:
             base = Press.read(path, self.discovery, find=lambda name: self._find(self._beside_base(name)))
         except UserError as error:
-            words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
-            self.problems += [self.place.problem(("base",), phrase(words)), *error.problems]
+            template = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
+            self.problems += [self.place.problem(("base",), phrase(template)), *error.problems]
             return None
         return base.usable().config  # with a broken plugin its author must act, not that of the study
 
@@ -223,11 +223,11 @@ class _StudyReader:
             return None
         if "sample" not in self.data:
             if "optimise" not in self.data and "optimise" not in self.wrong:
-                words = "is missing; say how the variants are taken, or by optimise what is searched for."
-                self.problems.append(self.place.absent(("sample",), phrase(words)))
+                template = "is missing; say how the variants are taken, or by optimise what is searched for."
+                self.problems.append(self.place.absent(("sample",), phrase(template)))
             elif not self.data.get("vary"):
-                words = "is missing or empty; vary at least one path."
-                self.problems.append(self.place.absent(("vary",), phrase(words)))
+                template = "is missing or empty; vary at least one path."
+                self.problems.append(self.place.absent(("vary",), phrase(template)))
             return None
         form = SampleForm.model_validate(self.data["sample"])
         problems = list(misused(form, bool(self.data.get("vary")), self.place))
@@ -244,12 +244,12 @@ class _StudyReader:
         objectives = results.objectives(named, ("optimise",)) if named else own
         before = len(self.problems)
         if not named and not self.data.get("objectives"):
-            words = "is missing; name what is to be minimised or maximised, such as objectives: [{minimise: cylinder.mass}]."
-            self.problems.append(self.place.absent(("optimise", "objectives"), phrase(words)))
+            template = "is missing; name what is to be minimised or maximised, such as objectives: [{minimise: cylinder.mass}]."
+            self.problems.append(self.place.absent(("optimise", "objectives"), phrase(template)))
         if sampled.variables is None:
             if self.data.get("sample", {}).get("method") == "table":
-                words = "searches in what is varied, and a table has its machines already; give vary, and another sample or none."
-                self.problems.append(self.place.problem(("optimise",), phrase(words), at_key=True))
+                template = "searches in what is varied, and a table has its machines already; give vary, and another sample or none."
+                self.problems.append(self.place.problem(("optimise",), phrase(template), at_key=True))
             return None
         free = tuple(each for each in sampled.variables if isinstance(each, Free))
         self._judge_freedom(form, sampled, free)
@@ -263,14 +263,14 @@ class _StudyReader:
         """Require ranges and lists, one of which has several values, and no more machines in a generation than in all."""
         scattered = [each.path for each in sampled.variables or () if not isinstance(each, Free)]
         for path in scattered:
-            words = "is a distribution; an optimisation searches within a range {from: …, to: …} or a list."
-            self.problems.append(self.place.problem(("vary", path), phrase(words)))
+            template = "is a distribution; an optimisation searches within a range {from: …, to: …} or a list."
+            self.problems.append(self.place.problem(("vary", path), phrase(template)))
         if not scattered and all(count_of(each) == 1 for each in free):
-            words = "leaves nothing free: each path has a single value. Give one a range or more values."
-            self.problems.append(self.place.problem(("vary",), phrase(words), at_key=True))
+            template = "leaves nothing free: each path has a single value. Give one a range or more values."
+            self.problems.append(self.place.problem(("vary",), phrase(template), at_key=True))
         if form.population is not None and form.population > form.evaluations:
-            words = "is {population}, more than the evaluations, {evaluations}; give fewer here, or more of those."
-            message = Phrase(words, population=form.population, evaluations=form.evaluations)
+            template = "is {population}, more than the evaluations, {evaluations}; give fewer here, or more of those."
+            message = Phrase(template, population=form.population, evaluations=form.evaluations)
             self.problems.append(self.place.problem(("optimise", "population"), message))
 
     def _constraints(self, sampled: Sampled, results: ResultReader) -> Iterator[Constraint]:
@@ -291,8 +291,8 @@ def _output(path: str, results: ResultReader) -> Term | None:
         return None
     column = results.columns.get(path)
     if column is None and first in results.mechanisms:
-        words = "“{path}” is not an output{near}; an input is named by its whole path, as in mechanisms.{path}."
-        raise ConditionError(Phrase(words, path=path, near=nearest(path, results.columns)))
+        template = "“{path}” is not an output{near}; an input is named by its whole path, as in mechanisms.{path}."
+        raise ConditionError(Phrase(template, path=path, near=nearest(path, results.columns)))
     if column is None:
         return None
     unit = column.unit if column.kind in ("float", "int") else None

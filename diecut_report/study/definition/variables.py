@@ -90,14 +90,14 @@ class RangeVariable:
         if not self.integer:
             return
         there = int(abs(self.high - self.low)) + 1
-        words = "from … to holds {there} whole numbers, count: {count} is more"
-        _require(self.count <= there, Phrase(words, there=there, count=self.count), self.path)
+        template = "from … to holds {there} whole numbers, count: {count} is more"
+        _require(self.count <= there, Phrase(template, there=there, count=self.count), self.path)
         if self.log:
             different = len(np.unique(self.at(np.arange(self.count))))
-            words = (
+            template = (
                 "count: {count} with spacing: log gives only {different} different whole numbers; write them as a list"
             )
-            _require(different == self.count, Phrase(words, count=self.count, different=different), self.path)
+            _require(different == self.count, Phrase(template, count=self.count, different=different), self.path)
 
     def at(self, number: Array) -> Array:
         """Return the values with these numbers, counted from 0, of the `count` values."""
@@ -143,8 +143,8 @@ class Distribution:
         _require(self.low < self.high, phrase("low must be below high"), self.path)
         if self.law == "normal":
             near = (self.low - self.middle) / self.sd < 8 and (self.high - self.middle) / self.sd > -8
-            words = "the mean lies more than 8 standard deviations outside low … high; change one of them"
-            _require(near, phrase(words), self.path)
+            template = "the mean lies more than 8 standard deviations outside low … high; change one of them"
+            _require(near, phrase(template), self.path)
         elif self.law == "triangular":
             is_between = self.low <= self.middle <= self.high
             _require(is_between, phrase("mode must lie between low and high"), self.path)

@@ -73,8 +73,8 @@ class ResultReader:
             key: KeyPath = (*home, "objectives", index)
             made = self._objective(key, entry)
             if made and made.output in found:
-                words = "{name} is an objective already; name each number once, to be minimised or maximised."
-                self._report(key, Phrase(words, name=made.output))
+                template = "{name} is an objective already; name each number once, to be minimised or maximised."
+                self._report(key, Phrase(template, name=made.output))
             elif made:
                 found[made.output] = made
         return tuple(found.values())
@@ -88,25 +88,25 @@ class ResultReader:
                 return Reports(which)
             case ["best", number] if re.fullmatch(r"[1-9]\d{0,8}", number):
                 if not has_objectives:
-                    words = "best needs objectives, such as objectives: [{minimise: cylinder.mass}]."
-                    self._report(("reports",), phrase(words))
+                    template = "best needs objectives, such as objectives: [{minimise: cylinder.mass}]."
+                    self._report(("reports",), phrase(template))
                 return Reports("best", int(number))
-        words = "is {given}{nearest}; allowed: none, failed, best N (best 10), all, or a list of variants' numbers, as in [0, 17]."
+        template = "is {given}{nearest}; allowed: none, failed, best N (best 10), all, or a list of variants' numbers, as in [0, 17]."
         near = nearest(str(given), ("none", "failed", "all"))
-        self._report(("reports",), Phrase(words, given=quoted(given), nearest=near))
+        self._report(("reports",), Phrase(template, given=quoted(given), nearest=near))
         return Reports()
 
     def _numbers(self, given: list[Any], count: int | None) -> Iterator[int]:
         for index, number in enumerate(given):
             if not isinstance(number, int) or isinstance(number, bool):
-                words = "is {number}; a variant has a whole number, as in [0, 17]."
-                self._report(("reports", index), Phrase(words, number=quoted(number)))
+                template = "is {number}; a variant has a whole number, as in [0, 17]."
+                self._report(("reports", index), Phrase(template, number=quoted(number)))
             elif count is not None and not 0 <= number < count:
-                words = "there is no variant {number}; variants are numbered from 0 to {last}."
-                self._report(("reports", index), Phrase(words, number=number, last=count - 1))
+                template = "there is no variant {number}; variants are numbered from 0 to {last}."
+                self._report(("reports", index), Phrase(template, number=number, last=count - 1))
             elif number < 0:
-                words = "there is no variant {number}; variants are numbered from 0."
-                self._report(("reports", index), Phrase(words, number=number))
+                template = "there is no variant {number}; variants are numbered from 0."
+                self._report(("reports", index), Phrase(template, number=number))
             else:
                 yield number
 
@@ -115,9 +115,9 @@ class ResultReader:
     def _objective(self, key: KeyPath, entry: dict[str, Any]) -> Objective | None:
         given = {name: value for name, value in entry.items() if value is not None}
         if len(given) != 1:
-            words = "names {count} outputs; give minimise or maximise with one, and an entry for each."
+            template = "names {count} outputs; give minimise or maximise with one, and an entry for each."
             none = "names no outputs; give minimise or maximise with one, and an entry for each."
-            self._report(key, Phrase(words, count=len(given)) if given else phrase(none))
+            self._report(key, Phrase(template, count=len(given)) if given else phrase(none))
             return None
         (way, name), = given.items()  # fmt: skip
         is_input = name.startswith((f"{MECHANISMS}.", f"{PRESS}."))
@@ -130,18 +130,18 @@ class ResultReader:
         if name in numbers:
             return True
         if name in self.inputs:
-            words = "{name} is a text, a choice or a yes/no, which cannot be minimised or maximised; name a number."
-            self._report(key, Phrase(words, name=name))
+            template = "{name} is a text, a choice or a yes/no, which cannot be minimised or maximised; name a number."
+            self._report(key, Phrase(template, name=name))
             return False
-        words = "{name} is not varied, so it is the same in all variants{near}; an output is named as NAME.OUTPUT. Varied numbers: {known}."
-        self._report(key, Phrase(words, name=name, near=nearest(name, numbers), known=", ".join(numbers) or "–"))
+        template = "{name} is not varied, so it is the same in all variants{near}; an output is named as NAME.OUTPUT. Varied numbers: {known}."
+        self._report(key, Phrase(template, name=name, near=nearest(name, numbers), known=", ".join(numbers) or "–"))
         return False
 
     def _is_number(self, key: KeyPath, name: str) -> bool:
         sort = self._sort(key, name)
         if sort == "other":
-            words = "{name} is a text or a yes/no, which cannot be minimised or maximised; name a number."
-            self._report(key, Phrase(words, name=name))
+            template = "{name} is a text or a yes/no, which cannot be minimised or maximised; name a number."
+            self._report(key, Phrase(template, name=name))
         elif sort not in ("number", "utilisation", None):
             self._report_no_output(key, name)
         return sort in ("number", "utilisation")
@@ -164,12 +164,12 @@ class ResultReader:
 
     def _report_no_output(self, key: KeyPath, name: str) -> None:
         sorts: tuple[Sort, ...] = ("utilisation",) if ".checks." in name else ("number", "other")
-        words = "{name} is not an output{nearest}"
+        template = "{name} is not an output{nearest}"
         if self.sorts.get(name) == "row":
-            words = "{name} has a value for each part of a list; name one, as in {name}.0."
+            template = "{name} has a value for each part of a list; name one, as in {name}.0."
         elif self.sorts.get(name) == "curve":
-            words = "{name} is a curve; only single values are kept here, curves by the key curves."
-        self._report(key, Phrase(words, name=name, nearest=self._near(name, *sorts)))
+            template = "{name} is a curve; only single values are kept here, curves by the key curves."
+        self._report(key, Phrase(template, name=name, nearest=self._near(name, *sorts)))
 
     def _sort(self, key: KeyPath, name: str) -> Sort | None:
         """Return what a name stands for; None, with the problem, where it names no mechanism, or nothing of one."""
@@ -178,15 +178,15 @@ class ResultReader:
             return self.sorts.get(name, "unknown")
         if first in self.mechanisms:
             example = next(iter(self._names(first, "number")), "output")
-            words = "{name} names no output; add one, as in {first}.{example}."
-            self._report(key, Phrase(words, name=name, first=first, example=example))
+            template = "{name} names no output; add one, as in {first}.{example}."
+            self._report(key, Phrase(template, name=name, first=first, example=example))
         elif first == MECHANISMS:
-            words = "{name}: outputs are named without mechanisms., as in {inner}."
-            self._report(key, Phrase(words, name=name, inner=inner or "drive.crank_torque_peak"))
+            template = "{name}: outputs are named without mechanisms., as in {inner}."
+            self._report(key, Phrase(template, name=name, inner=inner or "drive.crank_torque_peak"))
         else:
-            words = "{name}: there is no mechanism {first}{nearest}. Known: {names}."
+            template = "{name}: there is no mechanism {first}{nearest}. Known: {names}."
             near, known = nearest(first, self.mechanisms), ", ".join(self.mechanisms)
-            self._report(key, Phrase(words, name=name, first=repr(first), nearest=near, names=known))
+            self._report(key, Phrase(template, name=name, first=repr(first), nearest=near, names=known))
         return None
 
     def _names(self, mechanism: str, *sorts: Sort) -> list[str]:

@@ -65,13 +65,13 @@ class Dask(Engine):
         try:
             self._client.wait_for_workers(1, timeout=TIMEOUT)
         except TimeoutError as error:
-            words = "The Dask scheduler has no workers. Start some: PYTHONSAFEPATH=1 dask worker {address}"
-            raise UserError(Problem(Phrase(words, address=self._address))) from error
+            template = "The Dask scheduler has no workers. Start some: PYTHONSAFEPATH=1 dask worker {address}"
+            raise UserError(Problem(Phrase(template, address=self._address))) from error
         try:
             self._client.register_plugin(_Study(self.setup), name=self.setup.key)
         except ModuleNotFoundError as error:
-            words = "A worker of the Dask cluster has no module {name}: install the program there too."
-            raise UserError(Problem(Phrase(words, name=error.name))) from error
+            template = "A worker of the Dask cluster has no module {name}: install the program there too."
+            raise UserError(Problem(Phrase(template, name=error.name))) from error
 
     @property
     def limit(self) -> int:
@@ -97,9 +97,9 @@ class Dask(Engine):
             raise self._gone()
 
     def _gone(self) -> UserError:
-        words = "The Dask scheduler at {address} cannot be reached any more. {kept}"
+        template = "The Dask scheduler at {address} cannot be reached any more. {kept}"
         kept = phrase("What was finished is kept: continue with --resume.")
-        return UserError(Problem(Phrase(words, address=self._address, kept=kept)))
+        return UserError(Problem(Phrase(template, address=self._address, kept=kept)))
 
 
 class _Study(WorkerPlugin):
@@ -119,8 +119,8 @@ class _Study(WorkerPlugin):
 
 def _work(version: str, key: str, function: Function, chunk: Chunk) -> Any:
     if version != __version__:
-        words = "A worker of the Dask cluster has version {theirs} of the program, this is {own}. Install the same."
-        raise UserError(Problem(Phrase(words, theirs=__version__, own=version)))
+        template = "A worker of the Dask cluster has version {theirs} of the program, this is {own}. Install the same."
+        raise UserError(Problem(Phrase(template, theirs=__version__, own=version)))
     return work(key, function, chunk)
 
 
@@ -132,11 +132,11 @@ def _connected(address: str) -> Any:
         client: Any = Client
         return client(address, timeout=TIMEOUT, set_as_default=False)
     except ValueError as error:
-        words = "{address} is not an address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT."
-        raise UserError(Problem(Phrase(words, address=repr(address), error=error))) from error
+        template = "{address} is not an address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT."
+        raise UserError(Problem(Phrase(template, address=repr(address), error=error))) from error
     except OSError as error:
-        words = (
+        template = (
             "The Dask scheduler at {address} cannot be reached ({error}). Start it with `dask scheduler`, "
             "or correct the address."
         )
-        raise UserError(Problem(Phrase(words, address=address, error=error))) from error
+        raise UserError(Problem(Phrase(template, address=address, error=error))) from error

@@ -215,9 +215,9 @@ def _study_lines(found: DryRun) -> Iterator[str]:
         yield say(exact if found.is_exact else about, rows=found.rows, n=found.variants)
     yield from _dropped(found)
     yield from _varied(found, say("variant {number}: ", number=found.first))
-    words = "of each variant: {quantities} quantities, {checks} checks, {curves} curves; part files: {parts}"
+    template = "of each variant: {quantities} quantities, {checks} checks, {curves} curves; part files: {parts}"
     counts = {"quantities": found.quantities, "checks": found.checks, "curves": len(found.study.curves)}
-    yield say(words, **counts, parts=found.parts)
+    yield say(template, **counts, parts=found.parts)
     yield _calculated(found.measured)
     one = "time: {each} per variant, about {whole} in {n} process, excluding summary and reports"
     many = "time: {each} per variant, about {whole} in {n} processes, excluding summary and reports"
@@ -226,15 +226,15 @@ def _study_lines(found: DryRun) -> Iterator[str]:
     yield say("disk: about {size}", size=_scaled(found.bytes_, SIZES))
     if found.study.optimise is not None:
         tried = found.study.optimise.evaluations
-        words = "optimise tries {n} machines, which take one processor about {whole}"
-        yield say(words, n=tried, whole=_scaled(tried * found.measured.seconds, DURATIONS))
+        template = "optimise tries {n} machines, which take one processor about {whole}"
+        yield say(template, n=tried, whole=_scaled(tried * found.measured.seconds, DURATIONS))
     if found.measured.slow:
         yield say("calculated variant by variant, which is slow: {kinds}", kinds=", ".join(found.measured.slow))
 
 
 def _search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
-    words = "a search over {n} machines, {population} per generation"
-    yield say(words, n=asked.evaluations, population=asked.population)
+    template = "a search over {n} machines, {population} per generation"
+    yield say(template, n=asked.evaluations, population=asked.population)
     goals = (
         (each.output, "{quantity} minimised" if each.minimise else "{quantity} maximised") for each in asked.objectives
     )
@@ -244,12 +244,12 @@ def _search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
     yield say(passing if asked.is_passing else failing)
     yield from _dropped(found)
     yield from _varied(found, "")
-    words = "of each machine: {quantities} quantities, {checks} checks, {curves} curves"
-    yield say(words, quantities=found.quantities, checks=found.checks, curves=len(found.study.curves))
+    template = "of each machine: {quantities} quantities, {checks} checks, {curves} curves"
+    yield say(template, quantities=found.quantities, checks=found.checks, curves=len(found.study.curves))
     yield _calculated(found.measured)
-    words = "time: {each} per machine, about {whole} on one processor, excluding page and reports"
+    template = "time: {each} per machine, about {whole} on one processor, excluding page and reports"
     seconds = found.measured.seconds
-    yield say(words, each=_scaled(seconds, DURATIONS), whole=_scaled(asked.evaluations * seconds, DURATIONS))
+    yield say(template, each=_scaled(seconds, DURATIONS), whole=_scaled(asked.evaluations * seconds, DURATIONS))
 
 
 def _dropped(found: DryRun) -> Iterator[str]:

@@ -167,14 +167,14 @@ class _PendingChunks:
 
 
 def _lost_too_often(chunk: Chunk) -> UserError:
-    words = Phrase(
+    message = Phrase(
         "The process that calculates {chunk} ended by itself {tries} times or more; most often memory "
         "ran out, or a plugin computed far longer than --chunk-limit allows. What was finished is kept: "
         "continue with --resume, and with fewer --jobs or workers with more memory.",
         chunk=chunk,
         tries=MAX_TRIES,
     )
-    return UserError(Problem(words))
+    return UserError(Problem(message))
 
 
 # what runs in a worker: its setups by key, and for each thread what it has loaded last

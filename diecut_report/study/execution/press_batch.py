@@ -182,8 +182,8 @@ class _Rows(Run):
             return SI(value.value[()], value.unit, value.told)
         if not isinstance(meta, Quantity):  # one value of a curve given as a list
             if value.value.size > 1:
-                words = Phrase("a curve given as a list refers to {told}, which varies", told=value.told)
-                raise NotOnArrays(self.config.kinds[instance.name], words)
+                message = Phrase("a curve given as a list refers to {told}, which varies", told=value.told)
+                raise NotOnArrays(self.config.kinds[instance.name], message)
             return SI(value.value.item(), value.unit, value.told)
         column = np.broadcast_to(value.value, (self.variants.count,)).astype(float)
         bad = np.flatnonzero(~meta.holds(column))

@@ -96,16 +96,18 @@ class StudyOutcome:
 def refuse_unsampled(study: Study) -> None:
     """Require a sample: a study that says only what is searched for has no variants of its own."""
     if not study.is_sampled:
-        words = "is missing: this study says by optimise what is searched for. Run it with `diecut-report optimise`, or give a sample."
-        raise UserError(Problem(phrase(words), str(study.file), path="sample"))
+        template = "is missing: this study says by optimise what is searched for. Run it with `diecut-report optimise`, or give a sample."
+        raise UserError(Problem(phrase(template), str(study.file), path="sample"))
 
 
 def refuse_huge(study: Study, agreed: bool) -> None:
     """Require a yes to a sample that is larger than one would calculate by mistake."""
     count = study.sample.count
     if count > LARGEST and not agreed:
-        words = "the sample has {count} variants, more than {largest}. Vary less, or give --yes to calculate them all."
-        message = Phrase(words, count=f"{count:,}", largest=f"{LARGEST:,}")
+        template = (
+            "the sample has {count} variants, more than {largest}. Vary less, or give --yes to calculate them all."
+        )
+        message = Phrase(template, count=f"{count:,}", largest=f"{LARGEST:,}")
         raise UserError(Problem(message, str(study.file), path="sample"))
 
 
@@ -113,9 +115,11 @@ def refuse_empty(study: Study) -> None:
     """Require that the constraints leave at least one variant."""
     if not study.constraints or any(found.holds.any() for found in judged_rows(study)):
         return
-    words = "the constraints exclude all {count} variants of the sample{why}. Relax one of them, or vary other values."
+    template = (
+        "the constraints exclude all {count} variants of the sample{why}. Relax one of them, or vary other values."
+    )
     why = why_dropped({"without_value": without_value(study)})
-    message = Phrase(words, count=f"{study.sample.count:,}", why=why)
+    message = Phrase(template, count=f"{study.sample.count:,}", why=why)
     raise UserError(Problem(message, str(study.file), path="constraints"))
 
 
@@ -193,8 +197,8 @@ def dask_cluster(address: str, setup: WorkerSetup) -> Engine:
     except ModuleNotFoundError as error:
         if error.name not in ("dask", "distributed"):
             raise
-        words = "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
-        raise UserError(Problem(phrase(words))) from error
+        template = "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
+        raise UserError(Problem(phrase(template))) from error
     return Dask(address, setup)
 
 

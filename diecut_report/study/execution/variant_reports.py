@@ -65,13 +65,13 @@ def write_chosen(
     folder = store.directory / FOLDER
     missing = [v for v in chosen.variants if not all((folder / f"{v}.{ending}").exists() for ending in FORMATS)]
     if len(missing) > MANY and not agreed:
-        words = (
+        template = (
             "{count} variants are to get a full report, each of which takes some seconds; none was made. "
             "Make them all with: {continuing} --yes; or one: report {folder}#{first}"
         )
         command = continuing(store.directory, store.state["columns"])
         count = f"{len(missing):,}"
-        note = Phrase(words, count=count, continuing=command, folder=store.directory, first=missing[0])
+        note = Phrase(template, count=count, continuing=command, folder=store.directory, first=missing[0])
         return (*chosen.notes, note), {}
     broken: dict[str, str] = {}
     if missing:
@@ -81,8 +81,10 @@ def write_chosen(
         with local_engine(where.jobs, len(missing), setup) as engine:
             tell(Phrase("full reports: {n} of {total}", n=0, total=len(missing)))
             for done, (report, faults) in enumerate(results(engine, _write, map(VariantReport, missing)), 1):
-                words = "in the full report of variant {number}: {why}"
-                broken |= {kind: Phrase(words, number=report.variant, why=phrase(why)) for kind, why in faults.items()}
+                template = "in the full report of variant {number}: {why}"
+                broken |= {
+                    kind: Phrase(template, number=report.variant, why=phrase(why)) for kind, why in faults.items()
+                }
                 tell(Phrase("full reports: {n} of {total}", n=done, total=len(missing)))
     return chosen.notes, broken
 

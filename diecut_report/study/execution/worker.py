@@ -89,12 +89,12 @@ def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str], sourc
         loaded = load_study(file, Discovery([Path(plugin) for plugin in plugins]), places)
     here = loaded.base.source_hashes
     if other := [name for name in sorted(sources.keys() | here.keys()) if sources.get(name) != here.get(name)]:
-        words = (
+        template = (
             "The source of the {name} is not the one that this run was begun with: it was changed meanwhile, or another machine "
             "of the cluster has another version. What is calculated is kept; put the source back and continue with --resume, or "
             "calculate all variants anew in another folder."
         )
-        raise UserError(Problem(Phrase(words, name=source_name(other[0]))))
+        raise UserError(Problem(Phrase(template, name=source_name(other[0]))))
     return loaded
 
 
@@ -125,8 +125,8 @@ def _rows(study: Study, inputs: Given, count: int, limit: float | None) -> tuple
         return rows, time.monotonic() - began
     except Overran as overran:
         place = said(overran).removeprefix(Overran.__name__).lstrip(": ")
-        words = "it took longer than {seconds} s for {variants} variants, and was ended {place}"
-        message = Phrase(words, seconds=f"{limit or 0.0:.3g}", variants=count, place=place)
+        template = "it took longer than {seconds} s for {variants} variants, and was ended {place}"
+        message = Phrase(template, seconds=f"{limit or 0.0:.3g}", variants=count, place=place)
         message += phrase("; --chunk-limit sets how long it may take")
         kind = _interrupted_kind(overran, study.base)
         rows = Rows(count, study.curves, broken={kind: message})

@@ -126,25 +126,25 @@ def changes(before: Description, now: Description) -> Iterator[Problem]:
     roles = {phrase("study file"): (before.study, now.study), phrase("base configuration"): (before.base, now.base)}
     for role, (old, new) in roles.items():
         if old.sha256 != new.sha256:
-            words = "The {role} has changed since the results were begun.{lines}"
-            yield Problem(Phrase(words, role=role, lines=_changed_lines(old, new)), new.file)
+            template = "The {role} has changed since the results were begun.{lines}"
+            yield Problem(Phrase(template, role=role, lines=_changed_lines(old, new)), new.file)
     yield from _other_tables(before, now)
     if before.program != now.program:
-        words = "The results were begun with version {old} of the program; this is {new}."
-        yield Problem(Phrase(words, old=before.program, new=now.program), file)
+        template = "The results were begun with version {old} of the program; this is {new}."
+        yield Problem(Phrase(template, old=before.program, new=now.program), file)
     for kind in sorted(before.plugins.keys() | now.plugins.keys()):
         was, is_ = (versions.get(kind, phrase("absent")) for versions in (before.plugins, now.plugins))
         if was != is_:
-            words = "The plugin {kind} was {old} when the results were begun; it is {new}."
-            yield Problem(Phrase(words, kind=repr(kind), old=was, new=is_), file)
+            template = "The plugin {kind} was {old} when the results were begun; it is {new}."
+            yield Problem(Phrase(template, kind=repr(kind), old=was, new=is_), file)
     for name in sorted(before.sources.keys() | now.sources.keys()):
         if before.sources.get(name) != now.sources.get(name):  # its version may be the same
-            words = (
+            template = (
                 "The source of the {name} has changed since the results were begun (SHA-256 {old} then, {new} now): variants "
                 "of both would be mixed. Put it back as it was, or calculate all variants anew in another folder."
             )
             hashes = {"old": short_hash(before.sources.get(name)), "new": short_hash(now.sources.get(name))}
-            yield Problem(Phrase(words, hashes, name=source_name(name)), file)
+            yield Problem(Phrase(template, hashes, name=source_name(name)), file)
     if before.rows != now.rows:
         yield Problem(Phrase("The sample had {old} rows, now it has {new}.", old=before.rows, new=now.rows), file)
     if before.columns != now.columns:

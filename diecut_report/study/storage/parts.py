@@ -234,6 +234,6 @@ class PartChecks:
         if len(numbers) != entry["variants"] or not set(counts) <= set(STATUSES):
             return CheckedPart(DAMAGED, {})
         inside = (numbers >= rows.start).all() and (numbers < rows.stop).all() and (np.diff(numbers) > 0).all()
-        words = "{damaged} It may hold the variants {start} to {stop}, each once, in their order."
-        other = Phrase(words, damaged=DAMAGED, start=rows.start, stop=rows.stop - 1)
+        template = "{damaged} It may hold the variants {start} to {stop}, each once, in their order."
+        other = Phrase(template, damaged=DAMAGED, start=rows.start, stop=rows.stop - 1)
         return CheckedPart("" if inside else other, counts)

@@ -25,9 +25,9 @@ def export(store: Store, formats: Iterable[str]) -> list[str]:
     """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; returns what is to be known of the files."""
     wanted = list(dict.fromkeys(formats))
     if strange := [name for name in wanted if name not in WRITERS]:
-        words = "{strange} is not a format of a table{nearest}. Allowed: {writers}."
+        template = "{strange} is not a format of a table{nearest}. Allowed: {writers}."
         near = nearest(strange[0], WRITERS)
-        raise UserError(Problem(Phrase(words, strange=repr(strange[0]), nearest=near, writers=", ".join(WRITERS))))
+        raise UserError(Problem(Phrase(template, strange=repr(strange[0]), nearest=near, writers=", ".join(WRITERS))))
     for name in wanted:
         path = store.directory / f"{NAME}.{name}"
         with replaced(path) as temporary:
@@ -35,12 +35,12 @@ def export(store: Store, formats: Iterable[str]) -> list[str]:
     notes: list[str] = []
     curves = ", ".join(column.name for column in store.description.columns if column.kind == "curve")
     if curves and wanted:
-        words = "{files}: without the curves {curves}, which only the Parquet files in {folder} hold."
+        template = "{files}: without the curves {curves}, which only the Parquet files in {folder} hold."
         files = named([f"{NAME}.{name}" for name in wanted], " and ")
-        notes.append(Phrase(words, files=files, curves=curves, folder=store.directory / PARTS))
+        notes.append(Phrase(template, files=files, curves=curves, folder=store.directory / PARTS))
     if "xlsx" in wanted and (sheets := _sheets(store)) > 1:
-        words = "{file}: {count} variants in {sheets} sheets, as a sheet holds {rows} rows."
-        notes.append(Phrase(words, file=f"{NAME}.xlsx", count=store.count(), sheets=sheets, rows=SHEET_ROWS))
+        template = "{file}: {count} variants in {sheets} sheets, as a sheet holds {rows} rows."
+        notes.append(Phrase(template, file=f"{NAME}.xlsx", count=store.count(), sheets=sheets, rows=SHEET_ROWS))
     return notes
 
 
@@ -70,8 +70,8 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
     """Write as many sheets as the rows need, each with its heads, which stay in view."""
     names = _heads(store)
     if len(names) > SHEET_COLUMNS:
-        words = "The results have {count} columns; a sheet holds {sheet_columns}. Use CSV."
-        raise UserError(Problem(Phrase(words, count=len(names), sheet_columns=SHEET_COLUMNS), str(path)))
+        template = "The results have {count} columns; a sheet holds {sheet_columns}. Use CSV."
+        raise UserError(Problem(Phrase(template, count=len(names), sheet_columns=SHEET_COLUMNS), str(path)))
     rows, heads = _rows(store, list(names)), list(names.values())
     sheets = ((f"{NAME} {n + 1}", chain([heads], islice(rows, SHEET_ROWS - 1))) for n in range(_sheets(store)))
     with room(store.directory):  # openpyxl keeps each sheet in a temporary file

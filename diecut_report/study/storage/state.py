@@ -184,15 +184,15 @@ def _given(value: Any) -> str:
 def _disagreeing(form: StateForm) -> Iterator[Fault]:
     names, verdict = list(form.columns), [column.name for column in VERDICT]
     if names[:1] != [VARIANT.name] or names[-len(verdict) :] != verdict:
-        words = "They begin with variant and end with {verdict}."
-        yield "columns", Phrase(words, verdict=", ".join(verdict))
+        template = "They begin with variant and end with {verdict}."
+        yield "columns", Phrase(template, verdict=", ".join(verdict))
     sources = {"study", "base", *(f"table {number}" for number in range(1, len(form.tables) + 1))}
     yield from ((f"sha256.{key}", MISSING_KEY) for key in sorted(sources - form.sha256.keys()))
     for key in sorted(form.sha256.keys() - sources):
         yield f"sha256.{key}", Phrase(UNKNOWN_KEY, nearest=nearest(key, sources))
     for name in (name for name in form.varied or () if name not in names):
-        words = "{given} is given; the name of a column is needed{nearest}."
-        yield "varied", Phrase(words, given=_given(name), nearest=nearest(name, names))
+        template = "{given} is given; the name of a column is needed{nearest}."
+        yield "varied", Phrase(template, given=_given(name), nearest=nearest(name, names))
 
 
 def part_name(index: int) -> str:
@@ -212,25 +212,25 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
     path = folder / STATE
     refuse_unreadable_name(folder)
     if not os.path.lexists(path):
-        words = phrase(
+        message = phrase(
             "There are no results of a study here: study.json is missing. Give a folder that batch wrote, "
             "or begin one with -o."
         )
-        raise UserError(Problem(words, str(folder)))
+        raise UserError(Problem(message, str(folder)))
     text = content(path, MAX_STATE, phrase("the file that batch wrote"))
     try:
         found = json.loads(text.decode("utf-8"), parse_constant=_refuse_constant)
     except (RecursionError, ValueError) as error:
-        words = Phrase("The state of the study cannot be read: {error}. {mend}", error=error, mend=REMEDY)
-        raise UserError(Problem(words, str(path))) from error
+        message = Phrase("The state of the study cannot be read: {error}. {mend}", error=error, mend=REMEDY)
+        raise UserError(Problem(message, str(path))) from error
     check_form(found, path)
     if sealed and not is_sealed(found):
-        words = Phrase(
+        message = Phrase(
             "This file has been changed since the program wrote it, so that what it says of the results may "
             "be wrong. Put it back as it was, or let the program write it anew: {continued}",
             continued=continuing(folder, found["columns"]),
         )
-        raise UserError(Problem(words, str(path)))
+        raise UserError(Problem(message, str(path)))
     return dict(found)
 
 
@@ -276,8 +276,8 @@ def _with_copy(source: StudySource, path: Path) -> StudySource:
     try:
         content = path.read_bytes() if path.is_file() else b""
     except OSError as error:
-        words = "This copy of {file} cannot be read: {strerror}. Check its permissions."
-        message = Phrase(words, file=source.file, strerror=error.strerror or error)
+        template = "This copy of {file} cannot be read: {strerror}. Check its permissions."
+        message = Phrase(template, file=source.file, strerror=error.strerror or error)
         raise UserError(Problem(message, str(path))) from error
     return replace(source, content=content) if sha256(content).hexdigest() == source.sha256 else source
 
@@ -289,10 +289,10 @@ def refuse_sources(folder: Path, target: Path) -> None:
     description = read_description(folder, sealed=False)
     for source in (description.study, description.base, *description.tables):
         if source.content is not None and source.content == target.read_bytes():
-            words = (
+            template = (
                 "This is {file}, of which the study was made, and would be overwritten. Choose another place with -o."
             )
-            raise UserError(Problem(Phrase(words, file=source.file), str(target)))
+            raise UserError(Problem(Phrase(template, file=source.file), str(target)))
 
 
 def kept(folder: Path) -> dict[str, Path]:
@@ -302,8 +302,8 @@ def kept(folder: Path) -> dict[str, Path]:
     for path, source in found.items():
         if source.content is None:
             columns = dict.fromkeys(column.name for column in description.columns)
-            words = "This copy of {file} is missing or has changed. Continue with the study itself: {continued}"
-            message = Phrase(words, file=source.file, continued=continuing(folder, columns, "STUDY "))
+            template = "This copy of {file} is missing or has changed. Continue with the study itself: {continued}"
+            message = Phrase(template, file=source.file, continued=continuing(folder, columns, "STUDY "))
             raise UserError(Problem(message, str(path)))
     return {source.file: path for path, source in found.items() if source is not description.study}
 

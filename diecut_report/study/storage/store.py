@@ -83,8 +83,10 @@ class Store:
         before = state.read_description(directory, sealed=description is None)
         if description is not None:
             if found := list(changes(before, description)):
-                words = "These results belong to another study; put it back as it was, or choose a new folder with -o."
-                raise UserError([Problem(phrase(words), str(directory)), *found])
+                template = (
+                    "These results belong to another study; put it back as it was, or choose a new folder with -o."
+                )
+                raise UserError([Problem(phrase(template), str(directory)), *found])
             study = replace(description.study, file=before.study.file)  # its copy in the folder has another name
             before = replace(
                 before, study=study, base=description.base, tables=description.tables
@@ -98,8 +100,8 @@ class Store:
             try:
                 self._lock.acquire(timeout=0)
             except Timeout:
-                words = Phrase("Another run uses this folder{holder}.", holder=self._holder())
-                raise UserError(Problem(words, str(self.directory))) from None
+                message = Phrase("Another run uses this folder{holder}.", holder=self._holder())
+                raise UserError(Problem(message, str(self.directory))) from None
         holder = self.directory / HOLDER
         try:
             write(holder, json.dumps({"process": os.getpid(), "host": socket.gethostname()}).encode())
@@ -116,10 +118,10 @@ class Store:
 
     def _holder(self) -> str:
         """Return who holds it, as far as that is known: the run may just be writing or removing its name."""
-        words = ": process {process} on {host}. Wait for its end, or choose another folder with -o"
+        template = ": process {process} on {host}. Wait for its end, or choose another folder with -o"
         try:
             found = json.loads((self.directory / HOLDER).read_text("utf-8"))
-            return Phrase(words, process=found["process"], host=found["host"])
+            return Phrase(template, process=found["process"], host=found["host"])
         except (OSError, ValueError, KeyError, TypeError):
             return phrase(", and has not given its name. Wait for its end, or choose another folder with -o")
 
@@ -204,8 +206,8 @@ class Store:
         for path in sorted(self._folder.glob("part-*.parquet")):
             match = PART_NAME.fullmatch(path.name)
             if not match or path != self.part(int(match[1])):
-                words = phrase("This is not a part of the results. Move it to another folder.")
-                raise UserError(Problem(words, str(path)))
+                message = phrase("This is not a part of the results. Move it to another folder.")
+                raise UserError(Problem(message, str(path)))
             found[int(match[1])] = path
         refuse_special(found.values(), phrase("It is not a part of the results. Move it to another folder."))
         return found
@@ -231,8 +233,8 @@ class Store:
         if wrong:
             problems = [Problem(wrong[index], str(self.part(index))) for index in sorted(wrong)[:MAX_REPORTED]]
             if more := len(wrong) - len(problems):
-                words = Phrase("{count} more parts are wrong or missing.", count=more)
-                problems.append(Problem(words, str(self._folder)))
+                message = Phrase("{count} more parts are wrong or missing.", count=more)
+                problems.append(Problem(message, str(self._folder)))
             raise UserError(problems)
         if known["state"] == "complete":
             self._check_counts(known.get("counts") or {}, checked.values())
@@ -242,8 +244,8 @@ class Store:
         stored = sum((Counter(part.counts) for part in checked), Counter[str]())
         for status, count in stored.items():
             if noted.get(status, 0) != count:
-                words = "{given} is given; the parts hold {count}. Let --resume count them again."
-                message = Phrase(words, given=noted.get(status, 0), count=count)
+                template = "{given} is given; the parts hold {count}. Let --resume count them again."
+                message = Phrase(template, given=noted.get(status, 0), count=count)
                 raise UserError(Problem(message, str(self.directory / state.STATE), path=f"counts.{status}"))
 
     # --- variants ----------------------------------------------------------------------------------------------------
@@ -282,8 +284,8 @@ def refuse_used(folder: Path) -> None:
     """Refuse a folder that holds anything."""
     others = sorted(path.name for path in folder.iterdir() if path.name not in (LOCK, HOLDER))
     if state.STATE in others:
-        words = "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
-        raise UserError(Problem(phrase(words), str(folder)))
+        template = "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
+        raise UserError(Problem(phrase(template), str(folder)))
     if others:
-        words = "This folder is not empty ({others} is in it). Choose a new one with -o, so that nothing is lost."
-        raise UserError(Problem(Phrase(words, others=others[0]), str(folder)))
+        template = "This folder is not empty ({others} is in it). Choose a new one with -o, so that nothing is lost."
+        raise UserError(Problem(Phrase(template, others=others[0]), str(folder)))

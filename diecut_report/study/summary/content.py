@@ -105,8 +105,8 @@ def _dropped(counts: Mapping[str, Any]) -> str:
 
 def _objective(column: StoredColumn | None, way: str, name: str) -> AskedText:
     typed = f"{way}: {name}"
-    words = "{quantity} minimised" if way == "minimise" else "{quantity} maximised"
-    return AskedText(say(words, quantity=named(column)), typed) if column else AskedText(typed, "")
+    template = "{quantity} minimised" if way == "minimise" else "{quantity} maximised"
+    return AskedText(say(template, quantity=named(column)), typed) if column else AskedText(typed, "")
 
 
 def _quantities(stored: Stored, expression: str) -> str:
@@ -150,8 +150,8 @@ def written(tree: yaml.Tree, path: KeyPath) -> str:
         head.append(law)
     if "table" in parts:
         table, column = parts.pop("table"), parts.pop("column", "")
-        words = "column {column} of the table {table}" if column else "the table {table}"
-        head.append(say(words, column=column, table=table))
+        template = "column {column} of the table {table}" if column else "the table {table}"
+        head.append(say(template, column=column, table=table))
     return ", ".join([*head, *(f"{key} {text}" for key, text in parts.items())])
 
 
@@ -319,8 +319,8 @@ def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
         words = ", and {n} other variant with the same", ", and {n} other variants with the same"
         more = say_counted(others, *words, n=number(str(others))) if others else ""
         check, used = said(stored.check_label(governing)), utilised(utilisation)
-        told = "variant {n}{more}: utilisation {used} at most, by “{check}”"
-        yield say("Largest margin"), say(told, n=variant, more=more, used=used, check=check)
+        template = "variant {n}{more}: utilisation {used} at most, by “{check}”"
+        yield say("Largest margin"), say(template, n=variant, more=more, used=used, check=check)
     seconds = float(stored.study.get("seconds") or 0)
     if seconds > 0:
         yield say("Calculated in"), localised(f"{seconds:.3g} s")

@@ -81,9 +81,9 @@ class Figures:
 
     def _failures(self, failures: Sequence[Utilisation]) -> SummaryFigure:
         rows = [(row, said(self.stored.check_label(row.check))) for row in failures[:MAX_FAILURES]]
-        words = "{check} fails in {failing}, governs {governing} of them, warns in {warning}"
+        template = "{check} fails in {failing}, governs {governing} of them, warns in {warning}"
         told = "; ".join(
-            say(words, check=name, failing=row.failing, governing=row.governing, warning=row.warning)
+            say(template, check=name, failing=row.failing, governing=row.governing, warning=row.warning)
             for row, name in rows
         )
         caption = say(
@@ -153,14 +153,14 @@ class Figures:
         front = self.front if {x.name, y.name} <= goals else None
         told = self._over(x, y)
         if front:
-            words = "; Pareto front of {variants}, from variant {first} to {last}"
+            template = "; Pareto front of {variants}, from variant {first} to {last}"
             first, last = front.variants[0], front.variants[-1]
-            told += say(words, variants=variants(len(front.variants)), first=first, last=last)
+            told += say(template, variants=variants(len(front.variants)), first=first, last=last)
         caption = say("{y} over {x}, with the Pareto front." if front else "{y} over {x}.", y=named(y), x=named(x))
         if self.total > DENSE and {x.name, y.name} <= self.spreads.keys():
             found = data.density(self.stored, self.spreads[x.name], self.spreads[y.name])
-            words = "{variants} are counted in cells: the larger a square, the more variants; its colour shows the percentage that does not fail."
-            counted = say(words, variants=variants(int(found.counts.sum())))
+            template = "{variants} are counted in cells: the larger a square, the more variants; its colour shows the percentage that does not fail."
+            counted = say(template, variants=variants(int(found.counts.sum())))
             svg = charts.cells(say("Density of {told}.", told=told), "pair", found, front)
         else:
             counted = self._drawn(self.sample, [x, y])
@@ -194,8 +194,8 @@ class Figures:
 
     def _drawn(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         drawn = len(some.variants)
-        words = "All variants are drawn." if drawn == self.total else "Of {variants}, a sample of {drawn} is drawn."
-        return say(words, variants=variants(self.total), drawn=variants(drawn)) + self._far(some, columns)
+        template = "All variants are drawn." if drawn == self.total else "Of {variants}, a sample of {drawn} is drawn."
+        return say(template, variants=variants(self.total), drawn=variants(drawn)) + self._far(some, columns)
 
     def _far(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         """Return what to add where some variants are out of a chart's reach."""
@@ -207,20 +207,22 @@ def influence_figure(found: Influence) -> SummaryFigure:
     """Return the influence of the inputs on a quantity."""
     target = named(found.target)
     if found.is_sobol:
-        words = "Influence on {target}. Dark: first-order index; light: total index; lines: 95 % confidence intervals."
+        template = (
+            "Influence on {target}. Dark: first-order index; light: total index; lines: 95 % confidence intervals."
+        )
         each = "{quantity}: first-order {first}, total {total}"
         numbers = [(named(share.column), f"{share.first:.2f}", f"{share.total or 0:.2f}") for share in found.telling]
         told = "; ".join(
             say(each, quantity=name, first=localised(one), total=localised(all_)) for name, one, all_ in numbers
         )
     else:
-        words = (
+        template = (
             "Influence on {target}: partial rank correlation; bars to the right: the result increases with the input."
         )
         told = "; ".join(localised(f"{named(share.column)}: {share.first:+.2f}") for share in found.telling)
     told = say("Influence on {target}: {told}", target=target, told=told)
     key = Phrase("influence of {name}", name=found.target.name)
-    return SummaryFigure(charts.influence(f"{told}.", key, found), say(words, target=target), told)
+    return SummaryFigure(charts.influence(f"{told}.", key, found), say(template, target=target), told)
 
 
 def _behind(row: Utilisation) -> str:
@@ -231,8 +233,8 @@ def _behind(row: Utilisation) -> str:
 
 def _distributed(spread: Spread) -> str:
     low, _, middle, _, high = (quantity(value, spread.column) for value in spread.values)
-    words = "{quantity} from {low} to {high}, half of the variants below {middle}"
-    return say(words, quantity=named(spread.column), low=low, high=high, middle=middle)
+    template = "{quantity} from {low} to {high}, half of the variants below {middle}"
+    return say(template, quantity=named(spread.column), low=low, high=high, middle=middle)
 
 
 # The influence of the inputs as a table with charts.

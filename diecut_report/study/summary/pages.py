@@ -60,7 +60,7 @@ def _figure(summary: Summary, kind: str, key: str | Any) -> Markup:
 def _points(summary: Summary) -> str:
     """Return the sample for the page's own chart of any two quantities, in display units, as JSON that cannot end a script."""
     sample, choices = summary.any_two, summary.choices
-    told = (
+    template = (
         "{y} over {x}: {n} of {total} variants are drawn; dots pass, triangles have a warning, crosses fail. "
         "A point names its variant."
     )
@@ -70,7 +70,7 @@ def _points(summary: Summary) -> str:
             "states": [said(WORDS[status]) for status in ("pass", "warn", "fail")],
             "point": say("variant {n}, {status}"),
             "over": say("{y} over {x}"),
-            "told": say(told),
+            "told": say(template),
         },
         "upwards": next((n for n, column in enumerate(choices) if column not in summary.varied), len(choices) - 1),
         "total": summary.total,

@@ -142,8 +142,8 @@ def _read(item: Any, unit_text: str) -> tuple[float, str] | str:
     if isinstance(item, str) and item.strip().lower() in ("nan", "null", "na", "n/a", "#n/a"):
         return Phrase("{text} is not a value; every row needs a number", text=repr(item.strip()))
     if not isinstance(item, str | int | float):
-        words = "{item} is not a number (the cell holds a {name}); format the cell as a number"
-        return Phrase(words, item=item, name=type(item).__name__)
+        template = "{item} is not a number (the cell holds a {name}); format the cell as a number"
+        return Phrase(template, item=item, name=type(item).__name__)
     try:
         value = parse_quantity(item, unit_text)
         own = number_and_unit(item)[1] if isinstance(item, str) else ""

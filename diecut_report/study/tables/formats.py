@@ -47,21 +47,21 @@ def _advice(kind: str) -> str:
 def check_size(kind: str, rows: int, columns: int) -> None:
     """Refuse a table of more cells than a file of this type may have."""
     if columns > MAX_COLUMNS:
-        words = "has {columns} columns; at most {max_columns} are allowed. {smaller}"
-        raise unreadable(Phrase(words, columns=columns, max_columns=MAX_COLUMNS, smaller=SMALLER))
+        template = "has {columns} columns; at most {max_columns} are allowed. {smaller}"
+        raise unreadable(Phrase(template, columns=columns, max_columns=MAX_COLUMNS, smaller=SMALLER))
     if rows * columns > MAX_CELLS[kind]:
         most = Phrase("at most {max_cells} cells are allowed", max_cells=f"{MAX_CELLS[kind]:,}")
-        words = "has {rows} rows × {columns} columns; {most}. {advice}"
+        template = "has {rows} rows × {columns} columns; {most}. {advice}"
         counts = {"rows": f"{rows:,}", "columns": f"{columns:,}"}
-        raise unreadable(Phrase(words, counts, most=most, advice=_advice(kind)))
+        raise unreadable(Phrase(template, counts, most=most, advice=_advice(kind)))
 
 
 def check_unpacked(kind: str, size: int) -> None:
     """Refuse a file whose content, unpacked, takes more bytes than is bearable."""
     if size > MAX_UNPACKED[kind]:
         most = Phrase("at most {max_unpacked} MB are allowed", max_unpacked=f"{MAX_UNPACKED[kind] / 1e6:g}")
-        words = "holds {size} MB when it is unpacked; {most}. {advice}"
-        raise unreadable(Phrase(words, size=f"{size / 1e6:.1f}", most=most, advice=_advice(kind)))
+        template = "holds {size} MB when it is unpacked; {most}. {advice}"
+        raise unreadable(Phrase(template, size=f"{size / 1e6:.1f}", most=most, advice=_advice(kind)))
 
 
 def _no_memory() -> UserError:
@@ -88,10 +88,10 @@ def read_csv(file: BinaryIO) -> Columns:
 
     def skip(row: Any) -> str:
         nonlocal others
-        words = "row {number} has {actual_columns} cells, the header {expected_columns}; fill up or quote"
+        template = "row {number} has {actual_columns} cells, the header {expected_columns}; fill up or quote"
         counts = {"actual_columns": row.actual_columns, "expected_columns": row.expected_columns}
         if len(wrong) < MAX_REPORTED:
-            wrong.append(Problem(Phrase(words, counts, number=row.number), line=row.number))
+            wrong.append(Problem(Phrase(template, counts, number=row.number), line=row.number))
         else:
             others += 1
         return "skip"
@@ -108,8 +108,8 @@ def read_csv(file: BinaryIO) -> Columns:
     except pyarrow.ArrowException as error:
         raise unreadable(_csv_fault(str(error))) from error
     if wrong:
-        words = "{more} more rows have not as many cells as the header"
-        raise UserError([*wrong, *([Problem(Phrase(words, more=others))] if others else [])])
+        template = "{more} more rows have not as many cells as the header"
+        raise UserError([*wrong, *([Problem(Phrase(template, more=others))] if others else [])])
     blank = _blank_rows(table)
     rows = tuple((np.flatnonzero(blank) + 2).tolist())
     return [(name, None) for name in names], [Cells(column, 2, rows) for column in table.filter(~blank).columns]
@@ -132,8 +132,8 @@ def _csv_header(file: BinaryIO) -> tuple[list[str], str]:
     try:
         return next(csv.reader([first], delimiter=delimiter)), delimiter
     except csv.Error as error:
-        words = "row 1 cannot be read: {error}; it must hold the names of the columns"
-        raise unreadable(Phrase(words, error=error), 1) from error
+        template = "row 1 cannot be read: {error}; it must hold the names of the columns"
+        raise unreadable(Phrase(template, error=error), 1) from error
 
 
 def _csv_rows(file: BinaryIO) -> int:
@@ -150,18 +150,18 @@ def _csv_rows(file: BinaryIO) -> int:
     except UnicodeDecodeError as error:
         raise unreadable(NOT_UTF8) from error
     if quotes % 2:  # Arrow takes what follows the last one, whatever it is, for one cell
-        words = "has {quotes} quotation marks, so that one is not closed; within a quoted cell it is doubled"
-        raise unreadable(Phrase(words, quotes=quotes))
+        template = "has {quotes} quotation marks, so that one is not closed; within a quoted cell it is doubled"
+        raise unreadable(Phrase(template, quotes=quotes))
     file.seek(0)
     return max(feeds, returns)
 
 
 def _csv_fault(message: str) -> str:
     if "straddling" in message or "out of sync" in message:
-        words = (
+        template = (
             "has a row that ends in another line, or is longer than 1 MB; look for a quotation mark that is not closed"
         )
-        return phrase(words)
+        return phrase(template)
     is_empty = "Empty" in message or "Could not skip" in message
     return NO_ROWS if is_empty else Phrase("is not a CSV file: {message}", message=message)
 
@@ -194,8 +194,8 @@ def read_parquet(file: BinaryIO) -> Columns:
     except (pyarrow.ArrowException, OSError, ValueError, OverflowError) as error:  # Parquet says OSError of damage too
         if getattr(error, "errno", None):
             raise
-        words = "is not a Parquet file, or a damaged one: {told}"
-        raise unreadable(Phrase(words, told=" ".join(str(error).split()))) from error
+        template = "is not a Parquet file, or a damaged one: {told}"
+        raise unreadable(Phrase(template, told=" ".join(str(error).split()))) from error
     # their pieces as they are: one piece would be a copy
     return list(zip(table.column_names, units, strict=True)), [Cells(column, 1) for column in table.columns]
 
@@ -231,9 +231,9 @@ def _plain_schema(schema: Any) -> tuple[Any, list[str]]:
     plain = pyarrow.schema([field.with_type(kind) for field, kind in zip(schema, kinds, strict=True)])
     texts = [field.name for field in plain if types.is_string(field.type) or types.is_large_string(field.type)]
     is_number = (types.is_integer, types.is_floating, types.is_decimal)
-    words = "column {name} holds {type}; numbers or texts are needed"
+    template = "column {name} holds {type}; numbers or texts are needed"
     wrong = [
-        Problem(Phrase(words, name=field.name, type=field.type))
+        Problem(Phrase(template, name=field.name, type=field.type))
         for field in plain
         if field.name not in texts and not any(holds(field.type) for holds in is_number)
     ]
@@ -319,8 +319,8 @@ def _check_archive(file: BinaryIO) -> None:
     with ZipFile(file) as archive:
         members = archive.infolist()
         if len(members) > MAX_MEMBERS:
-            words = "has {count} files within; a workbook has some dozens. Save it again"
-            raise unreadable(Phrase(words, count=len(members)))
+            template = "has {count} files within; a workbook has some dozens. Save it again"
+            raise unreadable(Phrase(template, count=len(members)))
         check_unpacked(".xlsx", sum(member.file_size for member in members))
         for member in members:
             with archive.open(member) as unpacked:

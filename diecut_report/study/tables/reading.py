@@ -74,14 +74,14 @@ class ReadColumn:
     def texts(self) -> list[str]:
         """Return the column's texts, without blanks around them; UserError with the cells that are empty."""
         if self.unit is not None:
-            words = "the header has the unit [{unit}], but {name} is a text; remove the unit"
-            raise UserError(self.problem(Phrase(words, unit=self.unit, name=self.name)))
+            template = "the header has the unit [{unit}], but {name} is a text; remove the unit"
+            raise UserError(self.problem(Phrase(template, unit=self.unit, name=self.name)))
         found = self.cells.texts()
         self._refuse([place for place, text in enumerate(found) if not text], lambda _: EMPTY)
         held = {text: letter for text in set(found) if (letter := forbidden_character(text))}
         places = [place for place, text in enumerate(found) if text in held]
-        words = "the text holds the invisible character {held}"
-        self._refuse(places, lambda place: Phrase(words, held=held[found[place]]))
+        template = "the text holds the invisible character {held}"
+        self._refuse(places, lambda place: Phrase(template, held=held[found[place]]))
         return found
 
     def _check_unit(self, display: str) -> None:
@@ -92,8 +92,8 @@ class ReadColumn:
         except UnitError as error:
             raise UserError(self.problem(Phrase("the header's unit: {error}", error=error))) from None
         if given.kind != wanted.kind:
-            words = "the header's unit [{unit}] is of another kind; give one such as [{text}]"
-            raise UserError(self.problem(Phrase(words, unit=self.unit, text=wanted.text)))
+            template = "the header's unit [{unit}] is of another kind; give one such as [{text}]"
+            raise UserError(self.problem(Phrase(template, unit=self.unit, text=wanted.text)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,10 +108,10 @@ class TableFile:
     def column(self, name: str) -> ReadColumn:
         """Return a column by its name; UserError where there is none."""
         if name not in self.columns:
-            words = "the table has no column {name}{nearest}. Its columns: {there}"
+            template = "the table has no column {name}{nearest}. Its columns: {there}"
             near = nearest(name, self.columns)
             raise UserError(
-                Problem(Phrase(words, name=name, nearest=near, there=", ".join(self.columns)), self.file, 1)
+                Problem(Phrase(template, name=name, nearest=near, there=", ".join(self.columns)), self.file, 1)
             )
         return self.columns[name]
 
@@ -142,8 +142,8 @@ def read_table(path: Path) -> TableFile:
 def _read(path: Path) -> tuple[Columns, str]:
     kind = path.suffix.lower()
     if kind not in READERS:
-        words = "the ending {suffix} is not known; save the table as {known}"
-        raise unreadable(Phrase(words, suffix=path.suffix or phrase("(none)"), known=", ".join(READERS)))
+        template = "the ending {suffix} is not known; save the table as {known}"
+        raise unreadable(Phrase(template, suffix=path.suffix or phrase("(none)"), known=", ".join(READERS)))
     with opened(path, MAX_BYTES[kind], Phrase("a table ({kind})", kind=kind)) as file:
         try:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
@@ -157,9 +157,9 @@ def _wrong_headers(columns: list[ReadColumn]) -> Iterator[Problem]:
     seen: dict[str, int] = {}
     for column in columns:
         if not column.name:
-            words = "column {number} has no name in the header; give it a path, or remove it"
-            yield column.problem(Phrase(words, number=column.number))
+            template = "column {number} has no name in the header; give it a path, or remove it"
+            yield column.problem(Phrase(template, number=column.number))
         elif column.name in seen:
-            words = "columns {seen} and {number} have the same name; keep one of them"
-            yield column.problem(Phrase(words, seen=seen[column.name], number=column.number))
+            template = "columns {seen} and {number} have the same name; keep one of them"
+            yield column.problem(Phrase(template, seen=seen[column.name], number=column.number))
         seen.setdefault(column.name, column.number)
