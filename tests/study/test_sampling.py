@@ -43,7 +43,6 @@ SAMPLES: dict[str, Callable[[int], Sample]] = {
     "zip": lambda count: Zip((RangeVariable("y", 2.0, 5.0, count), RangeVariable("x", 1.0, 0.1, count, log=True))),
     "table": lambda count: TableSample({"x": np.arange(count) * 0.1, "law": [f"law {i}" for i in range(count)]}),
 }
-UNIT_SQUARE = tuple(Distribution(name, "uniform", 0.0, 1.0) for name in "xy")
 SHARES = (np.arange(200_000) + 0.5) / 200_000
 
 
@@ -95,8 +94,9 @@ def test_a_table_gives_its_own_rows() -> None:
 def test_a_range_has_both_ends_and_equal_steps_or_ratios() -> None:
     number = np.arange(7)
     np.testing.assert_allclose(RangeVariable("x", 0.1, 0.7, 7).at(number), np.linspace(0.1, 0.7, 7), rtol=1e-15)
-    ratios = RangeVariable("x", 0.1, 30.0, 7, log=True).at(number)
-    np.testing.assert_allclose(ratios, np.geomspace(0.1, 30.0, 7), rtol=1e-14)
+    np.testing.assert_allclose(
+        RangeVariable("x", 0.1, 30.0, 7, log=True).at(number), np.geomspace(0.1, 30.0, 7), rtol=1e-14
+    )
     ends = RangeVariable("x", 0.3, 0.7, 7, log=True).at(np.array([0, 6]))
     assert list(ends) == [0.3, 0.7]
 
@@ -195,16 +195,24 @@ def test_a_latin_hypercube_holds_one_number_for_each_row_and_path(count: int) ->
 
 
 def test_a_latin_hypercube_takes_each_part_of_each_variable_once() -> None:
-    rows = whole(LatinHypercube(UNIT_SQUARE, 500, seed=9))
+    rows = whole(
+        LatinHypercube((Distribution("x", "uniform", 0.0, 1.0), Distribution("y", "uniform", 0.0, 1.0)), 500, seed=9)
+    )
     for values in rows.values():
         assert sorted(np.floor(values * 500)) == list(range(500))
     assert abs(np.corrcoef(rows["x"], rows["y"])[0, 1]) < 0.2
 
 
 def test_sobol_points_are_those_of_scipy_in_the_middle_of_their_cells() -> None:
-    rows = whole(Sobol(UNIT_SQUARE, 64, seed=5))
+    rows = whole(Sobol((Distribution("x", "uniform", 0.0, 1.0), Distribution("y", "uniform", 0.0, 1.0)), 64, seed=5))
     expected = stats.qmc.Sobol(2, rng=np.random.default_rng(5)).random(64)
     np.testing.assert_allclose(np.stack([rows["x"], rows["y"]], axis=1), expected + 2**-31, rtol=0, atol=1e-15)
+
+
+def test_sobol_points_put_one_in_each_part_of_each_variable() -> None:
+    rows = whole(Sobol(tuple(Distribution(name, "uniform", 0.0, 1.0) for name in "abcde"), 256))
+    for values in rows.values():
+        assert sorted(np.floor(values * 256)) == list(range(256))
 
 
 def test_a_count_that_is_no_power_of_two_is_noted_and_not_warned_of() -> None:
@@ -218,7 +226,9 @@ def test_a_count_that_is_no_power_of_two_is_noted_and_not_warned_of() -> None:
 
 def test_a_large_latin_hypercube_says_how_much_it_holds() -> None:
     assert "458 MB" not in str(LatinHypercube(MIXED, 10_000_000).note)
-    assert "763 MB" in str(LatinHypercube((*MIXED, *UNIT_SQUARE, *UNIT_SQUARE), 10_000_000).note)
+    assert "763 MB" in str(
+        LatinHypercube((*MIXED, *(Distribution(n, "uniform", 0, 1) for n in "abcd")), 10_000_000).note
+    )
 
 
 # --- distributions ---------------------------------------------------------------------------------------------------
@@ -254,8 +264,9 @@ def test_a_truncated_normal_has_the_mean_of_its_formula() -> None:
         return (1 + math.erf(z / math.sqrt(2))) / 2
 
     expected = 3 + 0.2 * (density(-1.5) - density(2.0)) / (below(2.0) - below(-1.5))
-    drawn = numbers(Distribution("x", "normal", middle=3.0, sd=0.2, low=2.7, high=3.4))
-    assert drawn.mean() == pytest.approx(expected, rel=1e-7)
+    assert numbers(Distribution("x", "normal", middle=3.0, sd=0.2, low=2.7, high=3.4)).mean() == pytest.approx(
+        expected, rel=1e-7
+    )
 
 
 @given(st.floats(0.0, 1.0, exclude_min=True, exclude_max=True))
@@ -290,8 +301,9 @@ def test_whole_numbers_of_a_normal_take_the_share_of_their_step() -> None:
     counted = Counter(numbers(Distribution("x", "normal", middle=20, sd=2, low=17, high=24, integer=True)))
     mass = law.cdf(24.5) - law.cdf(16.5)
     for value in range(17, 25):
-        expected = (law.cdf(value + 0.5) - law.cdf(value - 0.5)) / mass
-        assert counted[value] / len(SHARES) == pytest.approx(expected, abs=1e-5)
+        assert counted[value] / len(SHARES) == pytest.approx(
+            (law.cdf(value + 0.5) - law.cdf(value - 0.5)) / mass, abs=1e-5
+        )
 
 
 def test_whole_numbers_of_a_log_range_take_the_share_of_their_ratio() -> None:
@@ -299,6 +311,11 @@ def test_whole_numbers_of_a_log_range_take_the_share_of_their_ratio() -> None:
     for value in range(1, 9):
         expected = math.log((value + 0.5) / (value - 0.5)) / math.log(8.5 / 0.5)
         assert counted[value] / len(SHARES) == pytest.approx(expected, abs=1e-5)
+
+
+def test_texts_are_drawn_as_often_as_each_other() -> None:
+    drawn = whole(Sobol((LAW, RADIUS), 256))["drive.motion_law"]
+    assert Counter(drawn) == {"cycloidal": 128, "harmonic": 128}
 
 
 # --- Sobol indices ---------------------------------------------------------------------------------------------------
@@ -325,6 +342,17 @@ def ishigami(rows: dict[str, Any]) -> Array:
 def ishigami_values(points: int, seed: int = 0) -> Array:
     sample = Sobol(tuple(Distribution(n, "uniform", -math.pi, math.pi) for n in "xyz"), points, seed, indices=True)
     return ishigami(whole(sample)).reshape(points, 5)
+
+
+def test_the_indices_of_ishigamis_function_are_the_analytic_ones() -> None:
+    a, b, pi4 = 7.0, 0.1, math.pi**4
+    alone = np.array([0.5 * (1 + b * pi4 / 5) ** 2, a**2 / 8, 0.0])
+    together = 8 * b**2 * pi4**2 / 225
+    variance = alone.sum() + together
+    found = sobol_indices(ishigami_values(8192))
+    assert found is not None
+    np.testing.assert_allclose(found[0], alone / variance, atol=0.005)
+    np.testing.assert_allclose(found[1], (alone + np.array([together, 0, together])) / variance, atol=0.005)
 
 
 def test_the_indices_are_those_of_scipy() -> None:
@@ -355,13 +383,19 @@ def test_what_does_not_vary_has_no_indices(values: Array) -> None:
 # --- what cannot be --------------------------------------------------------------------------------------------------
 
 WRONG: dict[str, Callable[[], object]] = {
+    "the list is empty": lambda: ChoiceVariable("x", ()),
     "mixes numbers and texts": lambda: ChoiceVariable("x", (1.0, "a")),  # type: ignore[arg-type]
     "from and to above zero": lambda: RangeVariable("x", 0.0, 1.0, 3, log=True),
+    "from and to differ": lambda: RangeVariable("x", 0.0, 1.0, 1),
     "holds 4 whole numbers, count: 5": lambda: RangeVariable("x", 1, 4, 5, integer=True),
     "only 7 different whole numbers": lambda: RangeVariable("x", 1, 10, 8, log=True, integer=True),
+    "low must be below high": lambda: Distribution("x", "uniform", 2.0, 2.0),
     "more than 8 standard deviations": lambda: Distribution("x", "normal", middle=2.0, sd=0.1, low=3.0),
     "mode must lie between": lambda: Distribution("x", "triangular", 1.0, 2.0, 5.0),
+    "no list of values for sample: grid": lambda: Grid((SPEED, Distribution("x", "uniform", 0.0, 1.0))),
     "no list of values for sample: zip": lambda: Zip((Distribution("x", "normal", middle=0.0, sd=1.0),)),
+    "count is missing; sample: grid": lambda: Grid((RangeVariable("x", 0.0, 1.0),)),
+    "drive.crank_speed has 5, cylinder.bore_radius has 3": lambda: Zip((SPEED, RADIUS)),
     "at most 1073741824 different points": lambda: Sobol((SPEED,), 2**30 + 1),
     "at most 21201 dimensions": lambda: Sobol((SPEED,) * 10601, 2, indices=True),
 }

@@ -47,6 +47,14 @@ with store.lock():
         store.write_part(index, part(rows.start, len(rows)))
         print(index, flush=True)
 """
+HOLDER = """
+import sys, time
+from pathlib import Path
+from diecut_report.study.storage.store import Store
+with Store.open(Path(sys.argv[1])).lock():
+    print("held", flush=True)
+    time.sleep(600)
+"""
 
 
 def filled(folder: Path, study: Description | None = None) -> Store:
@@ -93,8 +101,15 @@ def test_each_column_has_its_type_and_missing_values_are_null(tmp_path: Path) ->
     store = filled(tmp_path / "out")
     table = store.read().to_table()
     assert table.column_names == ["variant", *part(0, 1)]
-    number, text = pa.float64(), pa.dictionary(pa.int32(), pa.string())
-    assert table.schema.types == [pa.int64(), number, number, pa.int64(), pa.bool_(), *[text] * 4]
+    kinds = [
+        pa.int64(),
+        pa.float64(),
+        pa.float64(),
+        pa.int64(),
+        pa.bool_(),
+        *[pa.dictionary(pa.int32(), pa.string())] * 4,
+    ]
+    assert table.schema.types == kinds
     made = part(0, 100)
     assert table["variant"].to_pylist() == list(range(100))
     assert table[SPEED].to_pylist() == made[SPEED].tolist()
@@ -133,6 +148,18 @@ def test_what_is_no_finite_number_is_null(tmp_path: Path, values: Any) -> None:
     assert table[SPEED].null_count == 3  # not given: applies to none
 
 
+def test_curves_are_lists(tmp_path: Path) -> None:
+    store = Store.create(tmp_path / "out", description(2, columns=(ResultColumn("drive.torque", "curve", "N*m"),)))
+    with store.lock():
+        store.write_part(0, {"status": ["pass", "error"], "drive.torque": [np.array([1.0, np.nan]), None]})
+    assert store.read().to_table()["drive.torque"].to_pylist() == [[1.0, None], None]
+    [told] = export(store, ["csv", "xlsx"])
+    assert "torque" not in (tmp_path / "out/variants.csv").read_text()
+    assert told.startswith(
+        "variants.csv and variants.xlsx: without the curves drive.torque, which only the Parquet files in"
+    )
+
+
 def test_curves_of_unlike_lengths_are_as_they_were(tmp_path: Path) -> None:
     store = Store.create(tmp_path / "out", description(5, columns=(ResultColumn("drive.torque", "curve", "N*m"),)))
     given = [np.array([1.0, 2.0, 3.0]), None, np.array([]), [4, np.inf], np.array([5.0])]
@@ -140,9 +167,6 @@ def test_curves_of_unlike_lengths_are_as_they_were(tmp_path: Path) -> None:
         store.write_part(0, {"status": ["pass"] * 5, "drive.torque": given})
     assert store.read().to_table()["drive.torque"].to_pylist() == [[1, 2, 3], None, [], [4, None], [5]]
     assert store.done_parts() == {0}
-    [told] = export(store, ["csv", "xlsx"])
-    assert "torque" not in (tmp_path / "out/variants.csv").read_text()
-    assert "variants.csv and variants.xlsx: without the curves drive.torque, which only the Parquet files in" in told
     with duckdb.connect() as connection:
         asked = f"select \"drive.torque\"[1] from '{tmp_path}/out/variants/part-*.parquet' order by variant"
         assert connection.execute(asked).fetchall() == [(1.0,), (None,), (None,), (4.0,), (5.0,)]
@@ -241,16 +265,37 @@ def test_tables_of_the_study_are_kept_within_the_folder(tmp_path: Path) -> None:
         state.kept(tmp_path / "out")
 
 
+def test_folder_with_anything_in_it_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "base.yaml").write_text("mine")
+    with pytest.raises(UserError, match=r"not empty \(base.yaml"):
+        Store.create(tmp_path, description())
+    assert (tmp_path / "base.yaml").read_text() == "mine"
+
+
 def test_folder_with_results_is_refused(tmp_path: Path) -> None:
     filled(tmp_path / "out")
     with pytest.raises(UserError, match=r"here already.*--resume"):
         Store.create(tmp_path / "out", description())
 
 
+def test_folder_without_results_is_told(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match=r"study\.json is missing"):
+        Store.open(tmp_path)
+
+
 def test_same_study_is_continued_with_the_parts_of_the_folder(tmp_path: Path) -> None:
     filled(tmp_path / "out")
     store = Store.open(tmp_path / "out", description(chunk=64))
     assert store.description.chunk == 10 and store.done_parts() == set(range(10))
+
+
+def test_a_continued_study_keeps_its_name(tmp_path: Path) -> None:
+    """Its copy in the folder, which a run without the study is continued from, has another one."""
+    named = description()
+    filled(tmp_path / "out", named)
+    copy = replace(named, study=replace(named.study, file="study.yaml"))
+    found = Store.open(tmp_path / "out", copy).description.study
+    assert found == named.study and found.file != "study.yaml"
 
 
 @pytest.mark.parametrize(
@@ -274,6 +319,16 @@ def test_changed_study_is_refused_with_what_changed(tmp_path: Path, changed: dic
     assert re.search(words, expect(tmp_path / "out", replace(before, **changed)))
 
 
+def test_folder_in_use_tells_who_uses_it(tmp_path: Path) -> None:
+    store = filled(tmp_path / "out")
+    with process(HOLDER, tmp_path / "out") as (number, said):
+        assert said.readline() == "held\n"
+        with pytest.raises(UserError, match=rf"process {number} on {os.uname().nodename}"), store.lock():
+            pass
+    with store.lock():  # a killed run holds nothing
+        pass
+
+
 # whole or absent
 def test_killed_writer_leaves_whole_parts_alone(tmp_path: Path) -> None:
     study = description(200_000, 500)
@@ -291,6 +346,18 @@ def test_killed_writer_leaves_whole_parts_alone(tmp_path: Path) -> None:
     (tmp_path / "out/reports/.abc.part/openpyxl").touch()
     with store.lock():
         assert hidden(tmp_path / "out") == []
+
+
+def test_part_of_which_some_bytes_have_changed_is_to_be_calculated_again(tmp_path: Path) -> None:
+    store = filled(tmp_path / "out", description(3000, 3000))
+    content = bytearray(store.part(0).read_bytes())
+    place = len(content) // 4
+    content[place : place + 64] = bytes(64)
+    store.part(0).write_bytes(content)
+    assert store.done_parts() == set()
+    with pytest.raises(UserError, match=r"part-00000\.parquet: .* damaged"):
+        export(store, ["csv"])
+    assert hidden(tmp_path) == [] and not (tmp_path / "out/variants.csv").exists()
 
 
 @pytest.mark.parametrize("name", ["part-copy.parquet", "part-3.parquet", "part-00003 (1).parquet"])
@@ -311,6 +378,19 @@ def test_mechanism_may_be_called_as_a_column(tmp_path: Path) -> None:
     assert exported(store, "csv").read_text().splitlines()[1:] == ['0,1,"a","pass",,', '1,2,"b","fail",,']
 
 
+@pytest.fixture
+def small_disk(tmp_path: Path) -> Iterator[Path]:
+    """A disk of 200 kB where this user may make one (root on Linux); told by its absence elsewhere."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    made = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=200k", "tmpfs", str(disk)], capture_output=True)
+    if made.returncode:
+        yield tmp_path / "no disk"
+        return
+    yield disk
+    subprocess.run(["umount", str(disk)], check=True)
+
+
 def limited(monkeypatch: pytest.MonkeyPatch) -> None:
     """Any file of more than 8 kB finds the disk full after its first half."""
 
@@ -324,16 +404,28 @@ def limited(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Path, "write_bytes", write_bytes)
 
 
-def test_full_disk_is_told_and_leaves_nothing_half_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    store = Store.create(tmp_path / "out", description(100_000, 1000))
-    limited(monkeypatch)
-    with pytest.raises(UserError, match=r"part-.*parquet: This cannot be written: the disk is full.*--resume"):
+@contextmanager
+def room_made(disk: Path, patch: pytest.MonkeyPatch) -> Iterator[None]:
+    """The disk is larger now."""
+    if disk.name == "no disk":
+        patch.undo()
+    else:
+        subprocess.run(["mount", "-o", "remount,size=50m", str(disk)], check=True)
+    yield
+
+
+def test_full_disk_is_told_and_leaves_nothing_half_written(small_disk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store = Store.create(small_disk / "out", description(100_000, 1000))
+    if small_disk.name == "no disk":
+        limited(monkeypatch)
+    with pytest.raises(
+        UserError, match=r"(part-.*parquet|study\.json): This cannot be written: the disk is full.*--resume"
+    ):
         fill(store)
     there = store.done_parts()
-    assert hidden(tmp_path / "out") == [] and there == set(store.parts()) != set(range(100))
+    assert hidden(small_disk / "out") == [] and there == set(store.parts()) != set(range(100))
     assert store.state["state"] == "running"
-    monkeypatch.undo()
-    with store.lock():
+    with room_made(small_disk, monkeypatch), store.lock():
         for index in set(range(100)) - there:
             store.write_part(index, part(1000 * index, 1000))
         store.finish({})

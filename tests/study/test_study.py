@@ -119,6 +119,19 @@ def test_sobol_indices_take_groups_of_rows(tmp_path: Path) -> None:
     assert study(tmp_path, text).sample.count == 24
 
 
+def test_a_million_by_a_million_grid_is_read_at_once(tmp_path: Path) -> None:
+    text = varied("{from: 1, to: 2, count: 1000000}", rest="  mechanisms.a.arm: {from: 1, to: 2, count: 1000000}\n")
+    sample = study(tmp_path, text).sample
+    assert sample.count == 10**12
+    assert sample.rows(10**12 - 1, 10**12)["mechanisms.a.arm"] == [0.002]
+
+
+def test_zip_takes_the_first_values_together(tmp_path: Path) -> None:
+    text = STUDY.replace("grid", "zip").replace("[1 kN, 2, 3000 N]", "[1 kN, 2]")
+    rows = study(tmp_path, text).sample.rows(0, 2)
+    assert (list(rows[FORCE]), rows[GRADE]) == ([1000.0, 2000.0], ["fine", "coarse"])
+
+
 def test_constraints_hold_between_varied_fixed_and_referred_inputs(tmp_path: Path) -> None:
     rest = "constraints:\n" + "".join(
         f"  - {text}\n"
@@ -192,10 +205,10 @@ def test_a_column_of_a_table_gives_the_values_of_a_path(tmp_path: Path) -> None:
 
 def test_a_column_that_a_table_lacks_is_told_with_those_that_it_has(tmp_path: Path) -> None:
     saved(tmp_path, "load [kN],other\n1,x\n", "loads.csv")
-    template = "loads.csv:1: the table has no column laod (did you mean 'load'?). Its columns: load, other"
+    told = "loads.csv:1: the table has no column laod (did you mean 'load'?). Its columns: load, other"
     assert [
         line.removeprefix(f"{tmp_path}/") for line in faults(tmp_path, varied("{table: loads.csv, column: laod}"))
-    ] == [template]
+    ] == [told]
 
 
 TABLES = [  # the file, and what is told of it
