@@ -218,9 +218,8 @@ def within_tolerances(
         present, is_normal = design.present or 0.0, distribution == "normal"
         off = draws.normal(0.0, size / IN_TOLERANCE, count) if is_normal else draws.uniform(-size, size, count)
         given[design.asked] = present + off
-        wide = _in(design.unit, size) - _in(
-            design.unit, 0.0
-        )  # of a difference: a unit with a zero of its own takes nothing away
+        # of a difference: a unit with a zero of its own takes nothing away
+        wide = _in(design.unit, size) - _in(design.unit, 0.0)
         value = _in(design.unit, present)
         inputs.append(ScatterRecord(name=design.name, unit=design.unit, value=value, tolerance=wide))
     made = varied(config, given, count)
