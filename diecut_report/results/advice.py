@@ -16,6 +16,7 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import with_sampled_curves
 from diecut_report.mechanism.checks import AdviceWay, Check, Vary
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.mechanism import Mechanism
@@ -111,7 +112,7 @@ class Advisor:
 
 def possible_ways(mechanism: Mechanism, inputs: Mapping[str, Any], key: str, judge: Judge) -> list[Way]:
     """Return the ways in which a machine that is impossible for a key of its inputs is made possible."""
-    calc = Calculation(mechanism, inputs, 1)
+    calc = Calculation(mechanism, with_sampled_curves(mechanism, inputs), 1)
     required = (step for _, step in mechanism.active(calc.given) if isinstance(step, Require) and step.key == key)
     wanted = dict.fromkeys(way for step in required for way in step.advise)
     return _ways(PossibleTrials(calc, None, judge), wanted)

@@ -22,6 +22,7 @@ from tests.study.studies import BASE, STUDY
 
 META = re.compile(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)">')
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+PICTURES = 4
 PROBE = "<script>document.title = 'run'</script><img src=x onerror=\"document.title = 'run'\">"
 
 
@@ -95,13 +96,16 @@ def test_a_browser_shows_the_same_with_it_and_blocks_what_is_not_the_pages_own(
     tmp_path: Path, request: pytest.FixtureRequest, name: str
 ) -> None:
     page: str = request.getfixturevalue(name)
-    pictures = []
-    for number, text in enumerate((page, META.sub("", page))):
-        shot = tmp_path / f"{number}.png"
-        done = browsed(tmp_path, text, f"--screenshot={shot}", "--window-size=1200,4000")
-        assert "Content Security Policy" not in done.stderr and shot.stat().st_size > 10_000
-        pictures.append(shot.read_bytes())
-    assert pictures[0] == pictures[1]
+    shown: list[set[bytes]] = [set(), set()]
+    for _ in range(PICTURES):  # one page is not always painted alike, so that several pictures are taken of each
+        for pictures, text in zip(shown, (page, META.sub("", page)), strict=True):
+            done = browsed(tmp_path, text, f"--screenshot={tmp_path}/shot.png", "--window-size=1200,4000")
+            picture = (tmp_path / "shot.png").read_bytes()
+            assert "Content Security Policy" not in done.stderr and len(picture) > 10_000
+            pictures.add(picture)
+        if shown[0] & shown[1]:
+            break
+    assert shown[0] & shown[1]
     if name == "summary":
         assert 'class="p0"' in browsed(tmp_path, page, "--dump-dom").stdout  # its script has drawn
     harmed = page.replace("<main>", f"<main>{PROBE}")

@@ -18,7 +18,7 @@ from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.quantities.units import unit as parsed
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
-from tests.machines import UNBALANCED, drive, number
+from tests.machines import UNBALANCED, drive, made_possible, number
 from tests.plugins.drive_trains import (
     EXAMPLE,
     PAIRS,
@@ -234,3 +234,8 @@ def test_the_run_up_without_a_flywheel_takes_what_the_energy_says(changes: dict[
 def test_labels_of_checks_are_short() -> None:
     labels = {label for c in MECHANISM.checks for label in (c.demand_label, c.limit_label)}
     assert labels and max(map(len, labels)) <= 30
+
+
+def test_an_impossible_train_with_a_listed_torque_curve_gets_advice() -> None:
+    keys = EXAMPLE | WORKING | {"motor_speed": "20000 rpm", "n_points": 36}
+    assert made_possible(MECHANISM, keys, "gears")

@@ -227,6 +227,12 @@ def _of_part(path: str, index: int, words: str) -> Impossible:
     return Impossible([(f"{home}.{index}.{key}", words)])
 
 
+def with_sampled_curves(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return inputs whose curves that are listed as values are curves."""
+    listed = {name: SampledCurve(v) for name in mechanism.curve_inputs if isinstance(v := values.get(name), tuple)}
+    return {**values, **listed}
+
+
 def calculate(
     mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1, only: Container[str] | None = None
 ) -> Calculation:
@@ -237,8 +243,7 @@ def calculate(
     Raises ``Impossible`` when a single machine cannot exist (among several it is marked in ``flaws``), ``Unproven`` when a
     result does not meet what proves it.
     """
-    listed = {name: SampledCurve(v) for name in mechanism.curve_inputs if isinstance(v := values.get(name), tuple)}
-    calc = MachineRun(mechanism, {**values, **listed}, variants)
+    calc = MachineRun(mechanism, with_sampled_curves(mechanism, values), variants)
     calc.is_partial = only is not None
     calc.require_distinct()
     with np.errstate(all="ignore"):
@@ -320,4 +325,4 @@ def recalculated(
         return None
 
 
-__all__ = ["needed", "recalculated", "varied", "varied_curves"]
+__all__ = ["needed", "recalculated", "varied", "varied_curves", "with_sampled_curves"]
