@@ -21,7 +21,7 @@ sheet verdict 'Contents'
 sheet sheet '(B.28)'
 sheet cyclogram 'Figure C.1 Cyclogram'
 
-"$program" check configs/flat_cylinder_press.yaml configs/flat_cylinder_press_mended.yaml configs/flat_cylinder_belt_press.yaml \
-    -o "$made/machines" || [ $? -eq 1 ]
-"$browser" --headless --no-sandbox --hide-scrollbars --user-data-dir="$made/browser" --window-size=1000,640 \
-    --screenshot="$pictures/comparison.png" "file://$(ls "$made"/machines/*.html)" 2>/dev/null
+"$program" compare configs/flat_cylinder_press.yaml configs/flat_cylinder_press_mended.yaml configs/flat_cylinder_belt_press.yaml \
+    -o "$made" --format html || [ $? -eq 1 ]
+"$browser" --headless --no-sandbox --hide-scrollbars --user-data-dir="$made/browser" --window-size=1000,760 \
+    --screenshot="$pictures/comparison.png" "file://$made/comparison.html" 2>/dev/null

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from itertools import islice
@@ -19,6 +21,7 @@ from diecut_report.cli.options import (
     jobs_option,
     path_of,
     path_option,
+    split,
     strict_option,
 )
 from diecut_report.cli.output import (
@@ -55,8 +58,10 @@ from diecut_report.text.translation import localised, said, say, say_counted, sp
 
 if TYPE_CHECKING:
     from diecut_report.config.yaml import Tree
+    from diecut_report.study.comparison import MachineComparison, Verdict
     from diecut_report.study.execution.dry_run import DryRun
-    from diecut_report.study.machines import CheckedMachine, Verdict
+    from diecut_report.study.machines import CheckedMachine
+    from diecut_report.study.shown_results import AskedResults
 
 
 STATES = {PASSED: "valid", BAD_INPUT: "bad", PLUGIN_BROKE: "broken"}
@@ -152,10 +157,11 @@ def _data(found: JudgedFile) -> dict[str, Any]:
 
 
 ORDER = ("fail", "warn", "not_checked")
-COLOURED = {"bad": "error", "incomplete": "warn"}  # states with the colour of another one
+COLOURED = {"bad": "error", "incomplete": "warn", "conditional": "warn"}  # states with the colour of another one
 WORDS = {
     "pass": phrase("pass"),
     "incomplete": phrase("conditional"),
+    "conditional": phrase("conditional"),
     "warn": phrase("warn"),
     "fail": phrase("fail"),
     "error": phrase("error"),
@@ -226,33 +232,144 @@ def _whole(results: ResultsRecord) -> Line:
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
 HEADS = (phrase("machine"), phrase("verdict"), phrase("governing check"), phrase("utilisation"), phrase("failed"), phrase("not checked"),
          phrase("warnings"), phrase("assumed"))  # fmt: skip
+given_machines = click.argument("given", metavar="CONFIG|DIR#N|FOLDER…", nargs=-1, required=True, type=path_of)
+table_formats = formats_option(
+    lambda: FORMATS, ",".join(FORMATS), "Formats of the table: html,pdf,xlsx,csv,json or some of them."
+)
 
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
-@click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
-@path_option("-o", "folder", metavar="DIR", help="Also write a summary of all machines there.")
+@given_machines
+@path_option(
+    "-o", "folder", metavar="DIR", help="Also write a comparison of all machines there: machines.html and so on."
+)
 @strict_option
-@formats_option(lambda: FORMATS, ",".join(FORMATS), "Formats of the summary: html,pdf,xlsx,csv,json or some of them.")
+@table_formats
 @jobs_option
 @common
 def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
           discovery: Discovery) -> int:  # fmt: skip
     """Calculate many machines and show a table of their verdicts; folders are searched for configurations."""
-    from diecut_report.study.machines import compared, configurations, in_language
+    from diecut_report.study.shown_results import AskedResults
+
+    found = _found(given, discovery, jobs, AskedResults())
+    emit_lines(_table(found.spoken.machines))
+    return found.finished(folder, "machines", formats, strict=strict)
+
+
+def _listed(_: click.Context, option: click.Parameter, given: str | None) -> tuple[str, ...] | None:
+    """Return the names of an option's list; None where it is not given, BadParameter where it is empty."""
+    names = tuple(dict.fromkeys(split(given or "")))
+    if given is not None and not names:
+        raise click.BadParameter(say("nothing is named; give names with commas between them."))
+    return names or None
+
+
+@click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
+@given_machines
+@click.option(
+    "--show", metavar="OUTPUTS", callback=_listed,
+    help="The results to show, by output, by INSTANCE.OUTPUT, or by the words rate, mass, torque_max, motor, strength, function "
+         "(default: these words).",
+)  # fmt: skip
+@click.option(
+    "--units", metavar="LIST", callback=_listed, help="Units for quantities of their dimensions, such as kN,mm."
+)
+@path_option("-o", "folder", metavar="DIR", help="Also write the comparison there: comparison.html and so on.")
+@table_formats
+@jobs_option
+@common
+def compare(given: tuple[Path, ...], show: tuple[str, ...] | None, units: tuple[str, ...] | None, folder: Path | None,
+            formats: list[str], jobs: int | None, discovery: Discovery) -> int:  # fmt: skip
+    """Compare machines in one table: verdicts, chosen results, and the inputs that were typed differently.
+
+    Each is a configuration, a variant of a study (DIR#N), or a folder of configurations or of a study's results.
+    """
+    from diecut_report.study.shown_results import WORDS as SHOWN_WORDS
+    from diecut_report.study.shown_results import AskedResults, refuse_units, refuse_unused_units
+
+    refuse_units(units or ())
+    found = _found(given, discovery, jobs, AskedResults(show or tuple(SHOWN_WORDS), units or ()))
+    refuse_unused_units(units or (), [*found.spoken.results, *found.spoken.changes])
+    emit_lines(_side_by_side(found.spoken))
+    return found.finished(folder, "comparison", formats)
+
+
+def _side_by_side(made: MachineComparison) -> Iterator[str]:
+    from diecut_report.study.comparison import text_table
+
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    yield from text_table(made, list(map(_called, made.machines)), width).splitlines()
+    yield from [said(made.omitted)] if made.omitted else []
+
+
+def _called(verdict: Verdict) -> str:
+    """Return what a machine is called, as a part of a line; the number of a variant stays outside of quotes."""
+    if verdict.machine == SHOWN:
+        return SHOWN
+    name, mark, number = verdict.machine.rpartition("#")
+    return in_line(f"{cell(name)}#{number}" if mark and number.isdecimal() else cell(verdict.machine))
+
+
+@dataclass
+class NamedMachines:
+    """Hold what came out of the machines that a command names, and what is asked of them."""
+
+    files: list[Path]
+    passed_over: Mapping[Path, str]
+    machines: list[CheckedMachine]
+    asked: AskedResults
+    discovery: Discovery
+    spoken: MachineComparison = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.spoken = self._compared()
+
+    def _compared(self) -> MachineComparison:
+        """Return them side by side in the language that is spoken."""
+        from diecut_report.study.comparison import compared
+        from diecut_report.study.machines import in_language
+
+        machines = in_language(self.machines, spoken_catalogues(self.discovery))
+        return compared(machines, self.asked.rows(machines), self.asked.units)
+
+    def finished(self, folder: Path | None, name: str, formats: Sequence[str], *, strict: bool = False) -> int:
+        """Write the comparison, if a folder is named, report how many machines there are of each verdict, and return the exit code."""
+        if folder is not None:
+            self._write(folder, name, formats)
+        inform([*_passed_over(self.passed_over), _counts(self.spoken.machines)])
+        return _code(self.spoken.machines, strict)
+
+    def _write(self, folder: Path, name: str, formats: Sequence[str]) -> None:
+        """Write the comparison in the language that is asked for, else in that of all projects."""
+        from diecut_report.files import write_all
+        from diecut_report.study import comparison_pages as pages
+        from diecut_report.study.machines import language_of
+
+        language = asked_language() or language_of(self.machines)
+        with speaking(SOURCE_LANGUAGE):
+            neutral = self._compared()
+        with speaking(language, catalogues_for(language, (), self.discovery)):
+            contents = pages.files(self._compared(), folder, name, formats, neutral)
+        if kept := set(contents) & set(self.files):
+            raise refusal("{file} is one of the configurations, and is not overwritten.", file=min(kept))
+        write_all(contents, keep=self.files[0])
+        tell_written(contents)
+
+
+def _found(given: Sequence[Path], discovery: Discovery, jobs: int | None, asked: AskedResults) -> NamedMachines:
+    """Calculate the machines; what is wrong with one is reported, and the others go on."""
+    from diecut_report.study.machines import configurations
 
     known = configurations(given)
-    files = known.files
-    read = [from_standard_input() if file == DASH else file for file in files]
+    read = [from_standard_input() if file == DASH else file for file in known.files]
     with Progress() as progress, without_output():
-        found = _calculated(read, discovery, jobs, progress)
-    made = compared(in_language(found, spoken_catalogues(discovery)))
-    for verdict in made.verdicts:
-        tell(f"{verdict.machine}: " + phrase(line) if verdict.status != "bad" else line for line in verdict.words)
-    emit_lines(_table(made.verdicts))
-    if folder is not None:
-        _write(found, discovery, folder, formats, files)
-    inform([*_passed_over(known.passed_over), _counts(made.verdicts)])
-    return _code(made.verdicts, strict)
+        machines = _calculated(read, discovery, jobs, progress)
+    found = NamedMachines(known.files, known.passed_over, machines, asked, discovery)
+    for verdict in found.spoken.machines:
+        is_bad = verdict.status == "bad"  # its messages name the file
+        tell(line if is_bad else f"{verdict.machine}: " + phrase(line) for line in verdict.messages)
+    return found
 
 
 def _calculated(
@@ -276,38 +393,19 @@ def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
 
 
 def _row(verdict: Verdict) -> tuple[str, ...]:
-    is_stdin = verdict.machine == SHOWN
-    machine = verdict.machine if is_stdin else in_line(cell(verdict.machine))  # before its width is taken
+    machine = _called(verdict)  # before its width is taken
     if verdict.status == "bad":
         return machine, said(WORDS["bad"]), "", "", "", "", "", ""
     share = "" if verdict.utilisation is None else localised(f"{100 * verdict.utilisation:.1f} %")
     counts = (verdict.failed, verdict.not_checked, verdict.warnings, verdict.assumed)
-    told = said(WORDS[verdict.face])
+    told = said(WORDS[verdict.verdict])
     told = say("{status}, formulas with faults", status=told) if verdict.formulas_with_faults else told
     return machine, told, verdict.governing, share, *map(str, counts)
 
 
-def _write(
-    found: Sequence[CheckedMachine], discovery: Discovery, folder: Path, formats: list[str], files: Sequence[Path]
-) -> None:  # fmt: skip
-    """Write the summary, in the language that is asked for, else in that of all projects."""
-    from diecut_report.files import write_all
-    from diecut_report.study import machine_pages as pages
-    from diecut_report.study.machines import compared, in_language, language_of
-
-    language = asked_language() or language_of(found)
-    with speaking(language, catalogues_for(language, (), discovery)):
-        made = compared(in_language(found, spoken_catalogues(discovery)))
-        contents = pages.files(made, folder, formats, compared(found))
-    if kept := set(contents) & set(files):
-        raise refusal("{file} is one of the configurations, and is not overwritten.", file=min(kept))
-    write_all(contents, keep=files[0])
-    tell_written(contents)
-
-
 def _counts(verdicts: Sequence[Verdict]) -> Line:
-    states = ("pass", "incomplete", "warn", "fail", "error", "bad")
-    found = counted({status: sum(verdict.face == status for verdict in verdicts) for status in states})
+    states = ("pass", "conditional", "fail", "error", "bad")
+    found = counted({status: sum(verdict.verdict == status for verdict in verdicts) for status in states})
     return (Counted(len(verdicts), "{n} machine: ", "{n} machines: "), *found, ".")
 
 

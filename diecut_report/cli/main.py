@@ -22,7 +22,7 @@ import click
 
 from diecut_report import __version__
 from diecut_report.cli import checking, output
-from diecut_report.cli.checking import check, validate
+from diecut_report.cli.checking import check, compare, validate
 from diecut_report.cli.design import advise, influence, optimise, solve, where
 from diecut_report.cli.exchange import diff, extract, render, sign, verify
 from diecut_report.cli.live import live
@@ -315,7 +315,7 @@ def schema(kind: str | None, discovery: Discovery) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
-OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, optimise, where,
+OTHERS = (new, validate, check, compare, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, optimise, where,
           new_plugin, check_plugin)  # fmt: skip
 for _command in OTHERS:
     program.add_command(_command)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -142,16 +141,18 @@ def source(config: Path, discovery: Discovery) -> Source:
     """Return the configuration that a command names: its file, standard input for ``-``, or for DIR#ID that of a stored variant."""
     if config == DASH:
         return from_standard_input()
-    folder, _, number = str(config).rpartition("#")
-    if not folder or not number.isdigit() or os.path.exists(config) or not os.path.exists(Path(folder) / RESULTS):
+    if "#" not in str(config):
         return config
-    from diecut_report.study.analysis.variant_config import variant_config
+    from diecut_report.study.analysis.variant_config import variant_config, variant_named
+
+    if (variant := variant_named(config)) is None:
+        return config
+    folder, number = variant
 
     def warn(words: str) -> None:
         tell([Phrase("warning: {words}", words=phrase(words))])
 
-    name = f"{Path(folder).resolve().name}-{number}.yaml"
-    return variant_config(Path(folder), int(number), discovery, name, warn)
+    return variant_config(folder, number, discovery, f"{folder.resolve().name}-{number}.yaml", warn)
 
 
 def changeable_source(config: Path, discovery: Discovery) -> Source:

@@ -1,11 +1,14 @@
-"""What changed between two results documents: inputs, outputs, checks, the code that calculated; the most important first."""
+"""What changed between two results documents: inputs, outputs, checks, the code that calculated; what several have typed differently."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Literal, TypeGuard, get_args
 
+from diecut_report.config.model import PRESS
+from diecut_report.config.validation import GIVEN
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.results.conclusion import COUNTED, RANK, SELF_TEST
@@ -185,8 +188,11 @@ def _rows(old: Iterator[Named], new: Iterator[Named]) -> Iterator[ChangedQuantit
 
 
 def _has_changed(before: QuantityRecord | None, after: QuantityRecord | None) -> bool:
-    if before is None or after is None or before.basis != after.basis:
-        return True
+    return before is None or after is None or before.basis != after.basis or _has_other_value(before, after)
+
+
+def _has_other_value(before: QuantityRecord, after: QuantityRecord) -> bool:
+    """Whether a quantity has another value, rounding apart."""
     a, b = before.value, after.value
     if not (_is_number(a) and _is_number(b)):
         return a != b
@@ -248,6 +254,63 @@ def _follows(before: QuantityRecord | None, after: QuantityRecord | None) -> str
 
 def _size(row: ChangedQuantityRecord) -> float:
     return math.inf if row.relative is None else abs(row.relative)
+
+
+# --- several documents side by side ----------------------------------------------------------------------------------
+
+
+Side = ResultsRecord | None  # None: nothing was calculated
+OwnChange = tuple[str, list[QuantityRecord | None]]  # the path of an input, and what each document has there
+
+
+def differing_kinds(sides: Sequence[Side]) -> dict[str, list[str]]:
+    """Return the mechanisms that not all documents have, or not of the same kind: the kind in each, "" where it is not there."""
+    kinds = [{name: each.kind for name, each in side.mechanisms.items()} if side else {} for side in sides]
+    found = {name: [each.get(name, "") for each in kinds] for name in dict.fromkeys(chain(*kinds))}
+    return {
+        name: own
+        for name, own in found.items()
+        if len({each for each, side in zip(own, sides, strict=True) if side}) > 1
+    }
+
+
+def own_changes(sides: Sequence[Side]) -> list[OwnChange]:
+    """Return the inputs that were typed differently, not what follows from them; what all have first, the greatest differences before others.
+
+    Inputs of a mechanism are compared among the documents that have it, of the same kind.
+    """
+    homes = [{"": "", **{name: each.kind for name, each in side.mechanisms.items()}} if side else {} for side in sides]
+    inputs = [dict(_of_kinds(side)) if side else {} for side in sides]
+    found = []
+    for name, kind, path in dict.fromkeys(chain(*inputs)):
+        rows = [each.get((name, kind, path)) for each in inputs]
+        compared = [row for row, home in zip(rows, homes, strict=True) if home.get(name) == kind]
+        if any(_is_own(compared[0], other) for other in compared[1:]):
+            found.append((path, rows))
+    return sorted(found, key=lambda each: (not each[0].startswith(f"{PRESS}."), *_spread(each[1])))
+
+
+def _of_kinds(results: ResultsRecord) -> Iterator[tuple[tuple[str, str, str], QuantityRecord]]:
+    yield from ((("", "", row.path), row) for row in results.press.fields)
+    for name, mechanism in results.mechanisms.items():
+        yield from (((name, mechanism.kind, f"{name}.{key}"), row) for key, row in mechanism.inputs.items())
+
+
+def _is_own(before: QuantityRecord | None, after: QuantityRecord | None) -> bool:
+    """Whether an input differs because somebody typed it: a default that comes or goes with another input is not."""
+    if before is None or after is None:
+        return any(row and row.origin != "default" for row in (before, after))
+    is_typed = not before.origin == after.origin == "default" and not _follows(before, after)
+    bases = {row.basis or GIVEN for row in (before, after)}  # a default has none
+    return is_typed and (_has_other_value(before, after) or len(bases) > 1)
+
+
+def _spread(rows: Sequence[QuantityRecord | None]) -> tuple[bool, float]:
+    values = [row.value for row in rows if row]
+    numbers = [value for value in values if _is_number(value)]
+    greatest = max(map(abs, numbers), default=0.0)
+    spread = (max(numbers) - min(numbers)) / greatest if greatest and len(numbers) == len(values) else math.inf
+    return len(values) < len(rows), -spread
 
 
 # --- code ------------------------------------------------------------------------------------------------------------

@@ -1,33 +1,33 @@
-"""Configurations calculated side by side on all cores: of each its results, or what is wrong with it."""
+"""Configurations and variants of studies, calculated side by side on all cores: of each its results, or what is wrong with it."""
 
 from __future__ import annotations
 
 import os
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from hashlib import sha256
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import Any
 
 from diecut_report.config import yaml
 from diecut_report.config.loader import is_study
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
-from diecut_report.errors import Problem, UserError
-from diecut_report.quantities.units import pretty
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.report.text import translated
-from diecut_report.results.conclusion import SELF_TEST, doubtful_kinds
-from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, QuantityRecord
+from diecut_report.results.mechanism_record import MechanismRecord
 from diecut_report.results.model import ResultsRecord
+from diecut_report.study.analysis.variant_config import variant_config, variant_named
+from diecut_report.study.analysis.variants import opened
 from diecut_report.study.execution.engines import WorkerSetup, local_engine, results, settle
+from diecut_report.study.storage.state import STATE
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase
-from diecut_report.text.translation import localised
 
 ENDINGS = (".yaml", ".yml")
 MAX_MACHINES = 10_000  # machines of one check
+MAX_VARIANTS = 100  # of a study that is named as a whole: each is calculated anew
 UNUSED: dict[str, Any] = {"curves": {}, "values": {}, "lists": {}} | {
     key: [] for key in ("sections", "figures", "exports", "assumptions", "sources", "errata", "absent")
 }
@@ -58,11 +58,17 @@ class FoundFiles:
 
 
 def configurations(given: Sequence[Path]) -> FoundFiles:
-    """Return the files to calculate: those named, and of folders all configurations, by name; UserError where there are none."""
+    """Return what to calculate: what is named, of folders all configurations by name, of a study's results the variants ``DIR#N``.
+
+    UserError where there is nothing.
+    """
     found = FoundFiles()
     for path in given:
         if not os.path.isdir(path):
             found.files.append(path)
+            continue
+        if os.path.exists(path / STATE):
+            _add_variants(path, found)
             continue
         for inner in sorted(each for each in path.rglob("*") if each.suffix in ENDINGS and each.is_file()):
             if why := _why_no_configuration(inner):
@@ -78,6 +84,32 @@ def configurations(given: Sequence[Path]) -> FoundFiles:
         template = "These are {count} configurations; at most {most} are checked at once."
         raise UserError(Problem(Phrase(template, count=len(found.files), most=MAX_MACHINES)))
     return found
+
+
+def _add_variants(folder: Path, found: FoundFiles) -> None:
+    """Add all variants of a study of few; the folder itself where that is not possible, which is reported with the others."""
+    try:
+        variants = _few_variants(folder)
+    except UserError:
+        found.files.append(folder)
+        return
+    for number, status in variants:
+        if status == BROKEN:
+            found.passed_over[Path(f"{folder}#{number}")] = phrase("this variant cannot be calculated")
+        else:
+            found.files.append(Path(f"{folder}#{number}"))
+
+
+def _few_variants(folder: Path) -> list[tuple[int, str]]:
+    """Return the number and the status of each variant of a study; UserError where there are too many to compare, or none to read."""
+    with opened(folder) as stored:
+        variants: list[tuple[int, str]] = stored.rows(
+            f"SELECT variant, status FROM v ORDER BY variant LIMIT {MAX_VARIANTS + 1}"
+        )
+    if len(variants) > MAX_VARIANTS:
+        template = "This study has more than {most} variants. Name some: {folder}#3 {folder}#17; `diecut-report variants {folder}` finds them."
+        raise refusal(template, folder, most=MAX_VARIANTS, folder=folder)
+    return variants
 
 
 def _why_no_configuration(path: Path) -> str:
@@ -110,23 +142,37 @@ def _loaded(folders: tuple[str, ...]) -> Discovery:
 
 
 def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMachine:
-    """Return what comes out of a file, or of what was read of it."""
+    """Return what comes out of a file or a variant ``DIR#N``, or of what was read of it."""
     from diecut_report.press import Press
 
-    given = chunk[1] if isinstance(chunk[1], Tree) else Path(chunk[1])
-    file = given.file if isinstance(given, Tree) else str(given)
+    given = chunk[1]
+    file, notes = given.file if isinstance(given, Tree) else given, list[str]()
+    source: Path | Tree | None = None
     try:
         with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):  # a plugin may print
-            made = Press.read(given, discovery).calculate()
+            source = _source(given, discovery, notes)
+            made = Press.read(source, discovery).calculate()
     except UserError as error:
         problems = error.problems
         try:  # all that is wrong: calculating stops at the first of its checks
-            Press.validate(given, discovery)
+            if source is not None:
+                Press.validate(source, discovery)
         except UserError as more:
             problems = more.problems
         return CheckedMachine(file, BAD, None, [str(problem) for problem in problems])
     status = BROKEN if made.broken else made.results.status
-    return CheckedMachine(file, status, _lean(made.results), [*map(str, made.broken), *made.warnings])
+    return CheckedMachine(file, status, _lean(made.results), [*map(str, made.broken), *made.warnings, *notes])
+
+
+def _source(given: str | Tree, discovery: Discovery, notes: list[str]) -> Path | Tree:
+    if isinstance(given, Tree):
+        return given
+    if variant := variant_named(Path(given)):
+        folder, number = variant
+        return variant_config(folder, number, discovery, f"{folder.resolve().name}-{number}.yaml", notes.append)
+    if os.path.exists(Path(given) / STATE):
+        _few_variants(Path(given))  # it is here because that is refused
+    return Path(given)
 
 
 def _lean(whole: ResultsRecord) -> ResultsRecord:
@@ -134,107 +180,6 @@ def _lean(whole: ResultsRecord) -> ResultsRecord:
     kept = {name: data.with_(**UNUSED) for name, data in whole.mechanisms.items()}
     config = whole.config.with_(source_text="", resolved={}, materials=[], logo=None)
     return whole.with_(config=config, mechanisms=kept, comparisons={})
-
-
-# What machines have in common and where they differ: verdicts, the matrix of checks, unlike inputs, advice. Plain data.
-
-
-Data = Mapping[str, Any]
-NOT_CHECKED, INCOMPLETE = "not_checked", "incomplete"
-STATES = {
-    "pass": phrase("pass"),
-    INCOMPLETE: phrase("conditional"),
-    "warn": phrase("warn"),
-    "fail": phrase("fail"),
-    BROKEN: phrase("error"),
-    BAD: phrase("bad"),
-    "skipped": phrase("skipped"),
-    NOT_CHECKED: phrase("not checked"),
-}
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """Hold a machine's line of the table of verdicts; ``words`` say what is wrong with a bad file, or with a plugin."""
-
-    machine: str
-    file: str
-    status: str
-    governing: str = ""
-    utilisation: float | None = None
-    failed: int = 0
-    not_checked: int = 0
-    warnings: int = 0
-    words: tuple[str, ...] = ()
-    formulas_with_faults: bool = False
-    assumed: int = 0
-    conclusion: str = ""
-
-    @property
-    def face(self) -> str:
-        """Return the verdict as it is shown: one that passes, but leaves something open, is conditional."""
-        is_open = self.not_checked or self.assumed or self.formulas_with_faults
-        return INCOMPLETE if self.status == "pass" and is_open else self.status
-
-
-@dataclass(frozen=True)
-class MachineComparison:
-    """Hold machines side by side: a row has a cell for each of ``machines``, "" or None where a machine lacks it."""
-
-    machines: list[str]
-    verdicts: list[Verdict]
-    checks: list[tuple[str, str, list[dict[str, Any] | None]]]  # id, title, status and utilisation of each
-    inputs: list[tuple[str, str, list[str]]]  # path, description, what each has
-    advice: list[tuple[str, list[str]]]  # machine, what to do
-
-    def as_data(self) -> dict[str, Any]:
-        """Return it as the JSON file holds it."""
-
-        def of_each(cells: Sequence[Any]) -> dict[str, Any]:
-            return dict(zip(self.machines, cells, strict=True))
-
-        checks = [{"id": name, "title": title, "machines": of_each(cells)} for name, title, cells in self.checks]
-        inputs = [{"path": path, "description": text, "machines": of_each(cells)} for path, text, cells in self.inputs]
-        return {
-            "schema_version": 1,
-            "machines": [asdict(verdict) for verdict in self.verdicts],
-            "checks": checks,
-            "differing_inputs": inputs,
-            "advice": dict(self.advice),
-        }
-
-
-def verdict(machine: CheckedMachine, name: str) -> Verdict:
-    """Return a machine's line."""
-    if machine.status == BAD:
-        return Verdict(name, machine.file, BAD, words=tuple(machine.words))
-    results = machine.results
-    assert results is not None, "only a bad file has none"
-    checks = dict(_checks(machine))
-    governing = str(results.governing) if results.governing else ""
-    count = Counter(check.status for check in checks.values())
-    return Verdict(
-        name, machine.file, machine.status, governing,
-        utilisation=checks[governing].utilisation if governing in checks else None,
-        failed=count["fail"], not_checked=results.summary.not_checked, warnings=count["warn"],
-        words=tuple(machine.words), formulas_with_faults=bool(doubtful_kinds(results)),
-        assumed=len(results.summary.assumed), conclusion=results.summary.conclusion,
-    )  # fmt: skip
-
-
-def _checks(machine: CheckedMachine) -> Iterator[tuple[str, CheckRecord]]:
-    for name, data in machine.mechanisms.items():
-        own = (check for check in data.checks if check.check_class != SELF_TEST)
-        yield from ((f"{name}.{check.id}", check) for check in own)
-
-
-def names(files: Sequence[str]) -> list[str]:
-    """Return what machines are called: their files' names, with so much of the path as tells them apart."""
-    parts = [PurePath(file).with_suffix("").parts for file in files]
-    length = 1
-    while len({part[-length:] for part in parts}) < len(set(parts)):
-        length += 1
-    return ["/".join(part[-length:]) for part in parts]
 
 
 def language_of(machines: Sequence[CheckedMachine]) -> str:
@@ -248,38 +193,3 @@ def in_language(machines: Sequence[CheckedMachine], catalogues: Catalogues) -> l
     if catalogues.language == SOURCE_LANGUAGE:
         return list(machines)
     return [replace(each, results=translated(each.results, catalogues)) if each.results else each for each in machines]
-
-
-def compared(machines: Sequence[CheckedMachine]) -> MachineComparison:
-    """Return machines side by side; bad ones have a verdict alone."""
-    called = names([machine.file for machine in machines])
-    verdicts = [verdict(machine, name) for machine, name in zip(machines, called, strict=True)]
-    good = {name: machine for name, machine in zip(called, machines, strict=True) if machine.status != BAD}
-    checks = [dict(_checks(machine)) for machine in good.values()]
-    titles = {key: check.title for some in checks for key, check in some.items()}
-    matrix = [(key, title, [_cell(some.get(key)) for some in checks]) for key, title in titles.items()]
-    inputs = [dict(_inputs(machine)) for machine in good.values()]
-    described = {key: row.description for some in inputs for key, row in some.items()}
-    rows = [(key, text, [_shown(some.get(key)) for some in inputs]) for key, text in described.items()]
-    advice = [(name, _advice(some)) for name, some in zip(good, checks, strict=True)]
-    differing = [row for row in rows if len(set(row[2])) > 1]
-    return MachineComparison(list(good), verdicts, matrix, differing, [each for each in advice if each[1]])
-
-
-def _cell(check: CheckRecord | None) -> dict[str, Any] | None:
-    return None if check is None else {"status": check.status, "utilisation": check.utilisation}
-
-
-def _inputs(machine: CheckedMachine) -> Iterator[tuple[str, QuantityRecord]]:
-    yield from ((row.path, row) for row in (machine.results.press.fields if machine.results else ()))
-    for name, data in machine.mechanisms.items():
-        yield from ((f"{name}.{key}", row) for key, row in data.inputs.items())
-
-
-def _shown(row: QuantityRecord | None) -> str:
-    return f"{localised(row.display.text)} {pretty(row.display.unit)}".rstrip() if row else ""
-
-
-def _advice(checks: Mapping[str, CheckRecord]) -> list[str]:
-    failing = ((name, check) for name, check in checks.items() if check.status in ("fail", "warn"))
-    return [f"{name}: {check.message}" for name, check in failing]

@@ -63,9 +63,10 @@ def test_a_machine_that_passes_on_what_is_assumed_is_conditional(tmp_path: Path,
     assert "2 machines: 1 pass, 1 conditional.\n" in err
     stored = json.loads((tmp_path / "out" / "machines.json").read_text("utf-8"))["machines"]
     assert [each["conclusion"] for each in stored] == ["All checks pass.", "No check fails, but 1 value is assumed."]
+    assert [each["verdict"] for each in stored] == ["pass", "conditional"]
     page = (tmp_path / "out" / "machines.html").read_text("utf-8")
-    assert "No check fails, but 1 value is assumed." in page and 'class="st-incomplete">conditional' in page
-    assert "guessed,conditional," in (tmp_path / "out" / "machines.csv").read_text("utf-8")
+    assert '<span class="conditional">conditional' in page
+    assert "verdict,Verdict,1,pass,conditional" in (tmp_path / "out" / "machines.csv").read_text("utf-8")
 
 
 def test_all_pass_ends_with_0(firm: Path) -> None:
@@ -101,16 +102,18 @@ def test_the_summary_has_all_formats_with_the_same_numbers(firm: Path, tmp_path:
     data = json.loads((out / "machines.json").read_text("utf-8"))
     moment = {"firm/good": 0.8, "old/good": 0.75, "firm/weak": 200 / 150}
     assert {name: cell["utilisation"] for name, cell in data["checks"][0]["machines"].items()} == pytest.approx(moment)
-    differing = {row["path"]: list(row["machines"].values()) for row in data["differing_inputs"]}
-    assert differing == {"a.force": ["2 kN", "3 kN", "2 kN"], "a.allowable_moment": ["250 N·m", "400 N·m", "150 N·m"]}
-    assert data["advice"] == {"firm/weak": ["a.moment: Moment 200 N·m, allowed 150 N·m: shorten the arm."]}
+    differing = {row["path"]: list(row["machines"].values()) for row in data["own_changes"]}
+    assert differing == {"a.force": [2, 3, 2], "a.allowable_moment": [250, 400, 150]}
+    advice = "Moment 200 N·m, allowed 150 N·m: shorten the arm."
+    assert data["advice"] == [{"machine": "firm/weak", "check": "a.moment", "text": advice}]
     rows = list(csv.reader(io.StringIO((out / "machines.csv").read_text("utf-8"))))
-    assert ["a.moment", "Moment", "pass 0.8", "pass 0.75", "fail 1.33333"] in rows
+    assert ["a.checks.moment.utilisation", "Moment", "1", "0.8", "0.75", "1.3333333333333333"] in rows
+    assert ["a.checks.moment.status", "Moment", "", "pass", "pass", "fail"] in rows
     book = openpyxl.load_workbook(out / "machines.xlsx")
-    assert book.sheetnames == ["verdicts", "checks", "differing inputs", "advice"]
-    assert book["verdicts"]["B4"].value == "fail"
+    assert book.sheetnames == ["comparison", "differences", "checks", "advice"]
+    assert book["comparison"]["B4"].value == "fail"
     page = (out / "machines.html").read_text("utf-8")
-    assert "133.3 %" in page and "shorten the arm" in page and "<script" not in page
+    assert "133.3\N{NO-BREAK SPACE}%" in page and "shorten the arm" in page and "<script" not in page
     document = PdfReader(out / "machines.pdf")
     assert re.search(rf"\b1\s+of\s+{len(document.pages)}\b", document.pages[0].extract_text())
 
@@ -138,7 +141,7 @@ def test_only_the_asked_formats_are_written(firm: Path, tmp_path: Path) -> None:
 
 def test_strict_ends_with_1_where_something_is_not_checked() -> None:
     from diecut_report.cli.checking import _code
-    from diecut_report.study.machines import Verdict
+    from diecut_report.study.comparison import Verdict
 
     doubtful = [Verdict("a", "a.yaml", "pass", not_checked=2)]
     assert (_code(doubtful, strict=False), _code(doubtful, strict=True)) == (0, 1)
@@ -147,7 +150,8 @@ def test_strict_ends_with_1_where_something_is_not_checked() -> None:
 
 
 def test_what_is_not_checked_is_counted_from_the_results() -> None:
-    from diecut_report.study.machines import CheckedMachine, verdict
+    from diecut_report.study.comparison import verdict
+    from diecut_report.study.machines import CheckedMachine
 
     results = filled(ResultsRecord, {"summary": {"not_checked": 7}})
     assert verdict(CheckedMachine("a.yaml", "pass", results), "a").not_checked == 7

@@ -22,6 +22,10 @@ def test_a_page_is_true(tmp_path: Path, page: str) -> None:
         check_mechanism(load(file.stem, tmp_path / "my_plugins"))
 
 
+def test_the_page_about_comparing_is_true(tmp_path: Path) -> None:
+    assert PageRun(ROOT / "docs" / "comparing-machines.md", tmp_path).execute() == 4
+
+
 def test_the_index_names_each_page() -> None:
     index = (FOLDER / "README.md").read_text("utf-8")
     assert [page for page in PAGES if f"({page}.md)" not in index] == []

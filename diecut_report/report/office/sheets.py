@@ -43,7 +43,10 @@ Cell = str | CellNumber | None
 
 @dataclass
 class WorkSheet:
-    """A sheet; its heads stay in view. ``names`` are names by which formulas find a cell: name, row and column, counted from 1."""
+    """A sheet; its heads stay in view. ``names`` are names by which formulas find a cell: name, row and column, counted from 1.
+
+    ``bars`` are the columns, counted from 0, that a chart below the rows draws as bars over the names in the first column.
+    """
 
     title: str
     heads: list[list[str]]
@@ -51,6 +54,8 @@ class WorkSheet:
     widths: list[int]
     names: dict[str, tuple[int, int]] = field(default_factory=dict)
     held: int = 1  # columns that stay in view
+    is_filtered: bool = False  # whether its heads choose among its rows
+    bars: list[int] = field(default_factory=list)
 
 
 def form_of(text: str) -> str:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
@@ -16,6 +17,7 @@ from diecut_report.report.office.sheets import LONGEST_TEXT, Cell, CellNumber, W
 
 if TYPE_CHECKING:
     from openpyxl import Workbook
+    from openpyxl.packaging.core import DocumentProperties
     from openpyxl.worksheet._write_only import WriteOnlyWorksheet
 
 
@@ -59,6 +61,7 @@ def holdable(text: str) -> str:
     return _UNHOLDABLE.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
+PROGRAM = "diecut-report"
 HEAD_COLOUR = "E9EDF1"
 FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")  # what a spreadsheet takes for the begin of a formula
 WRAPPED_FROM = 40  # letters wide: the texts of such a column go on in a further line
@@ -66,15 +69,22 @@ WRAPPED_FROM = 40  # letters wide: the texts of such a column go on in a further
 
 def workbook(material: Material) -> bytes:
     """Return the report as XLSX; the same bytes for the same results."""
+    return book_of(sheets(material), partial(_describe, material))
+
+
+def book_of(made: Sequence[WorkSheet], describe: Callable[[DocumentProperties], None] = lambda _: None) -> bytes:
+    """Return sheets as XLSX; the same bytes for the same sheets. ``describe`` adds to the properties of the document."""
     from openpyxl import Workbook
     from openpyxl.writer.excel import ExcelWriter
 
-    book, content, made = Workbook(write_only=True), BytesIO(), sheets(material)
+    book, content = Workbook(write_only=True), BytesIO()
     with closed(book):
         for name, sheet in zip(sheet_names(sheet.title for sheet in made), made, strict=True):
             _Filled(book.create_sheet(name), sheet).fill()
             _name_cells(book, name, sheet)
-        _describe(book, material)
+        about = book.properties
+        about.creator, about.created, about.modified = PROGRAM, DATE, DATE
+        describe(about)
         # not Workbook.save, which writes the time
         ExcelWriter(book, UndatedArchive(content)).save()
     return content.getvalue()
@@ -109,6 +119,26 @@ class _Filled:
             self.into.append([self._text(text, self.wrapped, font=self.bold, fill=self.fill_of_heads) for text in head])
         for row in self.sheet.rows:
             self.into.append([self._cell(value, column) for column, value in enumerate(row)])
+        if self.sheet.is_filtered:
+            last = get_column_letter(len(self.sheet.widths))
+            self.into.auto_filter.ref = f"A{len(self.sheet.heads)}:{last}{len(self.sheet.heads) + len(self.sheet.rows)}"
+        if self.sheet.bars:
+            self._draw_bars()
+
+    def _draw_bars(self) -> None:
+        """Draw columns of the sheet as bars over its first column, below the rows."""
+        from openpyxl.chart import BarChart, Reference
+
+        first, last = len(self.sheet.heads), len(self.sheet.heads) + len(self.sheet.rows)
+        chart = BarChart()
+        for column in self.sheet.bars:
+            chart.add_data(Reference(self.into, min_col=column + 1, min_row=first, max_row=last), titles_from_data=True)
+        chart.set_categories(Reference(self.into, min_col=1, min_row=first + 1, max_row=last))
+        chart.y_axis.number_format, chart.y_axis.scaling.min = "0%", 0
+        chart.x_axis.delete = chart.y_axis.delete = False
+        chart.legend.position = "b"
+        chart.width, chart.height = 26, 11  # cm
+        self.into.add_chart(chart, f"A{last + 3}")
 
     def _text(self, text: str, alignment: Any, **look: Any) -> Any:
         cell = text_cell(self.into, text)
@@ -166,11 +196,9 @@ def _name_cells(book: Workbook, name: str, sheet: WorkSheet) -> None:
         book.defined_names[each] = DefinedName(each, attr_text=f"{quote_sheetname(name)}!{place}")
 
 
-def _describe(book: Workbook, material: Material) -> None:
+def _describe(material: Material, about: DocumentProperties) -> None:
     project, document = material.document.project, material.document
-    told = book.properties
-    told.title, told.subject = holdable(document.title), holdable(project["document_number"])
-    told.creator = told.lastModifiedBy = holdable(project["prepared_by"] or document.program.name)
-    told.description = holdable(f"{document.program.name} {document.program.version}")
-    told.language, told.version = document.words.language, holdable(project["revision"])
-    told.created = told.modified = DATE
+    about.title, about.subject = holdable(document.title), holdable(project["document_number"])
+    about.creator = about.lastModifiedBy = holdable(project["prepared_by"] or document.program.name)
+    about.description = holdable(f"{document.program.name} {document.program.version}")
+    about.language, about.version = document.words.language, holdable(project["revision"])

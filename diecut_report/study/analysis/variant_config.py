@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePath
@@ -19,7 +20,7 @@ from diecut_report.quantities.formatting import as_typed
 from diecut_report.quantities.units import unit
 from diecut_report.study.analysis.variants import Stored, StoredColumn, opened, other_code
 from diecut_report.study.definition.base_inputs import MECHANISMS
-from diecut_report.study.storage.state import kept
+from diecut_report.study.storage.state import STATE, kept
 from diecut_report.text.phrases import Phrase, phrase
 
 
@@ -42,6 +43,18 @@ class TakenConfig:
     status: str
     governing: str
     beside: Mapping[str, Path]
+
+
+LONGEST_NUMBER = 18  # digits of a variant's number
+
+
+def variant_named(given: Path) -> tuple[Path, int] | None:
+    """Return the folder and the number of ``DIR#N``, where DIR holds a study's results; None for any other name."""
+    folder, _, number = str(given).rpartition("#")
+    is_number = number.isascii() and number.isdecimal() and len(number) <= LONGEST_NUMBER
+    if not folder or not is_number or os.path.exists(given) or not os.path.exists(Path(folder) / STATE):
+        return None
+    return Path(folder), int(number)
 
 
 def variant_config(

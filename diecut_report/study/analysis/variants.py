@@ -310,19 +310,26 @@ def compared_text(
     columns: Sequence[StoredColumn], rows: Sequence[Sequence[Any]], width: int | None, *, keep_equal: bool
 ) -> tuple[str, int]:
     """Return variants side by side, a line for each quantity with its unit, and how many quantities are left out as equal for all."""
+    lines = [(column, [row[index] for row in rows]) for index, column in enumerate(columns) if column.name != "variant"]
+    kept = [(column, values) for column, values in lines if keep_equal or any(value != values[0] for value in values)]
+    texts = [
+        [column.name, pretty(column.display), *(shown(value, column) for value in values)] for column, values in kept
+    ]
+    return side_by_side([str(row[0]) for row in rows], texts, width), len(lines) - len(kept)
+
+
+def side_by_side(names: Sequence[str], rows: Iterable[Sequence[str]], width: int | None) -> str:
+    """Return a table of texts for people: in each row a quantity, its unit, and what each of those named has."""
     from rich.text import Text
 
     table = _empty_table()
     for head in (say("quantity"), say("unit")):
         table.add_column(Text(head), justify="left", overflow="fold")
+    for name in names:
+        table.add_column(Text(name), justify="right", overflow="fold")
     for row in rows:
-        table.add_column(Text(str(row[0])), justify="right", overflow="fold")
-    lines = [(column, [row[index] for row in rows]) for index, column in enumerate(columns) if column.name != "variant"]
-    kept = [(column, values) for column, values in lines if keep_equal or any(value != values[0] for value in values)]
-    for column, values in kept:
-        texts = [column.name, pretty(column.display), *(shown(value, column) for value in values)]
-        table.add_row(*map(Text, texts))
-    return _printed(table, width), len(lines) - len(kept)
+        table.add_row(*map(Text, row))
+    return _printed(table, width)
 
 
 def _fitting(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) -> list[int]:

@@ -1,0 +1,327 @@
+"""Machines side by side in one table: verdicts, chosen results, what was typed differently, checks; a row each, a cell for each machine."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import PurePath
+from typing import Any
+
+from diecut_report.config.validation import GIVEN
+from diecut_report.quantities.formatting import given_shown
+from diecut_report.quantities.formatting import shown as result_shown
+from diecut_report.quantities.units import pretty, to_display, unit
+from diecut_report.report.model import utilisation
+from diecut_report.results.changes import differing_kinds, own_changes
+from diecut_report.results.conclusion import RANK, SELF_TEST, doubtful_kinds, is_open
+from diecut_report.results.mechanism_record import CheckRecord, QuantityRecord
+from diecut_report.study.analysis.variants import side_by_side
+from diecut_report.study.machines import BAD, ENDINGS, CheckedMachine
+from diecut_report.text.phrases import Counted, Phrase, phrase
+from diecut_report.text.translation import decimal_sign, localised, said, say
+
+CONDITIONAL, NOT_CHECKED = "conditional", "not_checked"
+WORDS = {
+    "pass": phrase("pass"),
+    CONDITIONAL: phrase("conditional"),
+    "fail": phrase("fail"),
+    "error": phrase("error"),
+    BAD: phrase("bad file"),
+    "warn": phrase("warn"),
+    "skipped": phrase("skipped"),
+    NOT_CHECKED: phrase("not checked"),
+}
+"""The verdicts of machines and the states of checks in words."""
+TITLES = {
+    "verdict": phrase("Verdict"),
+    "utilisation": phrase("Governing check"),
+    "failed": phrase("Checks that fail"),
+    "warnings": phrase("Checks that warn"),
+    "not_checked": phrase("Checks not made"),
+    "assumed": phrase("Assumed values"),
+}
+"""What the rows on a machine as a whole are called."""
+COUNTED = ("failed", "warnings", "not_checked", "assumed")
+MOST_ROWS = 40  # of inputs or checks that a page and a terminal show; files for programs have all
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Hold what is concluded of a machine; ``messages`` say what is wrong with a bad file, or with a plugin."""
+
+    machine: str
+    file: str
+    status: str
+    governing: str = ""
+    utilisation: float | None = None
+    failed: int = 0
+    not_checked: int = 0
+    warnings: int = 0
+    messages: tuple[str, ...] = ()
+    formulas_with_faults: bool = False
+    assumed: int = 0
+    conclusion: str = ""
+    verdict: str = BAD
+    """``pass``, ``conditional`` or ``fail``; ``error`` where a plugin broke, ``bad`` where the file is bad."""
+
+
+@dataclass(frozen=True)
+class ComparedCell:
+    """Hold what a machine has in a row: a number in the row's unit or a text, as it is printed, with its verdict and a note."""
+
+    value: float | str | bool | None
+    text: str
+    status: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class ComparedRow:
+    """Hold a row: its path, what it is, a cell for each machine (None where it has none), the unit of its numbers (``1`` without one)."""
+
+    path: str
+    title: str
+    cells: list[ComparedCell | None]
+    unit: str = "1"
+
+    @property
+    def head(self) -> str:
+        """Return what the row is, with its unit: ``Mass of the cylinder [kg]``."""
+        return f"{self.title} [{pretty(self.unit)}]" if pretty(self.unit) else self.title
+
+
+@dataclass(frozen=True)
+class MachineComparison:
+    """Hold machines side by side; each row has a cell for each of ``machines``."""
+
+    machines: list[Verdict]
+    results: list[ComparedRow]
+    kinds: list[ComparedRow] = field(default_factory=list)
+    changes: list[ComparedRow] = field(default_factory=list)
+    checks: list[ComparedRow] = field(default_factory=list)
+    advice: list[tuple[str, str, str]] = field(default_factory=list)  # machine, check, what to do
+
+    @property
+    def names(self) -> list[str]:
+        """Return what the machines are called."""
+        return [each.machine for each in self.machines]
+
+    @property
+    def verdicts(self) -> list[ComparedRow]:
+        """Return the rows on the machines as wholes."""
+        rows = {"verdict": _verdict_cell, "utilisation": _governing} | {key: partial(_count, key) for key in COUNTED}
+        return [ComparedRow(key, said(TITLES[key]), list(map(cell, self.machines))) for key, cell in rows.items()]
+
+    @property
+    def telling_checks(self) -> list[ComparedRow]:
+        """Return the checks that do not hold somewhere, or not everywhere alike, the worst first; the others say nothing."""
+        return sorted((row for row in self.checks if _is_telling(row)), key=_worst_first)
+
+    @property
+    def omitted(self) -> Phrase | None:
+        """Return how many inputs a page and a terminal leave out; None where they show all."""
+        count = len(self.changes) - MOST_ROWS
+        one = "{n} more input differs; the workbook and the JSON file (-o DIR) list it."
+        return (
+            Counted(count, one, "{n} more inputs differ; the workbook and the JSON file (-o DIR) list them.")
+            if count > 0
+            else None
+        )
+
+
+def _verdict_cell(of: Verdict) -> ComparedCell:
+    note = say("formulas with faults") if of.formulas_with_faults else ""
+    return ComparedCell(of.verdict, said(WORDS[of.verdict]), of.verdict, note)
+
+
+def _governing(of: Verdict) -> ComparedCell | None:
+    """Return the utilisation of the check that governs, and which it is; of one that has none the verdict."""
+    return share_cell(of.utilisation, of.status, of.governing) if of.governing else None
+
+
+def _count(key: str, of: Verdict) -> ComparedCell | None:
+    count = getattr(of, key)
+    return None if of.status == BAD else ComparedCell(count, str(count))
+
+
+def share_cell(share: float | None, status: str, note: str = "") -> ComparedCell:
+    """Return a utilisation as a cell, printed in per cent; of a check that has none its state in words."""
+    text = said(WORDS[status]) if share is None else utilisation(share, status, decimal_sign())
+    return ComparedCell(share, text, status, note)
+
+
+def _is_telling(row: ComparedRow) -> bool:
+    states = {cell.status for cell in row.cells if cell}
+    return bool(states & {"fail", "warn"}) or len(states) > 1
+
+
+def _worst_first(row: ComparedRow) -> tuple[int, float]:
+    cells = [cell for cell in row.cells if cell]
+    used = [cell.value for cell in cells if isinstance(cell.value, float)]
+    return -max(RANK.get(cell.status, 0) for cell in cells), -max(used, default=math.inf)
+
+
+def text_table(made: MachineComparison, names: Sequence[str], width: int | None) -> str:
+    """Return a comparison as people read it on a terminal, the machines called by ``names``; what has a path is called by it."""
+    rows = [(row.path if "." in row.path else row.title, row) for row in (*made.verdicts, *made.results)]
+    rows += [(row.path, row) for row in (*made.kinds, *made.changes[:MOST_ROWS])]
+    return side_by_side(names, ([head, pretty(row.unit), *map(_in_lines, row.cells)] for head, row in rows), width)
+
+
+def _in_lines(cell: ComparedCell | None) -> str:
+    return "\n".join(filter(None, (cell.text, cell.note))) if cell else "–"
+
+
+# What is concluded of each machine, and what it is called.
+
+
+def named_checks(machine: CheckedMachine) -> Iterator[tuple[str, CheckRecord]]:
+    """Yield the checks of a machine by MECHANISM.ID, without the self-tests of the calculation."""
+    for name, data in machine.mechanisms.items():
+        own = (check for check in data.checks if check.check_class != SELF_TEST)
+        yield from ((f"{name}.{check.id}", check) for check in own)
+
+
+def verdict(machine: CheckedMachine, name: str) -> Verdict:
+    """Return what is concluded of a machine that is called so."""
+    results = machine.results
+    if results is None:
+        return Verdict(name, machine.file, machine.status, messages=tuple(machine.words))
+    checks, summary = dict(named_checks(machine)), results.summary
+    governing = str(results.governing) if results.governing else ""
+    count = Counter(check.status for check in checks.values())
+    concluded = machine.status if machine.status in ("fail", "error") else CONDITIONAL if is_open(results) else "pass"
+    return Verdict(
+        name, machine.file, machine.status, governing,
+        utilisation=checks[governing].utilisation if governing in checks else None,
+        failed=count["fail"], not_checked=summary.not_checked, warnings=count["warn"], messages=tuple(machine.words),
+        formulas_with_faults=bool(doubtful_kinds(results)), assumed=len(summary.assumed), conclusion=summary.conclusion, verdict=concluded,
+    )  # fmt: skip
+
+
+def names(files: Sequence[str]) -> list[str]:
+    """Return what machines are called: their files' names, with so much of the path as tells them apart; no two are alike."""
+    parts = [_parts(file) for file in files]
+    length = 1
+    while length < max(map(len, parts)) and len({part[-length:] for part in parts}) < len(set(parts)):
+        length += 1
+    called = ["/".join(part[-length:]) for part in parts]
+    count = Counter(called)  # press.yaml and press.yml are alike without their endings
+    whole = ["/".join(PurePath(file).parts[-length:]) for file in files]
+    return [long if count[short] > 1 else short for short, long in zip(called, whole, strict=True)]
+
+
+def _parts(file: str) -> tuple[str, ...]:
+    path = PurePath(file)
+    return (path.with_suffix("") if path.suffix in ENDINGS else path).parts
+
+
+# The rows.
+
+
+def compared(
+    machines: Sequence[CheckedMachine], results: Sequence[ComparedRow], units: Sequence[str] = ()
+) -> MachineComparison:
+    """Return machines side by side with these rows of results; ``units`` are chosen for quantities of their dimensions."""
+    called = names([machine.file for machine in machines])
+    sides = [machine.results for machine in machines]
+    checks = [dict(named_checks(machine)) for machine in machines]
+    titles = {key: check.title for some in checks for key, check in some.items()}
+    return MachineComparison(
+        [verdict(machine, name) for machine, name in zip(machines, called, strict=True)],
+        list(results),
+        kinds=[ComparedRow(name, say("Kind of the mechanism"), list(map(_kind_cell, kinds))) for name, kinds in differing_kinds(sides).items()],
+        changes=[row for path, records in own_changes(sides) for row in quantity_rows(path, records, units)],
+        checks=[ComparedRow(key, title, [_check_cell(some.get(key)) for some in checks]) for key, title in titles.items()],
+        advice=[(name, *each) for name, some in zip(called, checks, strict=True) for each in _advice(some)],
+    )  # fmt: skip
+
+
+def _kind_cell(kind: str) -> ComparedCell | None:
+    return ComparedCell(kind, kind) if kind else None
+
+
+def _check_cell(check: CheckRecord | None) -> ComparedCell | None:
+    if check is None:
+        return None
+    note = "" if check.status == "pass" or check.utilisation is None else said(WORDS[check.status])
+    return share_cell(check.utilisation, check.status, note)
+
+
+def _advice(checks: Mapping[str, CheckRecord]) -> Iterator[tuple[str, str]]:
+    failing = ((name, check) for name, check in checks.items() if check.status in ("fail", "warn"))
+    yield from ((name, str(check.message)) for name, check in failing)
+
+
+Records = Sequence[QuantityRecord | None]
+
+
+def quantity_rows(path: str, records: Records, units: Sequence[str]) -> Iterator[ComparedRow]:
+    """Yield the row of a quantity; several where machines have it in several dimensions. What it rests on is noted where that differs."""
+    kinds = dict.fromkeys(record.unit for record in records if record)
+    bases = {record.basis or GIVEN for record in records if record}
+    for si in kinds:
+        own = [record if record and record.unit == si else None for record in records]
+        first = next(record for record in own if record)
+        chosen = chosen_unit(first.display.unit, units)
+        cells = [_quantity_cell(each, chosen, len(bases) > 1) for each in own]
+        yield ComparedRow(path, first.description, cells, chosen)
+
+
+def chosen_unit(display: str, units: Sequence[str]) -> str:
+    """Return the unit among those asked for that fits a quantity; its own where none does."""
+    return next((each for each in units if unit(each).kind == unit(display).kind), display)
+
+
+def _quantity_cell(record: QuantityRecord | None, chosen: str, says_basis: bool) -> ComparedCell | None:
+    if record is None:
+        return None
+    note = say(record.basis) if says_basis and record.basis not in ("", GIVEN) else ""
+    value, display = record.value, record.display
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        text = said(display.text)
+        return ComparedCell(text, text, note=note)
+    return number_cell(
+        value, chosen, display.text if display.unit == chosen else "", note=note, is_typed=bool(record.origin)
+    )
+
+
+def number_cell(value: float, chosen: str, text: str = "", *, note: str = "", is_typed: bool = False) -> ComparedCell:
+    """Return an SI value as a cell in a unit; ``text`` is how it is printed there, if that is known, else as a result or as it was typed."""
+    text = text or (given_shown if is_typed else result_shown)(value, chosen)["text"]
+    return ComparedCell(float(f"{to_display(value, chosen):.15g}"), localised(text), note=note)
+
+
+def parts_noted(count: int) -> str:
+    """Return of how many parts a number is the sum."""
+    return said(Counted(count, "{n} part", "{n} parts"))
+
+
+def as_data(made: MachineComparison) -> dict[str, Any]:
+    """Return a comparison as the JSON file holds it: numbers, each row with its unit."""
+
+    def of_each(row: ComparedRow) -> dict[str, Any]:
+        cells = dict(zip(made.names, row.cells, strict=True))
+        notes = {name: cell.note for name, cell in cells.items() if cell and cell.note}
+        values = {name: cell.value if cell else None for name, cell in cells.items()}
+        return {"path": row.path, "description": row.title, "unit": row.unit, "machines": values} | (
+            {"notes": notes} if notes else {}
+        )
+
+    def of_check(row: ComparedRow) -> dict[str, Any]:
+        cells = zip(made.names, row.cells, strict=True)
+        machines = {name: cell and {"status": cell.status, "utilisation": cell.value} for name, cell in cells}
+        return {"id": row.path, "title": row.title, "machines": machines}
+
+    return {
+        "schema_version": 2,
+        "machines": [vars(each) | {"messages": list(each.messages)} for each in made.machines],
+        "results": [of_each(row) for row in made.results],
+        "mechanisms": [of_each(row) for row in made.kinds],
+        "own_changes": [of_each(row) for row in made.changes],
+        "checks": [of_check(row) for row in made.checks],
+        "advice": [{"machine": machine, "check": check, "text": text} for machine, check, text in made.advice],
+    }
