@@ -1,15 +1,18 @@
-"""Makes docs/standards.md from the data files of the standard series: ``python tools/make_standards_page.py``."""
+"""Makes docs/standards.md and docs/plausible-values.md from the data files of the standards: ``python tools/make_standards_page.py``."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import starmap
 from pathlib import Path
 
 from diecut_report.quantities.units import pretty
 from diecut_report.standards import standard_ids, standard_series, standard_series_by, standard_table
+from diecut_report.standards.ranges import EVERY, SOURCES, range_table
 from diecut_report.standards.tables import StandardSeries, StandardTable
 
 PAGE = Path(__file__).parents[1] / "docs" / "standards.md"
+RANGES = PAGE.with_name("plausible-values.md")
 INTRODUCTION = """\
 # Standard series
 
@@ -44,11 +47,47 @@ Write `diecut_report/standards/data/ID.json` with `title`, `unit`, `sources` (tw
 A value out of order or given twice, a range that is not met, an unknown unit or fewer than two sources raise a `StandardFault`
 that names the series. Type a second source's table into `tests/standards/test_standards.py` and make this page again.
 """
+PLAUSIBLE = """\
+# Plausible values
+
+Made from `diecut_report/standards/data/ranges.yaml` by `python tools/make_standards_page.py`.
+
+A value outside its usual range is a warning; outside the possible one the file is refused, unless it says why:
+`{value: 0.7, beyond: "sintered lining, measured on the test rig"}` ([how](configuration.md#plausible-values)). Zero is left to the bounds of the key.
+● marks keys whose value counts as assumed unless it states where it comes from. A row with an expression bounds what that gives.
+
+| key | usual | possible | source |
+| --- | --- | --- | --- |"""
+WITHOUT = """
+## Keys without a row
+
+Every other number has none, for one of these reasons; the bounds of the key and the sizes of its dimension hold.
+"""
 
 
 def pages() -> dict[Path, str]:
-    """The text of the page by its file."""
-    return {PAGE: "\n".join([INTRODUCTION, *_overview(), "", *_chapters(), USE])}
+    """The text of each page by its file."""
+    ranges = [PLAUSIBLE, *_ranges(), WITHOUT, *_without()]
+    return {PAGE: "\n".join([INTRODUCTION, *_overview(), "", *_chapters(), USE]), RANGES: "\n".join(ranges)}
+
+
+def _ranges() -> Iterator[str]:
+    for row in range_table().ranges:
+        keys = "; ".join(f"`{kind}`: {', '.join(starmap(_bounded, own.items()))}" for kind, own in row.keys.items())
+        unit = "" if row.unit == "1" else f" {pretty(row.unit)}"
+        usual, hard = (f"{low:g} … {high:g}{unit}" for low, high in (row.usual, row.hard))
+        yield f"| {keys}{' ●' if row.needs_basis else ''} | {usual} | {hard} | {SOURCES.get(row.by, row.by)} |"
+
+
+def _bounded(key: str, of: str) -> str:
+    return f"`{key}`, as `{of.replace('${', '').replace('}', '')}`" if of else f"`{key}`"
+
+
+def _without() -> Iterator[str]:
+    for group in range_table().without:
+        kinds = (f"{'all' if kind == EVERY else f'`{kind}`'}: {', '.join(keys)}" for kind, keys in group.keys.items())
+        yield f"- {group.reason[:1].upper()}{group.reason[1:]}. {'; '.join(kinds)}."
+    yield ""
 
 
 def _overview() -> Iterator[str]:

@@ -13,6 +13,7 @@ from diecut_report.config.own_tables import SOURCE, Entry, OwnTables
 from diecut_report.config.validation import (
     BASES,
     KEYS,
+    LEAST_REASON,
     MAX_NAMED,
     Basis,
     ConfigPlace,
@@ -133,7 +134,7 @@ class BlockData:
         for length in range(1, len(key) + 1):
             if entry := self.entries.get(key[:length]):
                 said = self.bases.get(key, Basis())
-                self.bases[key] = Basis(said.basis or CATALOGUE, said.note or entry.note)
+                self.bases[key] = replace(said, basis=said.basis or CATALOGUE, note=said.note or entry.note)
 
     def _value(self, unit: str, given: dict[str, Any], key: KeyPath) -> Any:
         """The value of a quantity that stands as a block; the block itself where it is not one."""
@@ -144,7 +145,7 @@ class BlockData:
         listed = {**self.place.listed, key: (*self.place.inner(key), "value")}
         self.place = replace(self.place, listed=listed)
         if not faults:
-            self.bases[key] = Basis(given.get("basis") or "", given.get("note") or "")
+            self.bases[key] = Basis(*(given.get(name) or "" for name in ("basis", "note", "beyond")))
         return given["value"]
 
     def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
@@ -164,6 +165,12 @@ class BlockData:
         if note is not None and not isinstance(note, str):
             template = "is {note}; a text is needed, in quotes where it is a number"
             yield self.place.problem((*key, "note"), template, note=quoted(note))
+        reason = given.get("beyond")
+        if reason is not None and not (isinstance(reason, str) and len(reason.strip()) >= LEAST_REASON):
+            template = (
+                "is {reason}; say in at least {least} characters why the value is right though no other machine has it"
+            )
+            yield self.place.problem((*key, "beyond"), template, reason=quoted(reason), least=LEAST_REASON)
 
 
 def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:

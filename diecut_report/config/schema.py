@@ -10,7 +10,7 @@ from diecut_report.config.instances import DIMENSIONS
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import PressBlock, Project, ReportSettings
 from diecut_report.config.own_tables import MAX_FILES
-from diecut_report.config.validation import BASES, keys_of
+from diecut_report.config.validation import BASES, LEAST_REASON, keys_of
 from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
 from diecut_report.mechanism.chapters import in_all_units
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
@@ -186,6 +186,12 @@ def _stated(allowed: list[Schema]) -> Schema:
             "value": {"anyOf": allowed},
             "basis": {"enum": list(BASES), "description": "What the value rests on."},
             "note": {"type": "string", "maxLength": MAX_TEXT, "description": "Where it comes from; printed beside it."},
+            "beyond": {
+                "type": "string",
+                "minLength": LEAST_REASON,
+                "maxLength": MAX_TEXT,
+                "description": "Why a value outside the range of all machines is right; it stays a warning.",
+            },
         },
     }
 

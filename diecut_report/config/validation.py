@@ -304,15 +304,17 @@ ASSUMED, GIVEN = "assumed", "given"
 BASES = (ASSUMED, GIVEN, "catalogue", "drawing", "standard", "measured")
 """From the weakest to the strongest: an assumption can be anything; what is only given says nothing of where it comes from; a
 maker's catalogue tells what is sold, a drawing what is to be made, a standard what is agreed, a measurement what is there."""
-KEYS = ("value", "basis", "note")
+KEYS = ("value", "basis", "note", "beyond")
+LEAST_REASON = 20  # characters of a reason for a value beyond what any machine has
 
 
 @dataclass(frozen=True)
 class Basis:
-    """Hold what a value rests on ("" where that is not said), and what the user notes of it."""
+    """Hold what a value rests on ("" where that is not said), what the user notes of it, and why it is beyond what is possible elsewhere."""
 
     basis: str = ""
     note: str = ""
+    beyond: str = ""
 
 
 def is_founded(basis: str, note: str) -> bool:

@@ -17,6 +17,7 @@ from diecut_report.machine.numerics.curves import MANY, Curves, several
 from diecut_report.machine.numerics.domain import Domain, Inside, PieceSeries, RecentPlaces, SharedPlaces
 from diecut_report.machine.numerics.samples import SampleCache
 from diecut_report.mechanism.chapters import in_form, taken
+from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, texts_given
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared, Written, bound
@@ -288,6 +289,7 @@ class Calculation:
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
         # keys of inputs that checks ask a basis of, and that have none
         self.unfounded: frozenset[tuple[str | int, ...]] = frozenset()
+        self.further_checks: tuple[Check, ...] = ()  # beside those of its mechanism
         self.chosen_units = NONE_CHOSEN  # what a report chose to show quantities in
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 

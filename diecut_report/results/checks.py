@@ -188,8 +188,8 @@ def check_results(calc: Calculation) -> list[CheckRecord]:
 
 
 def checks_of(calc: Calculation) -> list[Check]:
-    """Return the checks of a mechanism, those of named parts one by one."""
-    return list(by_part(calc.mechanism.checks, calc.inputs.get))
+    """Return the checks of a machine, those of named parts one by one."""
+    return [*by_part(calc.mechanism.checks, calc.inputs.get), *calc.further_checks]
 
 
 def applies(calc: Calculation, check: Check) -> bool:

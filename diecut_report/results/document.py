@@ -234,4 +234,5 @@ def _resting(value: Any, node: Node, bases: Bases) -> Any:
     basis, note = bases.of(node), bases.said(node).note
     said = {"basis": basis} if basis not in ("", GIVEN) else {}
     said |= {"note": note} if note else {}
+    said |= {"beyond": reason} if (reason := bases.reason(node)) else {}
     return {"value": value} | said if said else value

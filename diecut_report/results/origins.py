@@ -177,6 +177,17 @@ class Bases:
         instance = self.config.instances[str(node[0])]
         return instance.bases.get(node[1:], Basis()) if instance else Basis()
 
+    def beyond(self, instance: Instance) -> dict[KeyPath, str]:
+        """Return why inputs may be outside their hard range: what the file says there, or at the input that they refer to."""
+        found = {slot.key: self.reason((instance.name, *slot.key)) for slot in instance.slots}
+        return {key: reason for key, reason in found.items() if reason}
+
+    def reason(self, node: Node) -> str:
+        """Return why an input may be outside its hard range; nothing where that is not said."""
+        target = self.config.links.get(node)
+        is_input = target is not None and target.key and not target.expression
+        return self.said(node).beyond or (self.reason(target.node) if target is not None and is_input else "")
+
     def is_founded(self, node: Node) -> bool:
         """Return whether an input is at its default, or rests on what can be looked up."""
         return not self._is_given(node) or is_founded(self.of(node), self.said(node).note)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 from typing import Any, TypeVar
 
@@ -19,6 +19,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import said
 from diecut_report.config.validation import declared, validate
 from diecut_report.errors import MAX_COMPARISONS, PluginError, Problem, UserError
+from diecut_report.formulas import Array
 from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUnits, CurveHandle, Impossible
 from diecut_report.machine.steps.needed import needed
 from diecut_report.machine.steps.run import calculate
@@ -32,9 +33,11 @@ from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.advice import advice_text, possible_ways
 from diecut_report.results.checks import holds
+from diecut_report.results.coherence import TAKEN, Machine, disagreements
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, SourceRecord
 from diecut_report.results.origins import Absent, Bases, Provenance, Unavailable, Valueless, Withheld, origin_of, output
+from diecut_report.results.usual import Beside, Outside, beside, note_usual, outside
 from diecut_report.text.phrases import Phrase, named, phrase
 from diecut_report.time_limit import contained, in_time
 
@@ -159,6 +162,7 @@ class Run:
         self.self_tests: dict[str, list[CheckRecord]] = {}  # of what contradicts itself, what does not hold
         self.skipped: dict[str, str] = {}
         self.withheld: dict[Node, str] = {}  # values that are not calculated, and why
+        self.slipped: set[Node] = set()  # inputs outside the range of all machines
         self.problems: list[Problem] = []
         self.comparisons: dict[str, MechanismRecord] = {}
         self.cases: list[Found] = []
@@ -168,7 +172,13 @@ class Run:
                 self._mechanism(str(node[0]))
             elif node in config.links:
                 self._value(node, config.links[node])
+        self._agree()
         self._comparisons()
+
+    def _agree(self) -> None:
+        """Hold the mechanisms against each other."""
+        for each in disagreements(Machine(self.config.instances, self.blocks, self.calculations, self.config.links)):
+            self._refuse(each.problem, each.wrong)
 
     def _comparisons(self) -> None:
         cases = list(found(self.calculations)) if not self.problems else []
@@ -288,7 +298,8 @@ class Run:
             for key in home:
                 part = part[key]
             del part[last]
-        self._validated(PRESS, instance, {"name": "?"} | data)
+        if self._validated(PRESS, instance, {"name": "?"} | data):
+            self._slips(instance, outside(instance, flatten(self.blocks[PRESS]), self.beside(instance)))
 
     def _with_values(self, instance: Instance, own: dict[Node, Target]) -> Data:
         data = substituted(instance, own, lambda node, _: self.values[node])
@@ -308,10 +319,13 @@ class Run:
 
     def _calculate(self, name: str, instance: Instance, block: Block) -> None:
         assert instance.mechanism is not None
+        known = self.beside(instance)
+        self._slips(instance, outside(instance, flatten(block), known))
         self.tell(name)
         try:
             with in_time():
                 self.calculations[name] = self._made(instance, instance.mechanism, block)
+                self._slips(instance, note_usual(self.calculations[name], instance, block, known))
                 self._printed(instance, self.calculations[name])
         except Impossible as fault:
             for path, message in fault.reasons:
@@ -330,6 +344,30 @@ class Run:
         calculation.chosen_units = self.chosen_units(instance.name)
         calculation.unfounded = self.bases.unfounded(instance, block)
         return calculation
+
+    def beside(self, instance: Instance) -> Beside:
+        """Return what is known beside the inputs of a mechanism by which their values are judged."""
+        press = flatten(self.blocks[PRESS]) if PRESS in self.blocks else {}
+        known = {f"{PRESS}.{name}": value for name, value in press.items()}
+        return beside(instance, known, self.bases.beyond(instance))
+
+    def _slips(self, instance: Instance, found: Sequence[Outside]) -> None:
+        """Refuse the values that are a slip, each once and where it is typed: a default from the press where that gives it."""
+        for each in (one for one in found if one.slips.any()):
+            node = (instance.name, *each.key)
+            target = self.config.links.get(node)
+            source = target.node if target else node
+            home = self.config.instances[str(source[0])] if target and target.is_default else None
+            problem = partial(each.problem, instance, target.told if target else "")
+            if home:
+                problem = partial(replace(each, key=source[1:]).problem, home, "")
+            if not self.slipped & {node, source}:
+                self._refuse(problem, each.slips)
+            self.slipped |= {node, source} if home else {node}
+
+    def _refuse(self, problem: Callable[[int], Problem], wrong: Array) -> None:
+        """Note what a machine cannot be, by its variants."""
+        self.problems.append(problem(0))
 
     def chosen_units(self, name: str) -> ChosenUnits:
         """Return the units that the report chose for the quantities of a mechanism."""
@@ -428,6 +466,7 @@ class _FeasibilityRun(Run):
         names = [str(each.result) for each in referred if each.instance == instance.name and each.result]
         steps = [step for _, step in mechanism.active(given) if isinstance(step, Require | Clash)]
         names += [name for step in steps for name in taken(step)]  # what must be known of what must hold
+        names += TAKEN.get(mechanism.kind, ())
         try:
             return calculate(mechanism, inputs, 1, needed(mechanism, given, names))
         except Impossible:  # its words may name what these steps do not know

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -19,6 +19,7 @@ from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import Quantity, list_inputs
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.steps import Clash, Require
+from diecut_report.standards.ranges import range_of
 
 Judge = Callable[[Calculation, Check], tuple[Array, Array]]
 """Where a check is made, and where it holds, each of shape (variants,)."""
@@ -49,6 +50,15 @@ class VariedNumber:
     def si(self, shown: float) -> float:
         """Return the SI value of a number that is typed in the unit of the input."""
         return self.meta.parsed_unit.to_si(shown)
+
+
+def _possible(calc: Calculation, key: str, meta: Quantity) -> Quantity:
+    """An input with the sizes that some machine has: what is advised must not be refused."""
+    row = range_of(calc.mechanism.kind, key)
+    if row is None or row.of or not row.hard[0]:
+        return meta
+    low, high = (f"{end!r} {meta.parsed_unit.si}".removesuffix(" 1") for end in row.hard)
+    return replace(meta, plausible=(low, high))
 
 
 @dataclass(frozen=True)
@@ -92,7 +102,7 @@ class Trials(ABC):
         meta, value = self.calc.meta.get(key), self.calc.inputs.get(key)
         if not isinstance(meta, Quantity) or not isinstance(value, np.ndarray | tuple | None):
             return []
-        home = list_inputs(self.calc.mechanism.inputs).get(key)
+        meta, home = _possible(self.calc, key, meta), list_inputs(self.calc.mechanism.inputs).get(key)
         if home is None:
             present = None if value is None else float(np.ravel(value)[0])
             return [VariedNumber(key, meta, None, present, key)]

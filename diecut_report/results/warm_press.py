@@ -52,6 +52,7 @@ from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, Sec
 from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.origins import assumed, checks_with_origins, origin_of, placed_inputs
 from diecut_report.results.press_run import Run, Tell, require_possible
+from diecut_report.results.usual import Beside
 
 Data = dict[str, Any]
 T = TypeVar("T")
@@ -59,24 +60,23 @@ KEPT = 4  # machines of each mechanism that are remembered: the one at the start
 
 
 class Told(NamedTuple):
-    """Hold what changes how a calculation is told, and no number of it: its units, and what has no basis."""
+    """Hold what changes how a calculation is told, and no number of it: its units, what has no basis, what is beside its inputs."""
 
     units: ChosenUnits
     unfounded: frozenset[tuple[str | int, ...]]
+    beside: Beside
 
 
 class Remembered:
     """Hold a calculated mechanism with what it was calculated from, and what was made of it so far."""
 
-    def __init__(self, calculation: Calculation, taken: Mapping[str, Any]) -> None:
-        self.calculation, self.taken = calculation, taken
+    def __init__(self, calculation: Calculation, taken: Mapping[str, Any], told: Told) -> None:
+        self.calculation, self.taken, self.told = calculation, taken, told
         self._made: dict[Callable[[Calculation], Any], Any] = {}
 
     def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], told: Told) -> bool:
         """Return whether it was calculated from these inputs, and is told alike."""
-        known = self.calculation
-        is_alike = known.mechanism is mechanism and Told(known.chosen_units, known.unfounded) == told
-        return is_alike and _same(self.taken, taken)
+        return self.calculation.mechanism is mechanism and self.told == told and _same(self.taken, taken)
 
     def of(self, make: Callable[[Calculation], T]) -> T:
         """Return what a function makes of the calculation; made once."""
@@ -128,8 +128,8 @@ class WarmPress:
         if found is None:
             tell(name)
             calculation = calculate(mechanism, taken)
-            calculation.chosen_units, calculation.unfounded = told
-            found = Remembered(calculation, taken)
+            calculation.chosen_units, calculation.unfounded = told.units, told.unfounded
+            found = Remembered(calculation, taken, told)
         self._known[name] = [found, *(each for each in known if each is not found)][:KEPT]
         return found
 
@@ -154,7 +154,8 @@ class WarmRun(Run):
         return is_valid
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
-        told = Told(self.chosen_units(instance.name), self.bases.unfounded(instance, block))
+        unfounded = self.bases.unfounded(instance, block)
+        told = Told(self.chosen_units(instance.name), unfounded, self.beside(instance))
         found = self.press.remembered(instance.name, mechanism, flatten(block), told, self._tell)
         self.remembered[instance.name] = found
         return found.calculation

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Phrase, Refusal, joined
+from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, bore_of, row_of
 from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.nodes import Nodes
 from diecut_report.plugins.rolling_bearing.part import EXPONENTS, ChosenBearing, GivenBearing
@@ -55,6 +56,17 @@ class Bearings:
         """Return for each variant what bearings are taken, in words."""
         return [joined((f"{name} {each.designations[variant]}" for name, each in zip(self.names, self.taken, strict=True)), ", ")
                 for variant in range(self.variants)]  # fmt: skip
+
+    def bore(self, index: int) -> Array:
+        """Return the bore of a bearing by its designation, m, (variants, 1); 0 where that tells none."""
+        return np.array([[bore_of(each)] for each in self.taken[index].designations])
+
+    def share_of_row(self, column: str, index: int) -> Array:
+        """Return a rating that is given as a share of that of its row of the tables, (variants, 1); 1 where there is none."""
+        taken, kind = self.taken[index], self.types[index]
+        row = None if taken.catalogue else row_of(kind, taken.designations[0])
+        rating = taken.ratings.dynamic if column == "C" else taken.ratings.static
+        return rating / CATALOGUES[kind].size(column, row) if row else np.ones((self.variants, 1))
 
     def flag(self, of: Iterable[bool]) -> Array:
         """Return for each bearing and variant 1 where something holds of it, else 0."""
@@ -134,6 +146,11 @@ class Bearings:
     def joints(self) -> Array:
         """Return the cycle angles where a load or a motion jumps or has a corner."""
         return 2 * np.pi * np.concatenate([each.joints for each in self.duties], axis=1)
+
+
+def shares(column: str, known: Bearings) -> Array:
+    """Return a rating of all bearings as a share of that of their rows, (variants, bearings)."""
+    return known.row(partial(known.share_of_row, column))
 
 
 def bearings(given: Known) -> Bearings:

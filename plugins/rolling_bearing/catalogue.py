@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -65,3 +66,21 @@ CATALOGUES = {
 def written(designation: str) -> str:
     """Return a designation as the tables write it, without blanks."""
     return "".join(designation.split()).upper()
+
+
+SMALL_BORES = {"00": 10, "01": 12, "02": 15, "03": 17}  # mm; from 04 on the number is a fifth of the bore (ISO 15)
+CODED = re.compile(
+    "(?:6[0-4]|7[0-4]|16[01]|1[23]|2[23]|2[123][0-4]|(?:NU|NJ|NUP|N)(?:10|2|3|4|22|23))([0-9]{2})(?![0-9])"
+)
+
+
+def row_of(kind: str, designation: str | None) -> str | None:
+    """Return the row of the tables with which a bearing is compared: its own, or that of the reinforced design; None where there is none."""
+    known, name = CATALOGUES.get(kind), written(designation or "")
+    return next((each for each in (name, name + known.suffix) if each in known.names), None) if known else None
+
+
+def bore_of(designation: str | None) -> float:
+    """Return the bore that a designation tells, m; 0 where it tells none."""
+    found = CODED.match(written(designation or ""))
+    return si(SMALL_BORES.get(found[1], 5 * int(found[1])), "mm") if found else 0.0

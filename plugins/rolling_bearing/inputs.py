@@ -30,6 +30,10 @@ class Bearing(Block):
             "Series in which the smallest sufficient bearing is selected, without ratings and designation; default: 62 for deep groove ball "
                 "bearings, NU2 for roller bearings")] = None
     bore_min: Annotated[float, Quantity("d_min", "mm", "Minimum bore of the bearing to be selected", ge=0, le=100)] = 0
+    on: Annotated[str | None,
+        Text(
+            "Shaft (its mechanism) on which it sits: its bore is compared with the seat; default: the shaft whose reaction it bears, or that "
+                "has its name")] = None
     dynamic_rating: Annotated[float | None, Quantity("C_g", "kN", "Basic dynamic load rating, from the manufacturer's catalogue", gt=0)] = None
     static_rating: Annotated[float | None, Quantity("C_0g", "kN", "Basic static load rating, from the manufacturer's catalogue", gt=0)] = None
     f0: Annotated[float | None,
@@ -63,7 +67,7 @@ class RollingBearing(Inputs):
 
     bearings: Annotated[list[Bearing], Text("Bearings")]
     reliability: Annotated[float, Quantity("R", "%", "Reliability of the life", listed=RELIABILITIES)] = 90
-    required_life: Annotated[float, Quantity("[L]", "h", "Required life", gt=0, plausible=("100 h", "1e6 h"))] = 20000
+    required_life: Annotated[float, Quantity("[L]", "h", "Required life", gt=0)] = 20000
     required_static_safety: Annotated[float | None,
         Quantity("[s_0]", "1", "Required static safety factor; default: 1 for ball, 1.5 for roller bearings", gt=0)] = None
     service_factor: Annotated[float, Quantity("f_s", "1", "Factor on all forces, for shocks not included in the curves", ge=1)] = 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from diecut_report.api import Chapter, bind, case
 from diecut_report.plugins.rolling_bearing import formulas as f
-from diecut_report.plugins.rolling_bearing.bearings import TAKEN, Bearings, bearings
+from diecut_report.plugins.rolling_bearing.bearings import TAKEN, Bearings, bearings, shares
 from diecut_report.plugins.rolling_bearing.factors import between
 from diecut_report.plugins.rolling_bearing.listings import CHOICE, choice
 from diecut_report.plugins.rolling_bearing.part import EXPONENTS
@@ -65,6 +66,15 @@ ratings.computed("designations", "D", "1", "Selected bearings", lambda known: kn
     is_text=True)
 row(ratings, "dynamic_rating", "C", "kN", "Basic dynamic load rating", lambda known: known.rating("dynamic"), "as given, or from the table")
 row(ratings, "static_rating", "C_0", "kN", "Basic static load rating", lambda known: known.rating("static"), "as given, or from the table")
+row(ratings, "bore", "d", "mm", "Bore, 0 where the designation does not tell it", lambda known: known.row(known.bore),
+    "by the designation (ISO 15)", output=False)
+for column, key, symbol, words in (("C", "dynamic_rating", "C/C_t", "Basic dynamic load rating as a share of that in the table"),
+                                   ("C0", "static_rating", "C_0/C_0t", "Basic static load rating as a share of that in the table")):
+    row(ratings, f"{key}_share", symbol, "1", words, partial(shares, column),
+        "1 where the table has no such bearing", output=False)
+    ratings.require(f"{key}_of_table", bind(f.is_of_table, share=f"{key}_share"), key="bearings.{index}." + key,
+        message=f"is {{{key}_share:up}} times that of the table for this designation, where makers differ by 0.5 to 1.25; correct it, or its unit, "
+            "or the designation")
 row(ratings, "axial_base", "f_0", "1", "Factor of the deep groove ball bearing, 0 where it is not required", lambda known: known.rating("f0"),
     "as given, or from the table", output=False)
 ratings.part_table("ratings_table", "Ratings", "bearings", ("exponent", "dynamic_rating", "static_rating", "axial_base"))

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from diecut_report.machine import mechanism
-from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES
+from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, bore_of
 from tests.examples import examples
 from tests.plugins.bearings import (
     ANGULAR,
@@ -369,3 +369,15 @@ def test_larger_bearings_of_a_series_bear_more() -> None:
         for key in ("C", "C0"):
             ratings = [catalogue.size(key, name) for name in catalogue.of_series(series)]
             assert all(b > a * 0.99 for a, b in pairwise(ratings))
+
+
+@pytest.mark.parametrize(
+    ("designation", "bore"),
+    [
+        ("6209", 45), ("6000", 10), ("6203-2RS1", 17), ("NU 2208", 40), ("nu2208e", 40), ("NJ 310 ECP", 50), ("22212", 60), ("2208", 40),
+        ("7210", 50), ("HK 2020", 0), ("", 0), (None, 0), ("62", 0), ("62091", 0),
+    ],
+)  # fmt: skip
+def test_a_designation_tells_the_bore(designation: str | None, bore: float) -> None:
+    """By the bore codes of ISO 15."""
+    assert bore_of(designation) == pytest.approx(bore * 1e-3)

@@ -153,6 +153,21 @@ def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
         ),
         ([SWINGING | {"radial_force": Over(np.sin, cycle="disc_angle")}], "bearings.0.relative_angle", "another cycle"),
         ([SOUGHT | {"radial_force": 90000}], "bearings.0.series", "heavier series"),
+        (
+            [BALL | {"designation": "6209", "dynamic_rating": 351}],
+            "bearings.0.dynamic_rating",
+            "times that of the table",
+        ),
+        (
+            [ROLLER, BALL | {"designation": "6209", "static_rating": 9.9}],
+            "bearings.1.static_rating",
+            "times that of the table",
+        ),
+        (
+            [ROLLER | {"designation": "NU 2208", "dynamic_rating": 8.15}],
+            "bearings.0.dynamic_rating",
+            "times that of the table",
+        ),
         ([SOUGHT | {"designation": "7209"}], "bearings.0.designation", "not in the table"),
         ([SOUGHT | {"type": "ball", "axial_force": 0}], "bearings.0.dynamic_rating", "maker's catalogue"),
         ([SOUGHT_ROLLER | {"series": "62"}], "bearings.0.series", "NU2, NU22, NU3, NU23"),

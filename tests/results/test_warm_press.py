@@ -18,6 +18,7 @@ from diecut_report.results.document import document
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import compute
 from diecut_report.results.results_file import results_text
+from diecut_report.results.usual import Beside
 from diecut_report.results.warm_press import Remembered, Told, WarmPress
 from diecut_report.study.definition.base_inputs import Input, find_input, known_paths, with_values
 from tests.configs import BROKEN, DISCOVERY, EXAMPLES, GOOD, HEAD, LEVER, loaded
@@ -149,11 +150,13 @@ def find_given(config: Config, name: str) -> float:
 )
 def test_inputs_that_are_only_nearly_the_same_are_others(tmp_path: Path, one: Any, other: Any) -> None:
     calculation = WarmPress().calculate(loaded(tmp_path, LEVER)).calculations["a"]
-    known = Remembered(calculation, {"x": one})
-    shown = calculation.mechanism, Told(calculation.chosen_units, frozenset())
+    told = Told(calculation.chosen_units, frozenset(), Beside({}, {}))
+    known = Remembered(calculation, {"x": one}, told)
+    shown = calculation.mechanism, told
     assert known.is_of(shown[0], {"x": one}, shown[1])
     assert not known.is_of(shown[0], {"x": other}, shown[1])
-    assert not known.is_of(shown[0], {"x": one}, Told(calculation.chosen_units, frozenset({"x"})))
+    assert not known.is_of(shown[0], {"x": one}, told._replace(unfounded=frozenset({"x"})))
+    assert not known.is_of(shown[0], {"x": one}, told._replace(beside=Beside({}, {("x",): "why it is so"})))
 
 
 def test_an_impossible_machine_is_told_and_the_last_good_one_is_kept(tmp_path: Path) -> None:

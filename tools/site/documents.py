@@ -29,7 +29,7 @@ PARTS = (
                       "reports-and-revisions", "office-files", "house-style", "own-tables", "limits", "mending-a-press", "python", "own-repository")),
     Part("Examples", ("gallery/index", "reports")),
     Part("Writing a mechanism", ("tutorial", "how-to/index", "plugins", "reference/index")),
-    Part("Whether to trust it", ("need-and-field", "trust", "validation", "standards")),
+    Part("Whether to trust it", ("need-and-field", "trust", "validation", "standards", "plausible-values")),
     Part("The project", ("architecture", "contributing", "decisions", "changelog", "security", "glossary")),
     Part("More", ("*",)),
 )  # fmt: skip

@@ -226,6 +226,9 @@ def filled(
     ``{id:up}`` and ``{id:down}`` are rounded that way: what "at least" and "at most" name must be enough.
     """
 
+    if isinstance(text, Phrase) and text.values:  # filled already
+        return text
+
     def said(found: re.Match[str]) -> str:
         name = found[1]
         up = {"up": True, "down": False}.get(found[2])

@@ -26,6 +26,7 @@ from diecut_report.mechanism.steps import PREFIX
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.results.origins import Absent, number, output, require_facts
 from diecut_report.results.press_run import Run, Tell
+from diecut_report.results.usual import note_usual, outside
 from diecut_report.study.definition.base_inputs import Input, with_values
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import contained
@@ -204,12 +205,18 @@ class _Rows(Run):
                 words = str(fault)
         self._reason([row], _reason_text(instance.place.problem(key, words)))
 
+    def _refuse(self, problem: Callable[[int], Problem], wrong: Array) -> None:
+        for row in np.flatnonzero(np.broadcast_to(wrong, (self.variants.count,))):
+            self._reason([row], _reason_text(problem(int(row))))
+
     def _reason(self, rows: Any, words: str) -> None:
         for row in rows:
             self.variants.reasons.setdefault(int(row), words)
 
     def _calculate(self, name: str, instance: Instance, block: Any) -> None:
         assert instance.mechanism is not None
+        beside = self.beside(instance)
+        self._slips(instance, outside(instance, flatten(block), beside))
         if len(self.variants.reasons) == self.variants.count:
             return
         self.tell(name)
@@ -226,6 +233,7 @@ class _Rows(Run):
             return
         found.unfounded = self.bases.unfounded(instance, block)
         self.calculations[name] = found
+        self._slips(instance, note_usual(found, instance, block, beside))
         for row, (key, message) in found.flaws.items():
             self._reason([row], _flaw_text(instance, key, message))
         for missed in found.withheld.values():

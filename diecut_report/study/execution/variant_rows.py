@@ -17,7 +17,7 @@ from diecut_report.errors import PluginError
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
-from diecut_report.mechanism.checks import by_part
+from diecut_report.mechanism.checks import Check, by_part
 from diecut_report.mechanism.inputs import POINTS, list_inputs
 from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.steps import (
@@ -42,6 +42,8 @@ from diecut_report.results.checks import (
     without_basis,
 )
 from diecut_report.results.press_run import Tell
+from diecut_report.results.usual import usual_check
+from diecut_report.standards.ranges import ranges_of
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.press_batch import (
     CalculatedVariants,
@@ -144,9 +146,15 @@ def _checks(name: str, instance: Instance) -> Iterator[ResultColumn]:
     for check in by_part(mechanism.checks, lambda path: instance.names_of_parts(path) or None):
         if check.id not in ids and is_of_machine(check) and missing_keys(mechanism, check, instance.given) is not None:
             ids.add(check.id)
-            column = f"{name}.checks.{check.id}"
-            yield ResultColumn(f"{column}.utilisation", "float", description=f"{check.title}: utilisation")
-            yield ResultColumn(f"{column}.status", "text", description=f"{check.title}: verdict")
+            yield from _check(name, check)
+    if ranges_of(mechanism.kind):
+        yield from _check(name, usual_check([]))
+
+
+def _check(name: str, check: Check) -> Iterator[ResultColumn]:
+    column = f"{name}.checks.{check.id}"
+    yield ResultColumn(f"{column}.utilisation", "float", description=f"{check.title}: utilisation")
+    yield ResultColumn(f"{column}.status", "text", description=f"{check.title}: verdict")
 
 
 def output_values(name: str, calc: Calculation) -> dict[str, Array]:

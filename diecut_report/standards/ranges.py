@@ -1,0 +1,113 @@
+"""Plausible values of inputs: in which range a quantity usually lies, and outside which it is a slip or needs a reason.
+
+One table, ``data/ranges.yaml``, holds them for all kinds that come with the program; its head tells how it is written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Annotated
+
+import yaml
+from pydantic import BaseModel, BeforeValidator, ConfigDict
+
+from diecut_report.quantities.units import unit
+from diecut_report.standards import DATA
+from diecut_report.text.phrases import phrase
+
+EVERY = "*"  # in place of a kind: a key of this name in any
+SOURCES = {
+    "H": phrase("handbooks of machine elements"),
+    "M": phrase("makers' catalogues"),
+    "P": phrase("practice of die-cutting"),
+    "G": phrase("the mass of a full steel disc"),
+}
+
+
+@dataclass(frozen=True)
+class UsualRange:
+    """Hold the usual range of a quantity and the hard one outside which no machine has it, both (least, greatest) in SI.
+
+    ``unit`` is the one in which both are shown. ``of`` is empty where they bound the key itself; else it is the expression,
+    such as ``${yield_strength} / ${tensile_strength}``, that they bound. A value of a key that ``needs_basis`` counts as assumed
+    unless it rests on what can be looked up.
+    """
+
+    usual: tuple[float, float]
+    hard: tuple[float, float]
+    source: str
+    needs_basis: bool
+    unit: str
+    of: str = ""
+
+
+class _Row(BaseModel):
+    """Hold a row as it is written, in ``unit``."""
+
+    model_config = ConfigDict(extra="forbid")
+    usual: tuple[float, float]
+    hard: tuple[float, float]
+    unit: str
+    by: str
+    needs_basis: bool = False
+    keys: Annotated[dict[str, dict[str, str]], BeforeValidator(lambda given: _with_expressions(given))]
+
+    def made(self, of: str) -> UsualRange:
+        """Return the row for what a key or an expression gives."""
+        (low, high), (least, most), factor = self.usual, self.hard, unit(self.unit).factor
+        usual, hard = (low * factor, high * factor), (least * factor, most * factor)
+        return UsualRange(usual, hard, SOURCES.get(self.by, self.by), self.needs_basis, self.unit, of)
+
+
+class _Without(BaseModel):
+    """Hold the keys that have no row, and why."""
+
+    model_config = ConfigDict(extra="forbid")
+    reason: str
+    keys: dict[str, list[str]]
+
+
+class RangeTable(BaseModel):
+    """Hold the table as it is written."""
+
+    model_config = ConfigDict(extra="forbid")
+    ranges: list[_Row]
+    without: list[_Without]
+
+
+def _with_expressions(given: dict[str, list[str] | dict[str, str]]) -> dict[str, dict[str, str]]:
+    return {kind: keys if isinstance(keys, dict) else dict.fromkeys(keys, "") for kind, keys in given.items()}
+
+
+@cache
+def range_table() -> RangeTable:
+    """Return the table as it stands in its file."""
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    return RangeTable.model_validate(yaml.load((DATA / "ranges.yaml").read_text(encoding="utf-8"), loader))
+
+
+@cache
+def ranges_of(kind: str) -> Mapping[str, tuple[UsualRange, ...]]:
+    """Return all rows of a kind of mechanism (or of ``press``) by key; none for a kind of somebody else."""
+    found: dict[str, tuple[UsualRange, ...]] = {}
+    for row in range_table().ranges:
+        for key, of in row.keys.get(kind, {}).items():
+            found[key] = (*found.get(key, ()), row.made(of))
+    return found
+
+
+def range_of(kind: str, path: str) -> UsualRange | None:
+    """Return the range of an input by its dotted key without places in lists (``gears.efficiency``); None where it has no row.
+
+    Of several rows it is the one that bounds the key itself.
+    """
+    return min(ranges_of(kind).get(path, ()), key=lambda row: bool(row.of), default=None)
+
+
+def reasons_without(kind: str) -> Iterator[tuple[str, str]]:
+    """Yield the keys of a kind that have no row, each with the reason."""
+    for group in range_table().without:
+        for key in (*group.keys.get(EVERY, ()), *group.keys.get(kind, ())):
+            yield key, group.reason

@@ -1,0 +1,200 @@
+"""Values outside their usual range warn, values that no machine has are refused, unless the file says why they are beyond it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from diecut_report.config.loader import Config, load_config
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.schema import kind_schema
+from diecut_report.errors import UserError
+from diecut_report.press import Press
+from diecut_report.results.document import resolved
+from diecut_report.results.press_run import Run, compute, impossible
+from diecut_report.study.definition.base_inputs import find_input
+from diecut_report.study.execution.variant_rows import calculate_rows
+from tests.results.blunders import PRESS
+
+CLUTCH = {
+    "kind": "clutch", "torque": "500 N*m", "shoe_radius": "180 mm", "wedge_angle": "10 deg", "wedge_friction": 0.1, "shoe_friction": 0.35,
+    "allowable_pressure": "0.3 MPa",
+}  # fmt: skip
+REASON = "a sintered lining that was measured on the rig"
+
+
+def loaded(folder: Path, **others: Any) -> Config:
+    """A file with a clutch, whose keys are changed by ``clutch``, and other mechanisms."""
+    own = {**CLUTCH, **others.pop("clutch", {})}
+    press = {"name": "P", **others.pop("press", {})}
+    data = {"schema_version": 1, "project": {"title": "T"}, "press": press, "mechanisms": {"clutch": own, **others}}
+    file = folder / "press.yaml"
+    file.write_text(yaml.safe_dump(data, sort_keys=False, allow_unicode=True), encoding="utf-8")
+    return load_config(file, Discovery())
+
+
+def run(folder: Path, **others: Any) -> Run:
+    return compute(loaded(folder, **others), lambda _: None)
+
+
+def problems(folder: Path, **others: Any) -> list[Any]:
+    with pytest.raises(UserError) as refused:
+        run(folder, **others)
+    return refused.value.problems
+
+
+def usual(found: Run, name: str = "clutch") -> Any:
+    return next((each for each in found.results[name].checks if each.id == "usual_values"), None)
+
+
+def test_a_value_that_no_machine_has_is_refused_with_both_ranges_their_source_and_what_to_do(tmp_path: Path) -> None:
+    (told,) = problems(tmp_path, clutch={"shoe_friction": 0.7})
+    assert (told.path, told.line) == ("mechanisms.clutch.shoe_friction", 13)
+    assert "shoe_friction = 0.7" in told.message
+    assert "usual: 0.25 to 0.45, possible: 0.1 to 0.6, by VDI 2241" in told.message
+    assert "beyond" in told.message and "20 characters" in told.message
+
+
+def test_it_is_told_when_only_feasibility_is_judged(tmp_path: Path) -> None:
+    found, broken = impossible(loaded(tmp_path, clutch={"shoe_friction": 0.7}), [])
+    assert [each.path for each in found] == ["mechanisms.clutch.shoe_friction"]
+    assert broken == []
+
+
+@pytest.mark.parametrize("value", [0.1, 0.25, 0.45, 0.6])
+def test_the_ends_of_the_hard_range_are_possible(tmp_path: Path, value: float) -> None:
+    assert (usual(run(tmp_path, clutch={"shoe_friction": value})) is not None) == (value in (0.1, 0.6))
+
+
+def test_all_that_is_unusual_is_one_warning_of_its_mechanism(tmp_path: Path) -> None:
+    found = run(tmp_path, clutch={"shoe_friction": 0.5, "wedge_friction": 0.3})
+    check = usual(found)
+    assert (check.status, check.check_class, check.demand) == ("warn", "practice", 2)
+    assert all(
+        words in check.message
+        for words in ("shoe_friction = 0.5", "wedge_friction = 0.3", "VDI 2241", "handbooks of machine elements")
+    )
+    assert found.results["clutch"].warnings == [check.message]
+
+
+def test_zero_is_left_to_the_bounds_of_the_key(tmp_path: Path) -> None:
+    assert usual(run(tmp_path, clutch={"engagements_per_hour": "0 1/h"})) is None
+
+
+def test_a_value_by_an_expression_is_judged_where_it_is_a_number(tmp_path: Path) -> None:
+    (told,) = problems(tmp_path, clutch={"shoe_friction": "7 * ${clutch.wedge_friction}"})
+    assert "shoe_friction = 0.7 (from “7 * ${clutch.wedge_friction}”)" in told.message
+
+
+def test_a_slip_is_told_where_it_is_typed_and_not_at_each_reference(tmp_path: Path) -> None:
+    found = problems(
+        tmp_path, clutch={"shoe_friction": 0.7}, second={**CLUTCH, "shoe_friction": "${clutch.shoe_friction}"}
+    )
+    assert [each.path for each in found] == ["mechanisms.clutch.shoe_friction"]
+
+
+def test_a_number_of_the_press_is_judged(tmp_path: Path) -> None:
+    (told,) = problems(tmp_path, press={"sheet": {"thickness": "60 mm"}})
+    assert told.path == "press.sheet.thickness"
+
+
+def test_a_default_from_the_press_is_told_where_the_press_gives_it(tmp_path: Path) -> None:
+    feeder = {"kind": "cam_gear_transport", "dwell_angle": "160 deg", "center_distance": "300 mm"}
+    (told,) = problems(tmp_path, press={"productivity": "60000 1/h"}, feeder=feeder)
+    assert told.path == "press.productivity" and "possible: 50 to 20000 1/h" in told.message
+
+
+def test_a_part_of_a_list_is_told_by_its_own_key(tmp_path: Path) -> None:
+    gears = [{"driver_teeth": 20, "driven_teeth": 60}, {"driver_teeth": 20, "driven_teeth": 60, "efficiency": 0.097}]
+    train = {"kind": "drive_train", "motor_speed": "1450 rpm", "output_speed": "100 rpm", "torque_mean": "100 N*m", "torque_peak": "200 N*m",
+             "vbelt": {"section": "SPA", "driver_diameter": "125 mm", "center_distance": "600 mm"}, "gears": gears}  # fmt: skip
+    (told,) = problems(tmp_path, train=train)
+    assert told.path == "mechanisms.train.gears.1.efficiency"
+
+
+# --- beyond ------------------------------------------------------------------------------------------------------------
+
+
+def beyond(value: Any, reason: Any = REASON) -> dict[str, Any]:
+    return {"value": value, "beyond": reason}
+
+
+def test_a_reason_makes_it_a_warning_that_stays(tmp_path: Path) -> None:
+    check = usual(run(tmp_path, clutch={"shoe_friction": beyond(0.7)}))
+    assert check.status == "warn"
+    assert REASON in check.message
+
+
+@pytest.mark.parametrize(
+    "reason",
+    ["too short", " " * 30, "x" * 19, 12345678901234567890123, True, ["a reason that is long enough"], {"a": "b"}],
+)
+def test_what_is_no_reason_is_refused(tmp_path: Path, reason: Any) -> None:
+    (told,) = problems(tmp_path, clutch={"shoe_friction": beyond(0.7, reason)})
+    assert told.path.endswith("shoe_friction.beyond") and "at least 20 characters" in told.message
+
+
+def test_a_reason_holds_for_its_own_value_alone(tmp_path: Path) -> None:
+    (told,) = problems(tmp_path, clutch={"shoe_friction": beyond(0.7), "wedge_friction": 0.5})
+    assert told.path == "mechanisms.clutch.wedge_friction"
+
+
+def test_a_reason_may_hold_signs_of_a_template(tmp_path: Path) -> None:
+    reason = "measured {torque} at ${clutch.torque} {value:up} on the rig"
+    found = run(tmp_path, clutch={"shoe_friction": beyond(0.7, reason.replace("$", ""))})
+    assert reason.replace("$", "") in usual(found).message
+
+
+def test_references_carry_the_reason(tmp_path: Path) -> None:
+    found = run(
+        tmp_path, clutch={"shoe_friction": beyond(0.7)}, second={**CLUTCH, "shoe_friction": "${clutch.shoe_friction}"}
+    )
+    assert REASON in usual(found, "second").message
+
+
+def test_the_resolved_configuration_keeps_the_reason(tmp_path: Path) -> None:
+    others: Mapping[str, Any] = {
+        "clutch": {"shoe_friction": beyond(0.7)},
+        "second": {**CLUTCH, "shoe_friction": "${clutch.shoe_friction}"},
+    }
+    data = resolved(run(tmp_path, **others))
+    for name in ("clutch", "second"):
+        assert data["mechanisms"][name]["shoe_friction"]["beyond"] == REASON
+    again = tmp_path / "again.yaml"
+    again.write_text(yaml.safe_dump(data, allow_unicode=True), encoding="utf-8")
+    assert usual(compute(load_config(again, Discovery()), lambda _: None), "second").status == "warn"
+
+
+def test_the_schema_of_editors_has_the_key() -> None:
+    ways = kind_schema(Discovery().mechanism("clutch"))["properties"]["shoe_friction"]["anyOf"]
+    block = next(way for way in ways if way.get("type") == "object")
+    assert block["properties"]["beyond"]["minLength"] == 20
+
+
+# --- many variants -----------------------------------------------------------------------------------------------------
+
+
+def test_a_variant_outside_the_hard_range_cannot_exist_and_an_unusual_one_warns(tmp_path: Path) -> None:
+    base = loaded(tmp_path)
+    rows = calculate_rows(base, {find_input(base, "mechanisms.clutch.shoe_friction"): np.array([0.35, 0.5, 0.7])}, 3)
+    assert list(rows.status) == ["pass", "warn", "error"]
+    assert "shoe_friction = 0.7" in rows.errors[2]
+    assert list(rows.columns["clutch.checks.usual_values.status"]) == [None, "warn", None]
+
+
+def test_a_variant_whose_parts_disagree_cannot_exist() -> None:
+    base = load_config(PRESS, Discovery())
+    rows = calculate_rows(base, {find_input(base, "mechanisms.main_gears.module"): np.array([5e-3, 4e-3])}, 2)
+    assert (rows.errors[0], rows.status[1]) == (None, "error")
+    assert "which takes the same torque, has the pitch radius 96 mm there" in rows.errors[1]
+
+
+def test_a_value_that_is_written_into_the_file_keeps_the_reason(tmp_path: Path) -> None:
+    press = Press(loaded(tmp_path, clutch={"shoe_friction": beyond(0.7)}), Discovery(), lambda _: None)
+    text = press.with_values({("mechanisms", "clutch", "shoe_friction", "value"): "0.65"}).config.tree.text
+    assert REASON in text and "0.65" in text
