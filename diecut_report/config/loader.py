@@ -13,6 +13,9 @@ from diecut_report.config import instances, yaml
 from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
 from diecut_report.config.model import PRESS, ConfigDocument, PressBlock, Project, ReportSettings, texts, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
+from diecut_report.config.parts.expansion import expanded, has_parts
+from diecut_report.config.parts.keys import WORDS
+from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.references import Linker, linked, ordered
 from diecut_report.config.source_hashes import plugin_hash, program_hash
@@ -139,7 +142,7 @@ def refuse_study(tree: Tree) -> None:
 
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
-RESERVED = (PRESS, "project")
+RESERVED = (PRESS, "project", *WORDS)
 
 
 @dataclass(frozen=True)
@@ -162,6 +165,7 @@ class Config:
     tables: Mapping[str, Tree] = field(default_factory=dict)
     report: ReportSettings = field(default_factory=ReportSettings)
     logo: Logo | None = None
+    parts: MachineParts | None = None
 
     @property
     def files(self) -> dict[str, str]:
@@ -196,12 +200,23 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     if excess := too_much(tree):
         raise UserError([*tree.problems, *excess])
     discovery.extend()
+    found = expanded(tree, lambda kind: _declared(discovery, kind)) if has_parts(tree.data) else None
+    tree = found.tree if found else tree
     tables = OwnTables.read(tree, find)
-    reader = _ConfigReader(tree, discovery, tables)
+    made = frozenset(each.name for each in found.elements.made) if found and found.elements else frozenset()
+    reader = _ConfigReader(tree, discovery, tables, made)
     linker = linked(reader.instances)
     order, loops = ordered(reader.instances, linker.links)
     logo, faults = logo_of(tree, find)
-    problems = [*reader.problems, *tables.problems, *faults, *linker.problems, *_wrong_values(reader, linker), *loops]
+    problems = [
+        *(found.problems if found else ()),
+        *reader.problems,
+        *tables.problems,
+        *faults,
+        *linker.problems,
+        *_wrong_values(reader, linker),
+        *loops,
+    ]
     units = reader.report and reader.report.units
     problems += instances.faults(units, reader.instances, ConfigPlace(tree, ("report",)))
     broken = reader.broken if problems else {}
@@ -209,8 +224,17 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     problems = beside(tree, problems)
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
-                    dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings(), logo)  # fmt: skip
+                    dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings(), logo,
+                    found.parts if found else None)  # fmt: skip
     return config, problems
+
+
+def _declared(discovery: Discovery, kind: str) -> Mechanism | None:
+    """The declarations of a kind; None of one that cannot be loaded, which is told where it is named."""
+    try:
+        return discovery.mechanism(kind)
+    except (UnknownKind, DuplicateKind, PluginError):
+        return None
 
 
 def beside(tree: Tree, problems: Iterable[Problem]) -> list[Problem]:
@@ -231,6 +255,7 @@ class _ConfigReader:
     tree: Tree
     discovery: Discovery
     tables: OwnTables
+    made: frozenset[str] = frozenset()  # calculations that the parts of the machine make
     instances: dict[str, Instance | None] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
     broken: dict[str, PluginError] = field(default_factory=dict)
@@ -287,7 +312,7 @@ class _ConfigReader:
         self.instances[name] = Instance(name, form, typed, own.place, mechanism, own.bases, own)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
-        if fault := name_fault(name):
+        if name not in self.made and (fault := name_fault(name)):
             self.problems.append(place.problem((), fault, at_key=True))
         elif not isinstance(body, dict):
             template = "is {body}; a block of keys with its kind is needed"

@@ -208,6 +208,10 @@ class Tree:
         nodes = self._walk(path)
         return nodes[-1].typed if len(nodes) == len(path) + 1 else None
 
+    def node(self, path: KeyPath) -> YamlNode:
+        """The value at `path`, or its nearest parent that exists."""
+        return self._walk(path)[-1]
+
     def _walk(self, path: KeyPath) -> list[YamlNode]:
         nodes = [self.root]
         for step in path:
@@ -426,6 +430,11 @@ def _with_value(node: YamlNode, path: KeyPath, value: Scalar) -> YamlNode:
     children = dict(node.children or {})
     children[key] = _with_value(children.get(key, YamlNode(node.position)), rest, value)
     return replace(node, scalar=None, typed=None, children=children)
+
+
+def with_root(tree: Tree, root: YamlNode) -> Tree:
+    """Return the file with other data, whose places are those of the file's text, which stays."""
+    return Tree(root, tree.file, tree.text, tree.sha256, tree.name, tree.problems)
 
 
 def as_text(root: YamlNode) -> str:

@@ -181,6 +181,30 @@ class Erratum:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Port:
+    """Declare a shaft of the mechanism that a part of the machine stands for, by the ids of its curves over one cycle of the mechanism.
+
+    ``torque`` is what the mechanism takes from the shaft. ``forces`` act on the part: two in the directions of the frame's axes, or a single
+    one whose direction is not known; ``opposite`` where they act the other way. ``angle`` is that of a shaft which swings or turns in steps.
+    ``speed`` is the input with the speed of one that turns. ``joint`` are the force in the joint of its pin and the angle that the joint's
+    parts turn by, nothing where they turn with the shaft. ``advance`` is the input whose reciprocal is the part of a revolution by which a
+    shaft that turns in steps has moved on after a cycle. ``fills`` gives inputs of the mechanism by what the shaft's join provides: ratio,
+    pinion_radius, teeth, pitch, inertia.
+    """
+
+    name: str
+    torque: str = ""
+    forces: tuple[str, ...] = ()
+    opposite: bool = False
+    angle: str = ""
+    speed: str = ""
+    joint: tuple[str, str] = ("", "")
+    advance: str = ""
+    fills: Mapping[str, str] = field(default_factory=dict)
+    at: str = placed()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Profile:
     """Declare curves over one abscissa that are written beside the report as tables and drawings: ``columns`` are x, y, and more.
 
@@ -255,6 +279,7 @@ class Mechanism:
     exports: tuple[Profile, ...] = ()
     comparisons: tuple[Comparison, ...] = ()
     partners: tuple[Partner, ...] = ()
+    ports: tuple[Port, ...] = ()
     spectra: tuple[Spectrum, ...] = ()
     example: ExampleBlock | None = None
     at: str = placed()

@@ -7,6 +7,8 @@ tables that agree, or more), ``left_out`` (what could not be confirmed) and one 
 - ``table``: a number for each name; as a series it gives its different values in order;
 - ``by``: for each name a ``values`` list with its ``range``, which may have ``sources`` and ``left_out`` of its own.
 
+``data/ID.yaml`` holds a catalogue of machine elements, in the form of ``table_beside``.
+
 A fault of a file is a StandardFault, never a value left away in silence.
 """
 
@@ -74,7 +76,9 @@ def standard_series_by(id: str, folder: Path = DATA) -> Mapping[str, StandardSer
 
 @cache
 def standard_table(id: str, folder: Path = DATA) -> StandardTable:
-    """Return the table of that id: a number for each name."""
+    """Return the table of that id: a number for each name; of ``data/ID.yaml``, a catalogue, its columns by designation."""
+    if (folder / f"{id}.yaml").exists():
+        return table_beside(str(folder / id), f"{id}.yaml")
     file = data_file(id, folder)
     if not isinstance(file, TableData):
         fault(id, Phrase("is of the form {form_of}, not 'table'", form_of=repr(form_of(file))))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Erratum, Mechanism, Source, Vary
+from diecut_report.api import Check, Erratum, Mechanism, Port, Source, Vary
 from diecut_report.plugins.cylinder_drive import forces, linkage, timing
 from diecut_report.plugins.cylinder_drive.example import EXAMPLE
 from diecut_report.plugins.cylinder_drive.figures import FIGURES
@@ -25,6 +25,12 @@ MECHANISM = Mechanism(
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
                  "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",
                  "tooth_force_max", "joint_force_max"),
+    ports=(
+        Port(name="crank", torque="crank_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), speed="crank_speed",
+             joint=("coupler_force", "")),
+        Port(name="rocker", torque="rocker_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), opposite=True, angle="rocker_angle",
+             joint=("coupler_force", "transmission_angle"), fills={"sector_ratio": "ratio", "pinion_radius": "pinion_radius"}),
+    ),
     checks=(
         Check(id="grashof", check_class="function", title="Crank-rocker (Grashof)",
               demand="grashof_demand", limit="grashof_limit", unit="1", operator="<",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Mechanism, Source
+from diecut_report.api import Mechanism, Port, Source
 from diecut_report.plugins.geneva_transport import forces, motion
 from diecut_report.plugins.geneva_transport.checks import CHECKS
 from diecut_report.plugins.geneva_transport.comparison import COMPARED
@@ -24,6 +24,11 @@ MECHANISM = Mechanism(
               forces.hertz, forces.locking),
     key_results=("crank_radius", "wheel_radius", "step_angle", "dwell_fraction", "time_dwell", "sheet_step", "sheet_velocity_max",
                  "sheet_acceleration_max", "sheet_force", "torque_peak", "roller_force_peak", "contact_pressure", "arm_tip", "sheet_play"),
+    ports=(
+        Port(name="crank", torque="torque", forces=("roller_force",), speed="crank_speed"),
+        Port(name="wheel", torque="wheel_acceleration", forces=("roller_force",), opposite=True, angle="wheel_angle", advance="slots",
+             fills={"gear_ratio": "ratio", "sprocket_teeth": "teeth", "chain_pitch": "pitch", "driven_inertia": "inertia"}),
+    ),
     checks=CHECKS,
     figures=FIGURES,
     comparisons=(COMPARED,),

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, Constant, bind, si, standard_series, table_beside
+from diecut_report.api import Chapter, Constant, bind, si, standard_series, standard_table
 
 # fmt: off
 
-KEYS = table_beside(__file__, "keys.yaml")
+KEYS = standard_table("parallel_keys")
 SHAFTS = np.array([si(value, "mm") for value in KEYS.column("d").values])
 THINNEST = si(10, "mm")
 LENGTHS = standard_series("din_6885_lengths")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from diecut_report.api import Chapter, Curve, bind, case, si
 from diecut_report.plugins.roller_chain import formulas as f
-from diecut_report.plugins.roller_chain.chains import CHAINS, COLUMNS
+from diecut_report.plugins.roller_chain.chains import CHAINS
 from diecut_report.plugins.roller_chain.formulas import INCH
 from diecut_report.plugins.roller_chain.inputs import CONVEYOR, DRIVE, OVERRIDES
 from diecut_report.plugins.roller_chain.loads import STILL
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 POINTS = 129  # of each smooth piece of a curve over the cycle
 SAME = 1e-6  # relative: pitches so near are one
 MARGIN = 1e-4  # relative: what the curve may rise between them
-TABLE = {name: np.array([si(value, unit) for value in CHAINS.column(name).values]) for name, unit in COLUMNS.items()}
+TABLE = {column.name: np.array([si(value, column.unit) for value in column.values]) for column in CHAINS.columns}
 """The chains' values, SI, in their order."""
 ALWAYS = ("teeth_1", "driven_teeth", "distance_wanted", "links_wanted", "strands", "sag", "inclination", "pretension", "application",
           "required_safety_dynamic", "required_safety_static", "pressure_allowed")  # fmt: skip

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from functools import cached_property
 
-from diecut_report.api import StandardTable, si, table_beside
+from diecut_report.api import StandardTable, si, standard_table
 
 BORE = 2  # digits of a designation that tell the bore
 
@@ -58,8 +58,8 @@ class BearingTable:
 
 DEEP_GROOVE, ROLLER = "deep_groove", "roller"
 CATALOGUES = {
-    DEEP_GROOVE: BearingTable(table_beside(__file__, "ball_bearings.yaml"), "", "62"),
-    ROLLER: BearingTable(table_beside(__file__, "roller_bearings.yaml"), "E", "NU2"),
+    DEEP_GROOVE: BearingTable(standard_table("ball_bearings"), "", "62"),
+    ROLLER: BearingTable(standard_table("roller_bearings"), "E", "NU2"),
 }
 
 

@@ -38,6 +38,12 @@ def reaction_in(bearing: str, plane: int) -> Curve:
     return curve
 
 
+def shaft_angle(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
+    """Return the angle of the shaft over the cycle."""
+    found: Array = under.cycle.turned(angle / (2 * np.pi), middle / (2 * np.pi), rows)
+    return found
+
+
 def along(of: Callable[[Statics, Array, Array], Array]) -> Curve:
     """Return a curve along the shaft: ``of`` the shaft, its places (places, 1) and the side, 0 or 1, of each."""
 

@@ -128,6 +128,16 @@ class Cycle:
             return share * (2 * np.pi * self.turns[rows][:, None] if self.rotation == "turning" else 0.0)
         return np.broadcast_to(_value(self.rotation, share, middle, rows, len(self.turns)), share.shape)
 
+    def turned(self, share: Array, middle: Array, rows: Array | None) -> Array:
+        """Return the shaft's angle at shares of the cycle (rows, places) of variants."""
+        own = np.arange(len(share)) % len(self.turns) if rows is None else rows
+        if isinstance(self.rotation, str):
+            found: Array = share * (2 * np.pi * self.turns[own][:, None] if self.rotation == "turning" else 0.0)
+            return found
+        return np.broadcast_to(
+            _value(self.rotation, share, np.broadcast_to(middle, share.shape), own, len(self.turns)), share.shape
+        )
+
     def extremes(self, name: str) -> Iterator[tuple[int, Array, Array]]:
         """Yield the loads of which only extremes are given, with these, (variants,) each."""
         for index, each in enumerate(self.given[name]):

@@ -36,9 +36,14 @@ def _states(under_load: UnderLoad, *factors: Array) -> dict[str, Array]:
 
 def _number(chapter: Chapter, id: str, symbol: str, unit: str, description: str, name: str, method: str, **options: Any) -> None:
     """A number of the shaft under its loads."""
-    chapter.computed(id, symbol, unit, description, lambda under_load: under_load.numbers[name], ("under_load",), method, **options)
+    of = "critical" if chapter is critical else "numbers"
+    chapter.computed(id, symbol, unit, description, lambda under_load: getattr(under_load, of)[name], ("under_load",), method, **options)
 
 
+critical = Chapter("Critical speed",
+    text="The shaft bends without mass; the masses of the loads, and its own in eight lumped masses per piece, move transversely. For a shaft that "
+        "is hardly longer than thick the value only means that the critical speed is far above any running speed: shear, which is neglected, lowers "
+        "it.")
 loads = Chapter("Loads and reactions",
     text="Reactions are forces on the shaft. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x M = Σ F_i "
         "(x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an interval.")
@@ -65,6 +70,8 @@ for bearing, sign in (("a", "A"), ("b", "B")):
     for plane, axis in enumerate("yz"):
         loads.computed_curve(f"reaction_{bearing}_{axis}", f"R_{sign}{axis}", "N", f"Reaction of bearing {sign} in {axis} over the cycle",
             curves.reaction_in(bearing, plane), "under_load", "cycle_angle", "by statics", source="statics")
+loads.computed_curve("shaft_angle", "θ(φ)", "deg", "Angle of the shaft over the cycle", curves.shaft_angle, "under_load", "cycle_angle", "as given",
+    joints=lambda under_load: under_load.cycle_joints, source="kinematics", output=False)
 loads.abscissa("position", "x_s", "mm", "Position along the shaft", "length")
 loads.computed_curve("bending_moment", "M_b(x)", "N*m", "Maximum bending moment over the cycle, along the shaft", curves.bending_moment, "under_load",
     "position", OVER_CYCLE, joints=lambda under_load: under_load.joints, source="statics")
@@ -165,10 +172,6 @@ yielding.total("yield_safety_notch", "n_y,notch", "1", "Minimum safety factor ag
 yielding.part_table("place_table", "All locations", "places", ("place_x", "place_diameter", "k_t", "k_ts", "k_f", "k_fs", "sigma_a", "sigma_m",
         "tau_a", "tau_m", "place_endurance", "place_safety", "place_yield_safety"))
 
-critical = Chapter("Critical speed",
-    text="The shaft bends without mass; the masses of the loads, and its own in eight lumped masses per piece, move transversely. For a shaft that "
-        "is hardly longer than thick the value only means that the critical speed is far above any running speed: shear, which is neglected, lowers "
-        "it.")
 _number(critical, "critical_speed", "n_crit", "rpm", "Lowest critical speed", "critical",
     "largest eigenvalue of √m_i δ_ij √m_j with the exact deflections δ_ij for unit forces", source="Shigley 7-6")
 _number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Rayleigh, upper bound", "rayleigh",

@@ -21,7 +21,6 @@ def numbers(statics: Statics) -> dict[str, Array]:
     slope = statics.slopes(np.stack([statics.supports.first, statics.supports.second]))
     locating = np.sum(statics.loads.axial_force, axis=0)
     bounds = statics.cycle.bounds("axial_force", np.ones((1, *statics.cycle.places.shape)))
-    critical = statics.elastic.critical
     return {
         "reaction_a": np.max(reactions[0], axis=1),
         "reaction_b": np.max(reactions[1], axis=1),
@@ -39,11 +38,14 @@ def numbers(statics: Statics) -> dict[str, Array]:
         "twist": statics.twist,
         "torque_span": statics.torque_span,
         "energy_difference": statics.energy_difference,
-        "critical": critical.speed,
-        "rayleigh": critical.rayleigh,
-        "dunkerley": critical.dunkerley,
         **_nominal(statics, sides),
     }
+
+
+def critical(statics: Statics) -> dict[str, Array]:
+    """Return the critical speed with its bounds, (variants,) each; it takes longer than all other numbers, and few ask for it."""
+    found = statics.elastic.critical
+    return {"critical": found.speed, "rayleigh": found.rayleigh, "dunkerley": found.dunkerley}
 
 
 def _torque_left(statics: Statics) -> Array:

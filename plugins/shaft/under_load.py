@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -78,8 +78,16 @@ class UnderLoad:
 
     @cached_property
     def numbers(self) -> dict[str, Array]:
-        """Return all numbers, (variants, 1) each."""
-        found = [totals.numbers(block) for _, block in self.blocks()]
+        """Return all numbers but the critical speed, (variants, 1) each."""
+        return self._of_blocks(totals.numbers)
+
+    @cached_property
+    def critical(self) -> dict[str, Array]:
+        """Return the critical speed with its bounds, (variants, 1) each."""
+        return self._of_blocks(totals.critical)
+
+    def _of_blocks(self, numbers: Callable[[Statics], dict[str, Array]]) -> dict[str, Array]:
+        found = [numbers(block) for _, block in self.blocks()]
         return {name: np.concatenate([each[name] for each in found])[:, None] for name in found[0]}
 
     @cached_property

@@ -1,0 +1,1 @@
+"""The machine's parts (``machine``, ``shafts``, ``meshes``, ``chains``, ``belts``): each dimension typed once, and the calculations made of them."""

@@ -1,0 +1,263 @@
+"""What takes a torque from which shaft, how fast the shafts turn, and after how many sheets all are back at their start."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import lcm
+from typing import Any, NamedTuple
+
+from diecut_report.config.parts.keys import ChainKeys, MeshKeys
+from diecut_report.config.parts.model import Join, MachineParts, Part, Shaft
+from diecut_report.config.yaml import KeyPath
+from diecut_report.mechanism.mechanism import Mechanism, Port
+
+USUAL_STEPS = 6  # of a Geneva wheel whose slots are not typed
+
+
+@dataclass(frozen=True)
+class Typed:
+    """Stand for the value that is typed at a path of the file, with its basis."""
+
+    path: KeyPath
+
+
+@dataclass(frozen=True)
+class Number:
+    """Stand for a number that a text of the file holds, or that follows from numbers there; it has the basis of all parts."""
+
+    text: str
+    path: KeyPath
+
+
+@dataclass(frozen=True, eq=False)
+class Element:
+    """Hold a calculation made of the parts: its name, kind and inputs, the part that it is of, and where that stands."""
+
+    name: str
+    kind: str
+    inputs: dict[str, Any]
+    path: KeyPath
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """Hold a factor: a number, and expressions that it is multiplied by."""
+
+    number: float
+    factors: tuple[str, ...] = ()
+
+    def times(self, *factors: str, number: float = 1.0) -> Ratio:
+        """Return the factor with more of them."""
+        return Ratio(self.number * number, (*self.factors, *factors))
+
+    @property
+    def text(self) -> Any:
+        """Return it as it stands in a configuration."""
+        return " * ".join((f"{self.number:.15g}", *self.factors)) if self.factors else self.number
+
+
+class Moving(NamedTuple):
+    """Hold by what a shaft swings or turns in steps: the mechanism, its port, and the part that stands for it."""
+
+    mechanism: str
+    port: Port
+    part: Part
+
+
+def millimetres(value: float) -> str:
+    """Return a length as it is written in a configuration."""
+    return f"{value * 1e3:.12g} mm"
+
+
+@dataclass(eq=False)
+class Demands:
+    """Know what the parts take from their shafts; ``blocks`` are the mechanisms as the file has them, ``of_kind`` the declarations of their kinds."""
+
+    parts: MachineParts
+    blocks: Mapping[str, Any]
+    of_kind: Mapping[str, Mechanism]
+    made: list[Element] = field(default_factory=list)
+    fills: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    def _add(self, name: str, kind: str, inputs: dict[str, Any], path: KeyPath) -> None:
+        self.made.append(Element(name, kind, inputs, path))
+
+    def is_made(self, name: str) -> bool:
+        """Return whether a calculation of this name is made."""
+        return any(each.name == name for each in self.made)
+
+    # How the machine turns.
+
+    reference_speed = "${drive_line.reference_speed}"
+
+    def named(self, kind: str) -> str | None:
+        """Return the only mechanism of a kind."""
+        found = [name for name, each in self.parts.mechanisms.items() if each == kind]
+        return found[0] if len(found) == 1 else None
+
+    @staticmethod
+    def speed(shaft: str) -> str:
+        """Return the reference to the speed of a shaft that turns steadily."""
+        return f"${{drive_line.{shaft}_speed}}"
+
+    def turns(self, shaft: str) -> Fraction:
+        """Return the revolutions of a shaft for each of the main shaft: of one that turns in steps, in the mean; 0 of one that swings."""
+        if shaft in self.parts.ratios:
+            found = Fraction(1)
+            for join, onward in self.parts.route(shaft):
+                ratio = Fraction(abs(join.ratio)).limit_denominator(10_000)
+                found = found * ratio if onward else found / ratio
+            return found
+        moving = self.moved_by(self.parts.shafts[shaft])
+        if moving is None or not moving.port.advance:
+            return Fraction(0)
+        found = Fraction(1, int(self.blocks.get(moving.mechanism, {}).get(moving.port.advance, USUAL_STEPS)))
+        for join in self.chain_from(moving.part.shaft.name, shaft):
+            found *= Fraction(abs(join.ratio)).limit_denominator(10_000)
+        return found
+
+    def moved_by(self, shaft: Shaft) -> Moving | None:
+        """Return by what a shaft swings or turns in steps; None of one that turns steadily."""
+        part = self.parts.motion_port(shaft)
+        port = None if part is None else self.port(part)
+        return Moving(part.port[0], port, part) if part is not None and part.port and port is not None else None
+
+    def chain_from(self, start: str, shaft: str) -> list[Join]:
+        """Return the joins by which a shaft drives another one."""
+        found: list[Join] = []
+        while shaft != start:
+            join = self.parts.driving_join(self.parts.shafts[shaft])
+            if join is None:
+                return []
+            found.insert(0, join)
+            shaft = join.drivers[0].shaft.name
+        return found
+
+    @property
+    def period(self) -> int:
+        """Return the revolutions of the main shaft after which all lines are back at their start."""
+        return lcm(*(self.line(name)[0].denominator for name in self.parts.mechanisms))
+
+    def line(self, mechanism: str) -> tuple[Fraction, str]:
+        """Return the revolutions of a mechanism for each of the main shaft, and the reference to its offset."""
+        timing = self.named("cyclogram")
+        lines = self.blocks[timing].get("lines", []) if timing else []
+        for index, line in enumerate(lines if isinstance(lines, list) else []):
+            if isinstance(line, dict) and line.get("mechanism") == mechanism:
+                try:
+                    turns = Fraction(str(line.get("turns_per_sheet", "1")).replace(" ", ""))
+                except (ValueError, ZeroDivisionError):
+                    turns = Fraction(1)
+                return turns, f"${{{timing}.line_offset.{index}}}"
+        return Fraction(1), "0 deg"
+
+    def cycle(self, shaft: str) -> int:
+        """Return the revolutions of the main shaft after which a shaft and the machine are back at their start."""
+        return lcm(self.turns(shaft).denominator, self.period)
+
+    def port(self, part: Part) -> Port | None:
+        """Return the port that a part stands for."""
+        if part.port is None:
+            return None
+        kind = self.parts.mechanisms.get(part.port[0], "")
+        return next((each for each in self.of_kind[kind].ports if each.name == part.port[1]), None) if kind in self.of_kind else None  # fmt: skip
+
+    # What the parts take from their shafts.
+
+    def _source(self, name: str, mechanism: str, curve: str, sign: int) -> dict[str, Any]:
+        turns, offset = self.line(mechanism)
+        found = {"name": name, "mechanism": mechanism, "curve": curve, "turns_per_sheet": str(turns), "offset": offset}
+        return found | {"ratio": Ratio(sign)}
+
+    def torque_on(self, part: Part) -> dict[str, Any] | None:
+        """Return what a part takes from its shaft, against its turning; None where nothing is known of it."""
+        port = self.port(part)
+        if port is not None and port.torque and not port.angle:
+            return self._source(part.name, str(part.port and part.port[0]), port.torque, -1)
+        for join in self.parts.joins_of(part):
+            if part in join.drivers and (found := self._through(join, len(join.drivers))):
+                return found | {"name": part.name}
+        return None
+
+    def _through(self, join: Join, share: int) -> dict[str, Any] | None:
+        """What a join takes from its driving shaft, each of several sprockets its share."""
+        if isinstance(join.keys, ChainKeys) and (join.keys.moves or not join.is_between_shafts):
+            return self._moved(join, share)
+        driven = join.driven[0].shaft
+        if driven.name == self.parts.keys.anchor and (timing := self.named("cyclogram")):
+            demand: dict[str, Any] | None = {
+                "mechanism": timing,
+                "curve": "main_shaft_torque",
+                "turns_per_sheet": "main",
+                "ratio": Ratio(-1),
+            }
+        else:
+            demand = self._added(self.torques_of(driven))
+        if demand is None:
+            return None
+        found = demand | {"ratio": demand["ratio"].times(join.ratio_text, number=1 / share)}
+        if isinstance(join.keys, MeshKeys) and driven.name in self.parts.ratios:
+            found["efficiency"] = (
+                Typed((*join.path, "efficiency")) if "efficiency" in self._raw(join.path) else join.keys.efficiency
+            )
+        return found
+
+    def _added(self, every: list[dict[str, Any]]) -> dict[str, Any] | None:
+        """The demands of several parts of one curve as one, such as of two chains side by side; None where they are unlike."""
+        alike = {(each["mechanism"], each["curve"], each["ratio"].factors) for each in every}
+        if len(alike) != 1:
+            return None
+        first = every[0]
+        if "inertia" not in first:
+            return first | {"ratio": Ratio(sum(each["ratio"].number for each in every), first["ratio"].factors)}
+        inertia = " + ".join(f"{-each['ratio'].number:.15g} * ({each['inertia']})" for each in every)
+        return first | {"ratio": Ratio(-1, first["ratio"].factors), "inertia": inertia}
+
+    def inertia_of(self, shaft: Shaft) -> dict[str, Any] | None:
+        """Return the torque that the inertia of a shaft takes that turns in steps; None of others: theirs is part of their mechanism."""
+        moving = self.moved_by(shaft)
+        if moving is None or not moving.port.advance or not moving.port.torque:
+            return None
+        factors = tuple(each.ratio_text for each in self.chain_from(moving.part.shaft.name, shaft.name))
+        found = self._source("inertia", moving.mechanism, moving.port.torque, -1)
+        return found | {"ratio": Ratio(-1, factors), "inertia": f"${{shafts_{shaft.name}_body.inertia}}"}
+
+    def torques_of(self, shaft: Shaft) -> list[dict[str, Any]]:
+        """Return all torques on a shaft but the one that balances them; none where its parts take none."""
+        found = [torque for part in shaft.parts if (torque := self.torque_on(part))]
+        own = self.inertia_of(shaft)
+        return [*found, own] if found and own else found
+
+    def _moved(self, join: Join, share: int) -> dict[str, Any] | None:
+        """What chains take from their sprockets to move the part of a mechanism that they name, each its share."""
+        mechanism, _, what = (join.keys.moves or "").partition(".")
+        kind = self.parts.mechanisms.get(mechanism)
+        if kind == "cylinder_drive" and what == "cylinder":
+            return self._source("", mechanism, "total_moment", -1) | {"ratio": Ratio(-1 / share)}
+        wheels = (
+            part
+            for each in self.parts.shafts.values()
+            for part in each.parts
+            if part.port and part.port[0] == mechanism
+        )
+        wheel = next(((part, port) for part in wheels if (port := self.port(part)) and port.advance), None)
+        if wheel is None or what != "conveyor":
+            return None
+        factors = tuple(each.ratio_text for each in self.chain_from(wheel[0].shaft.name, join.drivers[0].shaft.name))
+        found = self._source("", mechanism, wheel[1].torque, -1)
+        return found | {"ratio": Ratio(-1 / share, factors), "inertia": self._conveyor_inertia(join)}
+
+    def _conveyor_inertia(self, chain: Join) -> str:
+        """The inertia of a conveyor and the far shaft at its sprockets' shaft."""
+        far = "".join(
+            f" + ${{shafts_{each}_body.inertia}}" for each in dict.fromkeys(part.shaft.name for part in chain.driven)
+        )
+        return f"${{drive_line.{chain.name}_chain_mass}} * (${{drive_line.{chain.name}_chain_travel}} / 1 rad)**2{far}"
+
+    def _raw(self, path: KeyPath) -> Mapping[str, Any]:
+        data: Any = self.parts.reader.data
+        for part in path:
+            data = data[part]
+        return data if isinstance(data, dict) else {}

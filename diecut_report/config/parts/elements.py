@@ -1,0 +1,261 @@
+"""The calculations that are made of the parts: each as the block of a mechanism, its inputs taken from the parts and from each other."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.config.parts.demands import Element, Number, Ratio, Typed, millimetres
+from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
+from diecut_report.config.parts.model import Join, Part, Shaft, chain_pitch
+from diecut_report.config.parts.shafts import ShaftElements
+from diecut_report.standards import standard_table
+
+GEAR_LIMITS = ("sigma_h_lim", "sigma_f_lim")
+
+
+class Elements(ShaftElements):
+    """Make all calculations of the parts."""
+
+    def all(self) -> list[Element]:
+        """Return all calculations."""
+        for shaft in (each for each in self.parts.shafts.values() if each.is_rated and each.sections):
+            self._body(shaft)
+            self._loads(shaft)
+            self._shaft(shaft)
+            self._bearings(shaft)
+            for part in shaft.parts:
+                self._key(part)
+                self._pin(part)
+        for join in self.parts.joins:
+            {"meshes": self._mesh, "chains": self._chain, "belts": self._belt}[join.word](join)
+        self._drive_line()
+        self._fill_ports()
+        return self.made
+
+    def _fill_ports(self) -> None:
+        for shaft in self.parts.shafts.values():
+            for part in shaft.parts:
+                port = self.port(part)
+                if port is not None and part.port:
+                    given = {
+                        key: value for key, of in port.fills.items() if (value := self._provided(part, of)) is not None
+                    }
+                    self.fills.setdefault(part.port[0], {}).update(given)
+                if (
+                    part.kind == "clutch"
+                    and self.parts.mechanisms.get(part.name) == "clutch"
+                    and shaft.name in self.parts.ratios
+                ):
+                    self.fills.setdefault(part.name, {}).update({"speed": self.speed(shaft.name)})
+
+    def _provided(self, part: Part, what: str) -> Any:
+        """What the parts give a mechanism at one of its ports."""
+        mesh = next(
+            (
+                join
+                for each in part.shaft.parts
+                for join in self.parts.joins_of(each)
+                if join.word == "meshes" and each in join.drivers
+            ),
+            None,
+        )
+        last = mesh.driven[0].shaft if mesh else part.shaft
+        chain = next(
+            (
+                join
+                for each in last.parts
+                for join in self.parts.joins_of(each)
+                if join.word == "chains" and each in join.drivers
+            ),
+            None,
+        )
+        if what == "ratio":
+            return mesh.ratio_text.strip("()") if mesh else None
+        if what == "pinion_radius" and mesh:
+            return self._pitch_radius(mesh, mesh.driven[0])
+        if chain is None:
+            return None
+        if what == "teeth":
+            return Number(str(chain.keys.teeth_1), (*chain.path, "teeth"))
+        if what == "pitch":
+            return Number(millimetres(chain_pitch(chain.keys)), (*chain.path, "chain"))
+        return self._moved_inertia(part.shaft, mesh, chain) if what == "inertia" else None
+
+    def _moved_inertia(self, shaft: Shaft, mesh: Join | None, chain: Join) -> str:
+        """The inertia of the conveyor with its shafts, referred to the shaft of the wheel that moves it."""
+        own, conveyor = f"${{shafts_{shaft.name}_body.inertia}}", self._conveyor_inertia(chain)
+        if mesh is None:
+            return f"{conveyor} + {own}"
+        return f"({conveyor} + ${{shafts_{mesh.driven[0].shaft.name}_body.inertia}}) * {mesh.ratio_text}**2 + {own}"
+
+    def _drive_line(self) -> None:
+        bodies = {each.name for each in self.made if each.kind == "shaft_body"}
+        speeds: list[dict[str, Any]] = []
+        turning, moving = list[dict[str, Any]](), list[dict[str, Any]]()
+        for name in self.parts.shafts:
+            home = f"shafts_{name}_body"
+            mass = {"name": name, "mass": f"${{{home}.mass}}"}
+            if name in self.parts.ratios:
+                ratio = Ratio(
+                    1,
+                    tuple(
+                        join.ratio_text if onward else f"1 / {join.ratio_text}"
+                        for join, onward in self.parts.route(name)
+                    ),
+                )
+                turning += (
+                    [mass | {"ratio": f"${{drive_line.shafts.{len(speeds)}.ratio}}", "inertia": f"${{{home}.inertia}}"}]
+                    if home in bodies
+                    else []
+                )
+                speeds.append({"name": name, "ratio": ratio.text})
+            elif home in bodies:
+                moving.append(mass)
+        timing = self.blocks.get(self.named("cyclogram") or "", {})
+        rate = (
+            {"reference_speed": f"{timing['productivity']} * 1 revolution"}
+            if "${" in str(timing.get("productivity"))
+            else {}
+        )
+        joins = {word: rows for word in ("meshes", "chains", "belts") if (rows := self._joins(word))}
+        self._add("drive_line", "drive_line", rate | {"shafts": speeds} | joins, ("machine",))
+        if turning:
+            self._add(
+                "machine", "machine_inertia", {"shafts": turning} | ({"moving": moving} if moving else {}), ("machine",)
+            )
+
+    def _joins(self, word: str) -> list[dict[str, Any]]:
+        """The numbers of the joins of a word, which all others refer to."""
+        found = []
+        for join in (each for each in self.parts.joins if each.word == word):
+            keys, path = join.keys, join.path
+            row: dict[str, Any] = {"name": join.name}
+            if isinstance(keys, BeltKeys):
+                row |= {
+                    f"diameter_{n}": Number(millimetres(getattr(keys, f"diameter_{n}")), (*path, "diameters"))
+                    for n in (1, 2)
+                }
+            else:
+                row |= {
+                    "teeth_1": Number(str(keys.teeth_1), (*path, "teeth")),
+                    "teeth_2": Number(str(keys.teeth_2 or keys.teeth_1), (*path, "teeth")),
+                }
+            if isinstance(keys, MeshKeys):
+                row |= {"module": Typed((*path, "module"))} | (
+                    {"helix_angle": Typed((*path, "helix_angle"))} if keys.helix_angle else {}
+                )
+            if isinstance(keys, ChainKeys):
+                row |= {
+                    "pitch": Number(millimetres(chain_pitch(keys)), (*path, "chain")),
+                    "links": Typed((*path, "links")),
+                }
+                weight = standard_table("roller_chains").by_name("mass_per_length")[keys.chain]
+                row |= {"strands": len(keys.sprockets), "mass_per_length": Number(f"{weight:g} kg/m", (*path, "chain"))}
+                row |= {key: Typed((*path, key)) for key in ("moving_mass", "pretension") if key in join.more}
+            found.append(row)
+        return found
+
+    def _mesh(self, join: Join) -> None:
+        keys, path = join.keys, join.path
+        pinion, wheel = (
+            (join.drivers[0], join.driven[0]) if keys.teeth_1 <= keys.teeth_2 else (join.driven[0], join.drivers[0])
+        )
+        first = 1 if pinion in join.drivers else 2
+        inputs: dict[str, Any] = {
+            "module": f"${{{join.home}.module}}", "teeth_1": f"${{{join.home}.teeth_{first}}}", "teeth_2": f"${{{join.home}.teeth_{3 - first}}}",
+            "face_width": Typed((*path, "width")), "application_factor": 1,
+        }  # fmt: skip
+        if keys.helix_angle:
+            inputs["helix_angle"] = Typed((*path, "helix_angle"))
+        torque = self._torque_reference(pinion)
+        inputs |= {"torque": torque} if torque else {"torque": self._torque_reference(wheel), "torque_on": "wheel"}
+        if inputs["torque"] is None:
+            return
+        if pinion.shaft.name in self.parts.ratios:
+            inputs["speed"] = self.speed(pinion.shaft.name)
+        for limit in GEAR_LIMITS:
+            if getattr(self.parts.keys.gears, limit):
+                inputs |= {f"{limit}_{gear}": Typed(("machine", "gears", limit)) for gear in (1, 2)}
+        moving = self.parts.motion_port(wheel.shaft)
+        if keys.teeth_present and moving is not None and moving.port:
+            inputs["sector"] = {
+                "swing": f"${{{moving.port[0]}.swing_angle}}",
+                "teeth_present": Typed((*path, "teeth_present")),
+            }
+        inputs |= {key: Typed((*path, key)) for key in join.more}
+        self._add(f"meshes_{join.name}", "gear_pair", inputs, path)
+
+    def _torque_reference(self, part: Part) -> str | None:
+        loads = f"shafts_{part.shaft.name}_loads"
+        if not self.is_made(loads):
+            return None
+        if self.torque_on(part):
+            return f"${{{loads}.{part.name}_torque}}"
+        return f"${{{loads}.balance}}" if self._balances(part) else None
+
+    def _chain(self, join: Join) -> None:
+        keys: ChainKeys = join.keys
+        mechanism, _, what = (keys.moves or "").partition(".")
+        inputs: dict[str, Any] = {
+            "chain": keys.chain, "use": "conveyor", "strands": len(keys.sprockets), "teeth_1": f"${{{join.home}.teeth_1}}",
+            "teeth_2": f"${{{join.home}.teeth_2}}", "links": f"${{{join.home}.links}}",
+        }  # fmt: skip
+        kind = self.parts.mechanisms.get(mechanism)
+        if kind == "cylinder_drive" and what == "cylinder":
+            inputs |= {"acceleration": f"${{{mechanism}.acceleration}}", "velocity": f"${{{mechanism}.velocity}}",
+                       "moving_mass": f"${{{mechanism}.reduced_inertia}} / ${{{mechanism}.cylinder_radius}}**2",
+                       "process_force": f"${{{mechanism}.cutting_moment}} / ${{{mechanism}.cylinder_radius}}"}  # fmt: skip
+        elif kind is not None and what == "conveyor":
+            inputs |= {
+                "acceleration": f"${{{mechanism}.sheet_acceleration}}",
+                "velocity": f"${{{mechanism}.sheet_velocity}}",
+            }
+            if join.driven:
+                inputs["driven_inertia"] = f"${{shafts_{join.driven[0].shaft.name}_body.inertia}}"
+        else:
+            return
+        inputs |= {key: Typed((*join.path, key)) for key in join.more}
+        inputs |= {key: f"${{{join.home}.{key}}}" for key in ("moving_mass", "pretension") if key in join.more}
+        self._add(f"chains_{join.name}", "roller_chain", inputs, join.path)
+
+    def _belt(self, join: Join) -> None:
+        train = self.named("drive_train")
+        if train is None:
+            return
+        keys, path = join.keys, join.path
+        distance = self.parts.distance(join.drivers[0].shaft.name, join.driven[0].shaft.name)
+        vbelt: dict[str, Any] = {
+            "section": keys.section,
+            "driver_diameter": Number(millimetres(keys.diameter_1), (*path, "diameters")),
+        }
+        if distance is not None:
+            vbelt["center_distance"] = Number(millimetres(distance), ("machine", "frame"))
+        vbelt |= {key: Typed((*path, key)) for key in ("count", "tension") if getattr(keys, key) is not None}
+        vbelt |= {key: Typed((*path, key)) for key in join.more if key not in ("power_per_belt",)}
+        fills: dict[str, Any] = {"vbelt": vbelt, "gears": self._train_gears(join.driven[0].shaft.name)}
+        if "power_per_belt" in join.more:
+            fills["power_per_belt"] = Typed((*path, "power_per_belt"))
+        motor = join.drivers[0].shaft
+        if motor.keys.motor is not None:
+            fills["motor_speed"] = Typed((*motor.path, "motor", "speed"))
+        self.fills.setdefault(train, {}).update(fills)
+
+    def _train_gears(self, shaft: str) -> list[dict[str, Any]]:
+        """The gear pairs from the flywheel's shaft to the main one."""
+        found = []
+        for join, _ in reversed(self.parts.route(shaft)):
+            if isinstance(join.keys, MeshKeys):
+                path = (*join.path, "teeth")
+                pair: dict[str, Any] = {
+                    "driver_teeth": Number(str(join.keys.teeth_1), path),
+                    "driven_teeth": Number(str(join.keys.teeth_2), path),
+                }
+                found.append(
+                    pair
+                    | (
+                        {"efficiency": Typed((*join.path, "efficiency"))}
+                        if "efficiency" in self._raw(join.path)
+                        else {}
+                    )
+                )
+        return found

@@ -1,0 +1,207 @@
+"""A file with parts as a file of mechanisms alone: the calculations made of the parts, and references to parts as what they stand for.
+
+Each value of a calculation stands where the part's own is typed, so that whatever is wrong with it is told there.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from diecut_report.config.parts.demands import Element, Number, Typed, millimetres
+from diecut_report.config.parts.elements import Elements
+from diecut_report.config.parts.keys import WORDS
+from diecut_report.config.parts.model import MachineParts
+from diecut_report.config.parts.reading import PartsReader
+from diecut_report.config.parts.rules import coherence
+from diecut_report.config.yaml import KeyPath, Tree, YamlNode, with_root
+from diecut_report.errors import Problem
+from diecut_report.mechanism.mechanism import Mechanism
+
+REFERENCE = re.compile(r"\$\{\s*((?:" + "|".join(WORDS) + r")\.[^${}]*?)\s*\}")
+SINGLE = re.compile(r"\$\{[^${}]*\}")
+
+
+@dataclass(frozen=True, eq=False)
+class Expanded:
+    """Hold a file with parts as one of mechanisms alone, the parts themselves, and what is wrong with them."""
+
+    tree: Tree
+    parts: MachineParts | None
+    elements: Elements | None
+    problems: tuple[Problem, ...]
+
+
+def has_parts(data: Any) -> bool:
+    """Return whether a file has parts."""
+    return isinstance(data, dict) and isinstance(data.get("machine"), dict) and "shafts" in data
+
+
+def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded:
+    """Return the file with the calculations made of its parts."""
+    given = tree.data.get("mechanisms")
+    blocks = (
+        {name: block for name, block in given.items() if isinstance(block, dict)} if isinstance(given, dict) else {}
+    )
+    kinds = {name: str(block.get("kind")) for name, block in blocks.items()}
+    known = {kind: found for kind in {*kinds.values()} if (found := of_kind(kind)) is not None}
+    models = {name: known[kind].inputs for name, kind in kinds.items() if kind in known}
+    reader = PartsReader(tree, tree.data, models)
+    parts = MachineParts.read(reader, kinds)
+    if parts is None or reader.problems:
+        return Expanded(_without(tree), parts, None, tuple(reader.problems))
+    elements = Elements(parts, blocks, known)
+    made = elements.all()
+    problems = [*reader.problems, *coherence(parts, elements)]
+    return Expanded(_Writer(tree, parts, elements).written(made), parts, elements, tuple(problems))
+
+
+def _without(tree: Tree) -> Tree:
+    """The file without its parts."""
+    children = {key: node for key, node in (tree.root.children or {}).items() if key not in WORDS}
+    return with_root(tree, replace(tree.root, children=children))
+
+
+class _Writer:
+    """Writes calculations into the tree of a file."""
+
+    def __init__(self, tree: Tree, parts: MachineParts, elements: Elements) -> None:
+        self.tree, self.parts, self.elements = tree, parts, elements
+        self.names = {each.name for each in elements.made}
+
+    def written(self, made: list[Element]) -> Tree:
+        """Return the file with the calculations beside its mechanisms."""
+        root = self.tree.root
+        mechanisms = (root.children or {})["mechanisms"]
+        blocks: dict[str | int, YamlNode] = dict(mechanisms.children or {})
+        for name, fills in self.elements.fills.items():
+            if name in blocks:
+                blocks[name] = self._filled(blocks[name], fills)
+        for element in made:
+            blocks[element.name] = self._node({"kind": element.kind} | element.inputs, element.path)
+        positions = mechanisms.key_positions | {each.name: self.tree.key_position(each.path) for each in made}
+        home = replace(mechanisms, children=blocks, key_positions=positions)
+        children = {key: node for key, node in (root.children or {}).items() if key not in WORDS} | {"mechanisms": home}
+        return with_root(self.tree, self._resolved(replace(root, children=children)))
+
+    def _filled(self, block: YamlNode, fills: Mapping[str, Any]) -> YamlNode:
+        """A mechanism's block with what the parts give it; what it gives itself stays."""
+        children: dict[str | int, YamlNode] = dict(block.children or {})
+        for key, value in fills.items():
+            children.setdefault(key, self._node(value, ("machine",)))
+        return replace(block, children=children)
+
+    def _node(self, value: Any, path: KeyPath) -> YamlNode:
+        position = self.tree.position(path)
+        match value:
+            case Typed(path=there):
+                return self._based(self.tree.node(there), self.tree.position(there))
+            case Number(text=text, path=there):
+                place = self.tree.position(there)
+                return self._based(YamlNode(place, text, text), place)
+            case dict():
+                children: dict[str | int, YamlNode] = {key: self._node(part, path) for key, part in value.items()}
+                return YamlNode(position, children=children, key_positions=dict.fromkeys(children, position))
+            case list():
+                return YamlNode(
+                    position, children={index: self._node(part, path) for index, part in enumerate(value)}, is_list=True
+                )
+            case bool():
+                return YamlNode(position, value, str(value).lower())
+        return YamlNode(position, value, str(value))
+
+    def _based(self, node: YamlNode, place: tuple[int, int]) -> YamlNode:
+        """A typed number with the basis of all parts, where it does not say its own."""
+        basis, note = self.parts.keys.basis, self.parts.keys.note
+        number = isinstance(node.scalar, int | float) and not isinstance(node.scalar, bool)
+        is_quantity = number or (isinstance(node.scalar, str) and node.scalar[:1].isdigit() and " " in node.scalar)
+        if basis is None or not is_quantity:
+            return node
+        children: dict[str | int, YamlNode] = {"value": node, "basis": YamlNode(place, basis, basis)}
+        if note:
+            children["note"] = YamlNode(place, note, note)
+        return YamlNode(place, children=children, key_positions=dict.fromkeys(children, place))
+
+    # References to parts.
+
+    def _resolved(self, node: YamlNode) -> YamlNode:
+        if node.children is not None:
+            return replace(node, children={key: self._resolved(child) for key, child in node.children.items()})
+        if not isinstance(node.scalar, str) or not REFERENCE.search(node.scalar):
+            return node
+        whole = REFERENCE.fullmatch(node.scalar.strip())
+        text = REFERENCE.sub(lambda match: self._stands_for(match[1], is_alone=bool(whole)), node.scalar)
+        return replace(node, scalar=text, typed=text)
+
+    def _stands_for(self, path: str, *, is_alone: bool) -> str:
+        found = self._meant(path.split("."))
+        if found is None:
+            return f"${{{path}}}"
+        return found if is_alone or SINGLE.fullmatch(found) else f"({found})"
+
+    def _meant(self, parts: list[str]) -> str | None:
+        match parts:
+            case ["shafts", shaft, "speed"] if shaft in self.parts.ratios:
+                return self.elements.speed(shaft)
+            case ["shafts", shaft, "inertia" | "mass" as what]:
+                return f"${{shafts_{shaft}_body.{what}}}"
+            case ["shafts", shaft, "inertia_total"]:
+                return self._total_inertia(shaft)
+            case ["shafts", shaft, "bearings", name, what]:
+                return self._of_bearing(shaft, name, what)
+            case ["shafts", shaft, "parts", name, what]:
+                return self._of_part(shaft, name, what)
+            case ["shafts", shaft, "sections", index, what]:
+                return f"${{shafts_{shaft}.sections.{index}.{what}}}"
+            case [word, name, what] if word in WORDS:
+                return self._of_join(word, name, what)
+            case ["machine", what]:
+                return f"${{machine.{what}}}"
+        return None
+
+    def _total_inertia(self, shaft: str) -> str:
+        """Everything that turns with a shaft, referred to it."""
+        own = self.parts.ratios.get(shaft)
+        if own is None:
+            return f"${{shafts_{shaft}_body.inertia}}"
+        others = [
+            (name, abs(ratio / own)) for name, ratio in self.parts.ratios.items() if f"shafts_{name}_body" in self.names
+        ]
+        return " + ".join(f"${{shafts_{name}_body.inertia}} * {ratio:.15g}**2" for name, ratio in others)
+
+    def _of_bearing(self, shaft: str, name: str, what: str) -> str | None:
+        bearings = self.parts.shafts[shaft].bearings if shaft in self.parts.shafts else []
+        for part, end in zip(bearings, "ab", strict=False):
+            if part.name == name and what == "reaction":
+                return f"${{shafts_{shaft}.reaction_{end}}}"
+            if part.name == name and what == "bore" and (bore := part.size("d")) is not None:
+                return millimetres(bore)
+        return None
+
+    def _of_part(self, shaft: str, name: str, what: str) -> str | None:
+        own = self.parts.shafts[shaft].parts if shaft in self.parts.shafts else []
+        part = next((each for each in own if each.name == name), None)
+        if part is None:
+            return None
+        if what == "position" and shaft in self.parts.lefts:
+            return millimetres(self.parts.lefts[shaft] + part.keys.at)
+        if what == "torque":
+            return self.elements._torque_reference(part)
+        return None
+
+    def _of_join(self, word: str, name: str, what: str) -> str | None:
+        join = next((each for each in self.parts.joins if (each.word, each.name) == (word, name)), None)
+        if join is None:
+            return None
+        named = {("meshes", "ratio"): "mesh_ratio", ("meshes", "center_distance"): "center_distance", ("belts", "ratio"): "belt_ratio",
+                 ("chains", "length"): "chain_length", ("chains", "mass"): "chain_mass"}  # fmt: skip
+        if (word, what) in named:
+            return f"${{drive_line.{name}_{named[word, what]}}}"
+        if what in ("pitch_radius", "pitch_radius_1", "pitch_radius_2"):
+            side = join.driven if what.endswith("2") else join.drivers
+            return millimetres(join.radius(side[0])) if side else None
+        if what == "shaft_load" and word == "belts" and (train := self.elements.named("drive_train")):
+            return f"${{{train}.shaft_load}}"
+        return None

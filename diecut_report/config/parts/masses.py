@@ -1,0 +1,111 @@
+"""Masses and moments of inertia of the shafts with their parts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.config.parts.demands import Demands, Number, Typed, millimetres
+from diecut_report.config.parts.keys import ChainKeys, MeshKeys
+from diecut_report.config.parts.model import Join, Part, Shaft, chain_pitch
+from diecut_report.mechanics.geneva_wheel import area_and_polar
+from diecut_report.quantities.units import unit
+from diecut_report.standards import standard_table
+
+STEEL = 7850  # kg/m³
+
+
+class Masses(Demands):
+    """Make the calculations of masses and moments of inertia."""
+
+    def _body(self, shaft: Shaft) -> None:
+        home = f"shafts_{shaft.name}"
+        discs: list[dict[str, Any]] = [self._section_disc(shaft, index) for index in range(len(shaft.sections))]
+        bodies = []
+        for part in shaft.parts:
+            if disc := self._disc(part):
+                discs.append({"name": part.name} | disc)
+            elif "mass" in part.more or part.kind == "geneva_wheel" or "inertia" in part.more:
+                bodies.append({"name": part.name} | self._mass(part))
+        inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {})
+        self._add(f"{home}_body", "shaft_body", inputs, shaft.path)
+
+    def _section_disc(self, shaft: Shaft, index: int) -> dict[str, Any]:
+        section = self._section(shaft, index)
+        found = {"name": f"section_{index + 1}", "diameter": section["diameter"], "width": section["length"]}
+        return found | ({"bore": section["bore"]} if "bore" in section else {})
+
+    def _section(self, shaft: Shaft, index: int) -> dict[str, Any]:
+        own, path = shaft.keys.sections[index], (*shaft.path, "sections", index)
+        if isinstance(self._raw(shaft.path).get("sections"), list):
+            return {key: Typed((*path, key)) for key in self._raw(path)}
+        found = {key: getattr(own, key) for key in ("length", "diameter", "bore", "fillet_radius")}
+        return {key: Number(millimetres(value), (*shaft.path, "sections")) for key, value in found.items() if value}
+
+    def _disc(self, part: Part) -> dict[str, Any] | None:
+        """A part as a disc; None where its mass is typed or nothing is known of it."""
+        join = next(self.parts.joins_of(part), None)
+        if "mass" in part.more or part.kind == "geneva_wheel" or join is None:
+            return None
+        width = self._width(part, join)
+        if width is None:
+            return None
+        found = {
+            "diameter": Number(millimetres(2 * join.radius(part)), join.path),
+            "width": Number(millimetres(width), part.path),
+        }
+        bore = part.keys.bore if part.keys.bore is not None else part.seat
+        found |= {"bore": Number(millimetres(bore), part.path)} if bore else {}
+        return found | ({"fill": Typed((*part.path, "fill"))} if part.keys.fill != 1 else {})
+
+    @staticmethod
+    def _width(part: Part, join: Join) -> float | None:
+        if part.keys.width is not None:
+            return part.keys.width
+        if isinstance(join.keys, MeshKeys):
+            return join.keys.width
+        return tooth_width(join.keys) if isinstance(join.keys, ChainKeys) else part.keys.hub
+
+    def _has_mass(self, part: Part) -> bool:
+        return "mass" in part.more or self._disc(part) is not None
+
+    def _given_mass(self, part: Part) -> Any:
+        return Typed((*part.path, "mass"))
+
+    def _mass(self, part: Part) -> dict[str, Any]:
+        """The mass of a part as it is typed, and its inertia: typed, or of a disc of that mass without bore."""
+        join = next(self.parts.joins_of(part), None)
+        found: dict[str, Any] = {"mass": Typed((*part.path, "mass"))} if "mass" in part.more else {"mass": 0}
+        if "inertia" in part.more:
+            return found | {"inertia": Typed((*part.path, "inertia"))}
+        if part.kind == "geneva_wheel" and "mass" not in part.more:
+            return self._geneva_wheel(part)
+        if join is not None:
+            given = self._raw(part.path)["mass"]
+            text = given.get("value") if isinstance(given, dict) else given
+            text = f"{text} kg" if isinstance(text, int | float) else text
+            if "${" not in str(text):
+                radius = join.radius(part)
+                inertia = unit("kg").factor and float(str(text).split()[0]) * radius**2 / 2
+                found["inertia"] = Number(f"{inertia:.12g} kg*m**2", part.path)
+        return found
+
+    def _geneva_wheel(self, part: Part) -> dict[str, Any]:
+        mechanism = str(part.port and part.port[0])
+        keys = self.parts.reader.typed_block(mechanism)
+        if part.keys.width is None or not {"slots", "center_distance", "roller_radius"} <= keys.keys():
+            return {"mass": 0}
+        area, polar = area_and_polar(
+            int(keys["slots"]), keys["center_distance"], keys["roller_radius"], keys.get("locking_radius"), part.seat
+        )
+        weight = STEEL * part.keys.width
+        return {
+            "mass": Number(f"{weight * area:.12g} kg", part.path),
+            "inertia": Number(f"{weight * polar:.12g} kg*m**2", part.path),
+        }
+
+
+def tooth_width(keys: ChainKeys) -> float:
+    """Return the width of a sprocket's teeth, m, by ISO 606: 0.93 of the chain's inner width up to a pitch of 12.7 mm, 0.95 above."""
+    table = standard_table("iso_606_inner_widths")
+    share = 0.93 if chain_pitch(keys) <= 12.7e-3 * (1 + 1e-9) else 0.95
+    return int(share * table.values[keys.chain] * 10) / 10 * unit(table.unit).factor

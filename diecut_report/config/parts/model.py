@@ -1,0 +1,436 @@
+"""The parts of a machine as they stand together: shafts with their sections and parts, what joins them, speeds, axes and places."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import cos, hypot, pi, sin
+from typing import Any, Literal
+
+from diecut_report.config.parts.keys import PART_KINDS, BeltKeys, ChainKeys, MachineKeys, MeshKeys, PartKeys, ShaftKeys
+from diecut_report.config.parts.reading import PartsReader
+from diecut_report.config.validation import ConfigPlace
+from diecut_report.config.yaml import KeyPath
+from diecut_report.errors import nearest
+from diecut_report.quantities.units import unit
+from diecut_report.standards import StandardTable, standard_table
+from diecut_report.text.phrases import Phrase
+
+CREEP = 0.01  # share of its speed that a V-belt loses
+SIDES = {
+    "meshes": ("gear", "pair.0", "pair.1"),
+    "chains": ("sprocket", "sprockets", "to"),
+    "belts": ("pulley", "pulleys.0", "pulleys.1"),
+}
+"""Of each word the kind of the parts that are joined, and where the driving and the driven ones are named."""
+SAME_PLACE = 0.05e-3  # m, by which two places that are one may differ
+
+
+@dataclass(frozen=True)
+class Catalogue:
+    """Hold the dimensions of rolling bearings by designation, m."""
+
+    table: StandardTable
+
+    def size(self, designation: str, column: str) -> float | None:
+        """Return a dimension of a bearing; None of one that the table does not have."""
+        of = self.table.column(column)
+        found = dict(zip(self.table.names, of.values, strict=True)).get(designation)
+        return None if found is None else found * unit(of.unit).factor
+
+
+def catalogue_size(designation: str, column: str) -> float | None:
+    """Return a dimension of a bearing of the tables, m; None of one that they do not have."""
+    plain = "".join(designation.split()).upper()
+    tables = (Catalogue(standard_table(name)) for name in ("ball_bearings", "roller_bearings"))
+    sizes = (table.size(name, column) for table in tables for name in (plain, f"{plain}E"))
+    return next((size for size in sizes if size is not None), None)
+
+
+@dataclass(frozen=True)
+class Section:
+    """Hold a section of a shaft, m: where it begins and ends from the left end."""
+
+    index: int
+    start: float
+    end: float
+    diameter: float
+    bore: float
+    fillet: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Hold a part on a shaft."""
+
+    shaft: Shaft
+    index: int
+    keys: PartKeys
+    more: tuple[str, ...]
+
+    @cached_property
+    def kind(self) -> str:
+        """Return its kind: bearing, gear, crank …"""
+        return next(kind for kind in PART_KINDS if getattr(self.keys, kind) is not None)
+
+    @property
+    def name(self) -> str:
+        """Return its name on the shaft."""
+        return str(getattr(self.keys, self.kind))
+
+    @property
+    def path(self) -> KeyPath:
+        """Return where it stands in the file."""
+        return (*self.shaft.path, "parts", self.index)
+
+    @property
+    def called(self) -> str:
+        """Return what messages and results call it: SHAFT.NAME."""
+        return f"{self.shaft.name}.{self.name}"
+
+    @cached_property
+    def section(self) -> Section | None:
+        """Return the section that its middle lies on."""
+        return self.shaft.section_at(self.keys.at)
+
+    @cached_property
+    def seat(self) -> float:
+        """Return the diameter of the shaft at its middle, m; 0 where the shaft is not modelled."""
+        return self.section.diameter if self.section else 0.0
+
+    @cached_property
+    def hub(self) -> float:
+        """Return the length of its hub or ring along the shaft, m."""
+        if self.keys.hub is not None:
+            return self.keys.hub
+        return (self.size("B") if self.kind == "bearing" else self.keys.width) or 0.0
+
+    def size(self, column: Literal["d", "D", "B"]) -> float | None:
+        """Return a dimension of a bearing, m: as typed, else of the catalogue."""
+        typed = {"d": self.keys.bore, "D": self.keys.outside, "B": self.keys.width}[column]
+        return typed if typed is not None or not self.keys.designation else catalogue_size(self.keys.designation, column)  # fmt: skip
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Return where its hub begins and ends, m from the shaft's left end."""
+        return self.keys.at - self.hub / 2, self.keys.at + self.hub / 2
+
+    @property
+    def is_carried(self) -> bool:
+        """Return whether something joins it to the shaft that carries a torque and can be rated or named."""
+        keys = self.keys
+        return bool(keys.key or keys.integral or keys.bolted or keys.interference or keys.rides_on)
+
+    @property
+    def outward(self) -> int:
+        """Return +1 where it stands right of the middle of the bearings, so that its outer face is the right one, else −1."""
+        return 1 if self.keys.at >= self.shaft.middle else -1
+
+    @cached_property
+    def plane(self) -> float:
+        """Return the plane of its pin, or of its force, m from the shaft's left end."""
+        pin, beyond = self.keys.pin, self.keys.plane
+        if pin is not None and pin.span_start is not None and pin.span_end is not None:
+            return self.keys.at + pin.plane - (pin.span_start + pin.span_end) / 2
+        distance = pin.plane if pin is not None else beyond
+        return self.keys.at if distance is None else self.keys.at + self.outward * (self.hub / 2 + distance)
+
+    @property
+    def port(self) -> tuple[str, str] | None:
+        """Return the mechanism and the port that it is of."""
+        mechanism, _, port = (self.keys.of or "").partition(".")
+        return (mechanism, port) if port else None
+
+
+@dataclass(frozen=True, eq=False)
+class Shaft:
+    """Hold a shaft."""
+
+    name: str
+    keys: ShaftKeys
+    path: KeyPath
+    more: tuple[str, ...]
+    parts: list[Part] = field(default_factory=list)
+
+    @cached_property
+    def sections(self) -> tuple[Section, ...]:
+        """Return its sections from left to right."""
+        found, start = [], 0.0
+        for index, each in enumerate(self.keys.sections):
+            found.append(Section(index, start, start + each.length, each.diameter, each.bore, each.fillet_radius))
+            start += each.length
+        return tuple(found)
+
+    @property
+    def length(self) -> float:
+        """Return its length, m."""
+        return self.sections[-1].end if self.sections else 0.0
+
+    def section_at(self, place: float) -> Section | None:
+        """Return the section at a place; at a step the one to its right."""
+        for each in self.sections:
+            if each.start - SAME_PLACE <= place < each.end or place == each.end == self.length:
+                return each
+        return None
+
+    @property
+    def bearings(self) -> list[Part]:
+        """Return its bearings from left to right."""
+        return sorted((part for part in self.parts if part.kind == "bearing"), key=lambda part: part.keys.at)
+
+    @property
+    def middle(self) -> float:
+        """Return the middle between its bearings, m."""
+        own = [part.keys.at for part in self.bearings] or [self.length / 2]
+        return (own[0] + own[-1]) / 2
+
+    @property
+    def is_rated(self) -> bool:
+        """Return whether it is calculated: one of a motor is its maker's."""
+        return self.keys.motor is None
+
+
+@dataclass(frozen=True, eq=False)
+class Join:
+    """Hold what joins two shafts: a mesh, a chain or a belt, from the driving part to the driven one (none: to a mechanism)."""
+
+    word: str
+    index: int  # among those of its word
+    name: str
+    keys: Any
+    path: KeyPath
+    more: tuple[str, ...]
+    drivers: tuple[Part, ...]
+    driven: tuple[Part, ...]
+
+    @property
+    def is_between_shafts(self) -> bool:
+        """Return whether it drives another shaft."""
+        return bool(self.driven)
+
+    @property
+    def ratio(self) -> float:
+        """Return the speed of the driven shaft for each of the driving one; below zero where it turns the other way."""
+        keys = self.keys
+        match keys:
+            case MeshKeys():
+                return -keys.teeth_1 / keys.teeth_2
+            case ChainKeys():
+                return keys.teeth_1 / (keys.teeth_2 or keys.teeth_1)
+        return float(keys.diameter_1 / keys.diameter_2 * (1 - CREEP))
+
+    @property
+    def home(self) -> str:
+        """Return where its numbers stand among the inputs of the calculation of the whole drive line."""
+        return f"drive_line.{self.word}.{self.index}"
+
+    @property
+    def ratio_text(self) -> str:
+        """Return the ratio without its sign as an expression, of references to what it follows from."""
+        if isinstance(self.keys, BeltKeys):
+            return f"(${{{self.home}.diameter_1}} / ${{{self.home}.diameter_2}} * {1 - CREEP:g})"
+        return f"(${{{self.home}.teeth_1}} / ${{{self.home}.teeth_2}})"
+
+    def radius(self, part: Part) -> float:
+        """Return the pitch radius of one of its parts, m."""
+        keys, is_first = self.keys, part in self.drivers
+        match keys:
+            case MeshKeys():
+                teeth = keys.teeth_1 if is_first else keys.teeth_2
+                return float(keys.module * teeth / 2 / cos(keys.helix_angle))
+            case ChainKeys():
+                teeth = keys.teeth_1 if is_first else keys.teeth_2 or keys.teeth_1
+                return chain_pitch(keys) / (2 * sin(pi / teeth))
+        return float((keys.diameter_1 if is_first else keys.diameter_2) / 2)
+
+    @property
+    def center_distance(self) -> float | None:
+        """Return the distance of the axes that follows from the join itself, m; None of a belt, which is tensioned."""
+        if isinstance(self.keys, MeshKeys):
+            return self.radius(self.drivers[0]) + self.radius(self.driven[0])
+        if isinstance(self.keys, ChainKeys) and self.driven and self.keys.teeth_2 in (None, self.keys.teeth_1):
+            return (self.keys.links - self.keys.teeth_1) * chain_pitch(self.keys) / 2
+        return None
+
+
+def chain_pitch(keys: ChainKeys) -> float:
+    """Return the pitch of a chain, m."""
+    table = standard_table("iso_606_pitches")
+    return float(table.values[keys.chain] * unit(table.unit).factor)
+
+
+@dataclass(eq=False)
+class MachineParts:
+    """Hold all parts of a machine; ``mechanisms`` are the kinds of the mechanisms by their names."""
+
+    reader: PartsReader
+    keys: MachineKeys
+    axes: Mapping[str, tuple[float, float]]
+    mechanisms: Mapping[str, str]
+    shafts: dict[str, Shaft] = field(default_factory=dict)
+    joins: list[Join] = field(default_factory=list)
+    findings: list[Any] = field(default_factory=list)
+
+    @staticmethod
+    def read(reader: PartsReader, mechanisms: Mapping[str, str]) -> MachineParts | None:
+        """Return the parts of a file; None where they cannot be read, with what is wrong in the reader's problems."""
+        machine = reader.machine()
+        if machine is None:
+            return None
+        found = MachineParts(reader, machine.keys, reader.frame(), mechanisms)
+        for name, block in reader.blocks("shafts"):
+            shaft = found.shafts[name] = Shaft(name, block.keys, block.path, block.more)
+            raw = reader.data["shafts"][name].get("parts", [])
+            for index, keys in enumerate(block.keys.parts):
+                more = tuple(key for key in raw[index] if key not in PartKeys.model_fields)
+                shaft.parts.append(Part(shaft, index, keys, more))
+        for word in ("meshes", "chains", "belts"):
+            for name, block in reader.blocks(word):
+                found._join(word, name, block.keys, block.path, block.more)
+        if machine.keys.anchor not in found.shafts:
+            near = nearest(machine.keys.anchor, found.shafts)
+            template = "is {name}, which is not one of the shafts{near}; they are {shafts}"
+            found.fault(
+                ("machine", "anchor"), template, name=machine.keys.anchor, near=near, shafts=", ".join(found.shafts)
+            )
+        return found
+
+    def fault(self, path: KeyPath, template: str, **values: object) -> None:
+        """Note what is wrong with what stands at a path."""
+        self.reader.problems.append(ConfigPlace(self.reader.tree).problem(path, Phrase(template, **values)))
+
+    def where(self, path: KeyPath) -> str:
+        """Return the file, line and column of a path, as messages name a second place."""
+        line, column = self.reader.tree.position(path)
+        return f"{self.reader.tree.file}:{line}:{column}"
+
+    def _join(self, word: str, name: str, keys: Any, path: KeyPath, more: tuple[str, ...]) -> None:
+        kind, first, second = SIDES[word]
+        sides: list[tuple[Part, ...]] = []
+        for key in (first, second):
+            texts, _, number = key.partition(".")
+            places = [int(number)] if number else range(len(getattr(keys, texts)))
+            found = [self._named(getattr(keys, texts)[place], kind, (*path, texts, place)) for place in places]
+            if None in found:
+                return
+            sides.append(tuple(part for part in found if part is not None))
+        index = sum(each.word == word for each in self.joins)
+        self.joins.append(Join(word, index, name, keys, path, more, sides[0], sides[1]))
+
+    def _named(self, text: str, kind: str, path: KeyPath) -> Part | None:
+        """The part that SHAFT.NAME names; None where there is none, which is noted."""
+        shaft, _, name = text.partition(".")
+        own = (
+            {part.name: part for part in self.shafts[shaft].parts if part.kind == kind} if shaft in self.shafts else {}
+        )
+        if name in own:
+            return own[name]
+        known = [part.called for each in self.shafts.values() for part in each.parts if part.kind == kind]
+        template = "names {text}, but there is no such {kind}{near}; there are {known}"
+        self.fault(path, template, text=text, kind=kind, near=nearest(text, known), known=", ".join(known) or "none")
+        return None
+
+    # How the shafts turn.
+
+    @cached_property
+    def ratios(self) -> dict[str, float]:
+        """Return the speeds of the shafts that turn steadily, for one turn of the anchor."""
+        found = {self.keys.anchor: 1.0}
+        while True:
+            joins = [each for each in self.joins if each.is_between_shafts]
+            more = {}
+            for each in joins:
+                one, other = each.drivers[0].shaft.name, each.driven[0].shaft.name
+                if one in found and other not in found:
+                    more[other] = found[one] * each.ratio
+                if other in found and one not in found:
+                    more[one] = found[other] / each.ratio
+            if not more:
+                return found
+            found |= more
+
+    def route(self, shaft: str) -> list[tuple[Join, bool]]:
+        """Return the joins from the anchor to a shaft, each with whether it is passed towards the driven side."""
+        routes: dict[str, list[tuple[Join, bool]]] = {self.keys.anchor: []}
+        waiting = [self.keys.anchor]
+        while waiting:
+            here = waiting.pop(0)
+            for join in (each for each in self.joins if each.is_between_shafts):
+                one, other = join.drivers[0].shaft.name, join.driven[0].shaft.name
+                for near, far, onward in ((one, other, True), (other, one, False)):
+                    if near == here and far not in routes:
+                        routes[far] = [*routes[here], (join, onward)]
+                        waiting.append(far)
+        return routes.get(shaft, [])
+
+    def driving_join(self, shaft: Shaft) -> Join | None:
+        """Return the join by which a shaft is driven."""
+        return next((each for each in self.joins if any(part.shaft is shaft for part in each.driven)), None)
+
+    def joins_of(self, part: Part) -> Iterator[Join]:
+        """Yield the joins that a part takes part in."""
+        yield from (each for each in self.joins if part in (*each.drivers, *each.driven))
+
+    def motion_port(self, shaft: Shaft) -> Part | None:
+        """Return the part of the port whose mechanism moves the shaft's group to and fro, or in steps; None of one that turns steadily."""
+        if shaft.name in self.ratios:
+            return None
+        group = self.group(shaft.name)
+        return next((part for name in group for part in self.shafts[name].parts if part.port), None)
+
+    def group(self, shaft: str) -> set[str]:
+        """Return the shafts that joins tie to a shaft, with itself."""
+        found = {shaft}
+        while True:
+            more = {
+                part.shaft.name
+                for each in self.joins
+                if each.is_between_shafts and found & {p.shaft.name for p in (*each.drivers, *each.driven)}
+                for part in (*each.drivers, *each.driven)
+            }
+            if more <= found:
+                return found
+            found |= more
+
+    # Where the shafts stand along their axes.
+
+    @cached_property
+    def planes(self) -> list[tuple[Part, float, Part, float]]:
+        """Return what must lie in one plane: two parts, each with its plane from its shaft's left end, m."""
+        found = [
+            (each.drivers[0], each.drivers[0].keys.at, each.driven[0], each.driven[0].keys.at)
+            for each in self.joins if each.is_between_shafts
+        ]  # fmt: skip
+        ports = {part.port: part for shaft in self.shafts.values() for part in shaft.parts if part.port}
+        for (mechanism, port), part in ports.items():
+            other = ports.get((mechanism, {"crank": "rocker", "disc": "gear"}.get(port, "wheel")))
+            if port in ("crank", "disc") and other is None:
+                other = ports.get((mechanism, "wheel"))
+            if port in ("crank", "disc") and other is not None:
+                found.append((part, part.plane, other, other.plane if other.keys.pin else other.keys.at))
+        return found
+
+    @cached_property
+    def lefts(self) -> dict[str, float]:
+        """Return the axial places of the shafts' left ends, m: typed, else by the first join; the anchor's is 0."""
+        found = {name: shaft.keys.left for name, shaft in self.shafts.items() if shaft.keys.left is not None}
+        found.setdefault(self.keys.anchor, 0.0)
+        while True:
+            more: dict[str, float] = {}
+            for one, here, other, there in self.planes:
+                first, second = one.shaft.name, other.shaft.name
+                if first in found and second not in found:
+                    more.setdefault(second, found[first] + here - there)
+                if second in found and first not in found:
+                    more.setdefault(first, found[second] + there - here)
+            if not more:
+                return found
+            found |= more
+
+    def distance(self, one: str, other: str) -> float | None:
+        """Return the distance of two axes in the frame, m; None where one is not there."""
+        if one not in self.axes or other not in self.axes:
+            return None
+        (x, y), (u, v) = self.axes[one], self.axes[other]
+        return hypot(u - x, v - y)

@@ -1,0 +1,244 @@
+"""Reads the parts of a file: texts such as ``60x320 r1`` taken apart, expressions calculated, and all that is wrong told with its place."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from diecut_report.config.instances import BlockData
+from diecut_report.config.model import PressBlock
+from diecut_report.config.own_tables import OwnTables
+from diecut_report.config.parts.keys import (
+    PART_KINDS,
+    BeltKeys,
+    ChainKeys,
+    MachineKeys,
+    MeshKeys,
+    PartKeys,
+    PinKeys,
+    ShaftKeys,
+    size,
+)
+from diecut_report.config.validation import ConfigPlace, copied, declared, quoted, spread_out, validate
+from diecut_report.config.yaml import KeyPath, Tree, resolved
+from diecut_report.errors import Problem
+from diecut_report.formulas.condition_parts import Name, read_expression
+from diecut_report.formulas.conditions import ConditionError
+from diecut_report.mechanism.inputs import Block, Quantity
+from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase
+
+SECTION = re.compile(r"(?P<diameter>[\d.]+)(?:/(?P<bore>[\d.]+))?x(?P<length>[\d.]+)(?: +r(?P<fillet_radius>[\d.]+))?")
+"""A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
+COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
+MODELS: Mapping[str, type[Block]] = {"shafts": ShaftKeys, "meshes": MeshKeys, "chains": ChainKeys, "belts": BeltKeys}
+TAKEN_APART = ("teeth", "diameters")
+"""Keys whose text holds two numbers."""
+
+
+@dataclass(frozen=True)
+class ReadBlock:
+    """Hold a block of parts: its path, what was read, and the keys that go on to the calculation made of it."""
+
+    path: KeyPath
+    keys: Any
+    more: tuple[str, ...] = ()
+
+
+@dataclass
+class PartsReader:
+    """Reads the blocks of parts of a file; ``problems`` is what is wrong with them."""
+
+    tree: Tree
+    data: Mapping[str, Any]
+    models: Mapping[str, type[Block]]  # of the mechanisms, by their names
+    tables: OwnTables = field(default_factory=OwnTables)
+    problems: list[Problem] = field(default_factory=list)
+
+    def machine(self) -> ReadBlock | None:
+        """Return the block ``machine`` without its frame."""
+        given = {key: value for key, value in self.data["machine"].items() if key != "frame"}
+        return self._block(MachineKeys, given, ("machine",))
+
+    def frame(self) -> dict[str, tuple[float, float]]:
+        """Return the axes of the frame by their names, m."""
+        found = {}
+        given = self.data["machine"].get("frame", {})
+        for name, pair in given.items() if isinstance(given, dict) else ():
+            path: KeyPath = ("machine", "frame", name)
+            if not (isinstance(pair, list) and len(pair) == 2):
+                self._fault(path, "is {given}; two numbers in mm are needed: [x, y]", given=quoted(pair))
+                continue
+            x, y = (self._coordinate((*path, index), value) for index, value in enumerate(pair))
+            if x is not None and y is not None:
+                found[name] = (x, y)
+        return found
+
+    def _coordinate(self, path: KeyPath, given: Any) -> float | None:
+        try:
+            value: float = COORDINATE.validate(self._calculated(given, path, COORDINATE))
+        except (ValueError, ConditionError) as fault:
+            self._fault(path, str(fault))
+            return None
+        return value
+
+    def blocks(self, word: str) -> Iterator[tuple[str, ReadBlock]]:
+        """Yield the blocks of shafts, meshes, chains or belts by their names."""
+        given = self.data.get(word)
+        if given is not None and not isinstance(given, dict):
+            self._fault((word,), "is {given}; a block of names is needed, each with its keys", given=quoted(given))
+            return
+        for name, block in (given or {}).items():
+            path: KeyPath = (word, name)
+            if not isinstance(block, dict):
+                self._fault(path, "is {given}; a block of keys is needed", given=quoted(block))
+            elif found := self._block(MODELS[word], block, path):
+                yield name, found
+
+    def _block(self, model: type[Block], given: Mapping[str, Any], path: KeyPath) -> ReadBlock | None:
+        place = ConfigPlace(self.tree, path)
+        data, place = _taken_apart(model, copied(dict(given)), place)
+        own = {key: value for key, value in data.items() if key in model.model_fields or key in model.spread}
+        if model is ShaftKeys and isinstance(own.get("parts"), list):
+            own["parts"] = [_part(part) for part in own["parts"]]
+        own, place, problems = spread_out(model, own, place)
+        if model is ShaftKeys:
+            place = self._pins(own, place, problems)
+        read = BlockData.read(model, own, place, self.tables)
+        numbers = self._numbers(model, read.data, read.place, ())
+        block, faults = validate(model, numbers, read.place)
+        self.problems += [*problems, *read.problems, *faults]
+        more = tuple(key for key in given if key not in model.model_fields and key not in TAKEN_APART)
+        return None if block is None else ReadBlock(path, block, more)
+
+    def _pins(self, own: dict[str, Any], place: ConfigPlace, problems: list[Problem]) -> ConfigPlace:
+        """Take the lists in the pins of the parts apart."""
+        listed = dict(place.listed)
+        for index, part in enumerate(own.get("parts", ())):
+            if isinstance(part, dict) and isinstance(part.get("pin"), dict):
+                home: KeyPath = ("parts", index, "pin")
+                inner, moved, faults = spread_out(PinKeys, part["pin"], ConfigPlace(self.tree, (*place.root, *home)))
+                part["pin"] = inner
+                problems += faults
+                listed |= {(*home, *key): (*home, *there) for key, there in moved.listed.items()}
+        return ConfigPlace(place.tree, place.root, listed, place.elsewhere, place.named)
+
+    def _numbers(self, model: type[Block], data: Any, place: ConfigPlace, key: KeyPath) -> Any:
+        """The data with what its expressions give."""
+        if isinstance(data, dict):
+            return {name: self._numbers(model, part, place, (*key, name)) for name, part in data.items()}
+        if isinstance(data, list):
+            return [self._numbers(model, part, place, (*key, index)) for index, part in enumerate(data)]
+        meta = declared(model, key) if isinstance(data, str) and "${" in data else None
+        if not isinstance(meta, Quantity):
+            return data
+        try:
+            return self._calculated(data, place.stands(key)[1], meta)
+        except ConditionError as fault:
+            self.problems.append(place.problem(key, fault.words))
+            return 1.0
+
+    def _calculated(self, given: Any, path: KeyPath, meta: Quantity) -> Any:
+        """What an expression of typed numbers gives, in the unit of its key; all else as it is."""
+        if not isinstance(given, str) or "${" not in given:
+            return given
+        values: dict[str, float] = {}
+
+        def name(path: str) -> Name:
+            value, si = self._typed(path)
+            values[path] = value
+            return Name(path, "number", si)
+
+        found = read_expression(given, name)
+        if refused := found.refused(meta.unit):
+            raise ConditionError(refused)
+        return f"{found.value(values.__getitem__) / unit(meta.unit).factor!r} {meta.unit}"
+
+    def _typed(self, path: str) -> tuple[float, str]:
+        """The number that is typed at a path, in SI, and its SI unit; ConditionError where none is."""
+        key: KeyPath = tuple(
+            int(part) if part.isdigit() else part for part in path.removeprefix("${").removesuffix("}").split(".")
+        )
+        given = _at(self.data.get("mechanisms"), key) if key[0] not in self.data else _at(self.data, key)
+        known: dict[str, type[Block]] = {"press": PressBlock, **self.models}
+        model = known.get(str(key[0]))
+        meta = declared(model, key[1:]) if model and key[1:] else None
+        given = given.get("value") if isinstance(given, dict) else given
+        if not isinstance(meta, Quantity) or given is None:
+            template = "{path} is not a number that is typed; a dimension of a part must be known before anything is calculated."
+            raise ConditionError(template, path=path)
+        try:
+            value: float = meta.validate(self._calculated(given, key, meta))
+        except ValueError as fault:
+            raise ConditionError(str(fault)) from None
+        return value, unit(meta.unit).si
+
+    def typed_block(self, name: str) -> dict[str, float]:
+        """Return the numbers that are typed in the block of a mechanism, in SI by their keys."""
+        model, block = self.models.get(name), _at(self.data.get("mechanisms"), (name,))
+        found = {}
+        for key in model.model_fields if model and isinstance(block, dict) else ():
+            try:
+                found[key] = self._typed(f"{name}.{key}")[0]
+            except ConditionError:
+                continue
+        return found
+
+    def _fault(self, path: KeyPath, template: str, **values: object) -> None:
+        self.problems.append(ConfigPlace(self.tree).problem(path, Phrase(template, **values)))
+
+
+def _at(data: Any, key: KeyPath) -> Any:
+    for part in key:
+        if isinstance(data, dict):
+            data = data.get(part)
+        else:
+            data = data[part] if isinstance(data, list) and isinstance(part, int) and part < len(data) else None
+    return data
+
+
+def _part(given: Any) -> Any:
+    """The keys of a part that are its own: what else there is goes on to the calculation made of it."""
+    if not isinstance(given, dict):
+        return given
+    named = {key: str(value) if key in PART_KINDS and isinstance(value, int) else value for key, value in given.items()}
+    return {key: value for key, value in named.items() if key in PartKeys.model_fields}
+
+
+def _taken_apart(model: type[Block], data: dict[str, Any], place: ConfigPlace) -> tuple[dict[str, Any], ConfigPlace]:
+    """The data with its texts taken apart, and where the pieces stand."""
+    apart: Mapping[type[Block], Callable[[dict[str, Any]], dict[KeyPath, KeyPath]]] = {
+        ShaftKeys: _sections, MeshKeys: _teeth, ChainKeys: _teeth, BeltKeys: _diameters,
+    }  # fmt: skip
+    listed = apart[model](data) if model in apart else {}
+    return data, ConfigPlace(place.tree, place.root, {**place.listed, **listed})
+
+
+def _sections(data: dict[str, Any]) -> dict[KeyPath, KeyPath]:
+    given = data.get("sections")
+    if not isinstance(given, str):
+        return {}
+    found: list[Any] = []
+    for text in given.split(","):
+        matched = SECTION.fullmatch(text.strip())
+        found.append({key: float(value) for key, value in matched.groupdict().items() if value} if matched else text)
+    data["sections"] = found
+    return {("sections", index): ("sections",) for index in range(len(found))}
+
+
+def _teeth(data: dict[str, Any]) -> dict[KeyPath, KeyPath]:
+    return _pair(data, "teeth", ("teeth_1", "teeth_2"))
+
+
+def _diameters(data: dict[str, Any]) -> dict[KeyPath, KeyPath]:
+    return _pair(data, "diameters", ("diameter_1", "diameter_2"))
+
+
+def _pair(data: dict[str, Any], key: str, names: tuple[str, str]) -> dict[KeyPath, KeyPath]:
+    """Put two numbers with a stroke between them, or a single one, under keys of their own."""
+    given = data.pop(key, None)
+    for name, text in zip(names, str(given).split("/"), strict=False) if given is not None else ():
+        data[name] = resolved(text.strip())
+    return {(name,): (key,) for name in names}

@@ -1,0 +1,504 @@
+"""Whether the parts fit each other: each rule one function, which names both places, both values and what to change."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+from math import pi
+from typing import Any, Literal
+
+from diecut_report.config.parts.elements import Elements
+from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
+from diecut_report.config.parts.model import SAME_PLACE, Join, MachineParts, Part, Shaft, catalogue_size, chain_pitch
+from diecut_report.config.validation import ConfigPlace
+from diecut_report.config.yaml import KeyPath
+from diecut_report.errors import Problem
+from diecut_report.quantities.units import unit
+from diecut_report.standards import standard_series, standard_table
+from diecut_report.text.phrases import Phrase
+
+RATIO = 1e-3  # relative, by which ratios may differ
+BELT_CENTER = 0.02  # relative, by which tensioning moves an axis
+LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
+KEY_TO_FILLET = 0.1  # of the shaft's diameter
+WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
+WIDTH_TO_DIAMETER = 1.2  # of the pinion
+CHAIN_WARNED, CHAIN_LARGEST = 1e-3, 5e-3  # relative, travel of a chain against what it rolls
+
+Level = Literal["error", "fail", "warning"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Hold what a rule found: the rule, how grave it is, where it stands, against what, and what is said of it."""
+
+    rule: str
+    level: Level
+    path: KeyPath
+    message: str
+
+
+def mm(value: float) -> str:
+    """Return a length in mm as messages show it."""
+    return f"{value * 1e3:.6g} mm"
+
+
+def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
+    """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
+    found = (
+        [each for rule in RULES for each in rule(parts)]
+        + list(_ratios(parts, elements))
+        + list(_typed_twice(parts, elements))
+    )
+    parts.findings[:] = [each for each in found if each.level != "error"]
+    place = ConfigPlace(parts.reader.tree)
+    return [place.problem(each.path, each.message) for each in found if each.level == "error"]
+
+
+def _finding(
+    parts: MachineParts,
+    rule: str,
+    level: Level,
+    path: KeyPath,
+    template: str,
+    against: KeyPath | None = None,
+    **values: Any,
+) -> Finding:
+    text = Phrase(template, **values)
+    if against is None:
+        return Finding(rule, level, path, text)
+    return Finding(rule, level, path, Phrase("{text} (against {place})", text=text, place=parts.where(against)))
+
+
+def _hubs(parts: MachineParts) -> Iterator[tuple[Shaft, Part]]:
+    for shaft in parts.shafts.values():
+        yield from ((shaft, part) for part in shaft.parts if shaft.sections and part.kind != "load")
+
+
+# Seats, bores and places along a shaft.
+
+
+def seat(parts: MachineParts) -> Iterator[Finding]:
+    """A hub and a bearing stand on one section, on the shaft."""
+    for shaft, part in _hubs(parts):
+        start, end = part.ends
+        section = part.section
+        on_shaft = start >= -SAME_PLACE and end <= shaft.length + SAME_PLACE
+        if not on_shaft or section is None:
+            template = (
+                "stands from {start} to {end}, but the shaft goes from 0 to {length}; move it or make the shaft longer"
+            )
+            yield _finding(
+                parts,
+                "seat",
+                "error",
+                (*part.path, "at"),
+                template,
+                shaft.path,
+                start=mm(start),
+                end=mm(end),
+                length=mm(shaft.length),
+            )
+        elif (
+            (start < section.start - SAME_PLACE or end > section.end + SAME_PLACE)
+            and not part.keys.rides_on
+            and not part.keys.integral
+        ):
+            template = "stands from {start} to {end}, but section {number} ({diameter}) goes from {first} to {last}; move it or lengthen the section"
+            yield _finding(parts, "seat", "error", (*part.path, "at"), template, (*shaft.path, "sections"), start=mm(start), end=mm(end),
+                number=section.index + 1, diameter=mm(section.diameter), first=mm(section.start), last=mm(section.end))  # fmt: skip
+
+
+def bore(parts: MachineParts) -> Iterator[Finding]:
+    """The bore of a bearing is the diameter of its seat or pin."""
+    for shaft, part in _hubs(parts):
+        own = part.size("d") if part.kind == "bearing" else None
+        if own is not None and part.section is not None and abs(own - part.seat) > SAME_PLACE:
+            template = "has a bore of {bore}, but sits on a diameter of {seat}; take a bearing of that bore, or change section {number}"
+            yield _finding(parts, "bore", "error", (*part.path, "designation"), template, (*shaft.path, "sections"), bore=mm(own), seat=mm(part.seat),
+                number=part.section.index + 1)  # fmt: skip
+        pin = part.keys.pin
+        if pin is not None and pin.bearing is not None:
+            inner = catalogue_size(pin.bearing, "d")
+            if inner is not None and abs(inner - pin.diameter) > SAME_PLACE:
+                template = (
+                    "has a bore of {bore}, but sits on a pin of {seat}; take a bearing of that bore, or change the pin"
+                )
+                yield _finding(parts, "bore", "error", (*part.path, "pin", "bearing"), template, (*part.path, "pin", "diameter"), bore=mm(inner),
+                    seat=mm(pin.diameter))  # fmt: skip
+
+
+def overlap(parts: MachineParts) -> Iterator[Finding]:
+    """Hubs and bearings of a shaft do not overlap; they may touch."""
+    for shaft in parts.shafts.values():
+        own = sorted(
+            (part for part in shaft.parts if not part.keys.rides_on and part.kind != "load"),
+            key=lambda part: part.keys.at,
+        )
+        for one, other in pairwise(own) if shaft.sections else ():
+            if other.ends[0] < one.ends[1] - SAME_PLACE:
+                template = "begins at {start}, but {name} ends at {end}; move one of them by {gap}"
+                yield _finding(parts, "overlap", "error", (*other.path, "at"), template, (*one.path, "at"), start=mm(other.ends[0]), name=one.name,
+                    end=mm(one.ends[1]), gap=mm(one.ends[1] - other.ends[0]))  # fmt: skip
+
+
+@dataclass(frozen=True)
+class _Cylinder:
+    """A body as a cylinder about its axis."""
+
+    part: Part
+    radius: float
+    start: float
+    end: float
+
+
+def _cylinders(parts: MachineParts) -> Iterator[_Cylinder]:
+    for name, shaft in parts.shafts.items():
+        left = parts.lefts.get(name)
+        if left is None:
+            continue
+        for part in shaft.parts:
+            radius = _radius(parts, part)
+            width = _body_width(parts, part)
+            if radius is not None:
+                yield _Cylinder(part, radius, left + part.keys.at - width / 2, left + part.keys.at + width / 2)
+        if shaft.sections:
+            thickest = max(shaft.sections, key=lambda each: each.diameter)
+            yield _Cylinder(shaft.parts[0], thickest.diameter / 2, left + thickest.start, left + thickest.end)
+
+
+def _radius(parts: MachineParts, part: Part) -> float | None:
+    join = next(parts.joins_of(part), None)
+    if join is not None:
+        return join.radius(part)
+    if part.kind == "clutch" and parts.mechanisms.get(part.name) == "clutch":
+        return parts.reader.typed_block(part.name).get("shoe_radius")
+    return None if part.keys.outside is None else part.keys.outside / 2
+
+
+def _body_width(parts: MachineParts, part: Part) -> float:
+    join = next(parts.joins_of(part), None)
+    return part.keys.width or (join.keys.width if join is not None and isinstance(join.keys, MeshKeys) else part.hub)
+
+
+def planes(parts: MachineParts) -> Iterator[Finding]:
+    """Bodies of two shafts that meet in a plane leave each other room, but where they mesh."""
+    joined = {frozenset((one, other)) for join in parts.joins for one in join.drivers for other in join.driven}
+    for one, other in combinations(_cylinders(parts), 2):
+        if one.part.shaft is other.part.shaft or frozenset((one.part, other.part)) in joined:
+            continue
+        distance = parts.distance(one.part.shaft.name, other.part.shaft.name)
+        meet = min(one.end, other.end) - max(one.start, other.start) > SAME_PLACE
+        if distance is not None and meet and distance < one.radius + other.radius - SAME_PLACE:
+            template = "has a radius of {radius} and reaches {other} ({other_radius}) in one plane: their axes are {distance} apart; move one along its shaft"
+            yield _finding(parts, "overlap", "warning", one.part.path, template, other.part.path, radius=mm(one.radius), other=other.part.called,
+                other_radius=mm(other.radius), distance=mm(distance))  # fmt: skip
+
+
+def locating(parts: MachineParts) -> Iterator[Finding]:
+    """One bearing of a shaft holds it along its axis, never one without ribs."""
+    for shaft in parts.shafts.values():
+        fixed = [part for part in shaft.bearings if not part.keys.floating]
+        if shaft.is_rated and shaft.sections and len(shaft.bearings) != 2:
+            template = "has {count} bearings; a shaft is calculated on two"
+            yield _finding(parts, "locating", "error", (*shaft.path, "parts"), template, count=len(shaft.bearings))
+        elif shaft.is_rated and shaft.sections and len(fixed) != 1:
+            template = "has {count} bearings that hold it along its axis; exactly one is needed: write floating: true for the other"
+            yield _finding(parts, "locating", "error", (*shaft.path, "parts"), template, count=len(fixed))
+        for part in fixed if len(fixed) == 1 else ():
+            if (part.keys.designation or "").upper().replace(" ", "").startswith(("NU", "N2", "N3", "N1")):
+                template = "is {designation}, which cannot hold the shaft along its axis; make it floating and let the other bearing do so"
+                yield _finding(
+                    parts, "locating", "error", (*part.path, "designation"), template, designation=part.keys.designation
+                )
+
+
+def mounting(parts: MachineParts) -> Iterator[Finding]:
+    """A part can be put on from one end: no section on the way is thicker than its bore."""
+    for shaft, part in _hubs(parts):
+        section = part.section
+        if section is None or part.keys.integral or part.keys.rides_on:
+            continue
+        inner = part.keys.bore if part.keys.bore else part.seat
+        own = section.index
+        sides = shaft.sections[:own], shaft.sections[own + 1 :]
+        if all(any(each.diameter > inner + SAME_PLACE for each in side) for side in sides):
+            template = "has a bore of {bore}, but sections on both sides are thicker: it cannot be put on; make one side thinner or the seat thicker"
+            yield _finding(
+                parts, "mounting", "error", (*part.path, "at"), template, (*shaft.path, "sections"), bore=mm(inner)
+            )
+
+
+# Keys and what carries a torque.
+
+
+def key(parts: MachineParts) -> Iterator[Finding]:
+    """A key is no longer than its hub, of a standard length, on one section, and ends away from a fillet."""
+    lengths = standard_series("din_6885_lengths")
+    known = [value * unit(lengths.unit).factor for value in lengths.values]
+    for shaft, part in _hubs(parts):
+        if not part.keys.key or part.section is None:
+            continue
+        path, long = (*part.path, "key"), part.keys.key
+        if part.keys.hub is not None and long > part.keys.hub + SAME_PLACE:
+            template = "is {length} long, but its hub is {hub} long; take a key that is not longer than the hub"
+            yield _finding(
+                parts, "key", "error", path, template, (*part.path, "hub"), length=mm(long), hub=mm(part.keys.hub)
+            )
+        if not any(abs(long - each) <= SAME_PLACE for each in known):
+            nearest_two = sorted(known, key=lambda each: abs(each - long))[:2]
+            template = "is {length} long, which is not a length of DIN 6885-1; take {lengths}"
+            yield _finding(
+                parts,
+                "key",
+                "error",
+                path,
+                template,
+                length=mm(long),
+                lengths=" or ".join(mm(each) for each in sorted(nearest_two)),
+            )
+        yield from _key_on_section(parts, shaft, part, long)
+
+
+def _key_on_section(parts: MachineParts, shaft: Shaft, part: Part, long: float) -> Iterator[Finding]:
+    section, path = part.section, (*part.path, "key")
+    assert section is not None, "it is looked up before"
+    start, end = part.keys.at - long / 2, part.keys.at + long / 2
+    if start < section.start - SAME_PLACE or end > section.end + SAME_PLACE:
+        template = "goes from {start} to {end}, but its section ends at {first} and {last}; take a shorter key"
+        yield _finding(parts, "key", "error", path, template, (*shaft.path, "sections"), start=mm(start), end=mm(end), first=mm(section.start),
+            last=mm(section.end))  # fmt: skip
+        return
+    bearing = long - key_width(section.diameter) if part.keys.key_form == "A" else long
+    if bearing > LONGEST_KEY * section.diameter + SAME_PLACE:
+        template = "bears over {length}, more than {share} times the diameter {diameter}: the torque enters at its end; take a shorter key"
+        yield _finding(
+            parts,
+            "key",
+            "warning",
+            path,
+            template,
+            length=mm(bearing),
+            share=LONGEST_KEY,
+            diameter=mm(section.diameter),
+        )
+    near = min((end_ for end_ in (start - section.start, section.end - end) if end_ >= 0), default=1.0)
+    steps = [start - section.start] if section.index else []
+    steps += [section.end - end] if section.index < len(shaft.sections) - 1 else []
+    near = min(steps, default=near + section.diameter)
+    if near < KEY_TO_FILLET * section.diameter - SAME_PLACE:
+        template = "ends {distance} from a step, less than a tenth of the diameter {diameter}: both notches act together; move or shorten it"
+        yield _finding(
+            parts,
+            "key",
+            "warning",
+            path,
+            template,
+            (*shaft.path, "sections"),
+            distance=mm(near),
+            diameter=mm(section.diameter),
+        )
+
+
+def key_row(diameter: float) -> dict[str, float]:
+    """Return the key of DIN 6885-1 for a shaft, m: width, height, depths."""
+    table = standard_table("parallel_keys")
+    factor = unit(table.columns[0].unit).factor
+    rows = zip(*(column.values for column in table.columns), strict=True)
+    names = [column.name for column in table.columns]
+    last: dict[str, float] = {}
+    for row in rows:
+        last = {name: value * factor for name, value in zip(names, row, strict=True)}
+        if diameter <= last["d"] * (1 + 1e-9):
+            break
+    return last
+
+
+def key_width(diameter: float) -> float:
+    """Return the width of the key for a shaft, m."""
+    return key_row(diameter)["b"]
+
+
+def wall(parts: MachineParts) -> Iterator[Finding]:
+    """Below the teeth of a keyed pinion enough is left above the keyway."""
+    for join in parts.joins:
+        for part in (*join.drivers, *join.driven) if isinstance(join.keys, MeshKeys) else ():
+            if not part.keys.key or part.section is None:
+                continue
+            module = join.keys.module
+            left = join.radius(part) - 1.25 * module - part.seat / 2 - key_row(part.seat)["t2"]
+            if left < WALL_WARNED * module * (1 - 1e-9):
+                level: Level = "error" if left < WALL_LEAST * module else "warning"
+                template = "leaves {left} between teeth and keyway, {modules} modules; {wanted} are wanted: take a larger gear or a thinner seat"
+                yield _finding(parts, "wall", level, part.path, template, (*join.path, "module"), left=mm(left), modules=f"{left / module:.3g}",
+                    wanted=WALL_WARNED)  # fmt: skip
+
+
+def torque_carried(parts: MachineParts) -> Iterator[Finding]:
+    """What takes a torque from its shaft, or gives it one, is keyed, pressed on, cut on it or bolted."""
+    for part in (part for _, part in _hubs(parts)):
+        takes = bool(list(parts.joins_of(part))) or part.port is not None
+        if takes and part.kind != "bearing" and not part.is_carried:
+            template = "carries a torque, but nothing joins it to the shaft; give key, interference, integral: true or bolted: true"
+            yield _finding(parts, "torque_carried", "fail", part.path, template)
+
+
+# Axes and what joins the shafts.
+
+
+def center(parts: MachineParts) -> Iterator[Finding]:
+    """The axes of the frame are as far apart as a mesh, a chain or a belt wants."""
+    for join in (each for each in parts.joins if each.is_between_shafts):
+        one, other = join.drivers[0].shaft.name, join.driven[0].shaft.name
+        there = parts.distance(one, other)
+        wanted = join.center_distance if not isinstance(join.keys, BeltKeys) else belt_center(join)
+        if there is None or wanted is None:
+            continue
+        allowed, what = SAME_PLACE, "teeth or module"
+        if isinstance(join.keys, BeltKeys):
+            allowed, what = BELT_CENTER * wanted, "length or diameters"
+        elif isinstance(join.keys, ChainKeys):
+            allowed, what = chain_pitch(join.keys) / 2, "links"
+        if abs(there - wanted) > allowed:
+            template = "puts the axes {wanted} apart, but in the frame {one} and {other} are {there} apart; move an axis or change {what}"
+            yield _finding(parts, "center", "error", join.path, template, ("machine", "frame", other), wanted=mm(wanted), one=one, other=other,
+                there=mm(there), what=what)  # fmt: skip
+
+
+def belt_center(join: Join) -> float:
+    """Return the distance of the axes of a belt of its length, m."""
+    small, large = sorted((join.keys.diameter_1, join.keys.diameter_2))
+    free = join.keys.length - pi * (small + large) / 2
+    return float((free + (free**2 - 2 * (large - small) ** 2) ** 0.5) / 4)
+
+
+def frame(parts: MachineParts) -> Iterator[Finding]:
+    """The axes of the frame are as far apart as the mechanisms on them want."""
+    for kind, first, second in (("cylinder_drive", "crank", "rocker"), ("geneva_transport", "crank", "wheel")):
+        for name in (each for each, own in parts.mechanisms.items() if own == kind):
+            ports = {
+                part.port[1]: part
+                for shaft in parts.shafts.values()
+                for part in shaft.parts
+                if part.port and part.port[0] == name
+            }
+            typed = parts.reader.typed_block(name)
+            wanted = typed.get("center_distance")
+            if kind == "cylinder_drive":
+                wanted = typed["crank_length"] * typed.get("frame_ratio", 5.0) if "crank_length" in typed else None
+            if wanted is None or not {first, second} <= ports.keys():
+                continue
+            there = parts.distance(ports[first].shaft.name, ports[second].shaft.name)
+            if there is not None and abs(there - wanted) > SAME_PLACE:
+                template = "wants the axes of {one} and {other} {wanted} apart, but in the frame they are {there} apart; move an axis"
+                yield _finding(parts, "frame", "error", ("mechanisms", name), template, ("machine", "frame", ports[second].shaft.name),
+                    one=ports[first].shaft.name, other=ports[second].shaft.name, wanted=mm(wanted), there=mm(there))  # fmt: skip
+
+
+def mesh_pair(parts: MachineParts) -> Iterator[Finding]:
+    """A mesh is no wider than its hubs, and its gears stand in one plane."""
+    for join in (each for each in parts.joins if isinstance(each.keys, MeshKeys)):
+        pinion = 2 * min(join.radius(join.drivers[0]), join.radius(join.driven[0]))
+        for part in (*join.drivers, *join.driven):
+            if part.keys.hub is not None and join.keys.width > part.keys.hub + SAME_PLACE:
+                template = "is {width} wide, but the hub of {name} is {hub} long; make the hub at least as long"
+                yield _finding(parts, "mesh_pair", "error", (*join.path, "width"), template, (*part.path, "hub"), width=mm(join.keys.width),
+                    name=part.called, hub=mm(part.keys.hub))  # fmt: skip
+        if join.keys.width > WIDTH_TO_DIAMETER * pinion + SAME_PLACE:
+            template = "is {width} wide, more than {share} times the pinion's diameter {diameter}: the teeth do not bear evenly; take a narrower pair"
+            yield _finding(parts, "mesh_pair", "warning", (*join.path, "width"), template, width=mm(join.keys.width), share=WIDTH_TO_DIAMETER,
+                diameter=mm(pinion))  # fmt: skip
+    for one, here, other, there in parts.planes:
+        lefts = parts.lefts
+        if {one.shaft.name, other.shaft.name} <= lefts.keys():
+            apart = abs(lefts[one.shaft.name] + here - lefts[other.shaft.name] - there)
+            if apart > SAME_PLACE:
+                template = (
+                    "stands {apart} beside {name}, with which it works; give left of one of the shafts, or move a part"
+                )
+                yield _finding(
+                    parts,
+                    "mesh_pair",
+                    "error",
+                    (*other.path, "at"),
+                    template,
+                    (*one.path, "at"),
+                    apart=mm(apart),
+                    name=one.called,
+                )
+
+
+def sector(parts: MachineParts) -> Iterator[Finding]:
+    """A sector has no more than two thirds of the teeth of its circle."""
+    for join in (each for each in parts.joins if isinstance(each.keys, MeshKeys) and each.keys.teeth_present):
+        whole = max(join.keys.teeth_1, join.keys.teeth_2)
+        if join.keys.teeth_present > 2 * whole / 3:
+            template = "is {teeth}, more than two thirds of the {whole} teeth of the full circle; a sector has fewer"
+            yield _finding(
+                parts,
+                "sector",
+                "error",
+                (*join.path, "teeth_present"),
+                template,
+                teeth=join.keys.teeth_present,
+                whole=whole,
+            )
+
+
+def chain(parts: MachineParts) -> Iterator[Finding]:
+    """A chain has an even number of links, and moves what it rolls as far as that wants."""
+    for join in (each for each in parts.joins if isinstance(each.keys, ChainKeys)):
+        if join.keys.links % 2:
+            template = "is {links}, which needs a cranked link; take an even number"
+            yield _finding(parts, "chain", "warning", (*join.path, "links"), template, links=join.keys.links)
+        mechanism, _, what = (join.keys.moves or "").partition(".")
+        wanted = parts.reader.typed_block(mechanism).get("cylinder_radius") if what == "cylinder" else None
+        wanted = _cylinder_radius(parts, mechanism) if what == "cylinder" and wanted is None else wanted
+        travel = join.keys.teeth_1 * chain_pitch(join.keys) / (2 * pi)
+        if wanted is not None and abs(travel / wanted - 1) > CHAIN_WARNED:
+            level: Level = "error" if abs(travel / wanted - 1) > CHAIN_LARGEST else "warning"
+            template = "moves the carriages by {travel} a radian, but the cylinder rolls by its radius {wanted}; take other teeth, or another radius"
+            yield _finding(parts, "chain", level, (*join.path, "teeth"), template, travel=mm(travel), wanted=mm(wanted))
+
+
+def _cylinder_radius(parts: MachineParts, mechanism: str) -> float | None:
+    """The radius of the cylinder where it is typed at what sizes it."""
+    given = parts.reader.data.get("mechanisms", {}).get(mechanism, {}).get("cylinder_radius")
+    name = str(given).removeprefix("${").partition(".")[0] if isinstance(given, str) else ""
+    return parts.reader.typed_block(name).get("radius") if name in parts.mechanisms else None
+
+
+def _ratios(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """A shaft turns as often as the mechanism on it wants."""
+    for shaft in parts.shafts.values():
+        for part in (each for each in shaft.parts if each.port and shaft.name in parts.ratios):
+            assert part.port is not None
+            wanted, _ = elements.line(part.port[0])
+            there = abs(parts.ratios[shaft.name])
+            if abs(there / float(wanted) - 1) > RATIO:
+                template = "turns {there} times a sheet by the teeth, but {mechanism} turns {wanted} times a sheet; change teeth or turns_per_sheet"
+                yield _finding(
+                    parts,
+                    "ratio",
+                    "error",
+                    part.path,
+                    template,
+                    there=f"{there:.6g}",
+                    mechanism=part.port[0],
+                    wanted=str(wanted),
+                )
+
+
+def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """What follows from the parts is not typed otherwise in the block of a mechanism."""
+    for name, fills in elements.fills.items():
+        block = elements.blocks.get(name, {})
+        for key_ in fills.keys() & block.keys():
+            template = "is given here, but follows from the parts; remove the key"
+            yield _finding(parts, "typed_twice", "error", ("mechanisms", name, key_), template)
+
+
+RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
+    seat, bore, overlap, planes, locating, mounting, key, wall, torque_carried, center, frame, mesh_pair, sector, chain,
+)  # fmt: skip

@@ -1,0 +1,139 @@
+"""What joins the shafts of a machine, and how fast they turn."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import numpy as np
+
+from diecut_report.api import (
+    Block,
+    Chapter,
+    ExampleBlock,
+    FromPress,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Source,
+    Text,
+    as_number,
+    bind,
+    formula,
+)
+
+# fmt: off
+
+
+@formula
+def one_turn_a_sheet(productivity: Any) -> Any:
+    """Angular speed of a shaft that turns once a sheet."""
+    return 2 * np.pi * productivity
+
+
+class TurningShaft(Block):
+    """A shaft that turns steadily."""
+
+    name: Annotated[str, Text("Name of the shaft")]
+    ratio: Annotated[float, Quantity("i", "1", "Speed of the shaft for each of the main shaft")]
+
+
+class Mesh(Block):
+    """A pair of gears, from the driving one to the driven one."""
+
+    name: Annotated[str, Text("Name of the pair")]
+    module: Annotated[float, Quantity("m_n", "mm", "Normal module", gt=0)]
+    helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle", ge=0, le=30)] = 0
+    teeth_1: Annotated[int, Quantity("z_1", "1", "Number of teeth of the driving gear", ge=5, integer=True)]
+    teeth_2: Annotated[int, Quantity("z_2", "1", "Number of teeth of the driven gear", ge=5, integer=True)]
+
+
+class Chain(Block):
+    """A chain, from the driving sprocket to the driven one."""
+
+    name: Annotated[str, Text("Name of the chain")]
+    pitch: Annotated[float, Quantity("p", "mm", "Pitch of the chain", gt=0)]
+    links: Annotated[int, Quantity("X", "1", "Number of links", ge=8, integer=True)]
+    teeth_1: Annotated[int, Quantity("z_3", "1", "Number of teeth of the driving sprocket", ge=6, integer=True)]
+    teeth_2: Annotated[int, Quantity("z_4", "1", "Number of teeth of the driven sprocket", ge=6, integer=True)]
+    strands: Annotated[int, Quantity("s", "1", "Number of chains side by side", ge=1, le=4, integer=True)] = 1
+    mass_per_length: Annotated[float, Quantity("q", "kg/m", "Mass per unit length of one chain", gt=0)]
+    moving_mass: Annotated[float, Quantity("m_c", "kg", "Mass that the chains move, without the chains themselves", ge=0)] = 0
+    pretension: Annotated[float, Quantity("F_v", "N", "Pretension of each chain", ge=0)] = 0
+
+
+class Belt(Block):
+    """A V-belt, from the driving pulley to the driven one."""
+
+    name: Annotated[str, Text("Name of the belt")]
+    diameter_1: Annotated[float, Quantity("d_1", "mm", "Datum diameter of the driving pulley", gt=0)]
+    diameter_2: Annotated[float, Quantity("d_2", "mm", "Datum diameter of the driven pulley", gt=0)]
+
+
+class DriveLine(Inputs):
+    """Keys of ``drive_line``."""
+
+    reference_speed: Annotated[float | None,
+        Quantity("ω_m", "rpm", "Speed of the main shaft, which turns once a sheet", gt=0,
+            press=FromPress("press.productivity", one_turn_a_sheet))] = None
+    shafts: Annotated[list[TurningShaft], Text("Shafts that turn steadily")]
+    meshes: Annotated[list[Mesh], Text("Pairs of gears")] = []  # noqa: RUF012
+    chains: Annotated[list[Chain], Text("Chains")] = []  # noqa: RUF012
+    belts: Annotated[list[Belt], Text("V-belts")] = []  # noqa: RUF012
+
+
+turning = Chapter("Speeds of the shafts")
+turning.value("speed", "n", "rpm", "Speed of the shaft", bind(lambda ratio, reference_speed: ratio * reference_speed, ratio="shafts.ratio"),
+    source="kinematics", named_by="shafts.name")
+turning.part_table("shafts_table", "Shafts", "shafts", ("speed",))
+
+joins = Chapter("Gears, chains and belts", needs=("meshes",))
+OF_MESH = {key: f"meshes.{key}" for key in ("module", "helix_angle", "teeth_1", "teeth_2")}
+joins.value("mesh_ratio", "i_z", "1", "Speed of the driven gear for each of the driving one",
+    bind(lambda teeth_1, teeth_2: teeth_1 / teeth_2, teeth_1="meshes.teeth_1", teeth_2="meshes.teeth_2"), source="kinematics", named_by="meshes.name")
+joins.value("radius_1", "r_1", "mm", "Pitch radius of the driving gear",
+    bind(lambda module, teeth_1, helix_angle: module * teeth_1 / (2 * np.cos(helix_angle)),
+        **{key: OF_MESH[key] for key in ("module", "teeth_1", "helix_angle")}), source="ISO 21771", output=False)
+joins.value("radius_2", "r_2", "mm", "Pitch radius of the driven gear",
+    bind(lambda module, teeth_2, helix_angle: module * teeth_2 / (2 * np.cos(helix_angle)),
+        **{key: OF_MESH[key] for key in ("module", "teeth_2", "helix_angle")}), source="ISO 21771", output=False)
+joins.value("center_distance", "a", "mm", "Centre distance", lambda radius_1, radius_2: radius_1 + radius_2,
+    source="ISO 21771", named_by="meshes.name")
+joins.part_table("meshes_table", "Pairs of gears", "meshes", ("mesh_ratio", "radius_1", "radius_2", "center_distance"))
+drives = Chapter("Chains", needs=("chains",))
+drives.value("chain_travel", "v_φ", "mm", "Travel of the chain per radian of the driving sprocket",
+    bind(lambda teeth, pitch: teeth * pitch / (2 * as_number(np.pi)), teeth="chains.teeth_1", pitch="chains.pitch"), source="kinematics",
+    named_by="chains.name")
+drives.value("chain_length", "L_c", "mm", "Length of the chain", bind(lambda links, pitch: links * pitch, links="chains.links", pitch="chains.pitch"),
+    source="geometry", named_by="chains.name")
+drives.value("chain_mass", "m_K", "kg", "Mass of the chains with what they move",
+    bind(lambda strands, links, pitch, mass_per_length, moving_mass: strands * links * pitch * mass_per_length + moving_mass,
+        **{key: f"chains.{key}" for key in ("strands", "links", "pitch", "mass_per_length", "moving_mass")}), source="geometry",
+    named_by="chains.name")
+drives.value("chain_pull", "F_0", "N", "Load of all chains at rest on the shaft of their sprockets",
+    bind(lambda strands, pretension: 2 * strands * pretension, strands="chains.strands", pretension="chains.pretension"), source="statics",
+    named_by="chains.name", output=False)
+drives.part_table("chains_table", "Chains", "chains", ("chain_travel", "chain_length", "chain_mass", "chain_pull"))
+belts = Chapter("V-belts", needs=("belts",))
+belts.value("belt_ratio", "i_b", "1", "Speed of the driving pulley for each of the driven one, without creep",
+    bind(lambda large, small: large / small, large="belts.diameter_2", small="belts.diameter_1"), source="kinematics", named_by="belts.name")
+belts.part_table("belts_table", "V-belts", "belts", ("belt_ratio",))
+
+EXAMPLE = ExampleBlock("drive_line", {
+    "reference_speed": "100 rpm",
+    "shafts": [{"name": "main", "ratio": 1}, {"name": "crank", "ratio": 0.5}],
+    "meshes": [{"name": "crank_drive", "module": "5 mm", "teeth_1": 24, "teeth_2": 48}],
+    "chains": [{"name": "cylinder", "pitch": "12.7 mm", "links": 240, "teeth_1": 52, "teeth_2": 52, "mass_per_length": "0.69 kg/m"}],
+    "belts": [{"name": "motor", "diameter_1": "125 mm", "diameter_2": "375 mm"}],
+})
+
+MECHANISM = Mechanism(
+    kind="drive_line",
+    version="1.0",
+    title="Shafts of the drive line",
+    summary="Ratios, pitch radii and centre distances of what joins the shafts of a machine, and the speeds of those that turn steadily.",
+    inputs=DriveLine,
+    example=EXAMPLE,
+    chapters=(joins, drives, belts, turning),
+    sources=(Source("ISO 21771", "ISO 21771:2007, Gears. Cylindrical involute gears and gear pairs. Concepts and geometry."),),
+    assumptions=("Shafts and joins are rigid and without backlash; a V-belt loses a hundredth of its speed.",),
+)

@@ -1,0 +1,66 @@
+"""Mass of the shafts of a machine, and the inertia that turns with its main shaft."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, bind
+
+# fmt: off
+
+
+class TurningShaft(Block):
+    """A shaft that turns steadily."""
+
+    name: Annotated[str, Text("Name of the shaft")]
+    ratio: Annotated[float, Quantity("i", "1", "Speed of the shaft for each of the main shaft")]
+    mass: Annotated[float, Quantity("m_k", "kg", "Mass of the shaft with its parts", ge=0)]
+    inertia: Annotated[float, Quantity("J_k", "kg*m**2", "Moment of inertia of the shaft with its parts", ge=0)]
+
+
+class MovingShaft(Block):
+    """A shaft that swings or turns in steps."""
+
+    name: Annotated[str, Text("Name of the shaft")]
+    mass: Annotated[float, Quantity("m_s", "kg", "Mass of the shaft with its parts", ge=0)]
+
+
+class MachineInertia(Inputs):
+    """Keys of ``machine_inertia``."""
+
+    shafts: Annotated[list[TurningShaft], Text("Shafts that turn steadily")]
+    moving: Annotated[list[MovingShaft], Text("Shafts that swing or turn in steps")] = []  # noqa: RUF012
+
+
+MOVING = ("moving",)
+
+inertia = Chapter("Mass and inertia of the shafts",
+    text="The inertia of each shaft is referred to the main shaft by the square of its ratio. That of shafts which swing or turn in steps is part of "
+        "the mechanisms that move them.")
+inertia.value("referred_inertia", "J_m", "kg*m**2", "Moment of inertia referred to the main shaft",
+    bind(lambda inertia, ratio: inertia * ratio ** 2, inertia="shafts.inertia", ratio="shafts.ratio"), source="energy", named_by="shafts.name")
+inertia.part_table("shafts_table", "Shafts", "shafts", ("referred_inertia",))
+inertia.total("inertia", "J", "kg*m**2", "Moment of inertia of all steadily turning shafts, referred to the main shaft", "sum", of="referred_inertia")
+inertia.total("turning_mass", "m_t", "kg", "Mass of the steadily turning shafts with their parts", "sum", of="shafts.mass", output=False)
+inertia.total("moving_mass", "m_S", "kg", "Mass of the shafts that swing or turn in steps", "sum", of="moving.mass", output=False, needs=MOVING)
+inertia.value("mass", "m", "kg", "Mass of all shafts with their parts", lambda turning_mass, moving_mass: turning_mass + moving_mass, needs=MOVING)
+inertia.value("mass", "m", "kg", "Mass of all shafts with their parts", lambda turning_mass: turning_mass, lacks=MOVING)
+
+EXAMPLE = ExampleBlock("machine_inertia", {
+    "shafts": [{"name": "main", "ratio": 1, "mass": "57.8 kg", "inertia": "0.576 kg*m**2"},
+               {"name": "crank", "ratio": 0.5, "mass": "36.9 kg", "inertia": "0.13 kg*m**2"}],
+    "moving": [{"name": "rocker", "mass": "30 kg"}],
+})
+
+MECHANISM = Mechanism(
+    kind="machine_inertia",
+    version="1.0",
+    title="Mass and inertia of the machine's shafts",
+    summary="The mass of all shafts with the parts on them, and the moment of inertia of those that turn steadily, referred to the main shaft, which "
+            "turns once a sheet.",
+    inputs=MachineInertia,
+    example=EXAMPLE,
+    chapters=(inertia,),
+    key_results=("inertia", "mass"),
+    assumptions=("Shafts and joins are rigid.",),
+)

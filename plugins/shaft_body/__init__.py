@@ -1,0 +1,79 @@
+"""Mass and moment of inertia of a shaft with its parts."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+
+from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, as_number, bind
+
+# fmt: off
+
+
+class Disc(Block):
+    """A section of the shaft, or a part on it, as a disc."""
+
+    name: Annotated[str, Text("Name of the section or part")]
+    diameter: Annotated[float, Quantity("D", "mm", "Diameter: of a gear, sprocket or pulley its reference, pitch or datum diameter", gt=0)]
+    bore: Annotated[float, Quantity("d", "mm", "Bore", ge=0)] = 0
+    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
+    density: Annotated[float, Quantity("ρ", "kg/m**3", "Density", gt=0)] = 7850
+    fill: Annotated[float, Quantity("k_f", "1", "Fraction of the full disc that is there", gt=0, le=1)] = 1
+
+
+class Body(Block):
+    """A part of known mass."""
+
+    name: Annotated[str, Text("Name of the part")]
+    mass: Annotated[float, Quantity("m_b", "kg", "Mass of the part", ge=0)]
+    inertia: Annotated[float, Quantity("J_b", "kg*m**2", "Moment of inertia of the part about the shaft's axis", ge=0)] = 0
+
+
+class ShaftBody(Inputs):
+    """Keys of ``shaft_body``."""
+
+    discs: Annotated[list[Disc], Text("Sections of the shaft and parts on it, as discs")]
+    bodies: Annotated[list[Body], Text("Parts of known mass")] = []  # noqa: RUF012
+
+
+OF_DISC = {key: f"discs.{key}" for key in ("diameter", "bore", "width", "density", "fill")}
+BODIES = ("bodies",)
+
+body = Chapter("Mass and moment of inertia")
+body.require("bored", bind(lambda bore, diameter: bore < diameter, bore="discs.bore", diameter="discs.diameter"), key="discs.{index}.bore",
+    message="is not smaller than the diameter of {part}; take a smaller bore")
+body.value("disc_mass", "m_k", "kg", "Mass of the section or part",
+    bind(lambda fill, density, diameter, bore, width: fill * density * as_number(np.pi) / 4 * (diameter ** 2 - bore ** 2) * width, **OF_DISC),
+    source="geometry", output=False, named_by="discs.name")
+body.value("disc_inertia", "J_k", "kg*m**2", "Moment of inertia of the section or part",
+    bind(lambda disc_mass, diameter, bore: disc_mass * (diameter ** 2 + bore ** 2) / 8, diameter="discs.diameter", bore="discs.bore"),
+    source="geometry", output=False, named_by="discs.name")
+body.part_table("discs_table", "Sections and parts", "discs", ("disc_mass", "disc_inertia"))
+body.total("discs_mass", "m_d", "kg", "Mass of the sections and parts that are discs", "sum", of="disc_mass", output=False)
+body.total("discs_inertia", "J_d", "kg*m**2", "Moment of inertia of the sections and parts that are discs", "sum", of="disc_inertia", output=False)
+body.total("bodies_mass", "m_B", "kg", "Mass of the other parts", "sum", of="bodies.mass", output=False, needs=BODIES)
+body.total("bodies_inertia", "J_B", "kg*m**2", "Moment of inertia of the other parts", "sum", of="bodies.inertia", output=False, needs=BODIES)
+body.value("mass", "m", "kg", "Mass of the shaft with its parts", lambda discs_mass, bodies_mass: discs_mass + bodies_mass, needs=BODIES)
+body.value("mass", "m", "kg", "Mass of the shaft with its parts", lambda discs_mass: discs_mass, lacks=BODIES)
+body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its parts",
+    lambda discs_inertia, bodies_inertia: discs_inertia + bodies_inertia, needs=BODIES)
+body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its parts", lambda discs_inertia: discs_inertia, lacks=BODIES)
+
+EXAMPLE = ExampleBlock("shaft_body", {
+    "discs": [{"name": "journal", "diameter": "50 mm", "width": "40 mm"}, {"name": "seat", "diameter": "60 mm", "width": "320 mm"},
+              {"name": "wheel", "diameter": "348 mm", "bore": "60 mm", "width": "50 mm"}],
+    "bodies": [{"name": "disc", "mass": "9 kg"}],
+})
+
+MECHANISM = Mechanism(
+    kind="shaft_body",
+    version="1.0",
+    title="Mass and moment of inertia of a shaft",
+    summary="A shaft and the parts on it count as hollow discs of their reference, pitch or datum diameter, unless the mass of a part is given.",
+    inputs=ShaftBody,
+    example=EXAMPLE,
+    chapters=(body,),
+    key_results=("mass", "inertia"),
+    assumptions=("Keyways, teeth and fillets are neglected; a part is a disc without hub and recesses, of which the given fraction is there.",),
+)
