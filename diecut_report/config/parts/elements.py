@@ -203,7 +203,8 @@ class Elements(ShaftElements):
         kind = self.parts.mechanisms.get(mechanism)
         if kind == "cylinder_drive" and what == "cylinder":
             inputs |= {"acceleration": f"${{{mechanism}.acceleration}}", "velocity": f"${{{mechanism}.velocity}}",
-                       "moving_mass": f"${{{mechanism}.reduced_inertia}} / ${{{mechanism}.cylinder_radius}}**2",
+                       "moving_mass": {"value": f"${{{mechanism}.reduced_inertia}} / ${{{mechanism}.cylinder_radius}}**2",
+                                    "beyond": "the chains move the cylinder, not gripper bars with a sheet"},
                        "process_force": f"${{{mechanism}.cutting_moment}} / ${{{mechanism}.cylinder_radius}}"}  # fmt: skip
         elif kind is not None and what == "conveyor":
             inputs |= {
