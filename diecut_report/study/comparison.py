@@ -42,6 +42,7 @@ TITLES = {
     "warnings": phrase("Checks that warn"),
     "not_checked": phrase("Checks not made"),
     "assumed": phrase("Assumed values"),
+    "parts": phrase("Parts with a strength calculation"),
 }
 """What the rows on a machine as a whole are called."""
 COUNTED = ("failed", "warnings", "not_checked", "assumed")
@@ -64,6 +65,9 @@ class Verdict:
     formulas_with_faults: bool = False
     assumed: int = 0
     conclusion: str = ""
+    parts: tuple[int, int] | None = (
+        None  # that carry load, and of these those that are rated, where the parts are modelled
+    )
     verdict: str = BAD
     """``pass``, ``conditional`` or ``fail``; ``error`` where a plugin broke, ``bad`` where the file is bad."""
 
@@ -113,6 +117,7 @@ class MachineComparison:
     def verdicts(self) -> list[ComparedRow]:
         """Return the rows on the machines as wholes."""
         rows = {"verdict": _verdict_cell, "utilisation": _governing} | {key: partial(_count, key) for key in COUNTED}
+        rows |= {"parts": _rated} if any(each.parts for each in self.machines) else {}
         return [ComparedRow(key, said(TITLES[key]), list(map(cell, self.machines))) for key, cell in rows.items()]
 
     @property
@@ -140,6 +145,13 @@ def _verdict_cell(of: Verdict) -> ComparedCell:
 def _governing(of: Verdict) -> ComparedCell | None:
     """Return the utilisation of the check that governs, and which it is; of one that has none the verdict."""
     return share_cell(of.utilisation, of.status, of.governing) if of.governing else None
+
+
+def _rated(of: Verdict) -> ComparedCell | None:
+    if of.parts is None:
+        return None
+    carrying, rated = of.parts
+    return ComparedCell(rated, str(rated), note=say("of {n}", n=carrying))
 
 
 def _count(key: str, of: Verdict) -> ComparedCell | None:
@@ -193,12 +205,14 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
     checks, summary = dict(named_checks(machine)), results.summary
     governing = str(results.governing) if results.governing else ""
     count = Counter(check.status for check in checks.values())
+    parts = getattr(summary, "parts", None)  # results of machines without a model of parts have none
     concluded = machine.status if machine.status in ("fail", "error") else CONDITIONAL if is_open(results) else "pass"
     return Verdict(
         name, machine.file, machine.status, governing,
         utilisation=checks[governing].utilisation if governing in checks else None,
         failed=count["fail"], not_checked=summary.not_checked, warnings=count["warn"], messages=tuple(machine.words),
-        formulas_with_faults=bool(doubtful_kinds(results)), assumed=len(summary.assumed), conclusion=summary.conclusion, verdict=concluded,
+        formulas_with_faults=bool(doubtful_kinds(results)), assumed=len(summary.assumed), conclusion=summary.conclusion,
+        parts=(parts.carrying, parts.rated) if parts else None, verdict=concluded,
     )  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,8 @@ import pytest
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.press import Press
-from diecut_report.study.comparison import ComparedRow, MachineComparison, compared, names
+from diecut_report.report.office.workbook import book_of
+from diecut_report.study.comparison import ComparedRow, MachineComparison, Verdict, compared, names
 from diecut_report.study.comparison_pages import blocks, page, sheets
 from diecut_report.study.machines import CheckedMachine, calculated
 from diecut_report.study.shown_results import AskedResults, refuse_units, refuse_unused_units
@@ -171,6 +173,23 @@ def test_a_page_shows_no_more_rows_than_a_reader_reads(tmp_path: Path) -> None:
     assert page(made).count('<span class="where">a.parts.') == 40
     assert f"{len(made.changes) - 40} more input" in page(made)
     assert len(sheets(made)[1].rows) == len(made.changes)
+
+
+def test_the_parts_stand_there_where_they_are_known() -> None:
+    known, unknown = (
+        Verdict("a", "a.yaml", "pass", parts=(54, 42), verdict="pass"),
+        Verdict("b", "b.yaml", "pass", verdict="pass"),
+    )
+    (row,) = [row for row in MachineComparison([known, unknown], []).verdicts if row.path == "parts"]
+    assert [cell and (cell.value, cell.note) for cell in row.cells] == [(42, "of 54"), None]
+    assert "parts" not in values(MachineComparison([unknown], []).verdicts)
+
+
+def test_the_same_machines_give_the_same_workbook(tmp_path: Path) -> None:
+    made = side_by_side(tmp_path, LEVER, LEVER.replace("2 kN", "3 kN"))
+    first = book_of(sheets(made))
+    time.sleep(1.1)  # a file that held the time would hold its seconds
+    assert book_of(sheets(made)) == first
 
 
 def test_names_of_strangers_stand_as_texts(tmp_path: Path) -> None:
