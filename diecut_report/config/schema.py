@@ -10,6 +10,8 @@ from diecut_report.config.instances import DIMENSIONS
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import PressBlock, Project, ReportSettings
 from diecut_report.config.own_tables import MAX_FILES
+from diecut_report.config.parts.keys import MachineKeys
+from diecut_report.config.parts.reading import MODELS, TAKEN_APART
 from diecut_report.config.validation import BASES, LEAST_REASON, keys_of
 from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
 from diecut_report.mechanism.chapters import in_all_units
@@ -47,6 +49,7 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
             "report": _report(),
             "press": block_schema(PressBlock),
             "materials": _materials(),
+            **_parts(),
             "mechanisms": {
                 "type": "object",
                 "description": "The mechanisms by their names, which references use: ${NAME.output}.",
@@ -84,6 +87,33 @@ def _materials() -> Schema:
     )
     name = {"type": "string", "pattern": r"\.ya?ml$", "maxLength": MAX_TEXT}
     return {"description": template, "anyOf": [name, {"type": "array", "items": name, "maxItems": MAX_FILES}]}
+
+
+def _parts() -> Schema:
+    """The parts of the machine; keys that go on to the calculation made of a part are judged there."""
+    texts: dict[str, Schema] = {
+        key: {"type": ["string", "integer"], "pattern": r"^[\d.]+(/[\d.]+)?$"} for key in TAKEN_APART
+    }
+    axis = {"type": "array", "minItems": 2, "maxItems": 2, "description": "An axis: [x, y] in mm."}
+    machine = block_schema(MachineKeys)
+    found: Schema = {
+        "machine": machine
+        | {"properties": machine["properties"] | {"frame": {"type": "object", "additionalProperties": axis}}}
+    }
+    for word, model in MODELS.items():
+        own = block_schema(model)
+        optional = {name for name in own["required"] if name.endswith(("_1", "_2"))}
+        block = own | {
+            "additionalProperties": True,
+            "required": [name for name in own["required"] if name not in optional],
+        }
+        block["properties"] = own["properties"] | (texts if optional else {"sections": {}, "parts": {"type": "array"}})
+        found[word] = {
+            "type": "object",
+            "description": f"The {word} of the machine, by their names.",
+            "additionalProperties": block,
+        }
+    return found
 
 
 def _mechanism(mechanisms: Mapping[str, Mechanism], kinds: list[str]) -> Schema:

@@ -14,16 +14,18 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.instances import Instance, Node, Target
+from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.validation import quoted
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, nearest
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
+from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.steps import Abscissa
 from diecut_report.quantities.formatting import given_shown, with_unit
 from diecut_report.results.usual import numbers_of
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase, joined, phrase
 
 LENGTH, RATIO = 5e-5, 1e-3  # m; share
 TAKEN = {
@@ -356,3 +358,31 @@ RULES: tuple[Callable[[Machine], Iterator[Disagreement]], ...] = (
 def disagreements(machine: Machine) -> Iterator[Disagreement]:
     """Yield what does not agree in a machine, or in any of its variants."""
     return (each for rule in RULES for each in rule(machine) if np.any(each.wrong))
+
+
+# What the parts of the machine are found to contradict: an error is refused when the file is read, all else is a check of the drive line.
+
+
+FITS, CARRIED = "parts_fit", "torque_carried"
+
+
+def note_findings(calc: Calculation, parts: MachineParts) -> None:
+    """Give the calculation of the drive line the checks of its parts; those that nothing contradicts are left out."""
+    by_level = {level: [each for each in parts.findings if each.level == level] for level in ("warning", "fail")}
+    checks = []
+    for level, id, title, label in (
+        ("warning", FITS, phrase("Parts that fit each other"), phrase("doubtful places")),
+        ("fail", CARRIED, phrase("Torque carried"), phrase("parts that nothing joins to their shaft")),
+    ):
+        found = by_level[level]
+        if found:
+            calc.values[id] = np.full((calc.count, 1), float(len(found)))
+            texts = [Phrase("{place}: {message}", place=parts.where(each.path), message=each.message) for each in found]
+            checks.append(
+                Check(
+                    id=id, title=title, check_class="function" if level == "fail" else "practice", severity="fail" if level == "fail" else "warn",
+                    demand=id, limit=0.0, unit="1", demand_label=label, limit_label=phrase("allowed"),
+                    consequence=Phrase("{findings}.", findings=joined(texts, "; ")),
+                )
+            )  # fmt: skip
+    calc.further_checks = (*calc.further_checks, *checks)

@@ -9,6 +9,7 @@ import numpy as np
 from diecut_report.api import (
     Block,
     Chapter,
+    Check,
     ExampleBlock,
     FromPress,
     Inputs,
@@ -69,6 +70,15 @@ class Belt(Block):
     diameter_2: Annotated[float, Quantity("d_2", "mm", "Datum diameter of the driven pulley", gt=0)]
 
 
+class Rolling(Block):
+    """A chain that rolls a cylinder: it moves its axis, which must be as much as its turning makes it roll."""
+
+    name: Annotated[str, Text("Name of the chain")]
+    teeth: Annotated[int, Quantity("z_r", "1", "Number of teeth of the driving sprocket", ge=6, integer=True)]
+    pitch: Annotated[float, Quantity("p_r", "mm", "Pitch of the chain", gt=0)]
+    radius: Annotated[float, Quantity("R", "mm", "Radius of the cylinder", gt=0)]
+
+
 class DriveLine(Inputs):
     """Keys of ``drive_line``."""
 
@@ -78,6 +88,7 @@ class DriveLine(Inputs):
     shafts: Annotated[list[TurningShaft], Text("Shafts that turn steadily")]
     meshes: Annotated[list[Mesh], Text("Pairs of gears")] = []  # noqa: RUF012
     chains: Annotated[list[Chain], Text("Chains")] = []  # noqa: RUF012
+    rolling: Annotated[list[Rolling], Text("Chains that roll a cylinder")] = []  # noqa: RUF012
     belts: Annotated[list[Belt], Text("V-belts")] = []  # noqa: RUF012
 
 
@@ -113,6 +124,16 @@ drives.value("chain_pull", "F_0", "N", "Load of all chains at rest on the shaft 
     bind(lambda strands, pretension: 2 * strands * pretension, strands="chains.strands", pretension="chains.pretension"), source="statics",
     named_by="chains.name", output=False)
 drives.part_table("chains_table", "Chains", "chains", ("chain_travel", "chain_length", "chain_mass", "chain_pull"))
+rolling = Chapter("Rolling of the cylinder", needs=("rolling",))
+rolling.value("rolling_travel", "v_R", "mm", "Travel of the chain per radian of its sprocket",
+    bind(lambda teeth, pitch: teeth * pitch / (2 * as_number(np.pi)), teeth="rolling.teeth", pitch="rolling.pitch"),
+    source="kinematics", output=False)
+rolling.value("rolling_error", "ε_R", "%", "Relative difference of travel and radius: the cylinder slips on the board by that much",
+    bind(lambda rolling_travel, radius: abs(rolling_travel / radius - 1), radius="rolling.radius"), source="kinematics", output=False)
+rolling.part_table("rolling_table", "Rolling of the cylinder", "rolling", ("rolling_travel", "rolling_error"))
+rolling.require("rolls", lambda rolling_error: rolling_error <= 0.005, key="rolling.{index}.teeth",
+    message="moves the cylinder's axis by {rolling_travel} a radian, but its radius is {rolling.radius}: it slips by {rolling_error}, more than "
+        "0.5 %; take other teeth, or another radius")
 belts = Chapter("V-belts", needs=("belts",))
 belts.value("belt_ratio", "i_b", "1", "Speed of the driving pulley for each of the driven one, without creep",
     bind(lambda large, small: large / small, large="belts.diameter_2", small="belts.diameter_1"), source="kinematics", named_by="belts.name")
@@ -123,6 +144,7 @@ EXAMPLE = ExampleBlock("drive_line", {
     "shafts": [{"name": "main", "ratio": 1}, {"name": "crank", "ratio": 0.5}],
     "meshes": [{"name": "crank_drive", "module": "5 mm", "teeth_1": 24, "teeth_2": 48}],
     "chains": [{"name": "cylinder", "pitch": "12.7 mm", "links": 240, "teeth_1": 52, "teeth_2": 52, "mass_per_length": "0.69 kg/m"}],
+    "rolling": [{"name": "cylinder", "teeth": 52, "pitch": "12.7 mm", "radius": "105.1 mm"}],
     "belts": [{"name": "motor", "diameter_1": "125 mm", "diameter_2": "375 mm"}],
 })
 
@@ -133,7 +155,12 @@ MECHANISM = Mechanism(
     summary="Ratios, pitch radii and centre distances of what joins the shafts of a machine, and the speeds of those that turn steadily.",
     inputs=DriveLine,
     example=EXAMPLE,
-    chapters=(joins, drives, belts, turning),
+    chapters=(joins, drives, rolling, belts, turning),
     sources=(Source("ISO 21771", "ISO 21771:2007, Gears. Cylindrical involute gears and gear pairs. Concepts and geometry."),),
+    checks=(
+        Check(id="rolling", check_class="practice", severity="warn", title="Rolling of the cylinder", demand="rolling_error", limit=0.001, unit="%",
+              needs=("rolling",), demand_label="difference of the chain's travel and the radius", limit_label="accepted", source="kinematics",
+              consequence="the cylinder slips on the board while it cuts; take a radius that the chain's travel makes."),
+    ),
     assumptions=("Shafts and joins are rigid and without backlash; a V-belt loses a hundredth of its speed.",),
 )

@@ -118,11 +118,26 @@ class Elements(ShaftElements):
             else {}
         )
         joins = {word: rows for word in ("meshes", "chains", "belts") if (rows := self._joins(word))}
+        rolling = [row for join in self.parts.joins if (row := self._rolling(join))]
+        joins |= {"rolling": rolling} if rolling else {}
         self._add("drive_line", "drive_line", rate | {"shafts": speeds} | joins, ("machine",))
         if turning:
             self._add(
                 "machine", "machine_inertia", {"shafts": turning} | ({"moving": moving} if moving else {}), ("machine",)
             )
+
+    def _rolling(self, join: Join) -> dict[str, Any] | None:
+        """A chain that rolls a cylinder."""
+        mechanism, _, what = (getattr(join.keys, "moves", None) or "").partition(".")
+        if what != "cylinder" or self.parts.mechanisms.get(mechanism) != "cylinder_drive":
+            return None
+        home = f"${{{join.home}."
+        return {
+            "name": join.name,
+            "teeth": f"{home}teeth_1}}",
+            "pitch": f"{home}pitch}}",
+            "radius": f"${{{mechanism}.cylinder_radius}}",
+        }
 
     def _joins(self, word: str) -> list[dict[str, Any]]:
         """The numbers of the joins of a word, which all others refer to."""

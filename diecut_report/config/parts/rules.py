@@ -24,7 +24,6 @@ LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
 KEY_TO_FILLET = 0.1  # of the shaft's diameter
 WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
 WIDTH_TO_DIAMETER = 1.2  # of the pinion
-CHAIN_WARNED, CHAIN_LARGEST = 1e-3, 5e-3  # relative, travel of a chain against what it rolls
 
 Level = Literal["error", "fail", "warning"]
 
@@ -191,7 +190,7 @@ def planes(parts: MachineParts) -> Iterator[Finding]:
         distance = parts.distance(one.part.shaft.name, other.part.shaft.name)
         meet = min(one.end, other.end) - max(one.start, other.start) > SAME_PLACE
         if distance is not None and meet and distance < one.radius + other.radius - SAME_PLACE:
-            template = "has a radius of {radius} and reaches {other} ({other_radius}) in one plane: their axes are {distance} apart; move one along its shaft"
+            template = "has a radius of {radius} and reaches {other} ({other_radius}) in one plane: the axes are {distance} apart; move one of them"
             yield _finding(parts, "overlap", "warning", one.part.path, template, other.part.path, radius=mm(one.radius), other=other.part.called,
                 other_radius=mm(other.radius), distance=mm(distance))  # fmt: skip
 
@@ -447,26 +446,11 @@ def sector(parts: MachineParts) -> Iterator[Finding]:
 
 
 def chain(parts: MachineParts) -> Iterator[Finding]:
-    """A chain has an even number of links, and moves what it rolls as far as that wants."""
+    """A chain has an even number of links."""
     for join in (each for each in parts.joins if isinstance(each.keys, ChainKeys)):
         if join.keys.links % 2:
             template = "is {links}, which needs a cranked link; take an even number"
             yield _finding(parts, "chain", "warning", (*join.path, "links"), template, links=join.keys.links)
-        mechanism, _, what = (join.keys.moves or "").partition(".")
-        wanted = parts.reader.typed_block(mechanism).get("cylinder_radius") if what == "cylinder" else None
-        wanted = _cylinder_radius(parts, mechanism) if what == "cylinder" and wanted is None else wanted
-        travel = join.keys.teeth_1 * chain_pitch(join.keys) / (2 * pi)
-        if wanted is not None and abs(travel / wanted - 1) > CHAIN_WARNED:
-            level: Level = "error" if abs(travel / wanted - 1) > CHAIN_LARGEST else "warning"
-            template = "moves the carriages by {travel} a radian, but the cylinder rolls by its radius {wanted}; take other teeth, or another radius"
-            yield _finding(parts, "chain", level, (*join.path, "teeth"), template, travel=mm(travel), wanted=mm(wanted))
-
-
-def _cylinder_radius(parts: MachineParts, mechanism: str) -> float | None:
-    """The radius of the cylinder where it is typed at what sizes it."""
-    given = parts.reader.data.get("mechanisms", {}).get(mechanism, {}).get("cylinder_radius")
-    name = str(given).removeprefix("${").partition(".")[0] if isinstance(given, str) else ""
-    return parts.reader.typed_block(name).get("radius") if name in parts.mechanisms else None
 
 
 def _ratios(parts: MachineParts, elements: Elements) -> Iterator[Finding]:

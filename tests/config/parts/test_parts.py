@@ -1,0 +1,158 @@
+"""The parts of a machine: the numbers of the method's sheet, what each rule refuses, and what references to parts stand for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from diecut_report.config.loader import Config, examined, load_config
+from diecut_report.config.parts.model import MachineParts
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import parse
+from diecut_report.results.press_run import Run
+
+FILE = Path(import_module("diecut_report.configs").__path__[0]) / "machines" / "flat_cylinder.yaml"
+TEXT = FILE.read_text("utf-8")
+DISCOVERY = Discovery([])
+MM = 1e-3
+
+
+@cache
+def whole() -> Config:
+    """The example, read."""
+    return load_config(FILE, DISCOVERY)
+
+
+def parts() -> MachineParts:
+    """Its parts."""
+    found = whole().parts
+    assert found is not None
+    return found
+
+
+@cache
+def calculated(*kinds: str) -> Run:
+    """Only the calculations of some kinds, which follow from numbers of the file alone."""
+    config = whole()
+    names = {
+        name
+        for name, instance in config.instances.items()
+        if instance and instance.mechanism and instance.mechanism.kind in kinds
+    }
+    order = tuple(node for node in config.order if node[0] in names or len(node) > 1 or node == ("press",))
+    return Run(replace(config, order=order), lambda _: None)
+
+
+def changed(old: str, new: str) -> tuple[Config, list[str]]:
+    """The example with another text in one place: what was read, and what is wrong with it."""
+    assert TEXT.count(old) >= 1
+    config, problems = examined(parse(TEXT.replace(old, new, 1), str(FILE)), DISCOVERY)
+    return config, [str(problem) for problem in problems]
+
+
+def test_places_and_distances_are_those_of_the_sheet() -> None:
+    wanted = {"main": 0, "crank": 200, "flywheel": -263, "rocker": 380, "pinion": 345, "geneva": -290}
+    assert {name: pytest.approx(parts().lefts[name] / MM) for name in wanted} == wanted
+    meshes = {join.name: join.center_distance for join in parts().joins if join.word == "meshes"}
+    assert meshes == pytest.approx({"main_drive": 0.21, "crank_drive": 0.18, "sector": 0.494, "step_up": 0.28})
+
+
+@pytest.mark.parametrize(
+    ("shaft", "mass", "inertia"),
+    [
+        ("main", "57.76", "0.5759"), ("crank", "36.88", "0.1297"), ("pinion", "12.52", "0.03467"), ("geneva", "57.87", "1.223"),
+        ("conveyor", "15.34", "0.0226"), ("far", "14.62", "0.0218"),
+    ],
+)  # fmt: skip
+def test_masses_and_inertias_are_those_of_the_sheet(shaft: str, mass: str, inertia: str) -> None:
+    body = calculated("shaft_body", "drive_line").calculations[f"shafts_{shaft}_body"]
+    assert f"{float(body['mass'][0, 0]):.4g}" == f"{float(mass):.4g}"
+    assert f"{float(body['inertia'][0, 0]):.4g}" == f"{float(inertia):.4g}"
+
+
+def test_the_speed_of_a_shaft_is_that_of_the_anchor_times_the_ratios_of_the_teeth() -> None:
+    line = calculated("shaft_body", "drive_line").calculations["drive_line"]
+    speeds = dict(zip(line.inputs["shafts.name"], line["speed"][0], strict=True))
+    assert speeds["crank"] == pytest.approx(speeds["main"] * 24 / 48)
+    assert speeds["flywheel"] == pytest.approx(speeds["main"] * 87 / 18)
+    assert speeds["motor"] == pytest.approx(speeds["flywheel"] * 3 / 0.99)
+
+
+def test_what_is_found_in_the_example_is_the_clutch_in_the_plane_of_the_main_shaft() -> None:
+    assert [(each.rule, each.level) for each in parts().findings] == [("overlap", "warning")]
+    (text,) = (str(each.message) for each in parts().findings)
+    assert "180 mm" in text and "crank.clutch" in text + str(parts().findings[0].path)
+
+
+def test_the_travel_of_the_chain_differs_from_the_radius_of_the_cylinder_as_the_sheet_says() -> None:
+    line = calculated("shaft_body", "drive_line", "cylinder_sizing").calculations["drive_line"]
+    assert line["rolling_travel"][0, 0] == pytest.approx(0.105106, abs=5e-7)
+    assert line["rolling_error"][0, 0] == pytest.approx(1 - 105.106 / 105.5, abs=1e-5)
+
+
+BROKEN = [
+    ("key: 40}\n      - {bearing: a, at: 91", "key: 41}\n      - {bearing: a, at: 91", "not a length of DIN 6885-1"),
+    ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 45, key: 50}", "is 50 mm long, but its hub is 45 mm long"),
+    ("at: 100, designation: \"6210\"", "at: 100, designation: \"6212\"", "has a bore of 60 mm, but sits on a diameter of 50 mm"),
+    ("pin: {diameter: 40, held: 50, plane: 15, bearing: NU2208E}", "pin: {diameter: 45, held: 50, plane: 15, bearing: NU2208E}",
+     "has a bore of 40 mm, but sits on a pin of 45 mm"),
+    ("{gear: wheel, at: 155,", "{gear: wheel, at: 120,", "begins at 90 mm, but a ends at 110 mm"),
+    ("{crank: disc, of: cross.crank, at: 35,", "{crank: disc, of: cross.crank, at: 20,", "the shaft goes from 0 to"),
+    ("designation: NU210E, floating: true", "designation: NU210E", "exactly one is needed"),
+    ("conveyor: [180, 520]", "conveyor: [180, 521]", "puts the axes 280 mm apart"),
+    ("rocker: [500, 0]", "rocker: [501, 0]", "wants the axes of crank and rocker 500 mm apart"),
+    ("teeth: 24/48", "teeth: 24/47", "by the teeth, but drive turns 1/2 times a sheet"),
+    ("teeth_present: 39}", "teeth_present: 150}", "more than two thirds of the 212 teeth"),
+    ("pair: [main.pinion, crank.wheel]", "pair: [main.pinion, crank.whel]", "there is no such gear (did you mean"),
+    ("anchor: main ", "anchor: mian ", "is mian, which is not one of the shafts"),
+    ("sections: 45x70 r1, 50x40 r1, 60x320 r1, 50x40", "sections: 45*70 r1, 50x40", "a block of keys is needed"),
+    ("at: 100, designation", "at: 100 kg, designation", "at: "),
+    ("frame: {crank: [0, 0]", "frame: {crank: [0]", "two numbers in mm are needed"),
+    ("  drive:\n    kind: cylinder_drive\n", "  drive:\n    kind: cylinder_drive\n    sector_ratio: 6\n", "follows from the parts; remove the key"),
+    ("  cylinder:\n    kind: cylinder_sizing", "  shafts:\n    kind: cylinder_sizing", "the name 'shafts' is reserved"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "told"), BROKEN, ids=[new[:40] for _, new, _ in BROKEN])
+def test_what_contradicts_itself_is_refused_at_its_place(old: str, new: str, told: str) -> None:
+    _, problems = changed(old, new)
+    assert [problem for problem in problems if told in problem], problems
+    assert all(str(FILE) in problem for problem in problems)
+
+
+def test_a_part_that_nothing_joins_to_its_shaft_fails() -> None:
+    config, problems = changed("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60}")
+    assert not problems and config.parts is not None
+    assert [each.rule for each in config.parts.findings if each.level == "fail"] == ["torque_carried"]
+
+
+@pytest.mark.parametrize(
+    ("reference", "stands_for"),
+    [
+        ("${shafts.crank.speed}", "${drive_line.crank_speed}"),
+        ("${shafts.crank.inertia}", "${shafts_crank_body.inertia}"),
+        ("${shafts.crank.bearings.a.reaction}", "${shafts_crank.reaction_a}"),
+        ("${shafts.crank.bearings.a.bore}", "45 mm"),
+        ("${shafts.crank.parts.disc.position}", "510 mm"),
+        ("${shafts.crank.sections.1.diameter}", "${shafts_crank.sections.1.diameter}"),
+        ("2 * ${meshes.sector.center_distance}", "2 * ${drive_line.sector_center_distance}"),
+        ("${chains.grippers.mass}", "${drive_line.grippers_chain_mass}"),
+        ("${belts.motor.ratio}", "${drive_line.motor_belt_ratio}"),
+        ("${machine.inertia}", "${machine.inertia}"),
+    ],
+)
+def test_a_reference_to_a_part_stands_for_what_is_calculated_of_it(reference: str, stands_for: str) -> None:
+    config, _ = changed("allowable_torque: {value: 800 N*m, basis: assumed}", f"allowable_torque: {reference!r}")
+    assert config.tree.data["mechanisms"]["drive"]["allowable_torque"] == stands_for
+
+
+def test_a_number_of_a_part_has_the_basis_of_the_machine_and_stands_where_it_is_typed() -> None:
+    config = whole()
+    hub = config.instances["shafts_crank_disc_key"]
+    assert hub is not None and hub.bases[("hub_length",)].basis == "assumed"
+    line, column = config.tree.position(("mechanisms", "shafts_crank_disc_key", "hub_length"))
+    assert TEXT.splitlines()[line - 1][column - 1 :].startswith("60,")
