@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
@@ -100,9 +101,33 @@ def nearest(given: str, known: Iterable[str]) -> str:
     found = closest(given, known)
     if not found:
         return ""
-    if found.isascii() and any(letter.isalpha() and not letter.isascii() for letter in given):  # as Cyrillic а, е, о, с
-        return Phrase(" (did you mean {key}, in Latin letters alone?)", key=repr(found))
+    if seeming := lookalikes(given) if found.isascii() else "":
+        return Phrase(" (did you mean {key}? {letters} only looks Latin)", key=repr(found), letters=seeming)
     return Phrase(" (did you mean {key}?)", key=repr(found))
+
+
+_SEEMING = str.maketrans(
+    "аеорсухіјѕԁһкмтвнпгАВЕКМНОРСТХІЈЅοαινρυκΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "aeopcyxijsdhkmtbhngABEKMHOPCTXIJSoaivpukABEZHIKMNOPTYX"
+)
+"""Cyrillic and Greek letters with the Latin ones that they look like, or are typed for."""
+
+
+def latin_letters(name: str) -> str:
+    """Return a name with Latin letters in place of those that only look like them."""
+    return name.translate(_SEEMING)
+
+
+def lookalikes(name: str) -> str:
+    """Return the letters of a name that only look Latin, each with its name: “о” (cyrillic small letter o); "" where there are none."""
+    strange = dict.fromkeys(letter for letter in name if ord(letter) in _SEEMING)
+    return ", ".join(f"“{letter}” ({unicodedata.name(letter).lower()})" for letter in strange)
+
+
+def seeming_latin(name: str) -> str:
+    """Return what is wrong with a name whose letters only look Latin; "" where it has none of them, or others beside."""
+    told, meant = lookalikes(name), latin_letters(name)
+    template = "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}."
+    return Phrase(template, name=name, told=told, meant=meant) if told and meant.isascii() else ""
 
 
 def closest(given: str, known: Iterable[str]) -> str:

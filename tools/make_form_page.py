@@ -46,6 +46,7 @@ MEANINGS = {
     "source": 'where the formula comes from, as it is printed beside it: `"ISO 281, 5.2"`, or the id of a `Source`',
     "source_symbol": "the letter that the source uses, where it is another one",
     "digits": "significant digits that are printed, at least",
+    "shown_to": "a value above it (in the unit of the quantity) is shown as greater than it",
     "output": "among the `outputs` of the results file, which a study has columns of; else among its `values`",
     "needs": 'optional inputs with which the step takes part; `"medium=oil"` is a text input with that value',
     "lacks": "optional inputs without which it does; both together make alternatives of one id",

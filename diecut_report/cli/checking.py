@@ -157,7 +157,8 @@ def _data(found: JudgedFile) -> dict[str, Any]:
 
 
 ORDER = ("fail", "warn", "not_checked")
-COLOURED = {"bad": "error", "incomplete": "warn", "conditional": "warn"}  # states with the colour of another one
+WITHOUT_RESULTS = ("bad", "impossible")
+COLOURED = {"bad": "error", "impossible": "error", "incomplete": "warn", "conditional": "warn"}  # states with the colour of another one
 WORDS = {
     "pass": phrase("pass"),
     "incomplete": phrase("conditional"),
@@ -168,6 +169,7 @@ WORDS = {
     "skipped": phrase("skipped"),
     "not_checked": phrase("not checked"),
     "bad": phrase("bad file"),
+    "impossible": phrase("impossible machine"),
 }
 
 
@@ -367,7 +369,7 @@ def _found(given: Sequence[Path], discovery: Discovery, jobs: int | None, asked:
         machines = _calculated(read, discovery, jobs, progress)
     found = NamedMachines(known.files, known.passed_over, machines, asked, discovery)
     for verdict in found.spoken.machines:
-        is_bad = verdict.status == "bad"  # its messages name the file
+        is_bad = verdict.status in WITHOUT_RESULTS  # its messages name the file
         tell(line if is_bad else f"{verdict.machine}: " + phrase(line) for line in verdict.messages)
     return found
 
@@ -394,8 +396,8 @@ def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
 
 def _row(verdict: Verdict) -> tuple[str, ...]:
     machine = _called(verdict)  # before its width is taken
-    if verdict.status == "bad":
-        return machine, said(WORDS["bad"]), "", "", "", "", "", ""
+    if verdict.status in WITHOUT_RESULTS:
+        return machine, said(WORDS[verdict.status]), "", "", "", "", "", ""
     share = "" if verdict.utilisation is None else localised(f"{100 * verdict.utilisation:.1f} %")
     counts = (verdict.failed, verdict.not_checked, verdict.warnings, verdict.assumed)
     told = said(WORDS[verdict.verdict])
@@ -404,7 +406,7 @@ def _row(verdict: Verdict) -> tuple[str, ...]:
 
 
 def _counts(verdicts: Sequence[Verdict]) -> Line:
-    states = ("pass", "conditional", "fail", "error", "bad")
+    states = ("pass", "conditional", "fail", "error", "impossible", "bad")
     found = counted({status: sum(verdict.verdict == status for verdict in verdicts) for status in states})
     return (Counted(len(verdicts), "{n} machine: ", "{n} machines: "), *found, ".")
 
@@ -425,7 +427,7 @@ def _passed_over(files: Mapping[Path, str]) -> Iterator[str]:
 
 def _code(verdicts: Sequence[Verdict], strict: bool) -> int:
     states = {verdict.status for verdict in verdicts}
-    if "bad" in states:
+    if not states.isdisjoint(WITHOUT_RESULTS):
         return BAD_INPUT
     if "error" in states:
         return PLUGIN_BROKE

@@ -10,6 +10,7 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from diecut_report.config import instances, yaml
+from diecut_report.config.bare_numbers import bare_numbers
 from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
 from diecut_report.config.model import PRESS, ConfigDocument, PressBlock, Project, ReportSettings, texts, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
@@ -18,15 +19,15 @@ from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.references import Linker, linked, ordered
-from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.config.source_hashes import note_same_code, plugin_hash, program_hash
 from diecut_report.config.validation import ConfigPlace, as_typed, declared, quoted, spread_out, validate
-from diecut_report.config.yaml import MAX_BYTES, Tree, read, seeming_latin, too_much
-from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
+from diecut_report.config.yaml import MAX_BYTES, Tree, read, too_much
+from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal, seeming_latin
 from diecut_report.files import standard_input
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import Block
-from diecut_report.mechanism.mechanism import Mechanism, Partner
+from diecut_report.mechanism.mechanism import Mechanism, Partner, absent_partners_checks, without_checks
 from diecut_report.mechanism.names import SI, Pending, Text
 from diecut_report.text.phrases import Phrase
 from diecut_report.time_limit import contained
@@ -299,6 +300,9 @@ class _ConfigReader:
         known = instance.mechanism, instance.data, self.instances, self.kinds
         self.problems += [instance.place.problem((key,), words) for key, words in overruled(*known)]
         instance.take(taken(*known))
+        whole = instance.mechanism
+        instance.mechanism = without_checks(whole, absent_partners_checks(whole, self.kinds.values(), instance.given))
+        note_same_code(instance.mechanism, whole)
         self._probe(name, self.kinds[name])
 
     def _add(
@@ -385,7 +389,10 @@ def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
         texts = {key for key, each in own if each.unit is None and isinstance(declared(instance.model, key), Text)}
         left_open = {key for key, each in own if each.is_broken or (key in texts and not each.phase_unit)}
         try:
-            problems += validate(instance.model, data, instance.place, left_open)[1]
+            wrong = validate(instance.model, data, instance.place, left_open)[1]
+            asked = list(bare_numbers(instance))  # says more than that such a value is not plausible
+            places = {each.path for each in asked}
+            problems += [*asked, *(each for each in wrong if each.path not in places)]
         except PluginError as error:
             reader.broken[instance.name] = _of_instance(error, reader.kinds.get(instance.name, ""), instance.name)
     return problems

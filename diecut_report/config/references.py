@@ -21,8 +21,8 @@ import yaml
 from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
 from diecut_report.config.model import PRESS, texts
 from diecut_report.config.validation import ConfigPlace, declared
-from diecut_report.config.yaml import LOADER, KeyPath, Tree, dotted, parse, seeming_latin
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.config.yaml import LOADER, KeyPath, Tree, dotted, parse
+from diecut_report.errors import Problem, UserError, nearest, seeming_latin
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput

@@ -28,7 +28,9 @@ EXPRESSION = (  # references, numbers with and without unit, functions, signs; a
     r"^(?=.*\$\{)\s*(?:(?:\$\{[^${}]+\}|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\d.])(?:\s*(?:1/)?[^\s\d.,+*/()^${}−-][^\s,+()${}−-]*)?"
     r"|(?:abs|max|min|sqrt)\s*\(|[-+*/^(),−])\s*)+$"
 )
-NUMBER = r"^\s*[-+−]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,$][^$]*|\s+1/[^$]*)?$"
+NUMBER = (
+    r"^\s*[-+−]?(?![1-9]\d{0,2},\d{3}(?!\d))(\d+(\.\d*|,\d+)?|\.\d+)([eE][-+]?\d+)?(\s*[^\s\d.,$][^$]*|\s+1/[^$]*)?$"
+)
 _REFERENCE: Schema = {"type": "string", "pattern": REFERENCE, "description": "A reference such as ${cylinder.radius}."}
 BOUNDS = {"gt": "exclusiveMinimum", "ge": "minimum", "lt": "exclusiveMaximum", "le": "maximum"}
 

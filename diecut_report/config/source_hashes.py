@@ -85,6 +85,11 @@ def note_plugin(mechanism: Mechanism, digest: str, foreign: Path | None = None) 
         _known.setdefault(each, PluginCode(digest, name))
 
 
+def note_same_code(made: Mechanism, of: Mechanism) -> None:
+    """Note that a mechanism comes from the code of another one, of which it is a part."""
+    _known.setdefault(made, _code(of))
+
+
 def module_hash(file: Path) -> str:
     """Return the SHA-256 of a module's code, as it was when this was first asked."""
     if file not in _when_loaded:

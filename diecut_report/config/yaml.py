@@ -13,7 +13,6 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
@@ -89,22 +88,6 @@ FORBIDDEN = re.compile(f"{CONTROL.pattern}|{INVISIBLE.pattern}|[\x85\u2028\u2029
 """What a decoded text may not hold; an escape may bring NEL, and separators that end a line for some readers and not for others."""
 FORBIDDEN_IN_KEY = re.compile(f"{FORBIDDEN.pattern}|[\t\n\r]")
 """What a decoded key may not hold."""
-
-SEEMING = str.maketrans(
-    "аеорсухіјѕԁһкмтвнАВЕКМНОРСТХІЈЅοαινρυκΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "aeopcyxijsdhkmtbhABEKMHOPCTXIJSoaivpukABEZHIKMNOPTYX"
-)
-"""Cyrillic and Greek letters with the Latin ones that they look like."""
-
-
-def seeming_latin(name: str) -> str:
-    """Return what is told of a name with letters that only look Latin; "" where it has none, or others that do not."""
-    strange = [letter for letter in name if ord(letter) in SEEMING]
-    meant = name.translate(SEEMING)
-    if not strange or not meant.isascii():
-        return ""
-    told = ", ".join(f"“{letter}” ({unicodedata.name(letter).lower()})" for letter in dict.fromkeys(strange))
-    template = "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}."
-    return Phrase(template, name=name, told=told, meant=meant)
 
 
 def forbidden_character(text: str) -> str:

@@ -55,15 +55,20 @@ class InputEffect:
     high: float
 
     def reach(self, present: float) -> float:
-        """Return how far the number moves at most; infinite where a machine cannot be."""
-        moved = np.abs(np.array([self.low, self.high]) - present)
-        return float("inf") if np.isnan(moved).any() else float(moved.max())
+        """Return how far the number moves at most, on a side where there is a machine; 0 where there is none on either."""
+        return float(np.nanmax(np.abs([self.low - present, self.high - present, 0.0])))
+
+    @property
+    def is_impossible(self) -> bool:
+        """Return whether there is no machine with less, or with more of the input."""
+        return math.isnan(self.low) or math.isnan(self.high)
 
 
 @dataclass(frozen=True)
 class Tornado:
     """Hold the inputs by what they do to a number, the greatest first.
 
+    ``impossible`` are those of which a change makes no machine and that do nothing else, ``reason`` says why the first does not.
     Those that do nothing are counted (``still``), and those that stand at their default and were not changed (``at_default``).
     """
 
@@ -72,11 +77,13 @@ class Tornado:
     bars: tuple[InputEffect, ...]
     still: int
     at_default: int
+    impossible: tuple[InputEffect, ...] = ()
+    reason: str = ""
 
     @property
     def record(self) -> TornadoRecord:
         """Return it as it is read: its greatest bars, in the units of the inputs and the number."""
-        own, shown = self.asked.unit, self.bars[:SHOWN]
+        own, shown = self.asked.unit, [*self.bars, *self.impossible][:SHOWN]
         bars = [
             MovedBarRecord(
                 name=bar.design.name, unit=bar.design.unit, lowered=_in(bar.design.unit, bar.lowered),
@@ -85,7 +92,7 @@ class Tornado:
             for bar in shown
         ]  # fmt: skip
         return TornadoRecord(
-            name=self.asked.name, unit=own, today=_in(own, self.present), bars=bars, more=len(self.bars) - len(shown), still=self.still,
+            name=self.asked.name, unit=own, today=_in(own, self.present), bars=bars, more=max(len(self.bars) - SHOWN, 0), still=self.still,
             at_default=self.at_default,
         )  # fmt: skip
 
@@ -202,7 +209,14 @@ def _tornado(
     bars = [InputEffect(each, *pair, *beside) for each, pair, beside in zip(inputs, ends, sides, strict=True)]
     moving = [each for each in bars if each.reach(present) > STILL * abs(present)]
     moving.sort(key=lambda each: -each.reach(present))
-    return Tornado(asked, present, tuple(moving), len(bars) - len(moving), left)
+    impossible = tuple(each for each in bars if each not in moving and each.is_impossible)
+    reason = next((why for why in _errors(made, bars.index(impossible[0])) if why), "") if impossible else ""
+    return Tornado(asked, present, tuple(moving), len(bars) - len(moving) - len(impossible), left, impossible, reason)
+
+
+def _errors(made: VariedMachines, index: int) -> Array:
+    """Why there is no machine with less, and none with more of the input of this place."""
+    return made.errors[1 + 2 * index : 3 + 2 * index]
 
 
 def within_tolerances(
@@ -260,22 +274,27 @@ pre{{white-space:pre-wrap;background:#f3f5f7;padding:.7rem}}footer{{color:#5a677
 def lines(found: Sequence[Tornado], drawn: TolerancesRecord | None, option: str = "--defaults") -> Iterator[str]:
     """Yield what moves each number most, and how probable it is that the checks hold; ``option`` is what changes defaults too."""
     for each in found:
-        yield from _tornado_lines(each.record)
+        yield from _tornado_lines(each)
     yield from _left_out(found, option)
     if drawn is not None:
         yield from _tolerances(drawn)
 
 
-def _tornado_lines(found: TornadoRecord) -> Iterator[Phrase]:
+def _tornado_lines(tornado: Tornado) -> Iterator[Phrase]:
+    found = tornado.record
     yield Phrase("{asked}, at present {value}", asked=found.name, value=_told(found.today, found.unit))
-    width = max((len(bar.name) for bar in found.bars), default=0)
-    for bar in found.bars:
+    moving = found.bars[: len(tornado.bars)]
+    width = max((len(bar.name) for bar in moving), default=0)
+    for bar in moving:
         ends = {"low": _told(bar.lowered, bar.unit), "high": _told(bar.raised, bar.unit)}
         gives = {"first": _told(bar.low, found.unit), "second": _told(bar.high, found.unit)}
         yield Phrase("  {input}  {low} … {high}: {first} … {second}", input=bar.name.ljust(width), **ends, **gives)
     rest = [Phrase("{n} more have a smaller effect", n=found.more)] if found.more else []
     rest += [Phrase("{n} have no effect", n=found.still)] if found.still else []
     yield Phrase("  {rest}", rest=joined(rest, ", ") or phrase("no other input has an effect"))
+    if tornado.impossible:
+        names = ", ".join(each.design.name for each in tornado.impossible)
+        yield Phrase("  changed, no machine exists: {names} ({reason})", names=names, reason=tornado.reason)
 
 
 def _told(value: float | None, unit: str, digits: int = 4) -> str:
@@ -322,7 +341,8 @@ def data(
     return {
         "schema_version": 1,
         "tornados": [
-            {"name": each.asked.name, "unit": each.asked.si, "today": each.present, "bars": [_bar(bar) for bar in each.bars], "still": each.still,
+            {"name": each.asked.name, "unit": each.asked.si, "today": each.present, "still": each.still,
+             "bars": [_bar(bar) for bar in (*each.bars, *each.impossible)],
              "at_default": each.at_default}
             for each in found
         ],
@@ -350,7 +370,7 @@ def page(found: Sequence[Tornado], drawn: TolerancesRecord | None, name: str) ->
     from diecut_report.report.pages import html as report_html
 
     parts = []
-    for index, each in enumerate(each.record for each in found):
+    for index, (asked, each) in enumerate((each, each.record) for each in found):
         told = say("Influence of inputs on {asked}", asked=each.name)
         figure = tornado(each.today, each.bars, told, f"tornado-{index}", decimal_sign()).text if each.bars else ""
         template = "In {unit}; blue: input increased; brown: input decreased; ×: cannot exist; line: present value."
@@ -359,7 +379,7 @@ def page(found: Sequence[Tornado], drawn: TolerancesRecord | None, name: str) ->
             f"<h2>{html.escape(each.name)}</h2>",
             figure,
             f"<p>{html.escape(caption)}</p>",
-            _block(_tornado_lines(each)),
+            _block(_tornado_lines(asked)),
         ]
     parts += [f"<p>{html.escape(said(each))}</p>" for each in _left_out(found, "--defaults")]
     if drawn is not None:

@@ -321,11 +321,12 @@ def typed_answers(search: _RangeSearch, places: Sequence[tuple[float, Role]]) ->
     made = search.machines(x)
     y = made.values(search.question.quantity.column)
     held, missed = search.holds(made, y) >= 0, search.missed(y)
+    failed = np.array([len(made.failing(row)) for row in range(len(rows))])
     owner = np.array([number for number, _ in (*rows, *beyond)])
     found = []
     for number, (value, role) in enumerate(places):
         own = np.flatnonzero(owner[: len(rows)] == number)
-        best = _chosen(own, x, y, held, missed, value, role)
+        best = _chosen(own, x, y, held, missed, failed, value, role)
         outside = np.flatnonzero(owner[len(rows) :] == number) + len(rows)
         failing = tuple(made.failing(best)) if search.passing else ()
         limits = tuple(dict.fromkeys(name for row in outside for name in made.failing(int(row)) if name not in failing))
@@ -348,8 +349,11 @@ def _candidates(design: DesignInput, value: float, role: Role) -> list[str]:
     return [text for text in dict.fromkeys(few) if design.allows(np.array(design.read_allowed(text)))]
 
 
-def _chosen(own: Array, x: Array, y: Array, held: Array, missed: Array, value: float, role: Role) -> int:
-    """The first of the candidates that is as good as the exact one, which is the last."""
+def _chosen(own: Array, x: Array, y: Array, held: Array, missed: Array, failed: Array, value: float, role: Role) -> int:
+    """The first of the candidates that is as good as the exact one, which is the last.
+
+    What is asked may be the limit of a check: of roots those count with which fewer checks fail.
+    """
     exact = int(own[-1])
     if role in ("lower", "upper"):
         near = np.abs(x[own] - value) <= SAME_END * abs(value)
@@ -359,6 +363,7 @@ def _chosen(own: Array, x: Array, y: Array, held: Array, missed: Array, value: f
         good = held[own] & (np.abs(y[own] - y[exact]) <= SAME_EXTREME * abs(y[exact]))
     elif role == "root":
         good = missed[own] <= REACHED
+        good &= failed[own] == np.min(failed[own], initial=np.max(failed[own]), where=good)
     else:
         return exact
     return int(own[np.argmax(good)]) if good.any() else exact

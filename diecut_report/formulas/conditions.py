@@ -29,6 +29,7 @@ from diecut_report.text.phrases import Phrase, message, phrase
 
 
 MAX_LENGTH, MAX_WORDS, MAX_BRACKETS = 20_000, 400, 40  # of a condition; brackets in each other
+MAX_SHOWN_LETTERS = 60  # of what is not a word, in a message
 KEYWORDS = ("and", "or", "not", "in", "is", "null", "between", "like", "true", "false")
 FUNCTIONS = ("abs", "min", "max", "sqrt")
 ALLOWED = (
@@ -126,8 +127,11 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
 
 
 def _not_allowed(given: str, place: int, allowed: str) -> ConditionError:
-    """What tells of letters that are no word, with what may stand there."""
-    letters = repr(given[place : place + 10])
+    """What is wrong with letters that are not a word, with what may stand there."""
+    whole = given[place:].split(maxsplit=1)[0]
+    letters = repr(whole if len(whole) <= MAX_SHOWN_LETTERS else f"{whole[: MAX_SHOWN_LETTERS - 1]}…")
+    if whole.startswith("${"):
+        return ConditionError("{reference} has no closing brace; write ${NAME.KEY}.", place, reference=letters)
     return ConditionError("{given} is not allowed here; allowed: {allowed}.", place, given=letters, allowed=allowed)
 
 

@@ -20,7 +20,7 @@ from diecut_report.design.inputs import DesignInput, given_choices, given_number
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import write
 from diecut_report.press import Press
-from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity
+from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity, with_point
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.results.warm_press import WarmPress, WarmRun
@@ -149,7 +149,8 @@ class LiveSession:
             parse_quantity(typed, asked.meta.unit)
         except UnitError as fault:
             raise UserError(Problem(str(fault), str(self.file), path=asked.asked.path)) from None
-        return typed if number_and_unit(typed)[1] else self._in_its_unit(asked, typed)
+        plain = with_point(typed)
+        return plain if number_and_unit(plain)[1] else self._in_its_unit(asked, plain)
 
     def _in_its_unit(self, asked: DesignInput, number: str) -> str:
         """A bare number is in the unit that stands beside the input, which is the one that the file gives it in."""

@@ -26,7 +26,7 @@ from diecut_report.mechanism.curve_inputs import (
 )
 from diecut_report.mechanism.names import SI, FromPress, OneOf, Pending, Text, placed
 from diecut_report.quantities.plausible import Plausible, plausible
-from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
+from diecut_report.quantities.units import Unit, UnitError, number_and_unit, parse_quantity, pretty, to_display, unit
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 # Hard bounds of a quantity, in the unit that it is declared in.
@@ -119,15 +119,16 @@ class Quantity:
                 self._same_kind(other, told)
                 if isinstance(value, np.ndarray):  # of many machines: each is judged on its own
                     return value
-                return self._bounded(value, Phrase("{to_display} {pretty} (from {told})", to_display=f"{to_display(value, self.unit):.6g}",
-                    pretty=pretty(self.unit), told=told))  # fmt: skip
+                origin = Phrase("{to_display} {pretty} (from {told})", to_display=f"{to_display(value, self.unit):.6g}",
+                    pretty=pretty(self.unit), told=told)  # fmt: skip
+                return self._bounded(value, origin, calculated=True)
             case bool() | list() | dict():
                 kind = phrase("a block of keys") if isinstance(given, dict) else str(given).lower()
                 kind = phrase("a list") if isinstance(given, list) else kind
                 template = "is {kind}; a number or a text such as “{rstrip}” is needed"
                 raise ValueError(Phrase(template, kind=kind, rstrip=f"10 {pretty(self.unit)}".rstrip()))
         value = self._parsed(given)
-        return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
+        return self._bounded(value, given if isinstance(given, str) else f"{given} {pretty(self.unit)}")
 
     def _parsed(self, given: Any) -> float:
         try:
@@ -142,15 +143,27 @@ class Quantity:
         if unit(other).kind != self.parsed_unit.kind:
             raise ValueError(Phrase("{told} is in {other}; a quantity in {unit} is needed here", told=told, other=other, unit=self.unit))  # fmt: skip
 
-    def _bounded(self, value: float, told: str) -> float | int:
+    def _meant(self, typed: str) -> str:
+        """Ask for the key's own unit where the number of a refused quantity would be allowed in it: 105 mm in place of 105 m."""
+        try:
+            number, own = number_and_unit(typed)
+            is_other = bool(own) and unit(own) != self.parsed_unit
+        except UnitError:  # of what is not typed: a value with the reference that gives it
+            return ""
+        if not is_other or not self.holds(np.array(float(number) * self.parsed_unit.factor)):
+            return ""
+        return Phrase(". Is {quantity} meant?", quantity=f"{number} {pretty(self.unit)}".rstrip())
+
+    def _bounded(self, value: float, told: str, *, calculated: bool = False) -> float | int:
         shown = value / self.parsed_unit.factor
         if not math.isfinite(shown):
             raise ValueError(Phrase("{strip} is not a finite number", strip=told.strip()))
         if not self._within(shown):
-            raise ValueError(Phrase("{strip} is out of range; allowed: {allowed}", strip=told.strip(), allowed=self.allowed))  # fmt: skip
-        if not self.sizes.holds(value):
-            raise ValueError(Phrase("{strip} is not plausible; {plausible_sizes}", strip=told.strip(),
-                plausible_sizes=self.plausible_sizes))  # fmt: skip
+            raise ValueError(Phrase("{strip} is out of range; allowed: {allowed}{meant}", strip=told.strip(),
+                allowed=self.allowed, meant=self._meant(told)))  # fmt: skip
+        if not self.sizes.holds(value, calculated=calculated):
+            raise ValueError(Phrase("{strip} is not plausible; {plausible_sizes}{meant}", strip=told.strip(),
+                plausible_sizes=self.plausible_sizes, meant=self._meant(told)))  # fmt: skip
         if self.integer and not float(shown).is_integer():
             raise ValueError(Phrase("{strip} is not a whole number", strip=told.strip()))
         return int(shown) if self.integer else value + 0.0  # no minus zero
@@ -170,11 +183,11 @@ class Quantity:
         """Return the plausible sizes in words, with the zero where the bounds allow it."""
         return Phrase("plausible: {told}", told=self.sizes.told) + (phrase(", or 0") if self._within(0.0) else "")
 
-    def holds(self, values: Any) -> Any:
-        """Return which numbers (an array, SI) are allowed."""
+    def holds(self, values: Any, *, calculated: bool = False) -> Any:
+        """Return which numbers (an array, SI) are allowed; what is ``calculated`` may be smaller than what is typed."""
         shown = values / self.parsed_unit.factor
         whole = shown == np.round(shown) if self.integer else True
-        return np.isfinite(shown) & self._within(shown) & whole & self.sizes.holds(values)
+        return np.isfinite(shown) & self._within(shown) & whole & self.sizes.holds(values, calculated=calculated)
 
 
 class Block(BaseModel):

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache, reduce, wraps
+from functools import cache, cached_property, lru_cache, reduce, wraps
 from itertools import product
 from typing import Any, TypeVar
 
@@ -248,12 +248,14 @@ class Partner:
     """Declare another mechanism that a kind takes inputs from: the one that the text input ``key`` names, else the only one of its kinds.
 
     ``takes`` gives for inputs of this kind the id of a result or the path of an input there; what is given in the block, or is
-    absent there, is not taken.
+    absent there, is not taken. Where a press has none of these kinds, checks that need what they give do not apply, unless every
+    press must have one (``always``).
     """
 
     key: str
     kinds: tuple[str, ...]
     takes: Mapping[str, str]
+    always: bool = False
     at: str = placed()
 
 
@@ -370,6 +372,22 @@ def missing_keys(mechanism: Mechanism, check: Check, given: frozenset[str]) -> t
         return None
     order = {path: number for number, path in enumerate(keys(mechanism.inputs))}
     return tuple(sorted(shortest, key=lambda key: (order.get(key, len(order)), key)))
+
+
+def absent_partners_checks(mechanism: Mechanism, kinds: Collection[str], given: frozenset[str]) -> frozenset[str]:
+    """Return the ids of the checks that need what only kinds give of which a press has none."""
+    absent = [each for each in mechanism.partners if not each.always and not set(each.kinds) & set(kinds)]
+    lost = {key for partner in absent for key in partner.takes}
+    return frozenset(
+        check.id for check in mechanism.checks if lost.intersection(missing_keys(mechanism, check, given) or ())
+    )
+
+
+@cache
+def without_checks(mechanism: Mechanism, ids: frozenset[str]) -> Mechanism:
+    """Return a mechanism kind without some of its checks; the same object for the same ones, as calculations are remembered by it."""
+    kept = tuple(check for check in mechanism.checks if check.id not in ids)
+    return replace(mechanism, checks=kept) if ids else mechanism
 
 
 def _givers(mechanism: Mechanism, name: str) -> Iterator[When]:

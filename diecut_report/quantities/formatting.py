@@ -167,11 +167,16 @@ def shortest(value: float, digits: int = 6) -> str:
     return number_text(value, digits) if len(short.replace(".", "").lstrip("0-")) > max(digits, TYPED) else short
 
 
-def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
+ABOVE = "> "  # begins the text of a value of which only that it is so great means something
+
+
+def shown(value: float, unit_text: str, digits: int = DIGITS, most: float = math.inf) -> dict[str, str]:
     """Return an SI value as text in a display unit: of its digits those that mean something, rounding of the computer as zero.
 
-    Where other than the usual number of digits is asked for, they all stand.
+    Where other than the usual number of digits is asked for, they all stand. Of a value above ``most`` (SI) no more is said.
     """
+    if value > most:
+        return {"text": f"{ABOVE}{unit(unit_text).from_si(most):.15g}", "unit": unit_text}
     if is_nothing(value, unit_text):
         return {"text": "0", "unit": unit_text}
     text = number_text(unit(unit_text).from_si(value), shown_digits(value, unit_text, digits))

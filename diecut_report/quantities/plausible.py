@@ -90,9 +90,13 @@ class Plausible:
             raise UnitError(template, least=self.least, most=self.most)
         return least, most
 
-    def holds(self, values: Any) -> Any:
-        """Return which SI values (a number or an array) are zero or have a plausible size."""
+    def holds(self, values: Any, *, calculated: bool = False) -> Any:
+        """Return which SI values (a number or an array) are zero or have a plausible size.
+
+        What is ``calculated`` may be smaller than anybody would type it: a slack, a deflection.
+        """
         least, most = self.ends
+        least *= NOTHING if calculated else 1.0
         size = np.abs(values)
         return (size == 0) | ((size >= least * (1 - ROUNDING)) & (size <= most * (1 + ROUNDING)))
 

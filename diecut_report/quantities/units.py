@@ -19,7 +19,7 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
-from diecut_report.errors import MAX_QUANTITY
+from diecut_report.errors import MAX_QUANTITY, latin_letters, lookalikes
 from diecut_report.text.phrases import MessageError, Phrase, phrase
 
 # The usual spellings of units ("kg·m²", "kg m^2", "Nm", "m/s2") and the one that the program looks up ("kg*m**2").
@@ -33,16 +33,28 @@ _SUPERSCRIPT = re.compile("(⁻?)([" + "".join(_SUPERSCRIPTS) + "]+)")
 _GLUED = re.compile(r"(/?)(?<!\w)((?:[kMm]?N|kg|g)(?=mm|cm|m))(m|mm|cm)(\*\*-?\d+)?(?!\w)")
 
 _CYRILLIC = {
-    "хв": "min", "год": "h", "град": "deg", "рад": "rad", "Вт": "W", "кВт": "kW", "Дж": "J", "кДж": "kJ", "Гц": "Hz",
-    "с": "s", "мс": "ms", "т": "t", "мкм": "um", "Н": "N", "кН": "kN", "МН": "MN", "Нм": "N*m",
+    "мкм": "um", "мм": "mm", "см": "cm", "дм": "dm", "м": "m", "км": "km", "мг": "mg", "г": "g", "кг": "kg", "т": "t", "мкс": "us",
+    "мс": "ms", "с": "s", "хв": "min", "мин": "min", "год": "h", "ч": "h", "мН": "mN", "Н": "N", "кН": "kN", "МН": "MN", "Нм": "N*m",
+    "кНм": "kN*m", "кгм": "kg*m", "Па": "Pa", "кПа": "kPa", "МПа": "MPa", "ГПа": "GPa", "мВт": "mW", "Вт": "W", "кВт": "kW", "МВт": "MW", "Дж": "J",
+    "кДж": "kJ", "МДж": "MJ", "Гц": "Hz", "кГц": "kHz", "рад": "rad", "мрад": "mrad", "град": "deg", "об": "revolution", "К": "K",
 }  # fmt: skip
-_LOOKALIKE = str.maketrans("мсгкаПМГН", "mcgkaPMGN")
+"""Signs of units in Ukrainian, and those of minute and hour in Russian: whole words, for с is a second and С not."""
+_ANY_CASE = {sign.casefold(): latin for sign, latin in _CYRILLIC.items()}
+_LETTERS = re.compile("[A-Za-z\u0400-\u04ff]+")
+
+
+def _latin(text: str) -> str:
+    """Return a unit's text with Cyrillic signs (мм, Н·м, об/хв) as the Latin ones; a word that is no such sign stays."""
+    if text.isascii():
+        return text
+    text = text.replace("°С", "°C").replace("об/хв", "rpm").replace("об/мин", "rpm")
+    return _LETTERS.sub(lambda match: _CYRILLIC.get(match[0], match[0]), text)
 
 
 def normalised(text: str) -> str:
     """Return a unit's text in the one spelling that the table of units and pint know."""
     text = " ".join(text.split())  # a run of blanks would be searched again from each of them
-    text = text.translate(_CHARACTERS).replace("°C", "degC").replace("°F", "degF").replace("°", "deg")
+    text = _latin(text).translate(_CHARACTERS).replace("°C", "degC").replace("°F", "degF").replace("°", "deg")
     text = _SUPERSCRIPT.sub(_plain_exponent, text)
     text = re.sub(r"\s*(\*\*|[*/()])\s*", r"\1", text.strip())
     text = re.sub(r"\s+|(?<=\))(?=\w)", "*", text)
@@ -62,14 +74,19 @@ def _unglued(match: re.Match[str]) -> str:
 
 def suggestion(text: str, known: Iterable[str]) -> str:
     """Return the unit that may be meant, to append; nothing where none is near, or more than a unit stands there."""
-    text = text.strip().replace("об/хв", "rpm")
-    latin = re.sub(r"[^\W\d]+", lambda match: _CYRILLIC.get(match[0], match[0].translate(_LOOKALIKE)), text)
+    text = text.strip()
+    latin = _LETTERS.sub(lambda match: _ANY_CASE.get(match[0].casefold(), latin_letters(match[0])), text)
     names, meant = list(known), normalised(latin)
     same_letters = [name for name in names if name.casefold() == meant.casefold()]
     if not same_letters and not re.search(r"\s", text):
         same_letters = difflib.get_close_matches(meant, names, n=1, cutoff=0.6)
     found = meant if meant in same_letters else next(iter(same_letters), "")
-    return Phrase(" Did you mean {same_letters}?", same_letters=found) if found else ""
+    if not found:
+        return ""
+    is_mixed = any(re.search("[A-Za-z]", word) and lookalikes(word) for word in _LETTERS.findall(text))
+    if is_mixed:  # мM and the like: to the eye it is the unit
+        return Phrase(" Did you mean {unit}? {letters} only looks Latin.", unit=found, letters=lookalikes(text))
+    return Phrase(" Did you mean {same_letters}?", same_letters=found)
 
 
 TABLE_FILE = Path(__file__).with_name("units_table.json")
@@ -186,6 +203,23 @@ def _shortened(text: str) -> str:
     return repr(text if len(text) <= MAX_UNIT_LENGTH else text[: MAX_UNIT_LENGTH - 1] + "…")
 
 
+@cache
+def decades(of: Unit) -> tuple[Unit, ...]:
+    """Return the everyday units of the same kind that are some powers of ten of a unit, and the SI unit: m, cm, um … for mm."""
+    table = _table()
+    alike = [
+        unit(text)
+        for text, (_, family) in table["units"].items()
+        if tuple(table["families"][family]["kind"]) == of.kind
+    ]
+    shares = [(math.log10(each.factor / of.factor), each) for each in alike]
+    return tuple(
+        each
+        for share, each in shares
+        if share and (each.factor == 1 or math.isclose(share, round(share), abs_tol=1e-9))
+    )
+
+
 def _family(kind: Kind, si: str = "") -> dict[str, Any] | None:
     alike = [family for family in _table()["families"] if tuple(family["kind"]) == kind]
     exact = [family for family in alike if family["si"] == si]
@@ -255,13 +289,17 @@ def measure_with_pint(text: str) -> tuple[float, Kind] | None:
     return (factor, tuple(exponents.get(name, 0.0) for name in DIMENSIONS)) if factor else None
 
 
-_QUANTITY = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?!_)(.*)", re.DOTALL)
+_QUANTITY = re.compile(r"([+-]?(?:[0-9]+(?:\.[0-9]*|,[0-9]+)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)(?!_)(.*)", re.DOTALL)
+_GROUPED = re.compile(
+    r"([+-]?[1-9][0-9]{0,2}((?!\n)[\s'’,.])[0-9]{3}(?:\2[0-9]{3})*)(?:(?!\2)[.,]([0-9]+))?(?![0-9.,])(.*)", re.DOTALL
+)
 
 
 def parse_quantity(value: int | float | str, unit_text: str) -> float:
     """SI value of a quantity as a user gives it: a bare number counts in `unit_text`, a text may carry its own unit.
 
-    Raises UnitError for another dimension, no number, a decimal comma, NaN or infinity.
+    A decimal comma and Cyrillic signs of units are read ("470,7 мм"). Raises UnitError for another dimension, no number, a number
+    that may be read in two ways ("1,000 mm"), NaN or infinity.
     """
     if isinstance(value, str):
         return _parse_text(value, unit_text)
@@ -299,9 +337,10 @@ def _and_needed(fault: object, wanted: Unit | None) -> str:
 
 
 def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str]:
-    """Split a quantity into its number and the text of its unit, which is "" where it has none ("3", "3 mm", "3 * mm").
+    """Split a quantity into its number and its unit, which is "" where it has none ("3", "3 mm", "3 * mm", "3,5 мм").
 
-    Raises UnitError, which names the `wanted` unit, for a text that does not begin with one finite number.
+    The unit has Latin letters. Raises UnitError, which names the `wanted` unit, for a text that does not begin with one finite
+    number, or whose number may be read in two ways.
     """
     if len(text) > MAX_QUANTITY:
         template = "{text} has {count} characters; a number with a unit has at most {most}."
@@ -309,18 +348,38 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str
             _and_needed(Phrase(template, text=_shortened(text), count=len(text), most=MAX_QUANTITY), wanted)
         )
     text = text.strip().replace("−", "-")
+    _refuse_groups(text)
     match = _QUANTITY.fullmatch(text)
-    if re.match(r"[+-]?[0-9]*,[0-9]", text) or (match and re.match(r",\s*[0-9]", match[2])):
-        template = "{text} holds a comma; write a decimal point and no thousands separator."
-        raise UnitError(template, text=_shortened(text))
     if match is None:
         raise _unfit(_shortened(text), phrase("does not begin with a finite number"), wanted)
     own = match[2].strip().removeprefix("*").strip()
-    if len(text.splitlines()) > 1 or (re.match(r"[0-9.+-]", own) and not own.startswith("1/")):
+    if len(text.splitlines()) > 1 or (re.match(r"[0-9.,+-]", own) and not own.startswith("1/")):
         raise _unfit(_shortened(text), phrase("is not one number and a unit"), wanted)
-    number = float(match[1])
+    digits = match[1].replace(",", ".")
+    number = float(digits)
     # all digits count: a share written in percent may need more of them than a float has
-    return Decimal(match[1] if number and math.isfinite(number) else repr(number)), own
+    return Decimal(digits if number and math.isfinite(number) else repr(number)), _latin(own)
+
+
+def _refuse_groups(text: str) -> None:
+    """Ask what a number with three digits behind a separator is: 1,000 mm may be a thousand or one."""
+    match = _GROUPED.fullmatch(text)
+    if match is None or (match[2] == "." and match[3] is None):
+        return
+    groups, decimals = match[1].split(match[2]), match[3]
+    rest = " ".join(["", *match[4].split()])
+    whole = "".join(groups) + (f".{decimals}" if decimals else "") + rest
+    if len(groups) > 2 or decimals:
+        template = "{text} has separators within its number; write {whole}."
+        raise UnitError(template, text=_shortened(text), whole=whole)
+    template = "{text} may be {whole} or {decimal}; write the one that is meant."
+    raise UnitError(template, text=_shortened(text), whole=whole, decimal=f"{groups[0]}.{groups[1]}{rest}")
+
+
+def with_point(text: str) -> str:
+    """Return a quantity as files of the program hold it: "470.7 mm" of "470,7 мм"; UnitError as `number_and_unit`."""
+    number, own = number_and_unit(text)
+    return text if text.isascii() and "," not in text else f"{number} {own}".strip()
 
 
 def _finite(value: float, typed: str) -> float:

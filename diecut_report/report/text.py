@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-from diecut_report.quantities.formatting import shown
+from diecut_report.quantities.formatting import ABOVE, shown
 from diecut_report.quantities.units import pretty
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism_record import CurveRecord, MechanismRecord, QuantityRecord
@@ -212,6 +212,8 @@ def grouped(whole: str, separator: str = THIN) -> str:
 
 def number(text: str, decimal: str = ".") -> str:
     """A number of the results as it is printed: ``-1.2e-05`` → ``−1.2 × 10⁻⁵``; a text that is not a number stands as it is."""
+    if text.startswith(ABOVE):
+        return ABOVE + number(text.removeprefix(ABOVE), decimal)
     found = parts(text)
     if found is None:
         return text

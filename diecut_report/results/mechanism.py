@@ -372,7 +372,8 @@ def _number(step: Step, value: Any, display: str) -> Data:
         return {"value": value, "unit": "1"} | said | {"display": {"text": value, "unit": "1"}}
     if isinstance(value, bool | np.bool_):
         return {"value": bool(value), "unit": "1"} | said | {"display": {"text": "yes" if value else "no", "unit": "1"}}
-    text = shown(float(value), display, author_digits(float(value), display, step.digits))
+    digits = author_digits(float(value), display, step.digits)
+    text = shown(float(value), display, digits, unit(step.unit).to_si(step.shown_to))
     return (
         {"value": round(value) if step.whole else float(value), "unit": unit(step.unit).si} | said | {"display": text}
     )

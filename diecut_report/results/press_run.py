@@ -315,7 +315,7 @@ class Run:
         except PluginError as error:
             self._broke(instance, error.__cause__ or error)
             return False
-        self.problems += problems
+        self.problems += [self._where_typed(instance, problem) for problem in problems]
         if block is not None:
             self.blocks[name] = block
         return block is not None
@@ -337,12 +337,25 @@ class Run:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
                 ways = possible_ways(instance.mechanism, flatten(block), path, holds)
                 problem = instance.place.problem(key, message)
-                self.problems.append(replace(problem, advice=advice_text(ways)) if ways else problem)
+                problem = replace(problem, advice=advice_text(ways)) if ways else problem
+                self.problems.append(self._where_typed(instance, problem))
         except SelfTestFailed as fault:
             self.self_tests[name] = fault.checks
             self._broke(instance, fault, str(fault))
         except Exception as cause:
             self._broke(instance, cause)
+
+    def _where_typed(self, instance: Instance, problem: Problem) -> Problem:
+        """Return a problem of an input that takes a field of the press by default at that field, which alone is typed."""
+        key = problem.path.removeprefix(f"{_home(instance.name)}.")
+        target = self.config.links.get((instance.name, *key.split(".")))
+        press = self.config.instances[PRESS]
+        if target is None or not target.is_default or press is None:
+            return problem
+        template = "{name} takes it by default: {message}"
+        name = f"{instance.name}.{key}"
+        at_field = press.place.problem(target.key, template, name=name, message=problem.message)
+        return replace(at_field, allowed=problem.allowed, advice=problem.advice)
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         calculation = calculate(mechanism, flatten(block))

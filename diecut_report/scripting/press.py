@@ -22,9 +22,9 @@ from diecut_report.exchange.carried import carried_results
 from diecut_report.files import in_words, write, write_all
 from diecut_report.press import Press
 from diecut_report.scripting.parts import NamedParts
-from diecut_report.scripting.press_inputs import InputList, press_inputs, stands
+from diecut_report.scripting.press_inputs import InputList, placed, press_inputs
 from diecut_report.scripting.results import Results
-from diecut_report.scripting.values import known_language, plain, told_in, typed
+from diecut_report.scripting.values import known_language, plain, told_in
 from diecut_report.study.execution.engines import one_thread
 from diecut_report.text.phrases import phrase
 
@@ -114,7 +114,8 @@ class LoadedPress:
         with told_in(self.language):
             for path, value in values.items():
                 try:
-                    places[stands(self.config, str(path))] = typed(value, str(path))
+                    place, text = placed(self.config, str(path), value)
+                    places[place] = text
                 except UserError as error:
                     problems += error.problems
             try:

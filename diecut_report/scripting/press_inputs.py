@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, Literal, get_args, get_origin
@@ -17,10 +18,11 @@ from diecut_report.mechanism.curve_inputs import InOtherUnit
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import given_shown
+from diecut_report.quantities.units import UnitError, with_point
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
 from diecut_report.scripting.parts import PartList
-from diecut_report.scripting.values import QuantityValue, notebook_page
+from diecut_report.scripting.values import QuantityValue, notebook_page, typed
 from diecut_report.study.definition.base_inputs import MECHANISMS, UnknownPath, find_input
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import phrase
@@ -141,12 +143,15 @@ def whole_path(name: str) -> str:
     return name if name.split(".")[0] in (PRESS, MECHANISMS) else f"{MECHANISMS}.{name}"
 
 
-def stands(config: Config, name: str) -> KeyPath:
-    """Return the place in the file of what a path names: an input, or a field of ``project`` or ``report``; ConfigError in words."""
+def placed(config: Config, name: str, value: Any) -> tuple[KeyPath, str]:
+    """Return the place in the file of what a path names (an input, or a field of ``project`` or ``report``), and the value as typed there.
+
+    ConfigError in words for an unknown path.
+    """
     first, *rest = name.removeprefix(f"{MECHANISMS}.").split(".")
     key: KeyPath = tuple(int(part) if part.isdigit() else part for part in rest)
     if first in ("project", "report"):
-        return (first, *key)
+        return (first, *key), typed(value, name)
     try:
         found = find_input(config, whole_path(name))
     except UnknownPath as fault:
@@ -154,4 +159,7 @@ def stands(config: Config, name: str) -> KeyPath:
     instance = config.instances[found.instance]
     assert instance is not None, "an input of a broken plugin is not found"
     tree, place = instance.place.stands(found.key)
-    return place if tree is config.tree else (*instance.place.root, *found.key)
+    if isinstance(value, str) and isinstance(found.meta, Quantity):
+        with suppress(UnitError):  # of an expression, or of what is judged when it is read
+            value = with_point(value)
+    return place if tree is config.tree else (*instance.place.root, *found.key), typed(value, name)

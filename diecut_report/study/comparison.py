@@ -19,7 +19,7 @@ from diecut_report.results.changes import differing_kinds, own_changes
 from diecut_report.results.conclusion import RANK, SELF_TEST, doubtful_kinds, is_open
 from diecut_report.results.mechanism_record import CheckRecord, QuantityRecord
 from diecut_report.study.analysis.variants import side_by_side
-from diecut_report.study.machines import BAD, ENDINGS, CheckedMachine
+from diecut_report.study.machines import BAD, ENDINGS, IMPOSSIBLE, CheckedMachine
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import decimal_sign, localised, said, say
 
@@ -30,6 +30,7 @@ WORDS = {
     "fail": phrase("fail"),
     "error": phrase("error"),
     BAD: phrase("bad file"),
+    IMPOSSIBLE: phrase("impossible machine"),
     "warn": phrase("warn"),
     "skipped": phrase("skipped"),
     NOT_CHECKED: phrase("not checked"),
@@ -156,7 +157,7 @@ def _rated(of: Verdict) -> ComparedCell | None:
 
 def _count(key: str, of: Verdict) -> ComparedCell | None:
     count = getattr(of, key)
-    return None if of.status == BAD else ComparedCell(count, str(count))
+    return None if of.status in (BAD, IMPOSSIBLE) else ComparedCell(count, str(count))
 
 
 def share_cell(share: float | None, status: str, note: str = "") -> ComparedCell:
@@ -201,7 +202,7 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
     """Return what is concluded of a machine that is called so."""
     results = machine.results
     if results is None:
-        return Verdict(name, machine.file, machine.status, messages=tuple(machine.words))
+        return Verdict(name, machine.file, machine.status, messages=tuple(machine.words), verdict=machine.status)
     checks, summary = dict(named_checks(machine)), results.summary
     governing = str(results.governing) if results.governing else ""
     count = Counter(check.status for check in checks.values())

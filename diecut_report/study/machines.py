@@ -31,7 +31,8 @@ MAX_VARIANTS = 100  # of a study that is named as a whole: each is calculated an
 UNUSED: dict[str, Any] = {"curves": {}, "values": {}, "lists": {}} | {
     key: [] for key in ("sections", "figures", "exports", "assumptions", "sources", "errata", "absent")
 }
-BAD, BROKEN = "bad", "error"  # states beside pass, warn and fail: the file is bad, a plugin broke
+BAD, IMPOSSIBLE, BROKEN = "bad", "impossible", "error"
+"""States beside pass, warn and fail: the file is bad, it describes a machine that cannot exist, a plugin broke."""
 
 
 @dataclass
@@ -148,10 +149,13 @@ def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMa
     given = chunk[1]
     file, notes = given.file if isinstance(given, Tree) else given, list[str]()
     source: Path | Tree | None = None
+    status = BAD
     try:
         with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):  # a plugin may print
             source = _source(given, discovery, notes)
-            made = Press.read(source, discovery).calculate()
+            press = Press.read(source, discovery)
+            status = IMPOSSIBLE
+            made = press.calculate()
     except UserError as error:
         problems = error.problems
         try:  # all that is wrong: calculating stops at the first of its checks
@@ -159,7 +163,7 @@ def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMa
                 Press.validate(source, discovery)
         except UserError as more:
             problems = more.problems
-        return CheckedMachine(file, BAD, None, [str(problem) for problem in problems])
+        return CheckedMachine(file, status, None, [str(problem) for problem in problems])
     status = BROKEN if made.broken else made.results.status
     return CheckedMachine(file, status, _lean(made.results), [*map(str, made.broken), *made.warnings, *notes])
 

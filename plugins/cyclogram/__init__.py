@@ -25,7 +25,7 @@ MECHANISM = Mechanism(
     inputs=Cyclogram,
     example=EXAMPLE,
     chapters=(steps.shaft, steps.interlocks, steps.station, steps.motions, steps.energies, steps.torques),
-    key_results=("sheet_time", "offset_found", "best_margin", "productivity_limit", "clearance_least", "torque_mean", "torque_rms",
+    key_results=("sheet_time", "offset_found", "best_margin", "clearance_least", "torque_mean", "torque_rms",
                  "torque_peak", "power_peak", "energy_fluctuation", "energy_exchange"),
     checks=(
         Check(id="interlock", named_by="interlocks.name", check_class="function", title="Interlock",

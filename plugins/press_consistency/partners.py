@@ -26,7 +26,7 @@ PARTNERS = (
     Partner(key="clutch", kinds=("clutch",), takes={
         "clutch_torque": "design_torque", "clutch_load": "load_torque_at_engagement", "clutch_speed": "speed",
         "clutch_inertia": "driven_inertia"}),
-    Partner(key="timing", kinds=("cyclogram",), takes={
+    Partner(key="timing", kinds=("cyclogram",), always=True, takes={
         "timing_slack": "best_margin", "shaft_torque_mean": "torque_mean", "lines_energy": "kinetic_energy_mean"}),
     Partner(key="damper", kinds=("damper",), takes={
         "damper_velocity": "velocity", "contact_distance": "contact_distance", "damper_impacts": "impacts_per_hour"}),

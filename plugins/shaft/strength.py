@@ -123,8 +123,9 @@ fatigue.value("tau_a", "τ_a", "MPa", "Amplitude of the shear stress",
     lambda torque_upper, torque_lower, place_modulus: (torque_upper - torque_lower) / (4 * place_modulus), source="Shigley 7-2", output=False)
 fatigue.value("tau_m", "τ_m", "MPa", "Mean shear stress",
     lambda torque_upper, torque_lower, place_modulus: (torque_upper + torque_lower) / (4 * place_modulus), source="Shigley 7-2", output=False)
-fatigue.value("place_safety", "n_f", "1", "Safety factor against fatigue", bind(formulas.goodman, endurance="place_endurance"), source="Shigley 7-7")
-fatigue.total("fatigue_safety", "n_f,min", "1", "Minimum safety factor against fatigue", "min", of="place_safety", source="Shigley 7-7")
+fatigue.value("place_safety", "n_f", "1", "Safety factor against fatigue", bind(formulas.goodman, endurance="place_endurance"),
+    source="Shigley 7-7", shown_to=100)
+fatigue.total("fatigue_safety", "n_f,min", "1", "Minimum safety factor against fatigue", "min", of="place_safety", source="Shigley 7-7", shown_to=100)
 fatigue.computed("governing_place", "i_f", "1", "Index of the location of the minimum safety factor, from 0",
     lambda row: np.argmin(row, axis=1)[:, None], ("place_safety",), "the minimum of all locations", output=False, whole=True, printed=False)
 fatigue.computed("fatigue_place", "P_f", "1", "Location of the minimum safety factor against fatigue",
@@ -157,7 +158,7 @@ yielding.value("von_mises_max", "σ_vM", "MPa", "Maximum nominal stress",
     bind(formulas.nominal_stress, axial_force="nominal_axial", moment="nominal_moment", torque="nominal_torque", area="nominal_area",
         modulus="nominal_modulus"), source="Shigley 7-15")
 yielding.value("yield_safety", "n_y", "1", "Nominal safety factor against yield",
-    lambda yield_strength, von_mises_max: 1 / np.maximum(von_mises_max / yield_strength, 1e-6), source="Shigley 7-16")
+    lambda yield_strength, von_mises_max: 1 / np.maximum(von_mises_max / yield_strength, 1e-6), source="Shigley 7-16", shown_to=100)
 for name, symbol, unit, description in (("yield_axial", "N_v", "N", "Axial force at the instant of the maximum notch stress"),
                                         ("yield_moment", "M_bv", "N*m", "Bending moment at this instant"), ("yield_torque", "T_v", "N*m",
                                                                                                             "Torque at this instant")):
@@ -166,18 +167,20 @@ yielding.value("notch_stress", "σ_vM,n", "MPa", "Maximum notch stress",
     bind(formulas.yield_stress, axial_force="yield_axial", moment="yield_moment", torque="yield_torque", area="place_area", modulus="place_modulus"),
     source="Shigley 7-15", output=False)
 yielding.value("place_yield_safety", "n_y,n", "1", "Safety factor against yield with the notch",
-    lambda yield_strength, notch_stress: 1 / np.maximum(notch_stress / yield_strength, 1e-6), source="Shigley 7-16")
+    lambda yield_strength, notch_stress: 1 / np.maximum(notch_stress / yield_strength, 1e-6), source="Shigley 7-16", shown_to=100)
 yielding.total("yield_safety_notch", "n_y,notch", "1", "Minimum safety factor against yield with the notches", "min", of="place_yield_safety",
-    source="Shigley 7-16")
+    source="Shigley 7-16", shown_to=100)
 yielding.part_table("place_table", "All locations", "places", ("place_x", "place_diameter", "k_t", "k_ts", "k_f", "k_fs", "sigma_a", "sigma_m",
         "tau_a", "tau_m", "place_endurance", "place_safety", "place_yield_safety"))
 
+MOST_CRITICAL = 30_000  # rpm, ten times any shaft of a press: of a stiffer one the value, without shear, means nothing more
 _number(critical, "critical_speed", "n_crit", "rpm", "Lowest critical speed", "critical",
-    "largest eigenvalue of √m_i δ_ij √m_j with the exact deflections δ_ij for unit forces", source="Shigley 7-6")
+    "largest eigenvalue of √m_i δ_ij √m_j with the exact deflections δ_ij for unit forces", source="Shigley 7-6", shown_to=MOST_CRITICAL)
 _number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Rayleigh, upper bound", "rayleigh",
-    "ω² = Σ f_i y_i/Σ m_i y_i² with f_i = m_i g, downwards on overhangs", source="Shigley 7-23")
+    "ω² = Σ f_i y_i/Σ m_i y_i² with f_i = m_i g, downwards on overhangs", source="Shigley 7-23",
+    shown_to=MOST_CRITICAL)
 _number(critical, "critical_speed_dunkerley", "n_D", "rpm", "Critical speed by Dunkerley, lower bound", "dunkerley", "1/ω² = Σ m_i δ_ii",
-    source="Shigley 7-32")
+    source="Shigley 7-32", shown_to=MOST_CRITICAL)
 critical.computed("turns", "k_n", "1", "Shaft rotates; otherwise it stands or oscillates",
     lambda rotation, length: np.full(length.shape, isinstance(rotation, str) and rotation == "turning"), ("rotation", "length"), "by rotation",
     output=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +13,7 @@ import diecut_report as dr
 from diecut_report.cli.main import main, program
 from diecut_report.config.plugins import Discovery
 from diecut_report.live.session import LiveSession
-from tests.configs import problems, saved
+from tests.configs import MECHANISMS, problems, saved
 from tests.examples import few
 
 Capture = pytest.CaptureFixture[str]
@@ -50,14 +51,16 @@ optimise: {objectives: [{minimise: clutch.pressing_force}], evaluations: 4}
 WIDTH, HEIGHT, RATE, ANGLE = "470.7 mm", "40 mm", "6000 1/h", "10 deg"
 SLIPS = [  # what is typed, what is typed instead, and what the message holds
     # numbers
-    (WIDTH, "'470,7 mm'", "comma"), (WIDTH, "47o.7 mm", "'47o.7 mm'|'o.7 mm'"), (WIDTH, "4O0 mm", "mm"), (WIDTH, "l70 mm", "number"),
+    (WIDTH, "470,700 mm", "470700 mm or 470.700 mm"), (WIDTH, "47o.7 mm", "'47o.7 mm'|'o.7 mm'"), (WIDTH, "4O0 mm", "mm"),
+    (WIDTH, "l70 mm", "number"),
     (WIDTH, "470.7.0 mm", "470.7.0|'.0 mm'"), (WIDTH, "470..7 mm", "mm"), (WIDTH, "470 . 7 mm", "mm"), (WIDTH, "-470.7 mm", "out of range"),
     (WIDTH, "0 mm", "out of range"), (WIDTH, "1e999 mm", "finite|range|plausible"), (WIDTH, ".nan", "number|nan"), (WIDTH, ".inf", "number|inf"),
     (WIDTH, "1e30 m", "plausible|range"), (WIDTH, "470.7 ± 1 mm", "unit"), (WIDTH, "~470 mm", "number|mm"), (WIDTH, "> 470 mm", "number|text|mm"),
-    (WIDTH, "470.7\u00a0 mm 2", "unit"), (RATE, "6 000 1/h", "unit"), (RATE, "'6,000 1/h'", "comma"), (RATE, "6'000 1/h", "unit"),
+    (WIDTH, "470.7\u00a0 mm 2", "unit"), (RATE, "6 000 1/h", "6000 1/h or 6.000 1/h"), (RATE, "'6,000 1/h'", "6000 1/h or"),
+    (RATE, "6'000 1/h", "6000 1/h or"),
     (WIDTH, "\u2212470 mm", "number|range|minus"), (WIDTH, "½ m", "number"), (WIDTH, "1/0 mm", "zero|unit|number"), (WIDTH, "1/0", "unit"),
     # units
-    (WIDTH, "470.7 kg", "is a mass; a length is needed"), (WIDTH, "мм", "number"), (WIDTH, "470.7 мм", "unit|mm"), (WIDTH, "470.7 MM", "unit|mm"),
+    (WIDTH, "470.7 kg", "is a mass; a length is needed"), (WIDTH, "мм", "number"), (WIDTH, "470.7 Мм", "unit|mm"), (WIDTH, "470.7 MM", "unit|mm"),
     (WIDTH, "470.7 mmm", "not a known unit"), (WIDTH, "470.7 mm mm", "length|unit"), (WIDTH, "mm 470.7", "number"),
     (WIDTH, "470.7 mm²", "area|length"),
     (WIDTH, "470.7 %", "length|unit"), (WIDTH, "470.7°", "angle|unit|length"), (RATE, "sheets/h", "number"), (RATE, "6000 sheets/h", "unit"),
@@ -95,7 +98,7 @@ SLIPS = [  # what is typed, what is typed instead, and what the message holds
     (RATE, "٦٠٠٠ 1/h", "number"),
     (ANGLE, "10°30'", "unit"), (ANGLE, "[10 deg, 20 deg]", "list"), (ANGLE, "{value: {value: 1}}", "value"), (ANGLE, "{a: 1}", "a block without"),
     (ANGLE, "{value: 10 deg, basis: }", "basis"), (ANGLE, "{value: , basis: assumed}", "without a value"), (ANGLE, "${press.sheet}", "list|block"),
-    ("300 N*m", "300 Н*м", "unit"), ("    torque:", "    tоrque:", "tоrque"), ("${cylinder.seg", "${суlinder.seg", "Latin"),
+    ("300 N*m", "300 Н*м*м", "needed"), ("    torque:", "    tоrque:", "tоrque"), ("${cylinder.seg", "${суlinder.seg", "Latin"),
     ("segment_height} * 3", "segment_hеight} * 3", "segment_hеight"), ("    torque:", "    bore_radius: 60 mm\n    torque:", "bore_radius"),
     ("    torque:", "    torque: 200 N*m\n    torque:", "again"), ("    kind: clutch", "    kind: clutch\n    <<: *x", "Merge"),
     ("300 N*m", "9**9**9 N*m", "unit"), ("300 N*m", "\u202e300 N*m", "U.202E"),
@@ -185,7 +188,7 @@ def test_a_slip_hides_no_other_of_the_file(typed: str, instead: str, tmp_path: P
 def test_one_bad_file_hides_no_other(folder: Path, capfd: Capture) -> None:
     saved(folder, PRESS, "good.yaml")
     for number, instead in enumerate(
-        ("'470,7 mm'", "470 kg", "мм", "-700 mm", "${cylinder.weight}", "${cylinder.mass", "[1")
+        ("'470,700 mm'", "470 kg", "мм", "-700 mm", "${cylinder.weight}", "${cylinder.mass", "[1")
     ):
         saved(folder, slipped(WIDTH, instead), f"bad{number}.yaml")
     told = reported("check", [".", "--jobs", "1"], capfd)
@@ -249,15 +252,55 @@ def test_a_quote_that_is_never_closed_is_told_where_it_begins(folder: Path, capf
 @pytest.mark.parametrize(
     ("typed", "instead", "words"),
     [
-        (WIDTH, "470.7 мм", "Did you mean mm?"), (WIDTH, "470.7 mм", "Did you mean mm?"), (RATE, "6000 1/год", "Did you mean 1/h?"),
-        ("300 N*m", "300 Н*м", r"Did you mean N\*m?"), ("    torque:", "    tоrque:", "'torque', in Latin letters alone"),
-        (WIDTH, "${cylinder.mаss}", "'mass', in Latin letters alone"), (WIDTH, "470.7 ± 1 mm", "unit. A length"),
+        (WIDTH, "470.7 Мм", r"Did you mean mm\?"), (WIDTH, "470.7 mм", r"Did you mean mm\? “м” \(cyrillic small letter em\) only looks Latin"),
+        (RATE, "6000 1/Год", r"Did you mean 1/h\?"), ("    torque:", "    tоrque:", r"'torque'\? “о” \(cyrillic small letter o\) only looks Latin"),
+        (WIDTH, "${cylinder.mаss}", r"'mass'\? “а” \(cyrillic small letter a\) only looks Latin"), (WIDTH, "470.7 ± 1 mm", "unit. A length"),
     ],
 )  # fmt: skip
 def test_letters_of_another_alphabet_are_told(
     typed: str, instead: str, words: str, folder: Path, capfd: Capture) -> None:  # fmt: skip
     saved(folder, slipped(typed, instead))
     assert re.search(words, reported("validate", ["press.yaml"], capfd))
+
+
+@pytest.mark.parametrize(
+    ("typed", "instead", "words"),
+    [
+        ("${cylinder.segment_height} * 3", "${cylinder.segment_height} * ${cylinder.radius", r"'\$\{cylinder.radius' has no closing brace"),
+        ("${press.sheet.length} + 160 mm", "${press.sheet.length} + @" + 70 * "x", r"'@x{58}…' is not allowed here"),
+        (HEIGHT, "105 m", r"105 m is not plausible; plausible: 1 µm to 100 m\. Is 105 mm meant\?"),
+        (WIDTH, "470.7 km", r"470.7 km is not plausible; .* Is 470.7 mm meant\?"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_shown_whole_and_with_what_may_be_meant(
+    typed: str, instead: str, words: str, folder: Path, capfd: Capture) -> None:  # fmt: skip
+    saved(folder, slipped(typed, instead))
+    main(["validate", "press.yaml"])
+    assert re.search(words, "".join(capfd.readouterr()))
+
+
+def test_a_default_of_the_press_is_blamed_where_it_is_typed(folder: Path, capfd: Capture) -> None:
+    text = MECHANISMS.read_text("utf-8").replace("    material_thickness: ${press.sheet.thickness}\n", "", 1)
+    line = 1 + text[: text.index("thickness: 0.6 mm")].count("\n")
+    saved(folder, text.replace("thickness: 0.6 mm", "thickness: 300 mm", 1))
+    told = reported("validate", ["press.yaml"], capfd)
+    words = (
+        "press.sheet.thickness: drive.material_thickness takes it by default: is 300 mm, but the board must be thinner"
+    )
+    assert told.startswith(f"press.yaml:{line}:16: {words}")
+
+
+def test_a_machine_that_cannot_exist_is_not_a_bad_file(folder: Path, capfd: Capture) -> None:
+    saved(folder, slipped(HEIGHT, "40 kg"), "bad.yaml")
+    saved(folder, slipped("bore_radius: 60 mm", "bore_radius: 600 mm"), "impossible.yaml")
+    assert main(["check", ".", "-o", "out", "--format", "json,html"]) == 2
+    out, err = capfd.readouterr()
+    assert re.search(r"(?m)^bad +bad file$", out) and re.search(r"(?m)^impossible +impossible machine$", out)
+    assert "2 machines: 1 impossible machine, 1 bad file." in err and "impossible.yaml:16:" in err
+    assert {each["status"] for each in json.loads((folder / "out" / "machines.json").read_text())["machines"]} == {
+        "bad",
+        "impossible",
+    }
 
 
 def test_names_longer_than_a_file_system_takes_are_told(folder: Path, capfd: Capture) -> None:

@@ -46,7 +46,10 @@ INPUTS = [
     ),
     ("force: -3", "5:27: mechanisms.a.force: -3 kN is out of range; allowed: > 0 kN"),
     ("force: 1, arm: 2 m", "5:35: mechanisms.a.arm: 2 m is out of range; allowed: > 0 mm, ≤ 1000 mm"),
-    ("force: '1,5 kN'", "5:27: mechanisms.a.force: '1,5 kN' holds a comma; write a decimal point"),
+    (
+        "force: '1,500 kN'",
+        "5:27: mechanisms.a.force: '1,500 kN' may be 1500 kN or 1.500 kN; write the one that is meant",
+    ),
     ("force: .nan", "5:27: mechanisms.a.force: '.nan' does not begin with a finite number; a force is needed"),
     ("force: [1]", "5:27: mechanisms.a.force: is a list; a number or a text such as “10 kN” is needed"),
     ("force: ", "5:27: mechanisms.a.force: has no value; give a number in kN or remove the key"),

@@ -71,7 +71,7 @@ def test_what_the_program_takes_the_schema_takes() -> None:
         ("force: 2 kN", "", "mechanisms.a"),
         ("force: 2 kN", "force: 2 kN, forc: 1", "mechanisms.a"),
         ("force: 2 kN", "force: -2", "mechanisms.a.force"),
-        ("force: 2 kN", "force: '1,5 kN'", "mechanisms.a.force"),
+        ("force: 2 kN", "force: '1,500 kN'", "mechanisms.a.force"),
         ("force: 2 kN", "force: [1]", "mechanisms.a.force"),
         ("force: 2 kN", "force: 1, arm: 1001", "mechanisms.a.arm"),
         ("title: Test", f"title: {'T' * 501}", "project.title"),

@@ -16,7 +16,7 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.influence import _ends
 from diecut_report.design.inputs import DesignInput, given_numbers, numbers_at_default
-from tests.configs import EXAMPLE, GOOD, HEAD, saved
+from tests.configs import EXAMPLE, GOOD, HEAD, MECHANISMS, saved
 
 Capture = pytest.CaptureFixture[str]
 TEXT = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, teeth: 20, allowable_moment: 210 N*m}\n"
@@ -158,3 +158,18 @@ def test_an_input_is_changed_within_its_own_range(
 def press_inputs() -> dict[str, DesignInput]:
     config = load_config(EXAMPLE, Discovery([]))
     return {each.name: each for each in (*given_numbers(config), *numbers_at_default(config))}
+
+
+def test_inputs_whose_change_makes_no_machine_are_one_line_at_the_end(capfd: Capture) -> None:
+    assert main(["influence", str(MECHANISMS), "--of", "drive.stroke", "--by", "40", "--quiet"]) == 0
+    head, mover, still, impossible, _ = capfd.readouterr().out.splitlines()
+    assert "drive.stroke" in head and re.match("  cylinder.radius .*: cannot exist … 9", mover) and "no effect" in still
+    assert impossible.startswith("  changed, no machine exists: cylinder.segment_height, drive.frame_ratio, ")
+    assert re.search(r" \(mechanisms\.[\w.]+: .+\)$", impossible)
+
+
+def test_the_reason_is_that_of_the_first_input_without_a_machine_not_of_one_that_moves(capfd: Capture) -> None:
+    assert main(["influence", str(MECHANISMS), "--of", "cylinder.checks.radius", "--by", "40", "--quiet"]) == 0
+    *_, impossible, _ = capfd.readouterr().out.splitlines()
+    assert impossible.startswith("  changed, no machine exists: drive.frame_ratio, ")
+    assert "(mechanisms.drive.rocker_ratio: gives no crank-rocker: with frame_ratio = 3, " in impossible

@@ -92,6 +92,27 @@ def test_out_of_reach_tells_the_nearest(press: Path, capfd: Capture, tmp_path: P
     assert solve(press, "a.arm", "a.moment = 700 N*m", "--to", "0.4 m") == 0
 
 
+BENDING = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P, productivity: 6000 1/h, sheet: {length: 700 mm, width: 470.7 mm, thickness: 0.6 mm}}
+mechanisms:
+  cylinder:
+    {kind: cylinder_sizing, working_length: 470.7 mm, segment_height: 40 mm, generatrix_length: 700 mm, bore_radius: 70 mm, radius: 105 mm,
+     density: 7800 kg/m**3, bearing_span: 860 mm, elastic_modulus: 210 GPa, line_load: 25 N/mm, allowable_deflection: 0.05 mm}
+"""
+
+
+@pytest.mark.parametrize("vary", ["bore_radius", "radius", "elastic_modulus", "bearing_span"])
+def test_a_value_at_the_limit_of_a_check_lies_on_its_side(vary: str, tmp_path: Path, capfd: Capture) -> None:
+    file = saved(tmp_path, BENDING)
+    asked = ["--vary", f"cylinder.{vary}", "--for", "cylinder.deflection = 50 um", "--format", "json", "--quiet"]
+    assert main(["solve", str(file), *asked]) == 0, capfd.readouterr().err
+    found = json.loads(capfd.readouterr().out)
+    assert found["solutions"][0]["reached"] == pytest.approx(50e-6, rel=1e-5)
+    assert "cylinder.deflection" not in found["machine"]["failing"]
+
+
 def test_whole_numbers_are_all_tried(press: Path, capfd: Capture) -> None:
     answer = found(capfd, solve(press, "b.teeth", "max b.teeth", "--to", "33.0", "--format", "json"))
     assert answer["solutions"][0]["typed"] == "33" and answer["vary"]["from"] == 12  # the least that is allowed

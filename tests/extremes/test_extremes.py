@@ -49,7 +49,7 @@ def test_every_single_extreme_of_an_example_is_numbers_or_words(stem: str, home:
 
 
 def test_a_fault_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Plausible, "holds", lambda self, values: values == values)
+    monkeypatch.setattr(Plausible, "holds", lambda self, values, *, calculated=False: values == values)
     cases = [case for case in extremes("damper") if abs(case.value) in (1e-300, 1e300)]
     assert any(fault(case) for case in cases)
 

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
+import numpy as np
 import pytest
 
+from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Quantity
 from diecut_report.formulas.formula import formula
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.printing.conversions import definitions
 from diecut_report.machine.printing.substitution import _constant, _quantity
+from diecut_report.machine.steps.run import calculate
+from diecut_report.results.mechanism import mechanism_results
 
 
 @formula(printed_as="inv")
@@ -47,3 +53,32 @@ def test_a_parameter_named_after_a_greek_letter_is_printed_as_it() -> None:
 
 def test_a_great_number_of_a_formula_has_no_row_of_zeros() -> None:
     assert called.tree.args[0] == Node("num", ("1e6",))
+
+
+class InCases(Inputs):
+    """Inputs of a formula of cases."""
+
+    strength: Annotated[float, Quantity("R_m", "MPa", "Strength", gt=0)]
+    given: Annotated[float, Quantity("K_0", "1", "Factor, 0 where it is not given")] = 0
+
+
+KPSI = Constant(6.894757e6, "1 kpsi", "Pa")
+IN_CASES = Chapter("Cases")
+IN_CASES.value("factor", "K", "1", "Factor",
+               lambda strength, given: np.where(given > 0, given, 2 + 0.001 * strength / KPSI))  # fmt: skip
+
+
+@pytest.mark.parametrize(("given", "printed"), [(0.0, ["900", "MPa", "6.894757"]), (1.5, ["1.5"])])
+def test_with_numbers_only_the_case_that_holds_is_printed_and_a_constant_in_the_unit_beside_it(
+    given: float, printed: list[str]
+) -> None:
+    mechanism = Mechanism(
+        kind="cases", version="1", title="Cases", summary="Cases.", inputs=InCases, chapters=(IN_CASES,)
+    )
+    calc = calculate(mechanism, {"strength": 9e8, "given": given})
+    (item,) = [
+        each for section in mechanism_results(calc, {}).sections for each in section.items if each.id == "factor"
+    ]
+    symbolic, numbers = str(item.equation), str(item.substituted)
+    assert "cases" in symbolic and "cases" not in numbers and "kPa" not in numbers
+    assert all(f"'{each}'" in numbers for each in printed)

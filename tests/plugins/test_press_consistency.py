@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,13 +12,16 @@ import pytest
 import yaml
 from scipy.optimize import brentq
 
+from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
+from diecut_report.config.source_hashes import plugin_hash
 from diecut_report.config.yaml import load
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
 from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.plugins.press_consistency.on_main_shaft import listed
+from diecut_report.press import Press
 from diecut_report.results.checks import check_results
 from diecut_report.results.press_run import compute
 from diecut_report.text.phrases import Phrase
@@ -342,3 +346,25 @@ def test_lines_are_no_words_of_their_own_which_would_be_translated() -> None:
     found = listed(("drive",))
     assert found == "drive" and isinstance(found, Phrase) and found.template != found
     assert not any(isinstance(value, Phrase) for value in found.values.values())
+
+
+@pytest.mark.parametrize(
+    ("kinds", "absent", "left"),
+    [
+        (("platen_press", "geneva_transport", "drive_train"), {"format_rolled", "driven_inertia", "damper_impacts", "conveyor_inertia"},
+         {"sheet_gap"}),
+        (("cylinder_sizing", "cylinder_drive", "geneva_transport"), {"wheel_side", "clutch_position", "damper_velocity"}, {"timing", "register"}),
+    ],
+)  # fmt: skip
+def test_what_needs_a_mechanism_that_the_press_does_not_have_is_not_among_its_checks(
+    kinds: tuple[str, ...], absent: set[str], left: set[str], tmp_path: Path
+) -> None:
+    file = tmp_path / "new.yaml"
+    assert main(["new", *kinds, "-o", str(file), "--quiet"]) == 0
+    made = Press.read(file, DISCOVERY).calculate().results.mechanisms["press_consistency"]
+    told = {check.id: check.status for check in made.checks}
+    assert not absent & told.keys() and {told[each] for each in left} == {"not_checked"}
+    assert not any(
+        "There is no c" in str(check.message) and "cyclogram" not in str(check.message) for check in made.checks
+    )
+    assert made.plugin_sha256 == plugin_hash(MECHANISM)

@@ -196,7 +196,7 @@ REFUSED = [
     ("gap < 2 mm", "“2 mm”: put a quantity in quotes: '2 mm'", 7),
     ("gap < 2e-3m*s", "put a quantity in quotes: '2e-3 m*s'", 7),
     ("share < 5%", "“5%”: put a quantity in quotes: '5 %'", 9),
-    ("gap < '2,5 mm'", "holds a comma", 7),
+    ("gap < '2,500 mm'", "2500 mm or 2.500 mm", 7),
     ("n < 2,5", "',' is not expected here", 6),
     ("speed < '1 Hz'", "speed is an angular speed and '1 Hz' is a frequency", 9),
     ("2 * speed < '1 Hz'", "an angular speed", 13),

@@ -160,7 +160,7 @@ def test_nan_in_a_parquet_column_is_refused(tmp_path: Path) -> None:
         ("55 mm\n6", "row 3: the cell has no unit, but row 2 is in mm"),
         ("55 mm\n6 kg", "row 3: 6 kg is a mass; a length is needed"),
         ("55 mm\n6 furlogs", "row 3: 'furlogs' is not a known unit"),
-        ("1\n\"2,5\"", "row 3: '2,5' holds a comma"),
+        ("1\n\"2,500\"", "row 3: '2,500' may be 2500 or 2.500"),
         ("1\nabc", "row 3: 'abc' does not begin with a finite number"),
     ],
 )  # fmt: skip

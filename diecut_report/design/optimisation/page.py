@@ -101,14 +101,16 @@ def _pair(axes: Axes, found: FoundFront, there: TriedMachines, pair: Pair, size:
     if found.suggested is not None:
         axes.plot(*points[[found.suggested]].T, "o", color="none", markeredgecolor=ACCENT, markeredgewidth=1.6,
                   markersize=9, label=say("suggestion"))  # fmt: skip
+    shown = points
     if found.present is not None and np.isfinite(there.costs[0]).all():
         now = there.costs[0, [x, y]] * signs(own) * scale
-        axes.plot([now[0]], [now[1]], "*", color="#b06a2c", markersize=9, label=say("today"))
-    _limits(axes, points, behind[allowed])
+        axes.plot([now[0]], [now[1]], "*", color="#b06a2c", markersize=9, label=say("present machine"))
+        shown = np.vstack([points, now])  # a star of the legend that lies beside the plot compares nothing
+    _limits(axes, shown, behind[allowed])
 
 
 def _limits(axes: Axes, points: Array, allowed: Array) -> None:
-    """Show the front and the allowed machines near it: what lies far off would press it into a corner."""
+    """Show the front, the present machine and the allowed machines near the front: what lies far off would press it into a corner."""
     low, high = points.min(axis=0), np.maximum(points.max(axis=0), np.quantile(allowed, 0.9, axis=0))
     low = np.minimum(low, np.quantile(allowed, 0.1, axis=0))
     room = 0.06 * np.where(high > low, high - low, np.maximum(np.abs(high), 1e-12))

@@ -110,7 +110,7 @@ def found_front(study: Study, stored: Stored, there: TriedMachines) -> FoundFron
     allowed = np.flatnonzero(there.violations == 0)
     places = allowed[_unbeaten(there.costs[allowed])] if len(allowed) else allowed
     costs = there.costs[places]
-    suggested, why = _outstanding(costs)
+    suggested, why = _outstanding(costs, there.status[places] == "pass")
     return FoundFront(
         goals, tuple(stored.varied), there.variants[places], costs * signs(goals), there.status[places], there.governing[places],
         {path: values[places] for path, values in there.inputs.items()},
@@ -135,18 +135,21 @@ def shares(costs: Array) -> Array:
     return found
 
 
-def _outstanding(costs: Array) -> tuple[int | None, str]:
-    """The point that stands out of the front, and by what."""
+def _outstanding(costs: Array, passing: Array) -> tuple[int | None, str]:
+    """The point that stands out of the front, and by what: of those that pass without a warning, where there are any."""
     if costs.shape[1] == 1:
         return (0, "") if len(costs) else (None, "")
     if len(costs) < 3:
         return None, phrase("no point is suggested: the front has too few of them")
     sums = shares(costs).sum(axis=1)
     place = int(np.argmin(sums))
+    if costs.shape[1] == 2 and 1.0 - sums[place] < BULGE:
+        return None, phrase("no point is suggested: the front is straight, or curves the other way")
+    if passing.any() and not passing[place]:
+        place = int(np.argmin(np.where(passing, sums, np.inf)))
+        return place, phrase("minimum sum of the normalised objectives among the machines without a warning")
     if costs.shape[1] > 2:
         return place, phrase("minimum sum of the objectives, each normalised by its range on the front")
-    if 1.0 - sums[place] < BULGE:
-        return None, phrase("no point is suggested: the front is straight, or curves the other way")
     return place, phrase("knee: furthest from the straight line between the ends of the front")
 
 

@@ -25,6 +25,7 @@ from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import refuse_unreadable_name
 from diecut_report.formulas import Array
 from diecut_report.press import Press
+from diecut_report.quantities.plausible import plausible
 from diecut_report.study.analysis.variant_config import variant_of
 from diecut_report.study.analysis.variants import Stored, opened, quoted
 from diecut_report.study.definition.base_inputs import Input
@@ -194,6 +195,7 @@ def _column(each: Tried, name: str, kind: np.dtype[np.generic]) -> Array:
 
 
 TOLERATED = 1e-6  # share of its size by which a number may differ
+NOTHING = 1e-6  # a utilisation below which a difference is none
 FEW = 8  # machines that are calculated sooner than other processes begin
 
 
@@ -266,7 +268,11 @@ def _compared(place: MachinePlace, stored: Stored, variant: int) -> Recheck:
     except (UserError, PluginError) as error:
         return Recheck(variant, status, "error", fault=str(error).splitlines()[0])
     known = _numbers(machine)
-    apart = [(_share(one, known.get(name)), name) for name, one in zip(place.names, values, strict=False)]
+    least = {column.name: plausible(column.unit).ends[0] for column in stored.columns.values() if column.unit}
+    apart = [
+        (_share(one, known.get(name), least.get(name, NOTHING)), name)
+        for name, one in zip(place.names, values, strict=False)
+    ]
     share, name = max(apart, default=(0.0, ""))
     return Recheck(variant, status, machine.status, name if share else "", share)
 
@@ -282,11 +288,11 @@ def _numbers(machine: ProvedMachine) -> dict[str, float]:
     return found
 
 
-def _share(one: Any, other: float | None) -> float:
-    """By which share of its size a number differs; a utilisation of next to nothing by its size itself."""
+def _share(one: Any, other: float | None, least: float) -> float:
+    """By which share of its size a number differs; of one below the least size that a machine may have by a share of that."""
     if one is None or other is None or not math.isfinite(other):
         return 0.0 if one is None and (other is None or not math.isfinite(other)) else math.inf
-    return abs(float(one) - other) / max(abs(float(one)), abs(other), 1e-9)
+    return abs(float(one) - other) / max(abs(float(one)), abs(other), least)
 
 
 # Today's machine among those that are searched: the values that the base has for what varies.

@@ -27,7 +27,6 @@ from diecut_report.mechanism.steps import Abscissa, Choice, Interpolated, PartNa
 from diecut_report.mechanism.steps.protocols import Item
 from diecut_report.mechanism.steps.value import FormulaStep
 from diecut_report.quantities.formatting import (
-    DIGITS,
     author_digits,
     given_shown,
     number_text,
@@ -35,6 +34,7 @@ from diecut_report.quantities.formatting import (
     shown,
     with_unit,
 )
+from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import NAMING, Phrase, joined, phrase
 
 FIRST = np.zeros(1, dtype=int)  # the variant that is printed
@@ -325,8 +325,9 @@ class Page:
             return "–"
         if name not in self.calc.values:
             return given_shown(float(value), display)["text"]
-        digits = getattr(self.calc.step_or_input(name), "digits", DIGITS)
-        return shown(float(value), display, author_digits(float(value), display, digits))["text"]
+        step = self.calc.steps[name]
+        digits, most = author_digits(float(value), display, step.digits), unit(step.unit).to_si(step.shown_to)
+        return shown(float(value), display, digits, most)["text"]
 
 
 def _head(title: str) -> Item:

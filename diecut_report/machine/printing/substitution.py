@@ -374,9 +374,24 @@ class Substitution:
             return self._number(node, digits, angle=angle)
         if op in EXACT:
             return node
+        if op == "cases":
+            return self._with_numbers(self._case(args), digits, angle=angle)
         in_sum = angle and (op in ("+", "-", "neg") or (op in ("*", "/") and self.is_angle(node)))
         inside = args[0] in TRIGONOMETRIC if op == "call" else in_sum
         return Node(op, self._parts(args, digits, angle=inside))
+
+    def _case(self, branches: Sequence[Sequence[Node]]) -> Node:
+        """The value of the case that holds; with numbers the others say nothing: {2.580 if 0 > 0; …}."""
+        for value, *condition in branches:
+            if not condition or evaluate(condition[0], self._true_value):
+                return value
+        return Node("cases", tuple(branches))  # none holds: there is no value
+
+    def _true_value(self, leaf: Node) -> float:
+        name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
+        if name is None:
+            return self._printed_value(leaf)
+        return self.value_of(name) if isinstance(name, str) else float(name)
 
     def _parts(self, parts: tuple[Any, ...], digits: int, *, angle: bool) -> tuple[Any, ...]:
         return tuple([
@@ -390,7 +405,7 @@ class Substitution:
         name = self.part.names.get(leaf.args[0])
         if name is None:
             constant = self.constants.get(leaf.args[0])
-            return leaf if constant is None else _constant(leaf.args[0], float(constant), constant.unit)
+            return leaf if constant is None else _constant(leaf.args[0], float(constant), self._beside(constant.unit))
         if not isinstance(name, str):
             return Node("num", (f"{name:g}",))
         declared, value = self.calc.step_or_input(name), self.value_of(name)
@@ -401,6 +416,12 @@ class Substitution:
         is_zero = digits <= TRUSTED and is_nothing(value, declared.unit)
         self.numbers[name] = Node("qty", ("0" if is_zero else text, display))
         return self.numbers[name]
+
+    def _beside(self, declared: str) -> str:
+        """The unit in which quantities of the same kind stand in the formula; a constant's own where there are none."""
+        taken = [name for name in self.part.names.values() if isinstance(name, str)]
+        alike = (name for name in taken if unit(self.calc.step_or_input(name).unit).kind == unit(declared).kind)
+        return next((formula_unit(self.display(name)) for name in alike), declared)
 
     def _text(self, name: str, number: float, digits: int) -> str:
         """A number with so many digits; what is typed as it is."""
@@ -427,12 +448,12 @@ def _quantity(symbol: str) -> Node | None:
     return Node("qty", found.groups()) if found else None
 
 
-def _constant(symbol: str, value: float, declared: str) -> Node:
+def _constant(symbol: str, value: float, display: str) -> Node:
     """A constant of a formula: as it is named where its name is its quantity in SI's powers of ten, else in a unit easy to read."""
     named = _quantity(symbol)
     if named and formula_unit(named.args[1]) == named.args[1]:
         return named
-    display = easy_unit(value, declared)
+    display = easy_unit(value, display) if unit(display).factor == 1 else display
     return Node("qty", (shortest(unit(display).from_si(value), MOST_DIGITS), display))
 
 

@@ -6,6 +6,7 @@ A type of step is a subclass in a file of its own: its fields, what it takes and
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from inspect import Parameter, Signature, signature
@@ -95,6 +96,7 @@ class Options(TypedDict, total=False):
     source: str
     source_symbol: str
     digits: int
+    shown_to: float
     output: bool
     needs: tuple[str, ...]
     lacks: tuple[str, ...]
@@ -145,6 +147,7 @@ class Step:
     source's letter, where another. ``whole`` marks a count, an integer in the results. ``units`` are other units, each with the input beside which
     it holds: (("mass", "N"),). A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from
     ``first`` on, or with ``named_by``, the text input of the parts' names: ``NAME_ID``. What is not ``printed`` serves messages or other steps.
+    A value above ``shown_to`` (in ``unit``) means nothing more than that: results and tables say "> 100" of it.
     """
 
     id: str
@@ -154,6 +157,7 @@ class Step:
     source: str = field(default="", kw_only=True)
     source_symbol: str = field(default="", kw_only=True)
     digits: int = field(default=4, kw_only=True)
+    shown_to: float = field(default=math.inf, kw_only=True)
     output: bool = field(default=True, kw_only=True)
     needs: tuple[str, ...] = field(default=(), kw_only=True)
     lacks: tuple[str, ...] = field(default=(), kw_only=True)

@@ -187,7 +187,7 @@ class _Rows(Run):
                 raise NotOnArrays(self.config.kinds[instance.name], message)
             return SI(value.value.item(), value.unit, value.told)
         column = np.broadcast_to(value.value, (self.variants.count,)).astype(float)
-        bad = np.flatnonzero(~meta.holds(column))
+        bad = np.flatnonzero(~meta.holds(column, calculated=True))
         for row in bad:
             self._refused(instance, key, meta, SI(float(column[row]), value.unit, value.told), int(row))
         good = np.setdiff1d(np.arange(len(column)), [*bad, *self.variants.reasons])

@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 
 from diecut_report.design.optimisation import run as run_module
+from diecut_report.design.optimisation.result import _outstanding
+from diecut_report.design.optimisation.run import Recheck, _share
 from diecut_report.design.optimisation.search import search
 from tests.design.optimisation.searches import ARM, BASE, FORCE, VARY, WIDTH, optimised, search_file
 
@@ -203,3 +205,22 @@ def test_a_folder_to_go_on_with_holds_what_a_damaged_copy_does_not(tmp_path: Pat
     (tmp_path / "copy" / "base.yaml").write_text("schema_version: 1\n", "utf-8")
     assert optimised(None, tmp_path, "--resume", str(tmp_path / "copy"), "--quiet") == 2
     assert "is missing or has changed" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "least", "is_same"),
+    [(1.0, 1.0 + 1e-9, 1e-6, True), (1e-10, 1.000001e-10, 1e-6, True), (3e-10, 0.0, 1e-3, True), (2.0, 2.001, 1e-6, False),
+     (1e-10, 1e-4, 1e-6, False)],
+)  # fmt: skip
+def test_only_real_differences_are_reported(one: float, other: float, least: float, is_same: bool) -> None:
+    assert Recheck(1, "pass", "pass", "a", _share(one, other, least)).is_same is is_same
+
+
+def test_a_machine_without_warning_is_suggested_where_there_is_one() -> None:
+    costs = np.array([[0.0, 1.0], [0.1, 0.3], [0.2, 0.25], [1.0, 0.0]])
+    assert _outstanding(costs, np.array([True] * 4))[0] == 1
+    assert _outstanding(costs, np.array([True, False, True, True]))[0] == 2
+    assert _outstanding(costs, np.array([False] * 4))[0] == 1
+    # the knee has a warning; an end has none
+    place, why = _outstanding(costs, np.array([True, False, False, False]))
+    assert place == 0 and "without a warning" in why

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
+import matplotlib.figure
+import numpy as np
 import pytest
 
+from diecut_report.design.optimisation.page import _pair
 from tests.design.optimisation.searches import BASE, optimised, search_file
 
 
@@ -39,3 +44,16 @@ def test_a_page_without_a_front_tells_why(tmp_path: Path) -> None:
     assert optimised(study, tmp_path / "out", "--quiet", "--language", "uk") == 1
     page = (tmp_path / "out" / "optimisation.html").read_text("utf-8")
     assert "Жодна машина не допустима." in page and 'lang="uk"' in page
+
+
+def test_the_present_machine_lies_in_the_plot_and_is_called_so() -> None:
+    goals = [SimpleNamespace(column=SimpleNamespace(display="mm"), is_less=True)] * 2
+    found: Any = SimpleNamespace(
+        objectives=goals, values=np.array([[0.001, 0.002], [0.002, 0.001]]), suggested=None, present=0
+    )
+    costs = np.array([[0.009, 0.009], [0.001, 0.002], [0.002, 0.001]])
+    there: Any = SimpleNamespace(costs=costs, violations=np.array([1.0, 0.0, 0.0]))
+    axes = matplotlib.figure.Figure().add_subplot()
+    _pair(axes, found, there, (0, 1), 9.0)
+    assert axes.get_xlim()[1] > 9 and axes.get_ylim()[1] > 9
+    assert "present machine" in axes.get_legend_handles_labels()[1]
