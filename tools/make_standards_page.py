@@ -7,7 +7,7 @@ from itertools import starmap
 from pathlib import Path
 
 from diecut_report.quantities.units import pretty
-from diecut_report.standards import standard_ids, standard_series, standard_series_by, standard_table
+from diecut_report.standards import DATA, Column, standard_ids, standard_series, standard_series_by, standard_table
 from diecut_report.standards.ranges import EVERY, SOURCES, range_table
 from diecut_report.standards.tables import StandardSeries, StandardTable
 
@@ -22,6 +22,11 @@ Where a method picks a standard size — the rating of a motor, the length of a 
 the size from one of the series below. A value stands here only if at least two published tables, independent of each
 other, agree on it; the tables are named under *Sources*. What is missing, and why, stands under *Left out*.
 """
+CATALOGUES = """\
+## Catalogues
+
+Machine elements by their designations, in the same folder: what a method takes where a designation is given, or chooses from.
+"""
 USE = """\
 ## Use in a plugin
 
@@ -31,6 +36,7 @@ from diecut_report.api import standard_series, standard_series_by, standard_tabl
 standard_series("iec_60072_ratings").values  # (0.06, 0.09, 0.12, …), in kW
 standard_series_by("iso_4184_lengths")["SPA"].values  # (800.0, 900.0, …), in mm
 standard_table("vbelt_least_diameter").values["SPA"]  # 90.0, in mm
+standard_table("ball_bearings")  # a catalogue: its columns by designation
 ```
 
 A table may also be read as a series: its different values in ascending order.
@@ -68,7 +74,7 @@ Every other number has none, for one of these reasons; the bounds of the key and
 def pages() -> dict[Path, str]:
     """The text of each page by its file."""
     ranges = [PLAUSIBLE, *_ranges(), WITHOUT, *_without()]
-    return {PAGE: "\n".join([INTRODUCTION, *_overview(), "", *_chapters(), USE]), RANGES: "\n".join(ranges)}
+    return {PAGE: "\n".join([INTRODUCTION, *_overview(), "", *_chapters(), CATALOGUES, *_catalogues(), USE]), RANGES: "\n".join(ranges)}
 
 
 def _ranges() -> Iterator[str]:
@@ -127,6 +133,23 @@ def _chapter(id: str, *parts: StandardSeries | StandardTable) -> Iterator[str]:
     if len(parts) > 1:
         yield "### Not in the series\n"
     yield from (f"Left out: {text}\n" for text in dict.fromkeys(part.left_out for part in parts) if text)
+
+
+def _catalogues() -> Iterator[str]:
+    for id in sorted(file.stem for file in DATA.glob("*.yaml")):
+        table = standard_table(id)
+        yield f"### {table.title} — `{id}`\n"
+        named = [["name", *table.names]] if table.names else []
+        columns = [*named, *([_head(each), *map("{:g}".format, each.values)] for each in table.columns)]
+        head, *rows = zip(*columns, strict=True)
+        yield from (f"| {' | '.join(row)} |" for row in (head, ["---"] * len(head), *rows))
+        yield "\nSources:\n"
+        yield from (f"- {source}" for source in table.sources)
+        yield f"\nLeft out: {table.left_out}\n"
+
+
+def _head(column: Column) -> str:
+    return column.name if column.unit == "1" else f"{column.name}, {pretty(column.unit)}"
 
 
 def _numbers(series: StandardSeries) -> str:

@@ -39,7 +39,10 @@ class Load:
         share, inside, passed, row = self.curve.turned(angle, middle, machine)
         # an angle is differentiated, also across the end of a piece, where only the function itself goes on
         found = self.curve.function if self.is_motion else self.curve.of_shares
-        value = found(share, inside, row) + passed * _of(self.gain, row)
+        machine = (
+            row if len(self.curve.breakpoints) > 1 else np.zeros_like(row)
+        )  # a mechanism that is the same in all machines
+        value = found(share, inside, machine) + passed * _of(self.gain, row)
         value = np.abs(value) if self.is_absolute else value
         return with_losses(value * _of(self.factor, row), _of(self.efficiency, row)) + _of(self.constant, row)
 
@@ -94,7 +97,7 @@ def balance(loads: Loads, x: Array, middle: Array, rows: Array | None) -> Array:
 
 def angle(loads: Loads, x: Array, middle: Array, rows: Array | None) -> Array:
     """Return the angle of the shaft."""
-    assert loads.motion is not None, "the step needs a motion"
+    assert loads.motion is not None  # the step needs it
     return np.broadcast_to(loads.motion.at(x, np.broadcast_to(middle, x.shape), rows), x.shape)
 
 

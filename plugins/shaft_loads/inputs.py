@@ -30,6 +30,7 @@ class Torque(Source):
 class Force(Source):
     """A force on a part."""
 
+    turns_per_sheet: Annotated[str, Text("Revolutions of the mechanism's shaft per sheet, a number or a ratio such as 1/2", symbol="i_F")] = "1"
     offset: Annotated[float, Quantity("Φ_F", "deg", "Main-shaft angle of the mechanism's own zero", ge=-3600, le=3600)] = 0
     ratio: Annotated[float, Quantity("k_F", "1", "Factor on the curve; negative where it acts the other way")] = 1
     inertia: Annotated[float, Quantity("J_F", "kg*m**2", "Inertia that turns an angular acceleration into a torque; 0 for others", ge=0)] = 0
@@ -56,7 +57,6 @@ class ShaftLoads(Inputs):
     forces: Annotated[list[Force], Text("Forces on the parts")] = []  # noqa: RUF012
     motion: Annotated[Motion | None, Text("How the shaft swings or turns in steps; without it, it turns steadily")] = None
     n_points: Annotated[int, POINTS] = 720
-
 
 
 OF_SOURCE = ("name", "mechanism", "curve", "turns_per_sheet", "offset", "ratio")

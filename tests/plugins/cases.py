@@ -18,7 +18,7 @@ from diecut_report.testing.machines import MachineCase as Case
 from diecut_report.testing.machines import Ranges
 from tests.configs import EXAMPLES
 from tests.machines import PUBLISHED_CYLINDER, PUBLISHED_DRIVE, UNBALANCED, inputs
-from tests.plugins import bearings, chains
+from tests.plugins import bearings, chains, machine_parts
 from tests.plugins.clutches import COOLED
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
@@ -77,6 +77,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
         "flywheel": TRAIN | {"gears": PAIRS, "torque_curve": UNEVEN, "torque_mean": 189.1667, "torque_peak": 1500, "power_per_belt": 2},
         "toothed belt": TRAIN | {"toothed_belt": BELT},
     },
+    "drive_line": {"line": machine_parts.LINE},
     "elastic_follower": {
         "shaft": SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal", "allowable_torque": 100},
         "slide": SLIDE | {"n_points": 72, "allowable_torque": 100},
@@ -84,6 +85,7 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
     "gear_pair": {"sector": SECTOR | {"n_points": 72}, "sized": SIZED, "at distance": AT_DISTANCE},
     "geneva_transport": {"loaded": CROSS},
     "knife_drive": {side: KNIVES | {"crank_rocker": LINKAGE | {"lowest_dead_center": side}} for side in ("outer", "inner")},
+    "machine_inertia": {"moving": machine_parts.INERTIA},
     "parallel_key": {"turning": TURNING | {"n_points": 72}, "sized": SIZED_KEY, "own dimensions": OWN},
     "platen_press": {"guided": GUIDED | {"n_points": 72, "crank_pin_length": "100 mm"}},
     "press_consistency": {"whole": whole_press()},
@@ -100,6 +102,9 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
             "axial_force": bearings.WAVING["axial_force"]}], "required_static_safety": 2, "n_points": 72},
     },
     "shaft": {"crank": CRANKSHAFT | {"speed": 50}, "lay": LAYSHAFT, "standing": STANDING, "sized": SIZED_SHAFT, "own steel": OWN_STEEL},
+    "shaft_body": {"bored": machine_parts.BODY},
+    "shaft_loads": {name: machine_parts.with_mechanisms(keys) for name, keys in
+                    (("stepped", machine_parts.STEPPED), ("swinging", machine_parts.SWINGING))},
 }  # fmt: skip
 WIDELY: dict[str, Ranges] = {
     "cam_gear_transport": {"dwell_angle": (1.5, 4.2), "sector_stop_sweep": (0.1, 0.6), "arm_length": (0.05, 0.1), "cycles_per_hour": (1, 2)},
@@ -113,6 +118,7 @@ WIDELY: dict[str, Ranges] = {
     "cylinder_sizing": {"working_length": (0.2, 0.9), "segment_height": (0.005, 0.06), "bore_radius": (0, 0.13)},
     "damper": {"kinetic_energy": (1, 500), "drive.force": (1, 5000), "ring_width": (1e-3, 0.2)},
     "drive_train": {"output_speed": (5, 40), "vbelt.center_distance": (0.5, 0.9), "toothed_belt.shaft_speed": (2, 60)},
+    "drive_line": {"reference_speed": (1, 20)},
     "elastic_follower": {"stiffness": (1e3, 9e4), "damping_ratio": (0, 0.5), "dwell_cycles": (0.5, 9)},
     "gear_pair": {"teeth_1": (8, 40), "teeth_2": (20, 90), "helix_angle": (0, 0.5), "shift_1": (-0.5, 1), "torque": (5, 3000),
                   "face_width": (0.01, 0.1), "root_radius": (0.1, 0.5), "center_distance": (0.15, 0.2)},
@@ -121,6 +127,7 @@ WIDELY: dict[str, Ranges] = {
     "knife_drive": {"working_depth": (0.005, 0.06), "cylinder_rate": (2, 12), "planetary.carrier_radius": (0.012, 0.08),
                     "crank_slider.crank_radius": (0.02, 0.05), "crank_slider.rod_length": (0.045, 0.2),
                     "crank_rocker.crank": (0.012, 0.04), "crank_rocker.knife_arm": (0.08, 0.25), "grip_angle": (0.02, 0.2)},
+    "machine_inertia": {},
     "parallel_key": {"shaft_diameter": (0.006, 0.22), "torque": (1, 9000), "chamfer": (0, 0.004), "key_length": (0.01, 0.12),
                      "torque_peak": (300, 2000)},
     "platen_press": {"material_thickness": (1e-4, 3e-3), "drive_deformation": (1e-4, 2e-3), "rod_length": (0.08, 1.2),
@@ -131,6 +138,8 @@ WIDELY: dict[str, Ranges] = {
                           "flywheel_inertia": (0.1, 20), "damper_velocity": (0.1, 4)},
     "rolling_bearing": {"required_life": (3.6e6, 3.6e9), "service_factor": (1, 2)},
     "shaft": {"bearing_a": (0.0, 0.06), "bearing_b": (0.2, 0.32), "yield_strength": (3e8, 1.2e9), "tensile_strength": (4e8, 1e9)},
+    "shaft_body": {},
+    "shaft_loads": {"main_turns": (1, 6), "motion.offset": (-9, 9)},
 }  # fmt: skip
 
 

@@ -77,7 +77,7 @@ pytestmark = pytest.mark.parametrize("name", CATALOGUES)
 
 
 def test_there_are_words(name: str) -> None:
-    assert len(translations(name)) > 100
+    assert len(translations(name)) > 10
 
 
 def test_places_are_the_same(name: str) -> None:

@@ -16,8 +16,8 @@ class Group(NamedTuple):
 
 GROUPS = (
     Group("mechanism", "A mechanism", "What a plugin's module declares: the mechanism as a whole, its chapters, checks, sources.", (
-        "Mechanism", "Chapter", "Steps", "Step", "prefixed", "Check", "Vary", "AdviceWay", "Source", "Erratum", "Partner", "Comparison", "Profile",
-        "CurveTable", "ExampleBlock", "Wired", "ForEach", "CONTRACT",
+        "Mechanism", "Chapter", "Steps", "Step", "prefixed", "Check", "Vary", "AdviceWay", "Source", "Erratum", "Partner", "Comparison", "Port",
+        "Profile", "CurveTable", "ExampleBlock", "Wired", "ForEach", "CONTRACT",
     )),
     Group("inputs", "Inputs", "What a user may give, as a pydantic model; validated values are SI.", (
         "Inputs", "Block", "Annotated", "Quantity", "InOtherUnit", "Text", "OneOf", "CurveInput", "Varying", "Extremes", "Curve", "PhaseInput",

@@ -1,0 +1,53 @@
+"""A mechanism that names the shaft it is driven by, so that a part of the machine can stand for it: the shaft's loads and speed follow from there."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Port, Quantity
+
+
+class Stamp(Inputs):
+    radius: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)]
+    force: Annotated[float, Quantity("F", "N", "Force on the stamp", gt=0)]
+    crank_speed: Annotated[float, Quantity("ω", "rpm", "Speed of the crank", gt=0)]
+    n_points: Annotated[int, POINTS] = 72
+
+
+turn = Chapter("Turn")
+turn.abscissa("angle", "φ", "deg", "Angle of the crank", 2 * np.pi, speed="crank_speed")
+turn.value("pin_force", "F_z", "N", "Force on the pin", lambda force, angle: force * np.sin(angle))
+turn.value(
+    "torque",
+    "T",
+    "N*m",
+    "Torque that the crank takes",
+    lambda pin_force, radius, angle: pin_force * radius * np.sin(angle),
+)
+turn.reduction("mean_torque", "T_m", "N*m", "Mean torque", operation="mean", of="torque")
+
+MECHANISM = Mechanism(
+    kind="stamp", version="1.0", title="Stamp", summary="A stamp on a crank.", inputs=Stamp, chapters=(turn,),
+    ports=(Port(name="crank", torque="torque", forces=("pin_force",), speed="crank_speed"),),
+)  # fmt: skip
+
+PRESS = """
+press: {name: Example, productivity: 3600 1/h}
+machine:
+  {anchor: main, shaft_material: 42CrMo4+QT, required_life: 20000 h, stop: sleeve, frame: {main: [0, 0], motor: [0, 135]},
+   gears: {sigma_h_lim: 767 MPa, sigma_f_lim: 314 MPa, grade: 8, hub_yield: 370 MPa}}
+shafts:
+  motor: {motor: {speed: 180 rpm}, parts: [{gear: pinion, at: 25, hub: 30}]}
+  main:
+    sections: 40x30 r1, 50x160 r1, 40x30
+    parts:
+      - {bearing: a, at: 21, designation: "6208"}
+      - {gear: wheel, at: 90, hub: 40, key: 36}
+      - {crank: disc, of: stamp.crank, at: 150, hub: 40, key: 36, plane: 10, mass: 6 kg}
+      - {bearing: b, at: 199, designation: "6208", floating: true}
+meshes:
+  drive: {pair: [motor.pinion, main.wheel], teeth: 18/54, module: 3.75, width: 30}
+mechanisms:
+  stamp: {kind: stamp, radius: 40 mm, force: 800 N, crank_speed: 60 rpm}
+"""
+GIVES = {"stamp.mean_torque": "16 N*m", "machine.mass": "16.18 kg"}
