@@ -74,7 +74,10 @@ Every other number has none, for one of these reasons; the bounds of the key and
 def pages() -> dict[Path, str]:
     """The text of each page by its file."""
     ranges = [PLAUSIBLE, *_ranges(), WITHOUT, *_without()]
-    return {PAGE: "\n".join([INTRODUCTION, *_overview(), "", *_chapters(), CATALOGUES, *_catalogues(), USE]), RANGES: "\n".join(ranges)}
+    return {
+        PAGE: "\n".join([INTRODUCTION, *_overview(), "", *_chapters(), CATALOGUES, *_catalogues(), USE]),
+        RANGES: "\n".join(ranges),
+    }
 
 
 def _ranges() -> Iterator[str]:

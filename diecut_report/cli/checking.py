@@ -158,7 +158,12 @@ def _data(found: JudgedFile) -> dict[str, Any]:
 
 ORDER = ("fail", "warn", "not_checked")
 WITHOUT_RESULTS = ("bad", "impossible")
-COLOURED = {"bad": "error", "impossible": "error", "incomplete": "warn", "conditional": "warn"}  # states with the colour of another one
+COLOURED = {
+    "bad": "error",
+    "impossible": "error",
+    "incomplete": "warn",
+    "conditional": "warn",
+}  # states with the colour of another one
 WORDS = {
     "pass": phrase("pass"),
     "incomplete": phrase("conditional"),
