@@ -139,7 +139,7 @@ def _chapter(id: str, *parts: StandardSeries | StandardTable) -> Iterator[str]:
 
 
 def _catalogues() -> Iterator[str]:
-    for id in sorted(file.stem for file in DATA.glob("*.yaml")):
+    for id in sorted(file.stem for file in DATA.glob("*.yaml") if file.stem != "ranges"):
         table = standard_table(id)
         yield f"### {table.title} — `{id}`\n"
         named = [["name", *table.names]] if table.names else []
