@@ -31,7 +31,7 @@ def one_turn_a_sheet(productivity: Any) -> Any:
     return 2 * np.pi * productivity
 
 
-class TurningShaft(Block):
+class ShaftRatio(Block):
     """A shaft that turns steadily."""
 
     name: Annotated[str, Text("Name of the shaft")]
@@ -48,7 +48,7 @@ class Mesh(Block):
     teeth_2: Annotated[int, Quantity("z_2", "1", "Number of teeth of the driven gear", ge=5, integer=True)]
 
 
-class Chain(Block):
+class ChainDrive(Block):
     """A chain, from the driving sprocket to the driven one."""
 
     name: Annotated[str, Text("Name of the chain")]
@@ -85,9 +85,9 @@ class DriveLine(Inputs):
     reference_speed: Annotated[float | None,
         Quantity("ω_m", "rpm", "Speed of the main shaft, which turns once a sheet", gt=0,
             press=FromPress("press.productivity", one_turn_a_sheet))] = None
-    shafts: Annotated[list[TurningShaft], Text("Shafts that turn steadily")]
+    shafts: Annotated[list[ShaftRatio], Text("Shafts that turn steadily")]
     meshes: Annotated[list[Mesh], Text("Pairs of gears")] = []  # noqa: RUF012
-    chains: Annotated[list[Chain], Text("Chains")] = []  # noqa: RUF012
+    chains: Annotated[list[ChainDrive], Text("Chains")] = []  # noqa: RUF012
     rolling: Annotated[list[Rolling], Text("Chains that roll a cylinder")] = []  # noqa: RUF012
     belts: Annotated[list[Belt], Text("V-belts")] = []  # noqa: RUF012
 

@@ -22,7 +22,7 @@ class Disc(Block):
     fill: Annotated[float, Quantity("k_f", "1", "Fraction of the full disc that is there", gt=0, le=1)] = 1
 
 
-class Body(Block):
+class KnownMass(Block):
     """A part of known mass."""
 
     name: Annotated[str, Text("Name of the part")]
@@ -34,7 +34,7 @@ class ShaftBody(Inputs):
     """Keys of ``shaft_body``."""
 
     discs: Annotated[list[Disc], Text("Sections of the shaft and parts on it, as discs")]
-    bodies: Annotated[list[Body], Text("Parts of known mass")] = []  # noqa: RUF012
+    bodies: Annotated[list[KnownMass], Text("Parts of known mass")] = []  # noqa: RUF012
 
 
 OF_DISC = {key: f"discs.{key}" for key in ("diameter", "bore", "width", "density", "fill")}

@@ -23,7 +23,7 @@ MAIN = (
 
 
 @dataclass(frozen=True, eq=False)
-class Load:
+class CurveLoad:
     """Hold a load: the curve over the main shaft, and the numbers (machines, 1) by which it counts."""
 
     curve: ShaftCurve
@@ -60,9 +60,9 @@ def _of(number: Array, row: Array) -> Array:
 class Loads:
     """Hold the loads of a shaft."""
 
-    torques: tuple[Load, ...]
-    forces: tuple[Load, ...]
-    motion: Load | None
+    torques: tuple[CurveLoad, ...]
+    forces: tuple[CurveLoad, ...]
+    motion: CurveLoad | None
     period: Array
 
     @cached_property
@@ -82,7 +82,7 @@ def values(of: str) -> Callable[..., Array]:
     """Return the function that gives a torque or a force over the main shaft."""
 
     def found(index: int, loads: Loads, x: Array, middle: Array, rows: Array | None) -> Array:
-        every: tuple[Load, ...] = getattr(loads, of)
+        every: tuple[CurveLoad, ...] = getattr(loads, of)
         return np.broadcast_to(every[index].at(x, np.broadcast_to(middle, x.shape), rows), x.shape)
 
     return found
@@ -113,7 +113,7 @@ def curves_of(given: Mapping[str, Any]) -> Loads:
     return Loads(torques, forces, motion, TURN * np.reshape(turns, (-1, 1)).astype(float))
 
 
-def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> Load:
+def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> CurveLoad:
     def text(key: str) -> Any:
         found = given[f"{of}.{key}"]
         return found if index is None else found[index]
@@ -137,7 +137,7 @@ def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> L
     turns = _turns(text("turns_per_sheet"), mechanism, f"{home}.turns_per_sheet")
     shaft = ShaftCurve(curve.values, curve.breakpoints, turns, offset)
     gain = np.reshape(curve.gain(None), (-1, 1)) if of == "motion" else np.zeros((1, 1))
-    return Load(
+    return CurveLoad(
         shaft,
         factor,
         number("efficiency", 1.0),

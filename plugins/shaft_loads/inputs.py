@@ -9,7 +9,7 @@ from diecut_report.api import POINTS, Block, Inputs, MechanismInput, Quantity, T
 # fmt: off
 
 
-class Source(Block):
+class LoadCurve(Block):
     """A curve of a mechanism, and how it is taken over."""
 
     name: Annotated[str, Text("Name of the part that it acts on")]
@@ -20,14 +20,14 @@ class Source(Block):
     ratio: Annotated[float, Quantity("k", "1", "Factor on the curve; negative where it acts the other way")] = 1
 
 
-class Torque(Source):
+class Torque(LoadCurve):
     """A torque on a part."""
 
     inertia: Annotated[float, Quantity("J", "kg*m**2", "Inertia that turns an angular acceleration into a torque; 0 for a torque", ge=0)] = 0
     efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the way from this shaft to the torque", gt=0, le=1)] = 1
 
 
-class Force(Source):
+class Force(LoadCurve):
     """A force on a part."""
 
     turns_per_sheet: Annotated[str, Text("Revolutions of the mechanism's shaft per sheet, a number or a ratio such as 1/2", symbol="i_F")] = "1"
@@ -59,10 +59,10 @@ class ShaftLoads(Inputs):
     n_points: Annotated[int, POINTS] = 720
 
 
-OF_SOURCE = ("name", "mechanism", "curve", "turns_per_sheet", "offset", "ratio")
+OF_CURVE = ("name", "mechanism", "curve", "turns_per_sheet", "offset", "ratio")
 KEYS = (
     "main_turns",
-    *(f"torques.{key}" for key in (*OF_SOURCE, "inertia", "efficiency")),
-    *(f"forces.{key}" for key in (*OF_SOURCE, "inertia", "lever", "absolute", "constant")),
-    *(f"motion.{key}" for key in OF_SOURCE[1:]),
+    *(f"torques.{key}" for key in (*OF_CURVE, "inertia", "efficiency")),
+    *(f"forces.{key}" for key in (*OF_CURVE, "inertia", "lever", "absolute", "constant")),
+    *(f"motion.{key}" for key in OF_CURVE[1:]),
 )

@@ -12,6 +12,8 @@ from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from tests.machines import drive, inputs
 
 Data = dict[str, Any]
+OF_PARTS = {"drive_line", "machine_inertia", "shaft_body", "shaft_loads"}
+"""Kinds that the parts of a machine are calculated by: no example in configs/ has parts, so none has these."""
 
 BODY: Data = {
     "discs": [

@@ -20,6 +20,7 @@ from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing.machines import unlike
 from tests.examples import few
 from tests.plugins.cases import COMPARISONS, FULL, MECHANISMS, Case, case, names
+from tests.plugins.machine_parts import OF_PARTS
 from tests.plugins.symbols import doubled
 
 COUNT, ALONE, MANY = 16, 3, 300  # machines at once, those of them calculated alone too, and all of a nightly run
@@ -46,12 +47,6 @@ ALIKE = {  # quantities that a step takes over under another id
     "transport_comparison": [("gear_speed", "cam_gear_speed"), ("gear_acceleration", "cam_gear_acceleration")],
 }
 NEVER_REFUSED = {"damper", "drive_line", "elastic_follower", "machine_inertia", "shaft_loads"}
-OF_PARTS = {
-    "drive_line",
-    "machine_inertia",
-    "shaft_body",
-    "shaft_loads",
-}  # no example has parts of a machine: of the machines here alone
 OF_ONE_PRESS = {"cyclogram"}  # takes other mechanisms whole, one machine at a time: tried in a module of its own
 SMALLEST = "flat_cylinder_mechanisms-"  # of the examples with mechanisms that are compared
 each_mechanism = pytest.mark.parametrize("mechanism", MECHANISMS.values(), ids=MECHANISMS)

@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 from diecut_report.config.plugins import Discovery
+from tests.plugins.machine_parts import OF_PARTS
 from tools.site.__main__ import mechanisms
 from tools.site.examples import Example as ConfigExample
 from tools.site.examples import configurations, shown_kinds
@@ -32,7 +33,7 @@ def test_each_kind_has_a_page_and_an_example() -> None:
     plain = [ConfigExample(file.stem, text := file.read_text("utf-8"), yaml.safe_load(text)) for file in files]
     shown = shown_kinds(plain)
     compared = {case.mechanism.kind for each in mechanisms() for case in each.comparisons}
-    assert set(shown) == {each.kind for each in mechanisms()} - compared
+    assert set(shown) == {each.kind for each in mechanisms()} - compared - OF_PARTS
 
 
 def made(folder: Path) -> dict[str, bytes]:
