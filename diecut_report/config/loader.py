@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import chain, count
@@ -12,7 +11,7 @@ from typing import Any
 from diecut_report.config import instances, yaml
 from diecut_report.config.bare_numbers import bare_numbers
 from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
-from diecut_report.config.model import PRESS, ConfigDocument, PressBlock, Project, ReportSettings, texts, written
+from diecut_report.config.model import NAME, PRESS, ConfigDocument, PressBlock, Project, ReportSettings, texts, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
 from diecut_report.config.parts.expansion import expanded, has_parts
 from diecut_report.config.parts.keys import WORDS
@@ -142,7 +141,6 @@ def refuse_study(tree: Tree) -> None:
         raise refusal(template, tree.file, command=command, file=tree.file, base=base)
 
 
-NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 RESERVED = (PRESS, "project", *WORDS)
 
 
@@ -210,7 +208,6 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     order, loops = ordered(reader.instances, linker.links)
     logo, faults = logo_of(tree, find)
     problems = [
-        *(found.problems if found else ()),
         *reader.problems,
         *tables.problems,
         *faults,
@@ -222,6 +219,8 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     problems += instances.faults(units, reader.instances, ConfigPlace(tree, ("report",)))
     broken = reader.broken if problems else {}
     problems += [reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in broken.items()]
+    if found and found.problems:  # without their parts the mechanisms lack what these give them
+        problems = list(found.problems)
     problems = beside(tree, problems)
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal
 
@@ -18,6 +19,8 @@ from diecut_report.quantities.units import unit
 from diecut_report.text.catalogues import known
 from diecut_report.text.phrases import Phrase, phrase
 
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+"""What a mechanism, a shaft or a part may be called."""
 PRESS = "press"  # the name of the press in references, beside those of the mechanisms
 DETAILS = ("brief", "standard", "full")  # how much a report holds
 

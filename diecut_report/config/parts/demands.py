@@ -9,7 +9,7 @@ from math import lcm
 from typing import Any, NamedTuple
 
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
-from diecut_report.config.parts.model import Join, MachineParts, Part, Shaft
+from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.mechanism import Mechanism, Port
 
@@ -17,14 +17,14 @@ USUAL_STEPS = 6  # of a Geneva wheel whose slots are not typed
 
 
 @dataclass(frozen=True)
-class Typed:
+class TypedValue:
     """Stand for the value that is typed at a path of the file, with its basis."""
 
     path: KeyPath
 
 
 @dataclass(frozen=True)
-class Number:
+class TypedNumber:
     """Stand for a number that a text of the file holds, or that follows from numbers there; it has the basis of all parts."""
 
     text: str
@@ -63,7 +63,7 @@ class Moving(NamedTuple):
 
     mechanism: str
     port: Port
-    part: Part
+    part: ShaftPart
 
 
 def millimetres(value: float) -> str:
@@ -118,7 +118,7 @@ class Demands:
             found *= Fraction(abs(join.ratio)).limit_denominator(10_000)
         return found
 
-    def moved_by(self, shaft: Shaft) -> Moving | None:
+    def moved_by(self, shaft: MachineShaft) -> Moving | None:
         """Return by what a shaft swings or turns in steps; None of one that turns steadily."""
         part = self.parts.motion_port(shaft)
         port = None if part is None else self.port(part)
@@ -157,12 +157,18 @@ class Demands:
         """Return the revolutions of the main shaft after which a shaft and the machine are back at their start."""
         return lcm(self.turns(shaft).denominator, self.period)
 
-    def port(self, part: Part) -> Port | None:
+    def port(self, part: ShaftPart) -> Port | None:
         """Return the port that a part stands for."""
         if part.port is None:
             return None
         kind = self.parts.mechanisms.get(part.port[0], "")
         return next((each for each in self.of_kind[kind].ports if each.name == part.port[1]), None) if kind in self.of_kind else None  # fmt: skip
+
+    @property
+    def port_names(self) -> list[str]:
+        """Return the ports of all mechanisms, as parts name them."""
+        known = ((name, self.of_kind[kind]) for name, kind in self.parts.mechanisms.items() if kind in self.of_kind)
+        return [f"{name}.{port.name}" for name, mechanism in known for port in mechanism.ports]
 
     # What the parts take from their shafts.
 
@@ -171,7 +177,7 @@ class Demands:
         found = {"name": name, "mechanism": mechanism, "curve": curve, "turns_per_sheet": str(turns), "offset": offset}
         return found | {"ratio": Ratio(sign)}
 
-    def torque_on(self, part: Part) -> dict[str, Any] | None:
+    def torque_on(self, part: ShaftPart) -> dict[str, Any] | None:
         """Return what a part takes from its shaft, against its turning; None where nothing is known of it."""
         port = self.port(part)
         if port is not None and port.torque and not port.angle:
@@ -200,7 +206,7 @@ class Demands:
         found = demand | {"ratio": demand["ratio"].times(join.ratio_text, number=1 / share)}
         if isinstance(join.keys, MeshKeys) and driven.name in self.parts.ratios:
             found["efficiency"] = (
-                Typed((*join.path, "efficiency")) if "efficiency" in self._raw(join.path) else join.keys.efficiency
+                TypedValue((*join.path, "efficiency")) if "efficiency" in self._raw(join.path) else join.keys.efficiency
             )
         return found
 
@@ -215,7 +221,7 @@ class Demands:
         inertia = " + ".join(f"{-each['ratio'].number:.15g} * ({each['inertia']})" for each in every)
         return first | {"ratio": Ratio(-1, first["ratio"].factors), "inertia": inertia}
 
-    def inertia_of(self, shaft: Shaft) -> dict[str, Any] | None:
+    def inertia_of(self, shaft: MachineShaft) -> dict[str, Any] | None:
         """Return the torque that the inertia of a shaft takes that turns in steps; None of others: theirs is part of their mechanism."""
         moving = self.moved_by(shaft)
         if moving is None or not moving.port.advance or not moving.port.torque:
@@ -224,7 +230,7 @@ class Demands:
         found = self._source("inertia", moving.mechanism, moving.port.torque, -1)
         return found | {"ratio": Ratio(-1, factors), "inertia": f"${{shafts_{shaft.name}_body.inertia}}"}
 
-    def torques_of(self, shaft: Shaft) -> list[dict[str, Any]]:
+    def torques_of(self, shaft: MachineShaft) -> list[dict[str, Any]]:
         """Return all torques on a shaft but the one that balances them; none where its parts take none."""
         found = [torque for part in shaft.parts if (torque := self.torque_on(part))]
         own = self.inertia_of(shaft)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.config.parts.demands import Element, Number, Ratio, Typed, millimetres
+from diecut_report.config.parts.demands import Element, Ratio, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
-from diecut_report.config.parts.model import Join, Part, Shaft, chain_pitch
+from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, chain_pitch
 from diecut_report.config.parts.shafts import ShaftElements
 from diecut_report.standards import standard_table
 
@@ -48,7 +48,7 @@ class Elements(ShaftElements):
                 ):
                     self.fills.setdefault(part.name, {}).update({"speed": self.speed(shaft.name)})
 
-    def _provided(self, part: Part, what: str) -> Any:
+    def _provided(self, part: ShaftPart, what: str) -> Any:
         """What the parts give a mechanism at one of its ports."""
         mesh = next(
             (
@@ -76,12 +76,12 @@ class Elements(ShaftElements):
         if chain is None:
             return None
         if what == "teeth":
-            return Number(str(chain.keys.teeth_1), (*chain.path, "teeth"))
+            return TypedNumber(str(chain.keys.teeth_1), (*chain.path, "teeth"))
         if what == "pitch":
-            return Number(millimetres(chain_pitch(chain.keys)), (*chain.path, "chain"))
+            return TypedNumber(millimetres(chain_pitch(chain.keys)), (*chain.path, "chain"))
         return self._moved_inertia(part.shaft, mesh, chain) if what == "inertia" else None
 
-    def _moved_inertia(self, shaft: Shaft, mesh: Join | None, chain: Join) -> str:
+    def _moved_inertia(self, shaft: MachineShaft, mesh: Join | None, chain: Join) -> str:
         """The inertia of the conveyor with its shafts, referred to the shaft of the wheel that moves it."""
         own, conveyor = f"${{shafts_{shaft.name}_body.inertia}}", self._conveyor_inertia(chain)
         if mesh is None:
@@ -123,7 +123,10 @@ class Elements(ShaftElements):
         self._add("drive_line", "drive_line", rate | {"shafts": speeds} | joins, ("machine",))
         if turning:
             self._add(
-                "machine", "machine_inertia", {"shafts": turning} | ({"moving": moving} if moving else {}), ("machine",)
+                "machine_inertia",
+                "machine_inertia",
+                {"shafts": turning} | ({"moving": moving} if moving else {}),
+                ("machine",),
             )
 
     def _rolling(self, join: Join) -> dict[str, Any] | None:
@@ -147,26 +150,29 @@ class Elements(ShaftElements):
             row: dict[str, Any] = {"name": join.name}
             if isinstance(keys, BeltKeys):
                 row |= {
-                    f"diameter_{n}": Number(millimetres(getattr(keys, f"diameter_{n}")), (*path, "diameters"))
+                    f"diameter_{n}": TypedNumber(millimetres(getattr(keys, f"diameter_{n}")), (*path, "diameters"))
                     for n in (1, 2)
                 }
             else:
                 row |= {
-                    "teeth_1": Number(str(keys.teeth_1), (*path, "teeth")),
-                    "teeth_2": Number(str(keys.teeth_2 or keys.teeth_1), (*path, "teeth")),
+                    "teeth_1": TypedNumber(str(keys.teeth_1), (*path, "teeth")),
+                    "teeth_2": TypedNumber(str(keys.teeth_2 or keys.teeth_1), (*path, "teeth")),
                 }
             if isinstance(keys, MeshKeys):
-                row |= {"module": Typed((*path, "module"))} | (
-                    {"helix_angle": Typed((*path, "helix_angle"))} if keys.helix_angle else {}
+                row |= {"module": TypedValue((*path, "module"))} | (
+                    {"helix_angle": TypedValue((*path, "helix_angle"))} if keys.helix_angle else {}
                 )
             if isinstance(keys, ChainKeys):
                 row |= {
-                    "pitch": Number(millimetres(chain_pitch(keys)), (*path, "chain")),
-                    "links": Typed((*path, "links")),
+                    "pitch": TypedNumber(millimetres(chain_pitch(keys)), (*path, "chain")),
+                    "links": TypedValue((*path, "links")),
                 }
                 weight = standard_table("roller_chains").by_name("mass_per_length")[keys.chain]
-                row |= {"strands": len(keys.sprockets), "mass_per_length": Number(f"{weight:g} kg/m", (*path, "chain"))}
-                row |= {key: Typed((*path, key)) for key in ("moving_mass", "pretension") if key in join.more}
+                row |= {
+                    "strands": len(keys.sprockets),
+                    "mass_per_length": TypedNumber(f"{weight:g} kg/m", (*path, "chain")),
+                }
+                row |= {key: TypedValue((*path, key)) for key in ("moving_mass", "pretension") if key in join.more}
             found.append(row)
         return found
 
@@ -178,10 +184,10 @@ class Elements(ShaftElements):
         first = 1 if pinion in join.drivers else 2
         inputs: dict[str, Any] = {
             "module": f"${{{join.home}.module}}", "teeth_1": f"${{{join.home}.teeth_{first}}}", "teeth_2": f"${{{join.home}.teeth_{3 - first}}}",
-            "face_width": Typed((*path, "width")), "application_factor": 1,
+            "face_width": TypedValue((*path, "width")), "application_factor": 1,
         }  # fmt: skip
         if keys.helix_angle:
-            inputs["helix_angle"] = Typed((*path, "helix_angle"))
+            inputs["helix_angle"] = TypedValue((*path, "helix_angle"))
         torque = self._torque_reference(pinion)
         inputs |= {"torque": torque} if torque else {"torque": self._torque_reference(wheel), "torque_on": "wheel"}
         if inputs["torque"] is None:
@@ -190,17 +196,17 @@ class Elements(ShaftElements):
             inputs["speed"] = self.speed(pinion.shaft.name)
         for limit in GEAR_LIMITS:
             if getattr(self.parts.keys.gears, limit):
-                inputs |= {f"{limit}_{gear}": Typed(("machine", "gears", limit)) for gear in (1, 2)}
+                inputs |= {f"{limit}_{gear}": TypedValue(("machine", "gears", limit)) for gear in (1, 2)}
         moving = self.parts.motion_port(wheel.shaft)
         if keys.teeth_present and moving is not None and moving.port:
             inputs["sector"] = {
                 "swing": f"${{{moving.port[0]}.swing_angle}}",
-                "teeth_present": Typed((*path, "teeth_present")),
+                "teeth_present": TypedValue((*path, "teeth_present")),
             }
-        inputs |= {key: Typed((*path, key)) for key in join.more}
+        inputs |= {key: TypedValue((*path, key)) for key in join.more}
         self._add(f"meshes_{join.name}", "gear_pair", inputs, path)
 
-    def _torque_reference(self, part: Part) -> str | None:
+    def _torque_reference(self, part: ShaftPart) -> str | None:
         loads = f"shafts_{part.shaft.name}_loads"
         if not self.is_made(loads):
             return None
@@ -230,7 +236,7 @@ class Elements(ShaftElements):
                 inputs["driven_inertia"] = f"${{shafts_{join.driven[0].shaft.name}_body.inertia}}"
         else:
             return
-        inputs |= {key: Typed((*join.path, key)) for key in join.more}
+        inputs |= {key: TypedValue((*join.path, key)) for key in join.more}
         inputs |= {key: f"${{{join.home}.{key}}}" for key in ("moving_mass", "pretension") if key in join.more}
         self._add(f"chains_{join.name}", "roller_chain", inputs, join.path)
 
@@ -242,18 +248,18 @@ class Elements(ShaftElements):
         distance = self.parts.distance(join.drivers[0].shaft.name, join.driven[0].shaft.name)
         vbelt: dict[str, Any] = {
             "section": keys.section,
-            "driver_diameter": Number(millimetres(keys.diameter_1), (*path, "diameters")),
+            "driver_diameter": TypedNumber(millimetres(keys.diameter_1), (*path, "diameters")),
         }
         if distance is not None:
-            vbelt["center_distance"] = Number(millimetres(distance), ("machine", "frame"))
-        vbelt |= {key: Typed((*path, key)) for key in ("count", "tension") if getattr(keys, key) is not None}
-        vbelt |= {key: Typed((*path, key)) for key in join.more if key not in ("power_per_belt",)}
+            vbelt["center_distance"] = TypedNumber(millimetres(distance), ("machine", "frame"))
+        vbelt |= {key: TypedValue((*path, key)) for key in ("count", "tension") if getattr(keys, key) is not None}
+        vbelt |= {key: TypedValue((*path, key)) for key in join.more if key not in ("power_per_belt",)}
         fills: dict[str, Any] = {"vbelt": vbelt, "gears": self._train_gears(join.driven[0].shaft.name)}
         if "power_per_belt" in join.more:
-            fills["power_per_belt"] = Typed((*path, "power_per_belt"))
+            fills["power_per_belt"] = TypedValue((*path, "power_per_belt"))
         motor = join.drivers[0].shaft
         if motor.keys.motor is not None:
-            fills["motor_speed"] = Typed((*motor.path, "motor", "speed"))
+            fills["motor_speed"] = TypedValue((*motor.path, "motor", "speed"))
         self.fills.setdefault(train, {}).update(fills)
 
     def _train_gears(self, shaft: str) -> list[dict[str, Any]]:
@@ -263,13 +269,13 @@ class Elements(ShaftElements):
             if isinstance(join.keys, MeshKeys):
                 path = (*join.path, "teeth")
                 pair: dict[str, Any] = {
-                    "driver_teeth": Number(str(join.keys.teeth_1), path),
-                    "driven_teeth": Number(str(join.keys.teeth_2), path),
+                    "driver_teeth": TypedNumber(str(join.keys.teeth_1), path),
+                    "driven_teeth": TypedNumber(str(join.keys.teeth_2), path),
                 }
                 found.append(
                     pair
                     | (
-                        {"efficiency": Typed((*join.path, "efficiency"))}
+                        {"efficiency": TypedValue((*join.path, "efficiency"))}
                         if "efficiency" in self._raw(join.path)
                         else {}
                     )

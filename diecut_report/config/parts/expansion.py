@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from diecut_report.config.parts.demands import Element, Number, Typed, millimetres
+from diecut_report.config.parts.demands import Element, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts
@@ -45,6 +45,8 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
     blocks = (
         {name: block for name, block in given.items() if isinstance(block, dict)} if isinstance(given, dict) else {}
     )
+    if not isinstance(given, dict):  # which is told where the file is judged
+        return Expanded(_without(tree), None, None, ())
     kinds = {name: str(block.get("kind")) for name, block in blocks.items()}
     known = {kind: found for kind in {*kinds.values()} if (found := of_kind(kind)) is not None}
     models = {name: known[kind].inputs for name, kind in kinds.items() if kind in known}
@@ -54,8 +56,13 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
         return Expanded(_without(tree), parts, None, tuple(reader.problems))
     elements = Elements(parts, blocks, known)
     made = elements.all()
+    taken = [each.name for each in made if each.name in given]
+    for name in taken:
+        parts.fault(("mechanisms", name), "is the name of a calculation that the parts make; choose another one")
     problems = [*reader.problems, *coherence(parts, elements)]
-    return Expanded(_Writer(tree, parts, elements).written(made), parts, elements, tuple(problems))
+    if problems:  # which would be told again of what is made of them
+        return Expanded(_without(tree), parts, None, tuple(problems))
+    return Expanded(_Writer(tree, parts, elements).written(made), parts, elements, ())
 
 
 def _without(tree: Tree) -> Tree:
@@ -96,9 +103,9 @@ class _Writer:
     def _node(self, value: Any, path: KeyPath) -> YamlNode:
         position = self.tree.position(path)
         match value:
-            case Typed(path=there):
+            case TypedValue(path=there):
                 return self._based(self.tree.node(there), self.tree.position(there))
-            case Number(text=text, path=there):
+            case TypedNumber(text=text, path=there):
                 place = self.tree.position(there)
                 return self._based(YamlNode(place, text, text), place)
             case dict():
@@ -158,7 +165,7 @@ class _Writer:
             case [word, name, what] if word in WORDS:
                 return self._of_join(word, name, what)
             case ["machine", what]:
-                return f"${{machine.{what}}}"
+                return f"${{machine_inertia.{what}}}"
         return None
 
     def _total_inertia(self, shaft: str) -> str:

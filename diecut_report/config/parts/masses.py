@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.config.parts.demands import Demands, Number, Typed, millimetres
+from diecut_report.config.parts.demands import Demands, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
-from diecut_report.config.parts.model import Join, Part, Shaft, chain_pitch
+from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, chain_pitch
 from diecut_report.mechanics.geneva_wheel import area_and_polar
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_table
@@ -17,7 +17,7 @@ STEEL = 7850  # kg/m³
 class Masses(Demands):
     """Make the calculations of masses and moments of inertia."""
 
-    def _body(self, shaft: Shaft) -> None:
+    def _body(self, shaft: MachineShaft) -> None:
         home = f"shafts_{shaft.name}"
         discs: list[dict[str, Any]] = [self._section_disc(shaft, index) for index in range(len(shaft.sections))]
         bodies = []
@@ -29,19 +29,21 @@ class Masses(Demands):
         inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {})
         self._add(f"{home}_body", "shaft_body", inputs, shaft.path)
 
-    def _section_disc(self, shaft: Shaft, index: int) -> dict[str, Any]:
+    def _section_disc(self, shaft: MachineShaft, index: int) -> dict[str, Any]:
         section = self._section(shaft, index)
         found = {"name": f"section_{index + 1}", "diameter": section["diameter"], "width": section["length"]}
         return found | ({"bore": section["bore"]} if "bore" in section else {})
 
-    def _section(self, shaft: Shaft, index: int) -> dict[str, Any]:
+    def _section(self, shaft: MachineShaft, index: int) -> dict[str, Any]:
         own, path = shaft.keys.sections[index], (*shaft.path, "sections", index)
         if isinstance(self._raw(shaft.path).get("sections"), list):
-            return {key: Typed((*path, key)) for key in self._raw(path)}
+            return {key: TypedValue((*path, key)) for key in self._raw(path)}
         found = {key: getattr(own, key) for key in ("length", "diameter", "bore", "fillet_radius")}
-        return {key: Number(millimetres(value), (*shaft.path, "sections")) for key, value in found.items() if value}
+        return {
+            key: TypedNumber(millimetres(value), (*shaft.path, "sections")) for key, value in found.items() if value
+        }
 
-    def _disc(self, part: Part) -> dict[str, Any] | None:
+    def _disc(self, part: ShaftPart) -> dict[str, Any] | None:
         """A part as a disc; None where its mass is typed or nothing is known of it."""
         join = next(self.parts.joins_of(part), None)
         if "mass" in part.more or part.kind == "geneva_wheel" or join is None:
@@ -50,33 +52,33 @@ class Masses(Demands):
         if width is None:
             return None
         found = {
-            "diameter": Number(millimetres(2 * join.radius(part)), join.path),
-            "width": Number(millimetres(width), part.path),
+            "diameter": TypedNumber(millimetres(2 * join.radius(part)), join.path),
+            "width": TypedNumber(millimetres(width), part.path),
         }
         bore = part.keys.bore if part.keys.bore is not None else part.seat
-        found |= {"bore": Number(millimetres(bore), part.path)} if bore else {}
-        return found | ({"fill": Typed((*part.path, "fill"))} if part.keys.fill != 1 else {})
+        found |= {"bore": TypedNumber(millimetres(bore), part.path)} if bore else {}
+        return found | ({"fill": TypedValue((*part.path, "fill"))} if part.keys.fill != 1 else {})
 
     @staticmethod
-    def _width(part: Part, join: Join) -> float | None:
+    def _width(part: ShaftPart, join: Join) -> float | None:
         if part.keys.width is not None:
             return part.keys.width
         if isinstance(join.keys, MeshKeys):
             return join.keys.width
         return tooth_width(join.keys) if isinstance(join.keys, ChainKeys) else part.keys.hub
 
-    def _has_mass(self, part: Part) -> bool:
+    def _has_mass(self, part: ShaftPart) -> bool:
         return "mass" in part.more or self._disc(part) is not None
 
-    def _given_mass(self, part: Part) -> Any:
-        return Typed((*part.path, "mass"))
+    def _given_mass(self, part: ShaftPart) -> Any:
+        return TypedValue((*part.path, "mass"))
 
-    def _mass(self, part: Part) -> dict[str, Any]:
+    def _mass(self, part: ShaftPart) -> dict[str, Any]:
         """The mass of a part as it is typed, and its inertia: typed, or of a disc of that mass without bore."""
         join = next(self.parts.joins_of(part), None)
-        found: dict[str, Any] = {"mass": Typed((*part.path, "mass"))} if "mass" in part.more else {"mass": 0}
+        found: dict[str, Any] = {"mass": TypedValue((*part.path, "mass"))} if "mass" in part.more else {"mass": 0}
         if "inertia" in part.more:
-            return found | {"inertia": Typed((*part.path, "inertia"))}
+            return found | {"inertia": TypedValue((*part.path, "inertia"))}
         if part.kind == "geneva_wheel" and "mass" not in part.more:
             return self._geneva_wheel(part)
         if join is not None:
@@ -86,10 +88,10 @@ class Masses(Demands):
             if "${" not in str(text):
                 radius = join.radius(part)
                 inertia = unit("kg").factor and float(str(text).split()[0]) * radius**2 / 2
-                found["inertia"] = Number(f"{inertia:.12g} kg*m**2", part.path)
+                found["inertia"] = TypedNumber(f"{inertia:.12g} kg*m**2", part.path)
         return found
 
-    def _geneva_wheel(self, part: Part) -> dict[str, Any]:
+    def _geneva_wheel(self, part: ShaftPart) -> dict[str, Any]:
         mechanism = str(part.port and part.port[0])
         keys = self.parts.reader.typed_block(mechanism)
         if part.keys.width is None or not {"slots", "center_distance", "roller_radius"} <= keys.keys():
@@ -99,8 +101,8 @@ class Masses(Demands):
         )
         weight = STEEL * part.keys.width
         return {
-            "mass": Number(f"{weight * area:.12g} kg", part.path),
-            "inertia": Number(f"{weight * polar:.12g} kg*m**2", part.path),
+            "mass": TypedNumber(f"{weight * area:.12g} kg", part.path),
+            "inertia": TypedNumber(f"{weight * polar:.12g} kg*m**2", part.path),
         }
 
 

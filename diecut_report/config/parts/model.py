@@ -14,7 +14,7 @@ from diecut_report.config.validation import ConfigPlace
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import unit
-from diecut_report.standards import StandardTable, standard_table
+from diecut_report.standards import standard_table
 from diecut_report.text.phrases import Phrase
 
 CREEP = 0.01  # share of its speed that a V-belt loses
@@ -27,29 +27,20 @@ SIDES = {
 SAME_PLACE = 0.05e-3  # m, by which two places that are one may differ
 
 
-@dataclass(frozen=True)
-class Catalogue:
-    """Hold the dimensions of rolling bearings by designation, m."""
-
-    table: StandardTable
-
-    def size(self, designation: str, column: str) -> float | None:
-        """Return a dimension of a bearing; None of one that the table does not have."""
-        of = self.table.column(column)
-        found = dict(zip(self.table.names, of.values, strict=True)).get(designation)
-        return None if found is None else found * unit(of.unit).factor
-
-
 def catalogue_size(designation: str, column: str) -> float | None:
     """Return a dimension of a bearing of the tables, m; None of one that they do not have."""
     plain = "".join(designation.split()).upper()
-    tables = (Catalogue(standard_table(name)) for name in ("ball_bearings", "roller_bearings"))
-    sizes = (table.size(name, column) for table in tables for name in (plain, f"{plain}E"))
-    return next((size for size in sizes if size is not None), None)
+    for table in map(standard_table, ("ball_bearings", "roller_bearings")):
+        of = table.column(column)
+        rows = dict(zip(table.names, of.values, strict=True))
+        found = rows.get(plain, rows.get(f"{plain}E"))
+        if found is not None:
+            return float(found * unit(of.unit).factor)
+    return None
 
 
 @dataclass(frozen=True)
-class Section:
+class ShaftSection:
     """Hold a section of a shaft, m: where it begins and ends from the left end."""
 
     index: int
@@ -61,10 +52,10 @@ class Section:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class ShaftPart:
     """Hold a part on a shaft."""
 
-    shaft: Shaft
+    shaft: MachineShaft
     index: int
     keys: PartKeys
     more: tuple[str, ...]
@@ -90,7 +81,7 @@ class Part:
         return f"{self.shaft.name}.{self.name}"
 
     @cached_property
-    def section(self) -> Section | None:
+    def section(self) -> ShaftSection | None:
         """Return the section that its middle lies on."""
         return self.shaft.section_at(self.keys.at)
 
@@ -144,21 +135,21 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False)
-class Shaft:
+class MachineShaft:
     """Hold a shaft."""
 
     name: str
     keys: ShaftKeys
     path: KeyPath
     more: tuple[str, ...]
-    parts: list[Part] = field(default_factory=list)
+    parts: list[ShaftPart] = field(default_factory=list)
 
     @cached_property
-    def sections(self) -> tuple[Section, ...]:
+    def sections(self) -> tuple[ShaftSection, ...]:
         """Return its sections from left to right."""
         found, start = [], 0.0
         for index, each in enumerate(self.keys.sections):
-            found.append(Section(index, start, start + each.length, each.diameter, each.bore, each.fillet_radius))
+            found.append(ShaftSection(index, start, start + each.length, each.diameter, each.bore, each.fillet_radius))
             start += each.length
         return tuple(found)
 
@@ -167,7 +158,7 @@ class Shaft:
         """Return its length, m."""
         return self.sections[-1].end if self.sections else 0.0
 
-    def section_at(self, place: float) -> Section | None:
+    def section_at(self, place: float) -> ShaftSection | None:
         """Return the section at a place; at a step the one to its right."""
         for each in self.sections:
             if each.start - SAME_PLACE <= place < each.end or place == each.end == self.length:
@@ -175,7 +166,7 @@ class Shaft:
         return None
 
     @property
-    def bearings(self) -> list[Part]:
+    def bearings(self) -> list[ShaftPart]:
         """Return its bearings from left to right."""
         return sorted((part for part in self.parts if part.kind == "bearing"), key=lambda part: part.keys.at)
 
@@ -201,8 +192,8 @@ class Join:
     keys: Any
     path: KeyPath
     more: tuple[str, ...]
-    drivers: tuple[Part, ...]
-    driven: tuple[Part, ...]
+    drivers: tuple[ShaftPart, ...]
+    driven: tuple[ShaftPart, ...]
 
     @property
     def is_between_shafts(self) -> bool:
@@ -232,7 +223,7 @@ class Join:
             return f"(${{{self.home}.diameter_1}} / ${{{self.home}.diameter_2}} * {1 - CREEP:g})"
         return f"(${{{self.home}.teeth_1}} / ${{{self.home}.teeth_2}})"
 
-    def radius(self, part: Part) -> float:
+    def radius(self, part: ShaftPart) -> float:
         """Return the pitch radius of one of its parts, m."""
         keys, is_first = self.keys, part in self.drivers
         match keys:
@@ -268,7 +259,7 @@ class MachineParts:
     keys: MachineKeys
     axes: Mapping[str, tuple[float, float]]
     mechanisms: Mapping[str, str]
-    shafts: dict[str, Shaft] = field(default_factory=dict)
+    shafts: dict[str, MachineShaft] = field(default_factory=dict)
     joins: list[Join] = field(default_factory=list)
     findings: list[Any] = field(default_factory=list)
 
@@ -280,15 +271,15 @@ class MachineParts:
             return None
         found = MachineParts(reader, machine.keys, reader.frame(), mechanisms)
         for name, block in reader.blocks("shafts"):
-            shaft = found.shafts[name] = Shaft(name, block.keys, block.path, block.more)
-            raw = reader.data["shafts"][name].get("parts", [])
+            shaft = found.shafts[name] = MachineShaft(name, block.keys, block.path, block.more)
+            raw = reader.data["shafts"][name]["parts"]
             for index, keys in enumerate(block.keys.parts):
                 more = tuple(key for key in raw[index] if key not in PartKeys.model_fields)
-                shaft.parts.append(Part(shaft, index, keys, more))
+                shaft.parts.append(ShaftPart(shaft, index, keys, more))
         for word in ("meshes", "chains", "belts"):
             for name, block in reader.blocks(word):
                 found._join(word, name, block.keys, block.path, block.more)
-        if machine.keys.anchor not in found.shafts:
+        if machine.keys.anchor not in found.shafts and not reader.problems:
             near = nearest(machine.keys.anchor, found.shafts)
             template = "is {name}, which is not one of the shafts{near}; they are {shafts}"
             found.fault(
@@ -307,7 +298,7 @@ class MachineParts:
 
     def _join(self, word: str, name: str, keys: Any, path: KeyPath, more: tuple[str, ...]) -> None:
         kind, first, second = SIDES[word]
-        sides: list[tuple[Part, ...]] = []
+        sides: list[tuple[ShaftPart, ...]] = []
         for key in (first, second):
             texts, _, number = key.partition(".")
             places = [int(number)] if number else range(len(getattr(keys, texts)))
@@ -315,10 +306,13 @@ class MachineParts:
             if None in found:
                 return
             sides.append(tuple(part for part in found if part is not None))
+        if any(one.shaft is other.shaft for one in sides[0] for other in sides[1]):
+            self.fault(path, "joins parts of one shaft; it drives one shaft by another")
+            return
         index = sum(each.word == word for each in self.joins)
         self.joins.append(Join(word, index, name, keys, path, more, sides[0], sides[1]))
 
-    def _named(self, text: str, kind: str, path: KeyPath) -> Part | None:
+    def _named(self, text: str, kind: str, path: KeyPath) -> ShaftPart | None:
         """The part that SHAFT.NAME names; None where there is none, which is noted."""
         shaft, _, name = text.partition(".")
         own = (
@@ -364,15 +358,15 @@ class MachineParts:
                         waiting.append(far)
         return routes.get(shaft, [])
 
-    def driving_join(self, shaft: Shaft) -> Join | None:
+    def driving_join(self, shaft: MachineShaft) -> Join | None:
         """Return the join by which a shaft is driven."""
         return next((each for each in self.joins if any(part.shaft is shaft for part in each.driven)), None)
 
-    def joins_of(self, part: Part) -> Iterator[Join]:
+    def joins_of(self, part: ShaftPart) -> Iterator[Join]:
         """Yield the joins that a part takes part in."""
         yield from (each for each in self.joins if part in (*each.drivers, *each.driven))
 
-    def motion_port(self, shaft: Shaft) -> Part | None:
+    def motion_port(self, shaft: MachineShaft) -> ShaftPart | None:
         """Return the part of the port whose mechanism moves the shaft's group to and fro, or in steps; None of one that turns steadily."""
         if shaft.name in self.ratios:
             return None
@@ -396,7 +390,7 @@ class MachineParts:
     # Where the shafts stand along their axes.
 
     @cached_property
-    def planes(self) -> list[tuple[Part, float, Part, float]]:
+    def planes(self) -> list[tuple[ShaftPart, float, ShaftPart, float]]:
         """Return what must lie in one plane: two parts, each with its plane from its shaft's left end, m."""
         found = [
             (each.drivers[0], each.drivers[0].keys.at, each.driven[0], each.driven[0].keys.at)

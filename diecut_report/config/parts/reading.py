@@ -80,7 +80,8 @@ class PartsReader:
         try:
             value: float = COORDINATE.validate(self._calculated(given, path, COORDINATE))
         except (ValueError, ConditionError) as fault:
-            self._fault(path, str(fault))
+            told = fault.words if isinstance(fault, ConditionError) else fault.args[0]
+            self.problems.append(ConfigPlace(self.tree).problem(path, told))
             return None
         return value
 
@@ -116,7 +117,7 @@ class PartsReader:
     def _pins(self, own: dict[str, Any], place: ConfigPlace, problems: list[Problem]) -> ConfigPlace:
         """Take the lists in the pins of the parts apart."""
         listed = dict(place.listed)
-        for index, part in enumerate(own.get("parts", ())):
+        for index, part in enumerate(own.get("parts") or ()):
             if isinstance(part, dict) and isinstance(part.get("pin"), dict):
                 home: KeyPath = ("parts", index, "pin")
                 inner, moved, faults = spread_out(PinKeys, part["pin"], ConfigPlace(self.tree, (*place.root, *home)))

@@ -6,17 +6,24 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 from math import pi
-from typing import Any, Literal
 
 from diecut_report.config.parts.elements import Elements
+from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
-from diecut_report.config.parts.model import SAME_PLACE, Join, MachineParts, Part, Shaft, catalogue_size, chain_pitch
+from diecut_report.config.parts.model import (
+    SAME_PLACE,
+    Join,
+    MachineParts,
+    MachineShaft,
+    ShaftPart,
+    catalogue_size,
+    chain_pitch,
+)
+from diecut_report.config.parts.naming import bores, designations, names, ports, strengths
 from diecut_report.config.validation import ConfigPlace
-from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_series, standard_table
-from diecut_report.text.phrases import Phrase
 
 RATIO = 1e-3  # relative, by which ratios may differ
 BELT_CENTER = 0.02  # relative, by which tensioning moves an axis
@@ -25,54 +32,14 @@ KEY_TO_FILLET = 0.1  # of the shaft's diameter
 WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
 WIDTH_TO_DIAMETER = 1.2  # of the pinion
 
-Level = Literal["error", "fail", "warning"]
-
-
-@dataclass(frozen=True)
-class Finding:
-    """Hold what a rule found: the rule, how grave it is, where it stands, against what, and what is said of it."""
-
-    rule: str
-    level: Level
-    path: KeyPath
-    message: str
-
-
-def mm(value: float) -> str:
-    """Return a length in mm as messages show it."""
-    return f"{value * 1e3:.6g} mm"
-
 
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
-    found = (
-        [each for rule in RULES for each in rule(parts)]
-        + list(_ratios(parts, elements))
-        + list(_typed_twice(parts, elements))
-    )
+    of_mechanisms = (rule(parts, elements) for rule in (ports, _ratios, _typed_twice))
+    found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
     place = ConfigPlace(parts.reader.tree)
     return [place.problem(each.path, each.message) for each in found if each.level == "error"]
-
-
-def _finding(
-    parts: MachineParts,
-    rule: str,
-    level: Level,
-    path: KeyPath,
-    template: str,
-    against: KeyPath | None = None,
-    **values: Any,
-) -> Finding:
-    text = Phrase(template, **values)
-    if against is None:
-        return Finding(rule, level, path, text)
-    return Finding(rule, level, path, Phrase("{text} (against {place})", text=text, place=parts.where(against)))
-
-
-def _hubs(parts: MachineParts) -> Iterator[tuple[Shaft, Part]]:
-    for shaft in parts.shafts.values():
-        yield from ((shaft, part) for part in shaft.parts if shaft.sections and part.kind != "load")
 
 
 # Seats, bores and places along a shaft.
@@ -80,7 +47,7 @@ def _hubs(parts: MachineParts) -> Iterator[tuple[Shaft, Part]]:
 
 def seat(parts: MachineParts) -> Iterator[Finding]:
     """A hub and a bearing stand on one section, on the shaft."""
-    for shaft, part in _hubs(parts):
+    for shaft, part in hubs(parts):
         start, end = part.ends
         section = part.section
         on_shaft = start >= -SAME_PLACE and end <= shaft.length + SAME_PLACE
@@ -88,7 +55,7 @@ def seat(parts: MachineParts) -> Iterator[Finding]:
             template = (
                 "stands from {start} to {end}, but the shaft goes from 0 to {length}; move it or make the shaft longer"
             )
-            yield _finding(
+            yield finding(
                 parts,
                 "seat",
                 "error",
@@ -105,17 +72,17 @@ def seat(parts: MachineParts) -> Iterator[Finding]:
             and not part.keys.integral
         ):
             template = "stands from {start} to {end}, but section {number} ({diameter}) goes from {first} to {last}; move it or lengthen the section"
-            yield _finding(parts, "seat", "error", (*part.path, "at"), template, (*shaft.path, "sections"), start=mm(start), end=mm(end),
+            yield finding(parts, "seat", "error", (*part.path, "at"), template, (*shaft.path, "sections"), start=mm(start), end=mm(end),
                 number=section.index + 1, diameter=mm(section.diameter), first=mm(section.start), last=mm(section.end))  # fmt: skip
 
 
 def bore(parts: MachineParts) -> Iterator[Finding]:
     """The bore of a bearing is the diameter of its seat or pin."""
-    for shaft, part in _hubs(parts):
+    for shaft, part in hubs(parts):
         own = part.size("d") if part.kind == "bearing" else None
         if own is not None and part.section is not None and abs(own - part.seat) > SAME_PLACE:
             template = "has a bore of {bore}, but sits on a diameter of {seat}; take a bearing of that bore, or change section {number}"
-            yield _finding(parts, "bore", "error", (*part.path, "designation"), template, (*shaft.path, "sections"), bore=mm(own), seat=mm(part.seat),
+            yield finding(parts, "bore", "error", (*part.path, "designation"), template, (*shaft.path, "sections"), bore=mm(own), seat=mm(part.seat),
                 number=part.section.index + 1)  # fmt: skip
         pin = part.keys.pin
         if pin is not None and pin.bearing is not None:
@@ -124,7 +91,7 @@ def bore(parts: MachineParts) -> Iterator[Finding]:
                 template = (
                     "has a bore of {bore}, but sits on a pin of {seat}; take a bearing of that bore, or change the pin"
                 )
-                yield _finding(parts, "bore", "error", (*part.path, "pin", "bearing"), template, (*part.path, "pin", "diameter"), bore=mm(inner),
+                yield finding(parts, "bore", "error", (*part.path, "pin", "bearing"), template, (*part.path, "pin", "diameter"), bore=mm(inner),
                     seat=mm(pin.diameter))  # fmt: skip
 
 
@@ -138,7 +105,7 @@ def overlap(parts: MachineParts) -> Iterator[Finding]:
         for one, other in pairwise(own) if shaft.sections else ():
             if other.ends[0] < one.ends[1] - SAME_PLACE:
                 template = "begins at {start}, but {name} ends at {end}; move one of them by {gap}"
-                yield _finding(parts, "overlap", "error", (*other.path, "at"), template, (*one.path, "at"), start=mm(other.ends[0]), name=one.name,
+                yield finding(parts, "overlap", "error", (*other.path, "at"), template, (*one.path, "at"), start=mm(other.ends[0]), name=one.name,
                     end=mm(one.ends[1]), gap=mm(one.ends[1] - other.ends[0]))  # fmt: skip
 
 
@@ -146,7 +113,7 @@ def overlap(parts: MachineParts) -> Iterator[Finding]:
 class _Cylinder:
     """A body as a cylinder about its axis."""
 
-    part: Part
+    part: ShaftPart
     radius: float
     start: float
     end: float
@@ -167,7 +134,7 @@ def _cylinders(parts: MachineParts) -> Iterator[_Cylinder]:
             yield _Cylinder(shaft.parts[0], thickest.diameter / 2, left + thickest.start, left + thickest.end)
 
 
-def _radius(parts: MachineParts, part: Part) -> float | None:
+def _radius(parts: MachineParts, part: ShaftPart) -> float | None:
     join = next(parts.joins_of(part), None)
     if join is not None:
         return join.radius(part)
@@ -176,7 +143,7 @@ def _radius(parts: MachineParts, part: Part) -> float | None:
     return None if part.keys.outside is None else part.keys.outside / 2
 
 
-def _body_width(parts: MachineParts, part: Part) -> float:
+def _body_width(parts: MachineParts, part: ShaftPart) -> float:
     join = next(parts.joins_of(part), None)
     return part.keys.width or (join.keys.width if join is not None and isinstance(join.keys, MeshKeys) else part.hub)
 
@@ -184,14 +151,17 @@ def _body_width(parts: MachineParts, part: Part) -> float:
 def planes(parts: MachineParts) -> Iterator[Finding]:
     """Bodies of two shafts that meet in a plane leave each other room, but where they mesh."""
     joined = {frozenset((one, other)) for join in parts.joins for one in join.drivers for other in join.driven}
+    found: set[frozenset[str]] = set()  # one body that reaches a shaft is said once
     for one, other in combinations(_cylinders(parts), 2):
-        if one.part.shaft is other.part.shaft or frozenset((one.part, other.part)) in joined:
+        shafts = frozenset((one.part.shaft.name, other.part.shaft.name))
+        if len(shafts) == 1 or shafts in found or frozenset((one.part, other.part)) in joined:
             continue
         distance = parts.distance(one.part.shaft.name, other.part.shaft.name)
         meet = min(one.end, other.end) - max(one.start, other.start) > SAME_PLACE
         if distance is not None and meet and distance < one.radius + other.radius - SAME_PLACE:
+            found.add(shafts)
             template = "has a radius of {radius} and reaches {other} ({other_radius}) in one plane: the axes are {distance} apart; move one of them"
-            yield _finding(parts, "overlap", "warning", one.part.path, template, other.part.path, radius=mm(one.radius), other=other.part.called,
+            yield finding(parts, "overlap", "warning", one.part.path, template, other.part.path, radius=mm(one.radius), other=other.part.called,
                 other_radius=mm(other.radius), distance=mm(distance))  # fmt: skip
 
 
@@ -201,21 +171,21 @@ def locating(parts: MachineParts) -> Iterator[Finding]:
         fixed = [part for part in shaft.bearings if not part.keys.floating]
         if shaft.is_rated and shaft.sections and len(shaft.bearings) != 2:
             template = "has {count} bearings; a shaft is calculated on two"
-            yield _finding(parts, "locating", "error", (*shaft.path, "parts"), template, count=len(shaft.bearings))
+            yield finding(parts, "locating", "error", (*shaft.path, "parts"), template, count=len(shaft.bearings))
         elif shaft.is_rated and shaft.sections and len(fixed) != 1:
             template = "has {count} bearings that hold it along its axis; exactly one is needed: write floating: true for the other"
-            yield _finding(parts, "locating", "error", (*shaft.path, "parts"), template, count=len(fixed))
+            yield finding(parts, "locating", "error", (*shaft.path, "parts"), template, count=len(fixed))
         for part in fixed if len(fixed) == 1 else ():
             if (part.keys.designation or "").upper().replace(" ", "").startswith(("NU", "N2", "N3", "N1")):
                 template = "is {designation}, which cannot hold the shaft along its axis; make it floating and let the other bearing do so"
-                yield _finding(
+                yield finding(
                     parts, "locating", "error", (*part.path, "designation"), template, designation=part.keys.designation
                 )
 
 
 def mounting(parts: MachineParts) -> Iterator[Finding]:
     """A part can be put on from one end: no section on the way is thicker than its bore."""
-    for shaft, part in _hubs(parts):
+    for shaft, part in hubs(parts):
         section = part.section
         if section is None or part.keys.integral or part.keys.rides_on:
             continue
@@ -224,7 +194,7 @@ def mounting(parts: MachineParts) -> Iterator[Finding]:
         sides = shaft.sections[:own], shaft.sections[own + 1 :]
         if all(any(each.diameter > inner + SAME_PLACE for each in side) for side in sides):
             template = "has a bore of {bore}, but sections on both sides are thicker: it cannot be put on; make one side thinner or the seat thicker"
-            yield _finding(
+            yield finding(
                 parts, "mounting", "error", (*part.path, "at"), template, (*shaft.path, "sections"), bore=mm(inner)
             )
 
@@ -236,19 +206,19 @@ def key(parts: MachineParts) -> Iterator[Finding]:
     """A key is no longer than its hub, of a standard length, on one section, and ends away from a fillet."""
     lengths = standard_series("din_6885_lengths")
     known = [value * unit(lengths.unit).factor for value in lengths.values]
-    for shaft, part in _hubs(parts):
+    for shaft, part in hubs(parts):
         if not part.keys.key or part.section is None:
             continue
         path, long = (*part.path, "key"), part.keys.key
         if part.keys.hub is not None and long > part.keys.hub + SAME_PLACE:
             template = "is {length} long, but its hub is {hub} long; take a key that is not longer than the hub"
-            yield _finding(
+            yield finding(
                 parts, "key", "error", path, template, (*part.path, "hub"), length=mm(long), hub=mm(part.keys.hub)
             )
         if not any(abs(long - each) <= SAME_PLACE for each in known):
             nearest_two = sorted(known, key=lambda each: abs(each - long))[:2]
             template = "is {length} long, which is not a length of DIN 6885-1; take {lengths}"
-            yield _finding(
+            yield finding(
                 parts,
                 "key",
                 "error",
@@ -260,19 +230,19 @@ def key(parts: MachineParts) -> Iterator[Finding]:
         yield from _key_on_section(parts, shaft, part, long)
 
 
-def _key_on_section(parts: MachineParts, shaft: Shaft, part: Part, long: float) -> Iterator[Finding]:
+def _key_on_section(parts: MachineParts, shaft: MachineShaft, part: ShaftPart, long: float) -> Iterator[Finding]:
     section, path = part.section, (*part.path, "key")
     assert section is not None, "it is looked up before"
     start, end = part.keys.at - long / 2, part.keys.at + long / 2
     if start < section.start - SAME_PLACE or end > section.end + SAME_PLACE:
         template = "goes from {start} to {end}, but its section ends at {first} and {last}; take a shorter key"
-        yield _finding(parts, "key", "error", path, template, (*shaft.path, "sections"), start=mm(start), end=mm(end), first=mm(section.start),
+        yield finding(parts, "key", "error", path, template, (*shaft.path, "sections"), start=mm(start), end=mm(end), first=mm(section.start),
             last=mm(section.end))  # fmt: skip
         return
     bearing = long - key_width(section.diameter) if part.keys.key_form == "A" else long
     if bearing > LONGEST_KEY * section.diameter + SAME_PLACE:
         template = "bears over {length}, more than {share} times the diameter {diameter}: the torque enters at its end; take a shorter key"
-        yield _finding(
+        yield finding(
             parts,
             "key",
             "warning",
@@ -288,7 +258,7 @@ def _key_on_section(parts: MachineParts, shaft: Shaft, part: Part, long: float) 
     near = min(steps, default=near + section.diameter)
     if near < KEY_TO_FILLET * section.diameter - SAME_PLACE:
         template = "ends {distance} from a step, less than a tenth of the diameter {diameter}: both notches act together; move or shorten it"
-        yield _finding(
+        yield finding(
             parts,
             "key",
             "warning",
@@ -330,17 +300,17 @@ def wall(parts: MachineParts) -> Iterator[Finding]:
             if left < WALL_WARNED * module * (1 - 1e-9):
                 level: Level = "error" if left < WALL_LEAST * module else "warning"
                 template = "leaves {left} between teeth and keyway, {modules} modules; {wanted} are wanted: take a larger gear or a thinner seat"
-                yield _finding(parts, "wall", level, part.path, template, (*join.path, "module"), left=mm(left), modules=f"{left / module:.3g}",
+                yield finding(parts, "wall", level, part.path, template, (*join.path, "module"), left=mm(left), modules=f"{left / module:.3g}",
                     wanted=WALL_WARNED)  # fmt: skip
 
 
 def torque_carried(parts: MachineParts) -> Iterator[Finding]:
     """What takes a torque from its shaft, or gives it one, is keyed, pressed on, cut on it or bolted."""
-    for part in (part for _, part in _hubs(parts)):
+    for part in (part for _, part in hubs(parts)):
         takes = bool(list(parts.joins_of(part))) or part.port is not None
         if takes and part.kind != "bearing" and not part.is_carried:
             template = "carries a torque, but nothing joins it to the shaft; give key, interference, integral: true or bolted: true"
-            yield _finding(parts, "torque_carried", "fail", part.path, template)
+            yield finding(parts, "torque_carried", "fail", part.path, template)
 
 
 # Axes and what joins the shafts.
@@ -361,7 +331,7 @@ def center(parts: MachineParts) -> Iterator[Finding]:
             allowed, what = chain_pitch(join.keys) / 2, "links"
         if abs(there - wanted) > allowed:
             template = "puts the axes {wanted} apart, but in the frame {one} and {other} are {there} apart; move an axis or change {what}"
-            yield _finding(parts, "center", "error", join.path, template, ("machine", "frame", other), wanted=mm(wanted), one=one, other=other,
+            yield finding(parts, "center", "error", join.path, template, ("machine", "frame", other), wanted=mm(wanted), one=one, other=other,
                 there=mm(there), what=what)  # fmt: skip
 
 
@@ -391,7 +361,7 @@ def frame(parts: MachineParts) -> Iterator[Finding]:
             there = parts.distance(ports[first].shaft.name, ports[second].shaft.name)
             if there is not None and abs(there - wanted) > SAME_PLACE:
                 template = "wants the axes of {one} and {other} {wanted} apart, but in the frame they are {there} apart; move an axis"
-                yield _finding(parts, "frame", "error", ("mechanisms", name), template, ("machine", "frame", ports[second].shaft.name),
+                yield finding(parts, "frame", "error", ("mechanisms", name), template, ("machine", "frame", ports[second].shaft.name),
                     one=ports[first].shaft.name, other=ports[second].shaft.name, wanted=mm(wanted), there=mm(there))  # fmt: skip
 
 
@@ -402,11 +372,11 @@ def mesh_pair(parts: MachineParts) -> Iterator[Finding]:
         for part in (*join.drivers, *join.driven):
             if part.keys.hub is not None and join.keys.width > part.keys.hub + SAME_PLACE:
                 template = "is {width} wide, but the hub of {name} is {hub} long; make the hub at least as long"
-                yield _finding(parts, "mesh_pair", "error", (*join.path, "width"), template, (*part.path, "hub"), width=mm(join.keys.width),
+                yield finding(parts, "mesh_pair", "error", (*join.path, "width"), template, (*part.path, "hub"), width=mm(join.keys.width),
                     name=part.called, hub=mm(part.keys.hub))  # fmt: skip
         if join.keys.width > WIDTH_TO_DIAMETER * pinion + SAME_PLACE:
             template = "is {width} wide, more than {share} times the pinion's diameter {diameter}: the teeth do not bear evenly; take a narrower pair"
-            yield _finding(parts, "mesh_pair", "warning", (*join.path, "width"), template, width=mm(join.keys.width), share=WIDTH_TO_DIAMETER,
+            yield finding(parts, "mesh_pair", "warning", (*join.path, "width"), template, width=mm(join.keys.width), share=WIDTH_TO_DIAMETER,
                 diameter=mm(pinion))  # fmt: skip
     for one, here, other, there in parts.planes:
         lefts = parts.lefts
@@ -416,7 +386,7 @@ def mesh_pair(parts: MachineParts) -> Iterator[Finding]:
                 template = (
                     "stands {apart} beside {name}, with which it works; give left of one of the shafts, or move a part"
                 )
-                yield _finding(
+                yield finding(
                     parts,
                     "mesh_pair",
                     "error",
@@ -434,7 +404,7 @@ def sector(parts: MachineParts) -> Iterator[Finding]:
         whole = max(join.keys.teeth_1, join.keys.teeth_2)
         if join.keys.teeth_present > 2 * whole / 3:
             template = "is {teeth}, more than two thirds of the {whole} teeth of the full circle; a sector has fewer"
-            yield _finding(
+            yield finding(
                 parts,
                 "sector",
                 "error",
@@ -450,7 +420,7 @@ def chain(parts: MachineParts) -> Iterator[Finding]:
     for join in (each for each in parts.joins if isinstance(each.keys, ChainKeys)):
         if join.keys.links % 2:
             template = "is {links}, which needs a cranked link; take an even number"
-            yield _finding(parts, "chain", "warning", (*join.path, "links"), template, links=join.keys.links)
+            yield finding(parts, "chain", "warning", (*join.path, "links"), template, links=join.keys.links)
 
 
 def _ratios(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
@@ -462,7 +432,7 @@ def _ratios(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             there = abs(parts.ratios[shaft.name])
             if abs(there / float(wanted) - 1) > RATIO:
                 template = "turns {there} times a sheet by the teeth, but {mechanism} turns {wanted} times a sheet; change teeth or turns_per_sheet"
-                yield _finding(
+                yield finding(
                     parts,
                     "ratio",
                     "error",
@@ -478,11 +448,12 @@ def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """What follows from the parts is not typed otherwise in the block of a mechanism."""
     for name, fills in elements.fills.items():
         block = elements.blocks.get(name, {})
-        for key_ in fills.keys() & block.keys():
+        for given in fills.keys() & block.keys():
             template = "is given here, but follows from the parts; remove the key"
-            yield _finding(parts, "typed_twice", "error", ("mechanisms", name, key_), template)
+            yield finding(parts, "typed_twice", "error", ("mechanisms", name, given), template)
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
-    seat, bore, overlap, planes, locating, mounting, key, wall, torque_carried, center, frame, mesh_pair, sector, chain,
+    names, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall, torque_carried, center, frame,
+    mesh_pair, sector, chain,
 )  # fmt: skip

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from math import atan2, cos, degrees, sin
 from typing import Any
 
-from diecut_report.config.parts.demands import Number, Ratio, Typed, millimetres
+from diecut_report.config.parts.demands import Ratio, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import LOOSE
 from diecut_report.config.parts.masses import Masses
-from diecut_report.config.parts.model import Join, Part, Shaft
+from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.mechanism import Port
 
@@ -20,7 +20,7 @@ NOTHING = 1e-9  # share of a force below which it has no part in a direction
 class ShaftElements(Masses):
     """Make the calculations of the shafts."""
 
-    def _loads(self, shaft: Shaft) -> None:
+    def _loads(self, shaft: MachineShaft) -> None:
         torques = [each | {"ratio": each["ratio"].text} for each in self.torques_of(shaft)]
         forces = [force for part in shaft.parts for force in (*self._port_forces(part), *self._chain_forces(part))]
         inputs: dict[str, Any] = {"main_turns": self.cycle(shaft.name)}
@@ -37,7 +37,7 @@ class ShaftElements(Masses):
         if len(inputs) > 1:
             self._add(f"shafts_{shaft.name}_loads", "shaft_loads", inputs, shaft.path)
 
-    def _port_forces(self, part: Part) -> Iterator[dict[str, Any]]:
+    def _port_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         port = self.port(part)
         for direction, curve in zip("yz", port.forces if port else (), strict=False):
             found = self._source(
@@ -45,7 +45,7 @@ class ShaftElements(Masses):
             )
             yield found | {"ratio": found["ratio"].text}
 
-    def _chain_forces(self, part: Part) -> Iterator[dict[str, Any]]:
+    def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The pull of a chain on its sprocket, towards the other one, or along the frame's x where the chain runs over idlers."""
         join = next((each for each in self.parts.joins_of(part) if each.word == "chains"), None)
         pull = None if join is None else self._moved(join, len(join.drivers))
@@ -64,7 +64,7 @@ class ShaftElements(Masses):
                 yield pull | {"name": f"{part.name}_{direction}", "ratio": Ratio(number, pull["ratio"].factors).text, "absolute": True,
                     "lever": f"${{drive_line.{join.name}_chain_travel}} / 1 rad"} | constant  # fmt: skip
 
-    def _shaft(self, shaft: Shaft) -> None:
+    def _shaft(self, shaft: MachineShaft) -> None:
         home = f"shafts_{shaft.name}"
         has_loads = self.is_made(f"{home}_loads")
         bearings = shaft.bearings
@@ -73,7 +73,7 @@ class ShaftElements(Masses):
         first, second = bearings
         inputs: dict[str, Any] = {
             "sections": [self._section(shaft, index) for index in range(len(shaft.sections))],
-            "bearing_a": Typed((*first.path, "at")), "bearing_b": Typed((*second.path, "at")),
+            "bearing_a": TypedValue((*first.path, "at")), "bearing_b": TypedValue((*second.path, "at")),
             "seat_a": self._seat(first), "seat_b": self._seat(second), "locating": "b" if first.keys.floating else "a",
             "loads": [load for part in shaft.parts if part.kind != "bearing" for load in self._load(part)],
         }  # fmt: skip
@@ -82,7 +82,7 @@ class ShaftElements(Masses):
             inputs["loads"].append(
                 {
                     "name": "inertia",
-                    "position": Typed((*place.path, "at")),
+                    "position": TypedValue((*place.path, "at")),
                     "torque": f"${{{home}_loads.inertia_torque}}",
                     "seat": "none",
                 }
@@ -90,30 +90,30 @@ class ShaftElements(Masses):
         if notches := [notch for part in shaft.parts for notch in self._notches(part)]:
             inputs["notches"] = notches
         if self.parts.keys.shaft_material and not {"material", "tensile_strength"} & set(shaft.more):
-            inputs["material"] = Typed(("machine", "shaft_material"))
+            inputs["material"] = TypedValue(("machine", "shaft_material"))
         if self.parts.keys.surface and "surface" not in shaft.more:
-            inputs["surface"] = Typed(("machine", "surface"))
+            inputs["surface"] = TypedValue(("machine", "surface"))
         if shaft.name in self.parts.ratios:
             turns = self.turns(shaft.name) * self.cycle(shaft.name)
             inputs |= {"speed": self.speed(shaft.name), "turns_per_cycle": int(turns)}
         else:
             inputs["rotation"] = f"${{{home}_loads.shaft_angle}}"
-        inputs |= {key: Typed((*shaft.path, key)) for key in shaft.more}
+        inputs |= {key: TypedValue((*shaft.path, key)) for key in shaft.more}
         self._add(home, "shaft", inputs, shaft.path)
 
-    def _seat(self, part: Part) -> str:
+    def _seat(self, part: ShaftPart) -> str:
         return "loose" if part.keys.fit in LOOSE else "tight"
 
-    def _notches(self, part: Part) -> Iterator[dict[str, Any]]:
+    def _notches(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         if part.keys.key:
             kind = "keyseat_pair" if part.keys.key_count > 1 else "keyseat_end_mill"
             for end in (-1, 1):
-                place = Number(millimetres(part.keys.at + end * part.keys.key / 2), (*part.path, "at"))
+                place = TypedNumber(millimetres(part.keys.at + end * part.keys.key / 2), (*part.path, "at"))
                 yield {"position": place, "type": kind}
 
-    def _load(self, part: Part) -> Iterator[dict[str, Any]]:
+    def _load(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         loads = f"shafts_{part.shaft.name}_loads"
-        found: dict[str, Any] = {"name": part.name, "position": Typed((*part.path, "at"))}
+        found: dict[str, Any] = {"name": part.name, "position": TypedValue((*part.path, "at"))}
         if part.keys.integral or part.keys.rides_on:
             found["seat"] = "none"
         elif self._seat(part) == "loose":
@@ -125,7 +125,7 @@ class ShaftElements(Masses):
         for force in (*self._port_forces(part), *self._chain_forces(part)):
             found[f"force_{force['name'][-1]}"] = f"${{{loads}.{force['name']}_force}}"
         if abs(part.plane - part.keys.at) > 0 and "force_y" in found:
-            found["offset"] = Number(millimetres(part.plane - part.keys.at), (*part.path, "at"))
+            found["offset"] = TypedNumber(millimetres(part.plane - part.keys.at), (*part.path, "at"))
         if (gear := self._gear(part)) and "torque" in found:
             found["gear"] = gear
         found |= self._belt_force(part)
@@ -135,17 +135,17 @@ class ShaftElements(Masses):
                 if self._disc(part)
                 else self._given_mass(part)
             )
-        found |= {key: Typed((*part.path, key)) for key in part.more if key not in ("mass", "inertia")}
+        found |= {key: TypedValue((*part.path, key)) for key in part.more if key not in ("mass", "inertia")}
         yield found
 
-    def _balances(self, part: Part) -> bool:
+    def _balances(self, part: ShaftPart) -> bool:
         """Whether the torque on a part balances all others on its shaft: it is driven there."""
         if not self.torques_of(part.shaft):
             return False
         driving = self.parts.driving_join(part.shaft)
         return part is (driving.driven[0] if driving is not None else self.parts.motion_port(part.shaft))
 
-    def _gear(self, part: Part) -> dict[str, Any] | None:
+    def _gear(self, part: ShaftPart) -> dict[str, Any] | None:
         join = next((each for each in self.parts.joins_of(part) if each.word == "meshes"), None)
         if join is None:
             return None
@@ -157,16 +157,16 @@ class ShaftElements(Masses):
         angle = degrees(atan2(v - y, u - x))
         return {
             "pitch_radius": self._pitch_radius(join, part),
-            "mesh_angle": Number(f"{angle:.10g} deg", ("machine", "frame")),
+            "mesh_angle": TypedNumber(f"{angle:.10g} deg", ("machine", "frame")),
         }
 
     @staticmethod
-    def _pitch_radius(join: Join, part: Part) -> str:
+    def _pitch_radius(join: Join, part: ShaftPart) -> str:
         """The pitch radius of a gear, as an expression."""
         radius = f"${{{join.home}.module}} * ${{{join.home}.teeth_{1 if part in join.drivers else 2}}} / 2"
         return f"{radius} / {cos(join.keys.helix_angle):.15g}" if join.keys.helix_angle else radius
 
-    def _belt_force(self, part: Part) -> dict[str, Any]:
+    def _belt_force(self, part: ShaftPart) -> dict[str, Any]:
         join = next((each for each in self.parts.joins_of(part) if each.word == "belts"), None)
         train = self.named("drive_train")
         if join is None or train is None:
@@ -179,7 +179,7 @@ class ShaftElements(Masses):
             key: f"${{{train}.shaft_load}} * ({share:.12g})" for key, share in shares.items() if abs(share) > NOTHING
         }
 
-    def _bearings(self, shaft: Shaft) -> None:
+    def _bearings(self, shaft: MachineShaft) -> None:
         home = f"shafts_{shaft.name}"
         pairs = zip(shaft.bearings, "ab", strict=False) if self.is_made(home) else ()
         rows = [self._bearing(part, end) for part, end in pairs]
@@ -187,15 +187,15 @@ class ShaftElements(Masses):
         if rows:
             inputs: dict[str, Any] = {"bearings": rows}
             if self.parts.keys.required_life:
-                inputs["required_life"] = Typed(("machine", "required_life"))
+                inputs["required_life"] = TypedValue(("machine", "required_life"))
             self._add(f"{home}_bearings", "rolling_bearing", inputs, shaft.path)
 
-    def _bearing(self, part: Part, end: str) -> dict[str, Any]:
+    def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
         home = f"shafts_{part.shaft.name}"
         found = self._catalogued(
             part.name,
             str(part.keys.designation),
-            {key: Typed((*part.path, key)) for key in part.more},
+            {key: TypedValue((*part.path, key)) for key in part.more},
             (*part.path, "designation"),
         )
         return (
@@ -206,9 +206,9 @@ class ShaftElements(Masses):
 
     def _catalogued(self, name: str, designation: str, more: dict[str, Any], path: KeyPath) -> dict[str, Any]:
         kind = "roller" if designation.startswith(ROLLER_SERIES) else "deep_groove"
-        return {"name": name, "type": kind, "designation": Typed(path)} | more
+        return {"name": name, "type": kind, "designation": TypedValue(path)} | more
 
-    def _relative(self, shaft: Shaft) -> dict[str, Any]:
+    def _relative(self, shaft: MachineShaft) -> dict[str, Any]:
         """How the rings of a shaft's bearings turn."""
         if shaft.name in self.parts.ratios:
             return {"speed": self.speed(shaft.name)}
@@ -217,26 +217,26 @@ class ShaftElements(Masses):
             "cycle_speed": f"{self.reference_speed} / {self.cycle(shaft.name)}",
         }
 
-    def _key(self, part: Part) -> None:
+    def _key(self, part: ShaftPart) -> None:
         loads = f"shafts_{part.shaft.name}_loads"
         torque = self._passed(part)
         if not part.keys.key or part.section is None or torque is None or not self.is_made(loads):
             return
         home = f"shafts_{part.shaft.name}"
         inputs: dict[str, Any] = {
-            "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": Typed((*part.path, "key")),
+            "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": TypedValue((*part.path, "key")),
             "torque": torque, "cycle_speed": f"{self.reference_speed} / {self.cycle(part.shaft.name)}",
             "form": part.keys.key_form, "key_count": part.keys.key_count, "yield_shaft": f"${{{home}.yield_strength}}",
         }  # fmt: skip
         if part.keys.hub is not None:
-            inputs["hub_length"] = Typed((*part.path, "hub"))
+            inputs["hub_length"] = TypedValue((*part.path, "hub"))
         if self.parts.keys.gears.hub_yield:
-            inputs["yield_hub"] = Typed(("machine", "gears", "hub_yield"))
+            inputs["yield_hub"] = TypedValue(("machine", "gears", "hub_yield"))
         if self.parts.keys.required_life:
-            inputs["required_life"] = Typed(("machine", "required_life"))
+            inputs["required_life"] = TypedValue(("machine", "required_life"))
         self._add(f"{home}_{part.name}_key", "parallel_key", inputs, part.path)
 
-    def _passed(self, part: Part) -> str | None:
+    def _passed(self, part: ShaftPart) -> str | None:
         """The torque that passes the key of a part: its own, or that of the part which rides on it."""
         loads = f"shafts_{part.shaft.name}_loads"
         riders = [each for each in part.shaft.parts if each.keys.rides_on == part.name]
@@ -247,7 +247,7 @@ class ShaftElements(Masses):
                 return f"${{{loads}.balance}}"
         return None
 
-    def _pin(self, part: Part) -> None:
+    def _pin(self, part: ShaftPart) -> None:
         pin, port = part.keys.pin, self.port(part)
         if pin is None or port is None or not part.port or not port.joint[0]:
             return
@@ -259,14 +259,14 @@ class ShaftElements(Masses):
             supports = (pin.span_start or 0.0, pin.span_end or 0.0)
             length, plane = sum(supports), pin.plane
         inputs: dict[str, Any] = {
-            "sections": [{"length": Number(millimetres(length), path), "diameter": Typed((*path, "diameter"))}],
-            "bearing_a": Number(millimetres(supports[0]), path), "bearing_b": Number(millimetres(supports[1]), path),
-            "loads": [{"name": "joint", "position": Number(millimetres(plane), path), "seat": "loose"} | self._joint_force(mechanism, port)],
+            "sections": [{"length": TypedNumber(millimetres(length), path), "diameter": TypedValue((*path, "diameter"))}],
+            "bearing_a": TypedNumber(millimetres(supports[0]), path), "bearing_b": TypedNumber(millimetres(supports[1]), path),
+            "loads": [{"name": "joint", "position": TypedNumber(millimetres(plane), path), "seat": "loose"} | self._joint_force(mechanism, port)],
         }  # fmt: skip
         if pin.held is not None:
-            inputs["notches"] = [{"position": Number(millimetres(pin.held), path), "type": "press_fit"}]
+            inputs["notches"] = [{"position": TypedNumber(millimetres(pin.held), path), "type": "press_fit"}]
         if self.parts.keys.shaft_material:
-            inputs["material"] = Typed(("machine", "shaft_material"))
+            inputs["material"] = TypedValue(("machine", "shaft_material"))
         inputs |= (
             {"rotation": f"${{{mechanism}.{port.joint[1]}}}"}
             if port.joint[1]
@@ -281,7 +281,7 @@ class ShaftElements(Masses):
             return {"force_y": f"${{{mechanism}.{port.joint[0]}}}"}
         return {f"force_{axis}": f"${{{mechanism}.{curve}}}" for axis, curve in zip("yz", port.forces, strict=False)}
 
-    def _pin_bearing(self, part: Part) -> dict[str, Any] | None:
+    def _pin_bearing(self, part: ShaftPart) -> dict[str, Any] | None:
         pin, port = part.keys.pin, self.port(part)
         if pin is None or pin.bearing is None or port is None or not part.port or not port.joint[0]:
             return None

@@ -69,13 +69,13 @@ def test_places_and_distances_are_those_of_the_sheet() -> None:
     ],
 )  # fmt: skip
 def test_masses_and_inertias_are_those_of_the_sheet(shaft: str, mass: str, inertia: str) -> None:
-    body = calculated("shaft_body", "drive_line").calculations[f"shafts_{shaft}_body"]
+    body = calculated("shaft_body", "drive_line", "cylinder_sizing").calculations[f"shafts_{shaft}_body"]
     assert f"{float(body['mass'][0, 0]):.4g}" == f"{float(mass):.4g}"
     assert f"{float(body['inertia'][0, 0]):.4g}" == f"{float(inertia):.4g}"
 
 
 def test_the_speed_of_a_shaft_is_that_of_the_anchor_times_the_ratios_of_the_teeth() -> None:
-    line = calculated("shaft_body", "drive_line").calculations["drive_line"]
+    line = calculated("shaft_body", "drive_line", "cylinder_sizing").calculations["drive_line"]
     speeds = dict(zip(line.inputs["shafts.name"], line["speed"][0], strict=True))
     assert speeds["crank"] == pytest.approx(speeds["main"] * 24 / 48)
     assert speeds["flywheel"] == pytest.approx(speeds["main"] * 87 / 18)
@@ -85,7 +85,7 @@ def test_the_speed_of_a_shaft_is_that_of_the_anchor_times_the_ratios_of_the_teet
 def test_what_is_found_in_the_example_is_the_clutch_in_the_plane_of_the_main_shaft() -> None:
     assert [(each.rule, each.level) for each in parts().findings] == [("overlap", "warning")]
     (text,) = (str(each.message) for each in parts().findings)
-    assert "180 mm" in text and "crank.clutch" in text + str(parts().findings[0].path)
+    assert "180 mm" in text and "crank.clutch" in text
 
 
 def test_the_travel_of_the_chain_differs_from_the_radius_of_the_cylinder_as_the_sheet_says() -> None:
@@ -142,7 +142,7 @@ def test_a_part_that_nothing_joins_to_its_shaft_fails() -> None:
         ("2 * ${meshes.sector.center_distance}", "2 * ${drive_line.sector_center_distance}"),
         ("${chains.grippers.mass}", "${drive_line.grippers_chain_mass}"),
         ("${belts.motor.ratio}", "${drive_line.motor_belt_ratio}"),
-        ("${machine.inertia}", "${machine.inertia}"),
+        ("${machine.inertia}", "${machine_inertia.inertia}"),
     ],
 )
 def test_a_reference_to_a_part_stands_for_what_is_calculated_of_it(reference: str, stands_for: str) -> None:
