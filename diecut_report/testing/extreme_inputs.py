@@ -92,13 +92,13 @@ def alone_with_its_needs(config: Config, name: str) -> dict[str, Any]:
     return dict(data)
 
 
-def with_value(config: Mapping[str, Any], key: KeyPath, value: Any) -> str:
-    """Return a configuration with another value as a text."""
+def with_value(config: Mapping[str, Any], key: KeyPath, value: Any, unit: str = "1") -> str:
+    """Return a configuration with another value as a text; a number with its unit, so that nobody asks which one is meant."""
     changed = json.loads(json.dumps(config))
     home: Any = changed
     for part in key[:-1]:
-        home = home[part]
-    home[key[-1]] = value
+        home = home.setdefault(part, {}) if isinstance(home, dict) else home[part]
+    home[key[-1]] = value if unit == "1" else f"{value!r} {unit}"
     return json.dumps(changed)
 
 
@@ -145,23 +145,26 @@ class TriedExtremes:
         return alone_with_its_needs(self.config, self.name)
 
     @cached_property
-    def cases(self) -> tuple[list[tuple[KeyPath, Extreme]], int]:
-        """Return the values that are tried, each with its input, and how many there are."""
+    def cases(self) -> tuple[list[tuple[KeyPath, Extreme, str]], int]:
+        """Return the values that are tried, each with its input and unit, and how many there are."""
         kind = self.config.kinds[self.name]
         of_it = self.discovery.mechanism(kind).inputs, self.data["mechanisms"][self.name], ("mechanisms", self.name)
         inputs = [(path, quantity) for path, quantity in numeric_inputs(*of_it) if path[-1] != "n_points"]
-        numbers = [(path, each) for path, quantity in inputs for each in dict.fromkeys(extreme_values(quantity))]
-        lists = list(empty_lists(*of_it))
+        numbers = [
+            (path, each, quantity.unit) for path, quantity in inputs for each in dict.fromkeys(extreme_values(quantity))
+        ]
+        lists = [(path, each, "1") for path, each in empty_lists(*of_it)]
         some = numbers if len(numbers) <= EXTREMES else random.Random(SEED).sample(numbers, EXTREMES)
         return [*lists, *some], len(lists) + len(numbers)
 
     def faults(self) -> Iterator[tuple[KeyPath, str]]:
         """Try the values, as many as there is time for; yield what is wrong with what comes of them."""
         folder, press, ends = Path(self.config.tree.file).parent, WarmPress(), time.process_time() + BUDGET
-        for path, value in self.cases[0]:
+        for path, value, unit in self.cases[0]:
             if time.process_time() > ends:
                 return
-            found = outcome_of(with_value(self.data, path, value), self.discovery, press, lambda name: folder / name)
+            text = with_value(self.data, path, value, unit)
+            found = outcome_of(text, self.discovery, press, lambda name: folder / name)
             if found.fault:
                 given = str(value) if isinstance(value, list) else f"{value:g}"
                 yield path, Phrase("with {value}: {fault}", value=given, fault=found.fault)

@@ -214,7 +214,7 @@ def test_without_a_kind_the_kinds_are_listed_a_line_each(capfd: Capture) -> None
     assert main(["new"]) == 0
     lines = capfd.readouterr().out.splitlines()
     assert "clutch              Friction clutch with a wedge-spread shoe ring" in lines
-    assert len(lines) == 18
+    assert len(lines) == 22
     assert main(["new", "--language", "uk"]) == 0
     assert "clutch              Фрикційна муфта" in capfd.readouterr().out
 

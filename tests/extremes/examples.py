@@ -10,6 +10,7 @@ from typing import Any
 from diecut_report.config.model import PressBlock
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.inputs import Quantity
+from diecut_report.testing.extreme_inputs import with_value
 from tests.extremes.harness import Extreme, judged, quantities, values
 from tests.plugins.cases import CONFIGS, OF_KINDS
 
@@ -31,7 +32,7 @@ def example_extremes(stem: str, home: str) -> Iterator[Extreme]:
     )
     for key, quantity in of_it:
         if key[-1] != "n_points":
-            yield from (Extreme((stem,), key, value) for value in accepted_ends(quantity))
+            yield from (Extreme((stem,), key, value, quantity.unit) for value in accepted_ends(quantity))
 
 
 def new_extremes(stem: str, home: str) -> Iterator[Extreme]:
@@ -74,12 +75,7 @@ def _like(one: tuple[str, str], other: tuple[str, str]) -> bool:
 
 def example_fault(case: Extreme) -> str | None:
     """What is wrong with the press, or None where all is numbers, or it is refused in words."""
-    config = _data(*case.home)
-    home: Any = config
-    for part in case.key[:-1]:
-        home = home.setdefault(part, {}) if isinstance(home, dict) else home[part]
-    home[case.key[-1]] = case.value
-    return judged(json.dumps(config))
+    return judged(with_value(_data(*case.home), case.key, case.value, case.unit))
 
 
 def _data(stem: str) -> dict[str, Any]:

@@ -28,6 +28,7 @@ class Extreme(NamedTuple):
     home: tuple[str, ...]
     key: KeyPath
     value: float | int
+    unit: str = "1"
 
     @property
     def name(self) -> str:
@@ -43,7 +44,7 @@ def extremes(kind: str, *, short: bool = False) -> Iterator[Extreme]:
         for key, quantity in (*quantities(OF_KINDS[kind].inputs, config["mechanisms"]["a"], ("mechanisms", "a")),
                               *(quantities(PressBlock, config["press"], ("press",)) if from_press(kind) else ())):  # fmt: skip
             for value in dict.fromkeys(map(repr, values(quantity))):
-                yield Extreme((kind, machine), key, json.loads(value))
+                yield Extreme((kind, machine), key, json.loads(value), quantity.unit)
 
 
 def _can_be_written(keys: dict[str, Any]) -> bool:
@@ -69,7 +70,7 @@ def fault(case: Extreme) -> str | None:
     config = _config(kind, FULL[kind][machine])
     for name in from_press(kind) if case.key[0] == "press" else ():
         config["mechanisms"]["a"].pop(name, None)
-    return judged(with_value(config, case.key, case.value))
+    return judged(with_value(config, case.key, case.value, case.unit))
 
 
 def from_press(kind: str) -> list[str]:

@@ -40,14 +40,14 @@ def config(folder: Path, keys: dict[str, Any], changes: dict[str, Any]) -> Path:
     return saved(folder, f"{HEAD}{beside}  f:\n    kind: elastic_follower\n{own}")
 
 
-def stiffness(ratio: float) -> float:
+def stiffness(ratio: float) -> str:
     """The stiffness with so many natural periods within 0.2 s."""
-    return float(0.8 * (2 * np.pi * ratio / 0.2) ** 2)
+    return f"{0.8 * (2 * np.pi * ratio / 0.2) ** 2!r} N*m/rad"
 
 
 REFUSED = [
     (TURNING, {"stiffness": 0}, "f.stiffness: 0 N·m/rad is out of range; allowed: > 0 N·m/rad"),
-    (TURNING, {"stiffness": -3}, "f.stiffness: -3 N·m/rad is out of range"),
+    (TURNING, {"stiffness": "-3 N*m/rad"}, "f.stiffness: -3 N·m/rad is out of range"),
     (TURNING, {"stiffness": None}, "f.stiffness: is missing. Give it in N·m/rad"),
     (TURNING, {"inertia": 0}, "f.inertia: 0 kg·m² is out of range"),
     (SLIDING, {"mass": 0}, "f.mass: 0 kg is out of range"),

@@ -125,7 +125,10 @@ def test_all_that_is_wrong_with_the_question_is_told_at_once_and_without_lines(p
         "outputs.0",
         "constraints.0",
     } == set(told)
-    assert told["vary.mechanisms.a.arm.1"] == "vary.mechanisms.a.arm.1: 2 m is out of range; allowed: > 0 mm, ≤ 1000 mm"
+    assert (
+        told["vary.mechanisms.a.arm.1"]
+        == "vary.mechanisms.a.arm.1: 2 m is out of range; allowed: > 0 mm, ≤ 1000 mm. Is 2 mm meant?"
+    )
 
 
 @pytest.mark.parametrize(

@@ -91,7 +91,7 @@ WRONG = [
     ("(bore < height) + 1 < 2", "the calculated side is a condition; a quantity is needed"),
     ("mechanisms.a.nothing < 3", "“mechanisms.a.nothing” is unknown"),
     ("heigth < '3 mm'", "“heigth” is not a path of an input; write the whole path of an input, such as mechanisms.NAME.KEY"),
-    ("bore % height < height", "'% mechanis' is not allowed here; allowed: names, numbers, quantities and texts in quotes"),
+    ("bore % height < height", "'%' is not allowed here; allowed: names, numbers, quantities and texts in quotes"),
     ("bore.real < height", "“mechanisms.a.bore.real” is unknown"),
     ("abs(x=bore) < height", "“x” is not a path of an input"),
     ("bore < True", "true is a condition; a quantity is needed"),
