@@ -50,4 +50,4 @@ meshes:
 mechanisms:
   stamp: {kind: stamp, radius: 40 mm, force: 800 N, crank_speed: 60 rpm}
 """
-GIVES = {"stamp.mean_torque": "16 N*m", "machine.mass": "16.18 kg"}
+GIVES = {"stamp.mean_torque": "16 N*m", "machine_inertia.mass": "16.18 kg"}
