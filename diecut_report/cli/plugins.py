@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import webbrowser
 from collections.abc import Iterator, Mapping, Sequence
+from importlib import resources
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import TYPE_CHECKING
@@ -34,7 +35,7 @@ from diecut_report.cli.output import (
 from diecut_report.config import yaml
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery, DuplicateKind
-from diecut_report.errors import PluginError, Problem, UserError, refusal
+from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 from diecut_report.text.translation import said, say, speaking, spoken_language
 
@@ -47,8 +48,9 @@ if TYPE_CHECKING:
 @click.argument("kinds", metavar="[KIND[:NAME] …]", nargs=-1, shell_complete=output.kinds)
 @click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
 @click.option("--force", is_flag=True, help="Overwrite an existing file.")
+@click.option("--machine", metavar="NAME", help="A whole machine, described by its parts: flat_cylinder.")
 @common
-def new(kinds: tuple[str, ...], file: Path | None, force: bool, discovery: Discovery) -> int:
+def new(kinds: tuple[str, ...], file: Path | None, force: bool, machine: str | None, discovery: Discovery) -> int:
     """Start a configuration with mechanisms of these kinds: example values, linked to each other, with each key explained.
 
     Without a KIND the kinds are listed. `clutch:main` names a mechanism; a kind may be given several times.
@@ -56,11 +58,16 @@ def new(kinds: tuple[str, ...], file: Path | None, force: bool, discovery: Disco
     Exit codes: 0 written or listed, 1 written, but values are left for you to give, 2 bad input, 3 a plugin broke.
     """
     with speaking(spoken_language(), spoken_catalogues(discovery)):
-        if not kinds:
+        if machine and kinds:
+            raise refusal("A whole machine is asked for, and kinds beside it. Give --machine alone, or kinds.")
+        if not kinds and not machine:
             return _list(discovery)
         # a device or a pipe that is there is written into
         if file and not force and os.path.lexists(file) and (file.is_file() or file.is_symlink() or file.is_dir()):
             raise refusal("This already exists and is not overwritten. Choose another name, or give --force.", file)
+        if machine:
+            emit_or_write(_machine(machine), file)
+            return PASSED
         from diecut_report.config.drafting import draft
 
         with without_output():
@@ -70,6 +77,16 @@ def new(kinds: tuple[str, ...], file: Path | None, force: bool, discovery: Disco
         tell(_draft_messages(made, None if is_quiet() else file))
     tell_problems(problems)
     return CHECK_FAILED if problems else PASSED
+
+
+def _machine(name: str) -> str:
+    """The text of a whole machine; UserError where there is none of this name."""
+    folder = resources.files("diecut_report.configs") / "machines"
+    known = sorted(each.name.removesuffix(".yaml") for each in folder.iterdir() if each.name.endswith(".yaml"))
+    if name not in known:
+        template = "There is no machine {name}{near}. Known: {known}."
+        raise refusal(template, name=repr(name), near=nearest(name, known), known=", ".join(known))
+    return (folder / f"{name}.yaml").read_text("utf-8")
 
 
 def _list(discovery: Discovery) -> int:

@@ -104,6 +104,8 @@ def _order_of_keys(a: dict[str, Value], b: dict[str, Value], path: str) -> Itera
 
 
 def _agree(a: Value, b: Value, made: Agreement, scale: float) -> bool:
+    if isinstance(a, str) and isinstance(b, str):  # a name that knows its formula is a text, too
+        return str(a) == str(b)
     if not (_is_number(a) and _is_number(b)):
         return type(a) is type(b) and bool(a == b)
     made.numbers += 1

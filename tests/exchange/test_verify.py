@@ -178,3 +178,20 @@ def test_the_verdict_is_told_before_the_curves() -> None:
         "mechanisms.a.outputs.m",
         "mechanisms.a.curves.x",
     ]
+
+
+def test_a_calculation_with_a_formula_of_its_own_name_agrees_with_what_was_written_of_it(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    text = """\
+schema_version: 1
+project: {title: Gears}
+press: {name: P}
+mechanisms:
+  pair: {kind: gear_pair, module: 5 mm, teeth_1: 24, teeth_2: 48, face_width: 50 mm, torque: 200 N*m, sigma_h_lim_1: 767 MPa,
+    sigma_h_lim_2: 767 MPa, sigma_f_lim_1: 314 MPa, sigma_f_lim_2: 314 MPa}
+"""
+    file, results = tmp_path / "press.yaml", tmp_path / "press.json"
+    file.write_text(text, "utf-8")
+    main(["calc", str(file), "-o", str(results)])
+    assert main(["verify", str(results)]) == 0, capfd.readouterr().out
