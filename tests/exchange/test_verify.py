@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import scipy
 
+from diecut_report.cli.main import main
 from diecut_report.exchange.verification import agreement
 from tests.configs import SMALL, saved
 from tests.examples import few
