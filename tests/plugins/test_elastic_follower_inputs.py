@@ -47,7 +47,7 @@ def stiffness(ratio: float) -> str:
 
 REFUSED = [
     (TURNING, {"stiffness": 0}, "f.stiffness: 0 N·m/rad is out of range; allowed: > 0 N·m/rad"),
-    (TURNING, {"stiffness": "-3 N*m/rad"}, "f.stiffness: -3 N·m/rad is out of range"),
+    (TURNING, {"stiffness": "-3 N*m/rad"}, "f.stiffness: -3 N*m/rad is out of range"),
     (TURNING, {"stiffness": None}, "f.stiffness: is missing. Give it in N·m/rad"),
     (TURNING, {"inertia": 0}, "f.inertia: 0 kg·m² is out of range"),
     (SLIDING, {"mass": 0}, "f.mass: 0 kg is out of range"),
