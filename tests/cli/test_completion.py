@@ -70,7 +70,7 @@ def test_bash_takes_the_script_of_the_documents() -> None:
     folder = Path(sys.executable).parent
     script = (
         'eval "$(_DIECUT_REPORT_COMPLETE=bash_source diecut-report)"\n'
-        'COMP_WORDS=(diecut-report new drive); COMP_CWORD=2; _diecut_report_completion diecut-report; echo "${COMPREPLY[@]}"'
+        'COMP_WORDS=(diecut-report new drive_t); COMP_CWORD=2; _diecut_report_completion diecut-report; echo "${COMPREPLY[@]}"'
     )
     commands = (Path(__file__).parents[2] / "docs/commands.md").read_text("utf-8")
     assert script.splitlines()[0] in commands
