@@ -113,10 +113,26 @@ class Demands:
         moving = self.moved_by(self.parts.shafts[shaft])
         if moving is None or not moving.port.advance:
             return Fraction(0)
-        found = Fraction(1, int(self.blocks.get(moving.mechanism, {}).get(moving.port.advance, USUAL_STEPS)))
+        steps = self.parts.reader.typed_block(moving.mechanism).get(moving.port.advance, USUAL_STEPS)
+        found = Fraction(1, int(steps))
         for join in self.chain_from(moving.part.shaft.name, shaft):
             found *= Fraction(abs(join.ratio)).limit_denominator(10_000)
         return found
+
+    def sense(self, shaft: str) -> int:
+        """Return −1 for a shaft that turns the other way than the one on which a mechanism's forces act in the directions of the frame."""
+        if shaft in self.parts.ratios:
+            return 1 if self.parts.ratios[shaft] * self.parts.ratios[self._reference] > 0 else -1
+        moving = self.moved_by(self.parts.shafts[shaft])
+        joins = self.chain_from(moving.part.shaft.name, shaft) if moving else []
+        return -1 if sum(isinstance(join.keys, MeshKeys) for join in joins) % 2 else 1
+
+    @property
+    def _reference(self) -> str:
+        """The steadily turning shaft with such forces; the anchor where there is none."""
+        steady = (part for name in self.parts.ratios for part in self.parts.shafts[name].parts)
+        directed = (part for part in steady if (port := self.port(part)) and len(port.forces) > 1)
+        return next((part.shaft.name for part in directed), self.parts.keys.anchor)
 
     def moved_by(self, shaft: MachineShaft) -> Moving | None:
         """Return by what a shaft swings or turns in steps; None of one that turns steadily."""

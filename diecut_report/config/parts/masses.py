@@ -20,12 +20,12 @@ class Masses(Demands):
     def _body(self, shaft: MachineShaft) -> None:
         home = f"shafts_{shaft.name}"
         discs: list[dict[str, Any]] = [self._section_disc(shaft, index) for index in range(len(shaft.sections))]
-        bodies = []
+        bodies: list[dict[str, Any]] = []
         for part in shaft.parts:
             if disc := self._disc(part):
                 discs.append({"name": part.name} | disc)
             elif "mass" in part.more or part.kind == "geneva_wheel" or "inertia" in part.more:
-                bodies.append({"name": part.name} | self._mass(part))
+                bodies.append({"name": part.name} | self._mass(part, f"{home}_body.bodies.{len(bodies)}.mass"))
         inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {})
         self._add(f"{home}_body", "shaft_body", inputs, shaft.path)
 
@@ -73,8 +73,8 @@ class Masses(Demands):
     def _given_mass(self, part: ShaftPart) -> Any:
         return TypedValue((*part.path, "mass"))
 
-    def _mass(self, part: ShaftPart) -> dict[str, Any]:
-        """The mass of a part as it is typed, and its inertia: typed, or of a disc of that mass without bore."""
+    def _mass(self, part: ShaftPart, mass: str) -> dict[str, Any]:
+        """The mass of a part as it is typed, and its inertia: typed, or of a disc of that ``mass`` without bore."""
         join = next(self.parts.joins_of(part), None)
         found: dict[str, Any] = {"mass": TypedValue((*part.path, "mass"))} if "mass" in part.more else {"mass": 0}
         if "inertia" in part.more:
@@ -82,13 +82,7 @@ class Masses(Demands):
         if part.kind == "geneva_wheel" and "mass" not in part.more:
             return self._geneva_wheel(part)
         if join is not None:
-            given = self._raw(part.path)["mass"]
-            text = given.get("value") if isinstance(given, dict) else given
-            text = f"{text} kg" if isinstance(text, int | float) else text
-            if "${" not in str(text):
-                radius = join.radius(part)
-                inertia = unit("kg").factor and float(str(text).split()[0]) * radius**2 / 2
-                found["inertia"] = TypedNumber(f"{inertia:.12g} kg*m**2", part.path)
+            found["inertia"] = f"${{{mass}}} * ({millimetres(join.radius(part))})**2 / 2"
         return found
 
     def _geneva_wheel(self, part: ShaftPart) -> dict[str, Any]:

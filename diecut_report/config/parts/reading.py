@@ -56,6 +56,7 @@ class PartsReader:
     models: Mapping[str, type[Block]]  # of the mechanisms, by their names
     tables: OwnTables = field(default_factory=OwnTables)
     problems: list[Problem] = field(default_factory=list)
+    _sought: list[str] = field(default_factory=list)  # references that are followed just now
 
     def machine(self) -> ReadBlock | None:
         """Return the block ``machine`` without its frame."""
@@ -64,9 +65,12 @@ class PartsReader:
 
     def frame(self) -> dict[str, tuple[float, float]]:
         """Return the axes of the frame by their names, m."""
-        found = {}
+        found: dict[str, tuple[float, float]] = {}
         given = self.data["machine"].get("frame", {})
-        for name, pair in given.items() if isinstance(given, dict) else ():
+        if not isinstance(given, dict):
+            self._fault(("machine", "frame"), "is {given}; axes are needed, NAME: [x, y]", given=quoted(given))
+            return found
+        for name, pair in given.items():
             path: KeyPath = ("machine", "frame", name)
             if not (isinstance(pair, list) and len(pair) == 2):
                 self._fault(path, "is {given}; two numbers in mm are needed: [x, y]", given=quoted(pair))
@@ -170,10 +174,15 @@ class PartsReader:
         if not isinstance(meta, Quantity) or given is None:
             template = "{path} is not a number that is typed; a dimension of a part must be known before anything is calculated."
             raise ConditionError(template, path=path)
+        if path in self._sought:
+            raise ConditionError("{path} refers to itself; give one of these values a number.", path=path)
+        self._sought.append(path)
         try:
             value: float = meta.validate(self._calculated(given, key, meta))
         except ValueError as fault:
             raise ConditionError(str(fault)) from None
+        finally:
+            self._sought.pop()
         return value, unit(meta.unit).si
 
     def typed_block(self, name: str) -> dict[str, float]:

@@ -316,6 +316,15 @@ def torque_carried(parts: MachineParts) -> Iterator[Finding]:
 # Axes and what joins the shafts.
 
 
+def axes(parts: MachineParts) -> Iterator[Finding]:
+    """Shafts that are joined have axes in the frame: the direction of every force between them follows from these."""
+    for join in (each for each in parts.joins if each.is_between_shafts):
+        for shaft in dict.fromkeys(part.shaft.name for part in (*join.drivers, *join.driven)):
+            if shaft not in parts.axes:
+                template = "joins {shaft}, which has no axis in machine.frame, so that its forces have no direction; give {shaft}: [x, y] there"
+                yield finding(parts, "frame", "error", join.path, template, ("machine",), shaft=shaft)
+
+
 def center(parts: MachineParts) -> Iterator[Finding]:
     """The axes of the frame are as far apart as a mesh, a chain or a belt wants."""
     for join in (each for each in parts.joins if each.is_between_shafts):
@@ -454,6 +463,6 @@ def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
-    names, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall, torque_carried, center, frame,
+    names, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall, torque_carried, axes, center, frame,
     mesh_pair, sector, chain,
 )  # fmt: skip

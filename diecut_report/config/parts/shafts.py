@@ -21,7 +21,10 @@ class ShaftElements(Masses):
     """Make the calculations of the shafts."""
 
     def _loads(self, shaft: MachineShaft) -> None:
-        torques = [each | {"ratio": each["ratio"].text} for each in self.torques_of(shaft)]
+        sense = self.sense(
+            shaft.name
+        )  # all torques are about one direction of the axes, so that meshing teeth push each other apart
+        torques = [each | {"ratio": each["ratio"].times(number=sense).text} for each in self.torques_of(shaft)]
         forces = [force for part in shaft.parts for force in (*self._port_forces(part), *self._chain_forces(part))]
         inputs: dict[str, Any] = {"main_turns": self.cycle(shaft.name)}
         if torques:
@@ -155,10 +158,14 @@ class ShaftElements(Masses):
             return None
         (x, y), (u, v) = axes[part.shaft.name], axes[other.shaft.name]
         angle = degrees(atan2(v - y, u - x))
-        return {
+        found: dict[str, Any] = {
             "pitch_radius": self._pitch_radius(join, part),
             "mesh_angle": TypedNumber(f"{angle:.10g} deg", ("machine", "frame")),
         }
+        if join.keys.helix_angle:  # a pair has teeth of opposite hands
+            hand = "" if part in join.drivers else "-"
+            found["helix_angle"] = TypedNumber(f"{hand}{degrees(join.keys.helix_angle):.12g} deg", join.path)
+        return found
 
     @staticmethod
     def _pitch_radius(join: Join, part: ShaftPart) -> str:

@@ -104,6 +104,7 @@ BROKEN = [
     ("{crank: disc, of: cross.crank, at: 35,", "{crank: disc, of: cross.crank, at: 20,", "the shaft goes from 0 to"),
     ("designation: NU210E, floating: true", "designation: NU210E", "exactly one is needed"),
     ("conveyor: [180, 520]", "conveyor: [180, 521]", "puts the axes 280 mm apart"),
+    (", far: [2180.254, 520]}", "}", "joins far, which has no axis in machine.frame"),
     ("rocker: [500, 0]", "rocker: [501, 0]", "wants the axes of crank and rocker 500 mm apart"),
     ("teeth: 24/48", "teeth: 24/47", "by the teeth, but drive turns 1/2 times a sheet"),
     ("teeth_present: 39}", "teeth_present: 150}", "more than two thirds of the 212 teeth"),
@@ -156,3 +157,51 @@ def test_a_number_of_a_part_has_the_basis_of_the_machine_and_stands_where_it_is_
     assert hub is not None and hub.bases[("hub_length",)].basis == "assumed"
     line, column = config.tree.position(("mechanisms", "shafts_crank_disc_key", "hub_length"))
     assert TEXT.splitlines()[line - 1][column - 1 :].startswith("60,")
+
+
+def test_a_mass_counts_in_its_unit_for_the_inertia_of_the_part() -> None:
+    grams, problems = changed(
+        "{gear: large, at: 120, hub: 70, key: 63, mass: 26 kg}",
+        "{gear: large, at: 120, hub: 70, key: 63, mass: 26000 g}",
+    )
+    assert not problems
+    body = grams.tree.data["mechanisms"]["shafts_geneva_body"]["bodies"][0]
+    assert body["inertia"] == "${shafts_geneva_body.bodies.0.mass} * (240 mm)**2 / 2"
+
+
+@pytest.mark.parametrize("mass", ["heavy", "26,5 kg", "${train.flywheel_mass}", "{value: 26 kg, basis: drawing}"])
+def test_any_mass_is_read_or_refused_in_words(mass: str) -> None:
+    _, problems = changed("key: 63, mass: 26 kg}", f"key: 63, mass: {mass if mass.startswith('{') else repr(mass)}}}")
+    assert all(str(FILE) in problem for problem in problems) and bool(problems) == (
+        mass == "heavy" or mass.startswith("$")
+    )
+
+
+@pytest.mark.parametrize("slots", ["six", "{value: 6, basis: drawing}", "0"])
+def test_slots_of_any_kind_end_in_words(slots: str) -> None:
+    _, problems = changed("    slots: 6\n", f"    slots: {slots}\n")
+    assert bool(problems) == (not slots.startswith("{"))
+
+
+def test_references_that_go_round_end_in_words() -> None:
+    _, problems = changed("    frame_ratio: 5\n", "    frame_ratio: ${drive.coupler_ratio}\n")
+    assert not problems
+    text = TEXT.replace("    frame_ratio: 5\n", "    frame_ratio: ${drive.coupler_ratio}\n", 1)
+    text = text.replace("    coupler_ratio: 5\n", "    coupler_ratio: ${drive.frame_ratio}\n", 1)
+    _, found = examined(parse(text, str(FILE)), DISCOVERY)
+    assert found and "itself" in " ".join(map(str, found))
+
+
+def test_teeth_in_mesh_push_each_other_apart_with_one_force() -> None:
+    """The torques of both gears over their radii are alike about the axes, whose mesh angles are opposite."""
+    data = whole().tree.data["mechanisms"]
+    senses = {name: data[f"shafts_{name}_loads"]["torques"][0]["ratio"] for name in ("main", "crank")}
+    signs = {name: float(str(ratio).split(" ")[0]) for name, ratio in senses.items()}
+    assert signs["main"] * signs["crank"] < 0
+    angles = [
+        load["gear"]["mesh_angle"]["value"]
+        for shaft, name in (("main", "pinion"), ("crank", "wheel"))
+        for load in data[f"shafts_{shaft}"]["loads"]
+        if load["name"] == name
+    ]
+    assert abs(float(angles[0].split()[0]) - float(angles[1].split()[0])) == pytest.approx(180)
