@@ -44,7 +44,11 @@ class CurveLoad:
         )  # a mechanism that is the same in all machines
         value = found(share, inside, machine) + passed * _of(self.gain, row)
         value = np.abs(value) if self.is_absolute else value
-        return with_losses(value * _of(self.factor, row), _of(self.efficiency, row)) + _of(self.constant, row)
+        factor = _of(self.factor, row)
+        carried = with_losses(
+            value * np.abs(factor), _of(self.efficiency, row)
+        )  # by the sign of the curve, whichever way it acts
+        return np.sign(factor) * carried + _of(self.constant, row)
 
     @property
     def reversals(self) -> Array | None:

@@ -177,3 +177,11 @@ def test_a_curve_over_the_main_shaft_is_taken_as_it_is() -> None:
 
 
 # --- the body of a Geneva wheel --------------------------------------------------------------------------------------
+
+
+def test_a_torque_that_acts_the_other_way_has_the_same_losses() -> None:
+    keys = HALF | {"name": "wheel", "curve": "crank_torque", "efficiency": 0.9}
+    one, other = (
+        at(loads(main_turns=2, torques=[keys | {"ratio": ratio}]), "wheel_torque", PLACES) for ratio in (1, -1)
+    )
+    assert other == pytest.approx(-one)
