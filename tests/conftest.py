@@ -18,6 +18,7 @@ from diecut_report.__main__ import THREADS
 os.environ |= dict.fromkeys(THREADS, "1")
 
 from diecut_report.config.plugins import Discovery
+from diecut_report.design.findings import with_findings
 from diecut_report.press import Press
 from tests.configs import EXAMPLE, SMALL, saved
 from tests.examples import FEW, MANY
@@ -78,7 +79,7 @@ def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     def make(folder: Path) -> None:
         config = saved(tmp_path_factory.getbasetemp(), SMALL, "small.yaml")
-        Press.read(config, Discovery([])).calculate().report(folder, ("html", "pdf", "json"))
+        with_findings(Press.read(config, Discovery([])).calculate()).report(folder, ("html", "pdf", "json"))
 
     return once(tmp_path_factory, "small_report", make)
 

@@ -49,7 +49,7 @@ from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, refusal
-from diecut_report.results.conclusion import conclusion, doubtful_kinds, is_open
+from diecut_report.results.conclusion import summary_of
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
@@ -156,17 +156,10 @@ def _data(found: JudgedFile) -> dict[str, Any]:
     return told | {"broken": [str(error) for error in found.broken]} | ({"study": found.data} if found.data else {})
 
 
-ORDER = ("fail", "warn", "not_checked")
 WITHOUT_RESULTS = ("bad", "impossible")
-COLOURED = {
-    "bad": "error",
-    "impossible": "error",
-    "incomplete": "warn",
-    "conditional": "warn",
-}  # states with the colour of another one
+COLOURED = {"bad": "error", "impossible": "error", "conditional": "warn"}  # states with the colour of another one
 WORDS = {
     "pass": phrase("pass"),
-    "incomplete": phrase("conditional"),
     "conditional": phrase("conditional"),
     "warn": phrase("warn"),
     "fail": phrase("fail"),
@@ -179,14 +172,13 @@ WORDS = {
 
 
 def exit_code(results: ResultsRecord, *, is_broken: bool, is_strict: bool) -> int:
-    """Return 3 where something broke, 1 where a check fails or something is skipped, or, strict, where one warns or is not made."""
-    if is_broken:
-        return PLUGIN_BROKE
-    found = results.summary
-    counted = ORDER if is_strict else ORDER[:1]
-    is_whole = not any(data.status == "skipped" for data in results.mechanisms.values())
-    is_doubtful = is_strict and doubtful_kinds(results)
-    return PASSED if is_whole and not is_doubtful and not any(found.of(status) for status in counted) else CHECK_FAILED
+    """Return 3 where something broke, 1 where the verdict is fail or, strict, conditional."""
+    return PLUGIN_BROKE if is_broken else _exit_code([str(summary_of(results).verdict)], is_strict)
+
+
+def _exit_code(verdicts: Sequence[str], is_strict: bool) -> int:
+    """The exit code of machines by their verdicts, none of which is broken or bad."""
+    return CHECK_FAILED if "fail" in verdicts or (is_strict and "conditional" in verdicts) else PASSED
 
 
 def verdict_lines(results: ResultsRecord, discovery: Discovery | None = None) -> list[Line]:
@@ -225,9 +217,9 @@ def _message(made: CheckRecord) -> str:
 
 
 def _whole(results: ResultsRecord) -> Line:
-    found = results.summary
-    state = "fail" if found.fail else "warn" if is_open(results) else "pass"
-    parts = [coloured(said(conclusion(results)), state)]
+    found = summary_of(results)
+    verdict = str(found.verdict)
+    parts = [coloured(said(found.conclusion), COLOURED.get(verdict, verdict))]
     if found.governing:
         parts.append(say("Governing: {check}.", check=found.governing))
     if held := found.numerical.passing:
@@ -382,11 +374,12 @@ def _found(given: Sequence[Path], discovery: Discovery, jobs: int | None, asked:
 def _calculated(
     files: Sequence[Path | Tree], discovery: Discovery, jobs: int | None, progress: Progress
 ) -> list[CheckedMachine]:
+    from diecut_report.design.findings import decided
     from diecut_report.study.machines import machines
 
     found: dict[int, CheckedMachine] = {}
     progress(Counted(len(files), "calculating {n} machine", "calculating {n} machines"))
-    for number, machine in machines(files, discovery.paths, jobs):
+    for number, machine in machines(files, discovery.paths, jobs, decided):
         found[number] = machine
         progress(Phrase("calculated {n} of {total} machines", n=len(found), total=len(files)))
     return [found[number] for number in range(len(files))]
@@ -434,7 +427,4 @@ def _code(verdicts: Sequence[Verdict], strict: bool) -> int:
     states = {verdict.status for verdict in verdicts}
     if not states.isdisjoint(WITHOUT_RESULTS):
         return BAD_INPUT
-    if "error" in states:
-        return PLUGIN_BROKE
-    doubtful = any(each.warnings or each.not_checked or each.formulas_with_faults for each in verdicts)
-    return CHECK_FAILED if "fail" in states or (strict and doubtful) else PASSED
+    return PLUGIN_BROKE if "error" in states else _exit_code([verdict.verdict for verdict in verdicts], strict)

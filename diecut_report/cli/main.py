@@ -1,6 +1,6 @@
 """The command line: commands, exit codes, and all that is printed.
 
-Exit codes: 0 no check fails, 1 a check fails (with --strict also a warning, or a check that is not made), 2 bad input or
+Exit codes: 0 pass or conditional, 1 fail (with --strict also conditional), 2 bad input or
 usage (nothing is written), 3 a plugin broke, 74 what was asked for could not be written, 130 interrupted, 70 a fault of the
 program itself. Messages that standard error does not take are lost; that changes no code.
 """
@@ -250,11 +250,12 @@ def report(
 @common
 def calc(config: Path, target: Path | None, strict: bool, discovery: Discovery) -> int:
     """Calculate and write only the results file."""
+    from diecut_report.design.findings import decided
     from diecut_report.press import Press
 
     # a plugin that prints does not spoil the JSON
     with Progress() as progress, without_output() if target is None else redirect_stdout(sys.stderr):
-        made = Press.read(source(config, discovery), discovery, progress).calculate()
+        made = decided(Press.read(source(config, discovery), discovery, progress).calculate())
         text = made.text
         if target is not None:
             made.save(target)

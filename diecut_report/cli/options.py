@@ -126,7 +126,7 @@ dask_option = click.option(
 strict_option = click.option(
     "--strict",
     is_flag=True,
-    help="Exit with 1 also for warnings, for checks that are not performed because a key is not given, and for a plugin with faults.",
+    help="Exit with 1 also for a conditional verdict: something is assumed, at its default, not rated, not checked or warns.",
 )
 template_option = path_option(
     "--template", "house", metavar="DIR", callback=_read_template,

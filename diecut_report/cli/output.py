@@ -81,15 +81,15 @@ class Progress:
 
 HEAD = "Exit codes"
 OF_PROGRAM = phrase(
-    "Exit codes: 0 no check fails, 1 a check fails (with --strict also where one warns or is not made), 2 bad input, 3 a plugin broke, "
+    "Exit codes: 0 pass or conditional, 1 fail (with --strict also conditional), 2 bad input, 3 a plugin broke, "
     "74 what was asked for cannot be written, 130 Ctrl-C, 70 a fault of the program. The help of a command tells what they mean there."
 )
 OF_CHECKS = phrase(
-    "Exit codes: 0 no check fails, 1 a check fails (with --strict also where one warns or is not made), 2 bad input, 3 a plugin broke."
+    "Exit codes: 0 pass or conditional, 1 fail (with --strict also conditional), 2 bad input, 3 a plugin broke."
 )
 OF_FILES = phrase("Exit codes: 0 all are valid, 2 one is not, 3 a plugin broke.")
 OF_STUDY = phrase(
-    "Exit codes: 0 no check of a variant fails, 1 one fails (with --strict also where one warns or is not made) or no variant can exist, "
+    "Exit codes: 0 no check of a variant fails, 1 one fails (with --strict also where one is conditional) or no variant can exist, "
     "2 bad input, 3 a plugin broke, 130 stopped: what is finished is kept."
 )
 OF_PLUGIN = phrase("Exit codes: 0 the rules are kept, 1 one is broken, 2 bad input, 3 the plugin broke.")

@@ -1,4 +1,4 @@
-"""What a report adds to a calculation: which assumed values matter, what comes of the advice, and how inputs move results."""
+"""What a report adds to a calculation: which assumed values are harmless, what comes of the advice, and how inputs move results."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from dataclasses import replace
 
 from diecut_report.config.loader import Config
 from diecut_report.press import CalculatedPress
+from diecut_report.results.conclusion import VALUES, rejudged
 from diecut_report.results.model import ResultsRecord
+from diecut_report.results.open_items import is_tried
 from diecut_report.text.phrases import phrase
 
 
@@ -17,16 +19,31 @@ def with_findings(made: CalculatedPress) -> CalculatedPress:
     return made if made.has_broken else replace(made, results=findings(press.config, made.results, press.tell))
 
 
+def decided(made: CalculatedPress) -> CalculatedPress:
+    """Return a calculated press with what is proved harmless, where nothing else keeps its verdict from a pass."""
+    summary = made.results.summary
+    if made.broken or summary.verdict != "conditional" or any(each.what not in VALUES for each in summary.open):
+        return made
+    return replace(made, results=_proved(made.press.config, made.results, made.press.tell))
+
+
+def _proved(config: Config, results: ResultsRecord, tell: Callable[[str], None]) -> ResultsRecord:
+    """The results without the open values that are harmless."""
+    from diecut_report.design.harmless import without_harmless
+
+    tell(phrase("trying assumed and default values"))
+    found = results.with_(summary=results.summary.with_(open=without_harmless(config, results)))
+    return found.with_(summary=rejudged(found))
+
+
 def findings(config: Config, results: ResultsRecord, tell: Callable[[str], None]) -> ResultsRecord:
     """Return the results of a configuration with what their report adds."""
     from diecut_report.design.advised import followed  # with searches, which a calculation alone does not need
     from diecut_report.design.influence import influenced
-    from diecut_report.study.analysis.answers import moves
 
+    # once: of values that only together change a check the others were proved with these as they are
+    results = results if is_tried(results.summary) else _proved(config, results, tell)
     summary = results.summary
-    if summary.assumed:
-        tell(phrase("evaluating the influence of assumed inputs"))
-        summary = summary.with_(moves=moves(config, results))
     if summary.fail:
         tell(phrase("applying the advice"))
         summary = summary.with_(advice=followed(config, results))

@@ -49,6 +49,11 @@ class DesignInput:
         return self.asked.path.removeprefix(f"{MECHANISMS}.")
 
     @property
+    def key(self) -> str:
+        """Return its key within its mechanism, without places in lists."""
+        return dotted(self.asked.key)
+
+    @property
     def meta(self) -> Quantity:
         """Return how a number is declared."""
         assert isinstance(self.asked.meta, Quantity)
@@ -173,6 +178,12 @@ def given_numbers(config: Config) -> list[DesignInput]:
 def numbers_at_default(config: Config) -> list[DesignInput]:
     """Return all inputs that are not given and stand at a number that their declaration has as default."""
     return [each for each in _own(config, Quantity, given=False) if each.present is not None]
+
+
+def standing_numbers(config: Config) -> dict[str, DesignInput]:
+    """Return all inputs that are a number of their own, given or by default, by their paths."""
+    own = (each for is_given in (True, False) for each in _own(config, Quantity, given=is_given))
+    return {each.asked.path: each for each in own if each.present is not None}
 
 
 def given_choices(config: Config) -> list[DesignInput]:

@@ -99,7 +99,7 @@ def varied(
 
     def further(made: CalculatedVariants) -> dict[str, Array]:
         own = {each.path: _input(config, made, each) for each in asked}
-        return _slack(made) | {path: values for path, values in own.items() if values is not None}
+        return slacks(made) | {path: values for path, values in own.items() if values is not None}
 
     made = VariedMachines(count)
     vars(made).update(vars(calculate_rows(config, given, count, further=further, tell=tell)))
@@ -152,8 +152,8 @@ def downstream(config: Config, name: str) -> list[str]:
     return [each for each in config.instances if name in upstream(config, [each])]
 
 
-def _slack(made: CalculatedVariants) -> dict[str, Array]:
-    """How far each check is from its limit: the margin as a share of the greater of demand and limit."""
+def slacks(made: CalculatedVariants) -> dict[str, Array]:
+    """Return how far each check is from its limit: the margin as a share of the greater of demand and limit."""
     found: dict[str, Array] = {}
     for name, calc in made.calculations.items():
         for check in checks_of(calc):

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from diecut_report import __version__
 from diecut_report.config.plugins import Discovery
+from diecut_report.design.findings import decided
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, refusal
 from diecut_report.exchange.carried import MOST as SIDES_MOST
 from diecut_report.exchange.carried import carried_results, form_of
@@ -165,7 +166,7 @@ def side(given: Source, discovery: Discovery, tell: Tell) -> tuple[ResultsRecord
     """Return the results of one side, and the plugins that broke where it was calculated; UserError where it cannot be read."""
     if isinstance(given, Path) and _carries_results(given):
         return carried_results(given).results, ()
-    made = Press.read(given, discovery, tell).calculate()
+    made = decided(Press.read(given, discovery, tell).calculate())
     return made.results, made.broken
 
 

@@ -16,7 +16,7 @@ from diecut_report.config import yaml
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
-from diecut_report.design.findings import with_findings
+from diecut_report.design.findings import decided, with_findings
 from diecut_report.errors import PluginError, UserError
 from diecut_report.exchange.carried import CarriedResults
 from diecut_report.exchange.rendering import document
@@ -24,6 +24,7 @@ from diecut_report.press import AskedReport, Press
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.results.changes import compare_with
 from diecut_report.results.model import CarriedConfigRecord, ProgramRecord, ResultsRecord
+from diecut_report.results.open_items import is_tried
 from diecut_report.results.results_file import config_content
 from diecut_report.text.phrases import Counted, Phrase, cell, joined, phrase
 
@@ -140,9 +141,10 @@ def recalculated(
     given = carried.results
     with _tables(carried.tables) as find:
         tree = _tree(given.config, f"{carried.path} (its configuration)")
-        made = Press.read(tree, discovery, tell, find=find).calculate()
+        made = decided(Press.read(tree, discovery, tell, find=find).calculate())
         # a results file without any part of a report is as ``calc`` writes it
-        is_report = carried.form != "json" or given.summary.moves or given.summary.advice or given.influence
+        has_more = is_tried(given.summary) and not is_tried(made.results.summary)
+        is_report = carried.form != "json" or has_more or given.summary.advice or given.influence
         made = with_findings(made) if is_report else made
     results = made.results
     # as far as the command takes them; what it does not take differs from what comes out now
@@ -218,7 +220,7 @@ def _former(
     try:
         with _tables(carried.former_tables) as find:
             tree = _tree(former, f"{carried.path} (its former configuration)")
-            return Press.read(tree, discovery, tell, find=find).calculate().results, ""
+            return decided(Press.read(tree, discovery, tell, find=find).calculate()).results, ""
     except UserError:
         template = "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
         return None, phrase(template)

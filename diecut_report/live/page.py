@@ -64,7 +64,6 @@ def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str])
         "status": run.status,
         "summary": run.summary.data(),
         "conclusion": said(run.summary.conclusion),
-        "is_open": run.is_open,
         "start": {"status": start.run.status, "summary": start.run.summary.data()},
         "mechanisms": [
             _mechanism(name, machine, start, edits)

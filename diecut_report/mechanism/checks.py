@@ -14,7 +14,7 @@ from diecut_report.mechanism.names import placed
 from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.phrases import Phrase, phrase
 
-CheckClass = Literal["function", "strength", "practice", "numerical"]
+CheckClass = Literal["safety", "function", "strength", "practice", "numerical"]
 UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
 
 
@@ -55,8 +55,8 @@ class Check:
     ``advise`` names the inputs that may be changed, each way by itself: ("shaft_diameter", "key_length"). The values with
     which the check holds are found by calculating the mechanism with others, and are not written by hand.
 
-    ``check_class`` must be given: "function" (the machine does not do what it is for), "strength" (a part breaks, wears,
-    slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
+    ``check_class`` must be given: "safety" (somebody can be hurt), "function" (the machine does not do what it is for), "strength"
+    (a part breaks, wears, slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
     not among the checks of the machine; where one fails the mechanism is in error).
 
     A check that needs an optional input which is not given is reported as not checked, with the keys that it needs. Where it does not

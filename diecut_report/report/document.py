@@ -13,12 +13,13 @@ from typing import Any
 
 from diecut_report.report.chapters.chapters import chapter
 from diecut_report.report.chapters.front import (
-    AssumedGroup,
-    AssumedLine,
+    NotCovered,
+    OpenGroup,
     PrintedInfluence,
-    assumed_groups,
-    assumed_line,
     followed_line,
+    machine_facts,
+    not_covered,
+    open_groups,
     printed_influence,
 )
 from diecut_report.report.chapters.repetition import ToldBefore
@@ -27,7 +28,6 @@ from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, qu
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
 from diecut_report.report.symbols import BOLD, drawn, measured
 from diecut_report.report.text import Catalogue, sentence
-from diecut_report.results.conclusion import conclusion, is_open
 from diecut_report.results.model import (
     ChangedDocumentRecord,
     ConfigRecord,
@@ -115,8 +115,9 @@ class ReportDocument:
     counts: list[str]
     notes: list[str]
     press_rows: list[QuantityRow]
-    assumed: AssumedLine | None
-    assumed_groups: list[AssumedGroup]
+    facts: list[tuple[str, str]]
+    not_covered: list[NotCovered]
+    open_groups: list[OpenGroup]
     contents: list[tuple[str, str, str, int]]
     influence: PrintedInfluence | None
 
@@ -200,8 +201,8 @@ class ReportDocument:
 
     @property
     def face(self) -> str:
-        """The verdict as it is shown: one that passes, but leaves something open, is incomplete."""
-        return "incomplete" if self.status == "pass" and is_open(self.results) else self.status
+        """The verdict as it is shown; where a mechanism could not be calculated, that."""
+        return "error" if self.status == "error" else str(self.results.summary.verdict)
 
     @property
     def faces(self) -> Data:
@@ -226,14 +227,15 @@ def document(results: ResultsRecord, equations: Equations, words: Catalogue) -> 
     chapters = _chapters(whole, equations, words)
     rows = [rested(quantity_row(row, words["decimal"]), row, words) for row in results.press.fields]
     with speaking(words.language):
-        verdict = said(conclusion(results))
+        verdict = said(results.summary.conclusion)
     return ReportDocument(
         block, results, whole.detail, chapters, words, verdict,
         counts=_counts(results, chapters, words),
         notes=[*_notes(whole, chapters, words)],
         press_rows=rows,
-        assumed=assumed_line(results, words),
-        assumed_groups=assumed_groups(results, words) if is_brief else [],
+        facts=machine_facts(results, words),
+        not_covered=not_covered(results, words),
+        open_groups=open_groups(results, words),
         contents=list(_contents(chapters, words, whole.detail, results)),
         influence=None if is_brief else printed_influence(results, words),
     )  # fmt: skip
@@ -251,7 +253,9 @@ def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[Prin
         told[kind] = known.next(letter)
     shared = Counter(part.title for part in chapters)
     mechanisms = {part.name: part for part in chapters[: len(results.mechanisms)]}
+    left = {each.path.split(".")[1] for each in results.summary.open if each.path.startswith("mechanisms.")}
     for part in chapters:
+        part.is_open = part.name in left
         part.is_named = shared[part.title] > 1
         part.title = f"{part.title}: {part.name}" if part.is_named else part.title
         part.between = [mechanisms[name] for name in part.record.between]
@@ -271,7 +275,7 @@ def _notes(whole: Scope, chapters: list[PrintedChapter], words: Catalogue) -> It
     for kind in dict.fromkeys(part.record.kind for part in chapters if part.record.is_doubtful):
         yield words.say("doubtful_plugin", kind=kind)
     if whole.is_part:
-        told = {"n": len(whole.results.mechanisms), "total": whole.total, "status": words[whole.status]}
+        told = {"n": len(whole.results.mechanisms), "total": whole.total, "status": words[whole.verdict]}
         yield words.say("only_part", **told)
     rows = [row for part in chapters for row in part.checks]
     if held := sum(row.is_self_test and row.status == "pass" for row in rows):

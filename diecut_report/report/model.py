@@ -189,6 +189,7 @@ class PrintedChapter:
     symbols: list[SymbolRow] = field(default_factory=list)
     are_defaults_told: bool = False  # whether some of the defaults are those of that chapter
     is_named: bool = False  # whether its title ends in its name
+    is_open: bool = False  # whether something of it is left open
     told_in: str = ""  # the letter of the earlier chapter of the same kind, whose formulas and texts are not repeated
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
@@ -208,11 +209,18 @@ class PrintedChapter:
         """The check of the machine that fails first or is most utilised; none where none is made."""
         return min((row for row in self.checks if row.is_made), key=lambda row: row.order, default=None)
 
+    def worst(self, *classes: str) -> CheckRow | None:
+        """The check of these classes that fails first or is most utilised; none where none is made."""
+        return min(
+            (row for row in self.checks if row.is_made and row.check_class in classes),
+            key=lambda row: row.order,
+            default=None,
+        )
+
     @property
     def face(self) -> str:
-        """The verdict as it is shown: one that passes, but not in all or by formulas with faults, is incomplete."""
-        is_left = self.record.is_doubtful or self.count("not_checked")
-        return "incomplete" if self.record.status == "pass" and is_left else self.record.status
+        """The verdict as it is shown: one that does not fail, but leaves something open, is conditional."""
+        return "conditional" if self.is_open and self.record.status in ("pass", "warn") else self.record.status
 
 
 def quantity_row(row: QuantityRecord, decimal: str, description: str = "", names: Collection[str] = ()) -> QuantityRow:

@@ -14,9 +14,10 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from diecut_report.results.conclusion import RANK, conclusion, governing, summary
+from diecut_report.results.conclusion import RANK, governing, rejudged, summary, summary_of
 from diecut_report.results.mechanism_record import ExportRecord, MechanismRecord
-from diecut_report.results.model import ResultsRecord
+from diecut_report.results.model import OpenRecord, ResultsRecord
+from diecut_report.text.phrases import phrase
 
 BRIEF, STANDARD, FULL = "brief", "standard", "full"
 
@@ -29,7 +30,7 @@ class Scope:
     detail: str
     letters: Mapping[str, str]
     total: int
-    status: str  # of the whole press
+    verdict: str  # on the whole press
 
     @property
     def is_part(self) -> bool:
@@ -40,8 +41,9 @@ class Scope:
 def scope(results: ResultsRecord) -> Scope:
     """Return what the results ask to be reported (``report``: its detail, and the mechanisms that alone are shown)."""
     letters = {name: letter(index) for index, (name, _) in enumerate(parts(results))}
-    shown = _only(results, results.report.only) if results.report.only else results
-    return Scope(shown, results.report.detail, letters, len(results.mechanisms), results.status)
+    known = results.with_(summary=summary_of(results))
+    shown = _only(known, results.report.only) if results.report.only else known
+    return Scope(shown, results.report.detail, letters, len(results.mechanisms), str(known.summary.verdict))
 
 
 def parts(results: ResultsRecord) -> Iterator[tuple[str, MechanismRecord]]:
@@ -62,16 +64,19 @@ def _only(results: ResultsRecord, names: list[str]) -> ResultsRecord:
     comparisons = {name: data for name, data in compared.items() if set(data.between) <= mechanisms.keys()}
     checks, whole = {name: data.checks for name, data in mechanisms.items()}, results.summary
     assumed = [path for path in whole.assumed if _is_of(path, mechanisms)]
-    moves = [each for each in whole.moves if _is_of(each.path, mechanisms) and each.check.split(".")[0] in mechanisms]
+    taken, owner, why = [*_taken(mechanisms, assumed)], results.project.prepared_by, phrase("it is assumed")
+    left = [each for each in whole.open if _is_of(each.path, mechanisms)]
+    is_open = any(each.what == "assumed" for each in whole.open)  # else all that it rests on is harmless
+    left += [OpenRecord(what="assumed", path=path, owner=owner, why=why) for path in taken if is_open]
     found = results.with_(
         mechanisms=mechanisms,
         comparisons=comparisons,
         comparisons_left_out=None,
         governing=governing(checks),
         status=max((data.status for data in mechanisms.values()), key=RANK.__getitem__),
-        summary=summary(checks, [*assumed, *_taken(mechanisms, assumed)]).with_(moves=moves),
+        summary=summary(checks, [*assumed, *taken]).with_(open=left, verdict=whole.verdict),
     )
-    return found.with_(summary=found.summary.with_(conclusion=conclusion(found)))
+    return found.with_(summary=rejudged(found))
 
 
 def _is_of(path: str, mechanisms: Collection[str]) -> bool:

@@ -34,12 +34,13 @@ ENGLISH: dict[str, str] = {
     "dstu_letter": "Stage", "dstu_sheet": "Sheet", "dstu_sheets": "Sheets",
     # verdicts
     "pass": "pass", "warn": "warning", "fail": "fail", "error": "error", "skipped": "skipped", "not_checked": "not checked",
-    "incomplete": "conditional",
+    "conditional": "conditional",
     "doubtful_plugin": "The formulas of the plugin of {kind} have faults: do not rely on its results.",
     "count_pass": "{n} pass", "governing": "Governing", "no_checks": "There are no checks.",
     "reserve": "margin {margin}", "beyond": "{margin} beyond the limit", "self_test": "self-test", "missing": "Not given",
     "self_tests": "{n} self-tests of the calculation hold.",
     "sized": "Sized to its limit by the program; the only margin left is in the input factors", "sized_short": "sized to its limit",
+    "class_safety": "safety",
     "class_function": "function", "class_strength": "strength", "class_practice": "practice", "class_numerical": "self-test",
     # chapters
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
@@ -53,7 +54,7 @@ ENGLISH: dict[str, str] = {
     "no_curves": "There are no curves.",
     "only_part": "This report shows {n} of the {total} mechanisms of the press; the verdict of the whole press is: {status}.",
     "missing_in_summary": "the missing keys are listed in chapter 1",
-    "governing_check": "Governing check", "needs": "needs {keys}", "assumed_values": "Assumed values",
+    "needs": "needs {keys}",
     "more_in": "The full calculation is given in the more detailed report.",
     "configuration": "Configuration as given", "appendix": "Appendix", "warnings": "Warnings",
     # tables
@@ -63,8 +64,12 @@ ENGLISH: dict[str, str] = {
     "given": "given", "default": "default", "reference": "reference", "expression": "calculated",
     "refers": "from {path}", "from_press": "default, from {path}",
     "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "from a standard", "drawing": "from a drawing",
-    "rests_on": "{n} inputs are assumed", "moving_first": "; the most influential first",
-    "moves": "affects “{check}”", "move_each": "each affects “{check}”", "more_assumed": " and {n} more",
+    "sheet_format": "Format", "board": "Board",
+    "worst_strength": "Worst strength check", "worst_function": "Worst function check", "none": "none", "not_covered": "Not covered",
+    "not_modelled": "Parts of the drive line are not modelled.",
+    "no_load_cases": "Load cases engage, start and stop are not run for the parts of the drive line.",
+    "beyond_methods": "Shock from backlash, torsional vibration of the drive line, heating of the machine and guards are beyond the methods.",
+    "owned_by": "Owner: {owner}", "no_owner": "no owner", "open_values": "Open values",
     "influence": "Influence of inputs",
     "influence_lead": "Each numerical input is decreased and increased by {by}, or by its tolerance; all other inputs are unchanged.",
     "influence_on": "Influence on {what}", "influence_today": "Now: {value}.", "influence_none": "cannot exist",
@@ -133,7 +138,7 @@ ENGLISH: dict[str, str] = {
     "key_result": "Key result", "yes": "yes", "time_ms": "Time, ms",
 }  # fmt: skip
 COUNTED = {  # what is said of a number ``n`` of things, with its form for one where English has another
-    "count_pass": "1 passes", "self_tests": "1 self-test of the calculation holds.", "rests_on": "1 input is assumed", "more_assumed": "",
+    "count_pass": "1 passes", "self_tests": "1 self-test of the calculation holds.",
     "influence_more": "1 further input has a smaller effect.", "influence_still": "1 input has no effect.",
     "influence_at_default": "1 input has its default value and is not varied; report.influence.defaults includes it.",
     "influence_sure": "1 check passes in all of these machines.", "repeated_parts": "", "dxf": "", "dxf_profile": "", "csv": "",

@@ -1,10 +1,10 @@
-"""The first line on a machine: what fails, and what is left open; that all checks pass only where nothing is."""
+"""The verdict on a machine and its first line: what fails, and what is left open; that all checks pass only where nothing is."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Literal, NamedTuple
 
 from diecut_report.config.plugins import Discovery
@@ -23,7 +23,8 @@ from diecut_report.results.mechanism_record import (
     ShownRecord,
     SourceRecord,
 )
-from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
+from diecut_report.results.model import GoverningRecord, OpenRecord, ResultsRecord, SummaryRecord
+from diecut_report.results.record import OpenKind, Verdict
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 
 # The sources of a machine: a plugin's own, but those that only steps and checks name which this machine does not have.
@@ -156,7 +157,7 @@ def failed_self_tests(checks: Iterable[CheckRecord]) -> list[CheckRecord]:
 
 
 def summary(checks: Mapping[str, Sequence[CheckRecord]], assumed: Sequence[str]) -> SummaryRecord:
-    """Return the whole's verdict from the checks of each mechanism and the paths of assumed inputs; the first line is added later."""
+    """Return the counts of the checks of each mechanism with the paths of assumed inputs; the verdict is added later."""
     named, count = governing(checks), counts([check for each in checks.values() for check in each])
     return SummaryRecord(**dict(count), governing=str(named) if named else None, assumed=list(assumed))
 
@@ -185,71 +186,115 @@ def weight(check: CheckRecord) -> tuple[int, float]:
     return RANK[check.status], unknown if check.utilisation is None else check.utilisation
 
 
-class Open(NamedTuple):
-    """Hold what the first line on a machine follows from: its counts, how many parts it has, how many of them were not calculated.
+LEFT: dict[OpenKind, Callable[[int], Counted]] = {
+    "warning": lambda n: Counted(n, "{n} warns", "{n} warn"),
+    "not_checked": lambda n: Counted(n, "{n} is not checked", "{n} are not checked"),
+    "not_rated": lambda n: Counted(
+        n, "parts of {n} mechanism are not modelled", "parts of {n} mechanisms are not modelled"
+    ),
+    "assumed": lambda n: Counted(n, "{n} assumed value is open", "{n} assumed values are open"),
+    "default": lambda n: Counted(n, "{n} default value is open", "{n} default values are open"),
+}
+"""What is open, in the order in which it is listed, as the first line counts it."""
 
-    ``are_compared`` says that some of the parts are comparisons, ``is_doubtful`` that the formulas of a plugin have faults.
-    """
 
-    summary: SummaryRecord
-    parts: int
-    lost: int = 0
+VALUES: tuple[OpenKind, ...] = ("assumed", "default")
+"""What is open of inputs, and may be proved harmless."""
+
+
+class CalculatedCount(NamedTuple):
+    """Hold how many mechanisms and comparisons a machine has, and how many of them were not calculated."""
+
+    total: int
+    lost: int
     are_compared: bool = False
-    is_doubtful: bool = False
-
-    def conclusion(self) -> Phrase:
-        """Return the one sentence that every command, page and file begins with."""
-        found, left = self.summary, _listed(list(self.left()))
-        made = found.passing + found.warn + found.fail
-        if found.fail:
-            failed = Counted(found.fail, "{n} of {total} checks fails", "{n} of {total} checks fail", total=made)
-            return Phrase("{failed}; {left}.", failed=failed, left=left) if left else Phrase("{failed}.", failed=failed)
-        if self.lost:
-            template = "{n} of {total} mechanisms were not calculated."
-            if self.are_compared:
-                template = "{n} of {total} mechanisms and comparisons were not calculated."
-            return Phrase(template, n=self.lost, total=self.parts)
-        if not made:
-            return Phrase("Nothing was checked, and {left}.", left=left) if found.not_checked else phrase("There are no checks.")  # fmt: skip
-        return Phrase("No check fails, but {left}.", left=left) if left else phrase("All checks pass.")
-
-    def left(self) -> Iterator[Phrase]:
-        """Yield what is left open."""
-        found = self.summary
-        if self.lost:
-            yield Counted(self.lost, "{n} part is not calculated", "{n} parts are not calculated")
-        if found.warn:
-            yield Counted(found.warn, "{n} warns", "{n} warn")
-        if found.not_checked:
-            yield Counted(found.not_checked, "{n} is not checked", "{n} are not checked")
-        if count := len(found.assumed):
-            yield Counted(count, "{n} value is assumed", "{n} values are assumed")
-        if self.is_doubtful:
-            yield phrase("formulas of a plugin have faults")
-
-    @property
-    def is_open(self) -> bool:
-        """Return whether a machine of which no check fails is not proved all the same: it may not carry a tick."""
-        return any(True for _ in self.left())
 
 
-def open_of(results: ResultsRecord) -> Open:
-    """Return what is left open of a machine."""
+def judged(found: SummaryRecord, calculated: CalculatedCount) -> SummaryRecord:
+    """Return a summary with its verdict and the first line on the machine, which follow from its counts and from what is open."""
+    whole = found.with_(verdict=verdict(found, calculated))
+    return whole.with_(conclusion=_conclusion(whole, calculated))
+
+
+def verdict(found: SummaryRecord, calculated: CalculatedCount) -> Verdict:
+    """Return the verdict on a machine by its counts and by what is open."""
+    if found.fail or calculated.lost:
+        return "fail"
+    return "conditional" if found.open else "pass"
+
+
+def summary_of(results: ResultsRecord) -> SummaryRecord:
+    """Return the verdict as numbers; of a file before the three verdicts it follows from its checks and its assumed inputs."""
+    return results.summary if results.summary.verdict else rejudged(results)
+
+
+def rejudged(results: ResultsRecord) -> SummaryRecord:
+    """Return the verdict as numbers, judged by what is open; without a list of that by the checks and the assumed inputs."""
+    found, owner = results.summary, results.project.prepared_by
+    if found.verdict is None:
+        why = phrase("it is assumed")
+        assumed = [OpenRecord(what="assumed", path=path, owner=owner, why=why) for path in found.assumed]
+        found = found.with_(open=[*open_checks(results.calculated, owner), *assumed])
     parts = results.calculated.values()
-    lost, doubtful = sum(bool(each.error) for each in parts), any(each.is_doubtful for each in parts)
-    return Open(results.summary, len(parts), lost, bool(results.comparisons), doubtful)
+    return judged(
+        found, CalculatedCount(len(parts), sum(bool(each.error) for each in parts), bool(results.comparisons))
+    )
 
 
-def conclusion(results: ResultsRecord) -> Phrase:
-    """Return the one sentence that every command, page and file begins with."""
-    return open_of(results).conclusion()
+def open_checks(mechanisms: Mapping[str, MechanismRecord], owner: str) -> list[OpenRecord]:
+    """Return what the checks of mechanisms leave open, and plugins whose formulas have faults: first what warns."""
+    checks = {name: data.checks for name, data in mechanisms.items()}
+    doubtful = [name for name, data in mechanisms.items() if data.is_doubtful]
+    return unsettled(checks, doubtful, owner)
 
 
-def is_open(results: ResultsRecord) -> bool:
-    """Return whether a machine of which no check fails is not proved all the same."""
-    return open_of(results).is_open
+def unsettled(checks: Mapping[str, Sequence[CheckRecord]], doubtful: Iterable[str], owner: str) -> list[OpenRecord]:
+    """Return the checks that warn or are not made, and the mechanisms whose formulas have faults, as open items."""
+    every = [(f"mechanisms.{name}.checks.{check.id}", check) for name, own in checks.items() for check in own]
+    faults = phrase("the formulas of its plugin have faults")
+    warned = [OpenRecord(what="warning", path=f"mechanisms.{name}", owner=owner, why=faults) for name in doubtful]
+    for path, check in every:
+        if check.status == "warn" and check.check_class != SELF_TEST:
+            warned.append(OpenRecord(what="warning", path=path, owner=owner, why=check.message))
+    unmade = [(path, check) for path, check in every if check.status == "not_checked"]
+    return [
+        *warned,
+        *(OpenRecord(what="not_checked", path=path, owner=owner, why=check.message) for path, check in unmade),
+    ]
+
+
+def _conclusion(found: SummaryRecord, calculated: CalculatedCount) -> Phrase:
+    """The one sentence that every command, page and file begins with."""
+    left, made = _listed(list(_left(found.open))), found.passing + found.warn + found.fail
+    if found.fail:
+        failed = Counted(found.fail, "{n} of {total} checks fails", "{n} of {total} checks fail", total=made)
+        return Phrase("{failed}; {left}.", failed=failed, left=left) if left else Phrase("{failed}.", failed=failed)
+    if calculated.lost:
+        template = "{n} of {total} mechanisms were not calculated."
+        if calculated.are_compared:
+            template = "{n} of {total} mechanisms and comparisons were not calculated."
+        return Phrase(template, n=calculated.lost, total=calculated.total)
+    if not made:
+        return Phrase("Nothing was checked, and {left}.", left=left) if left else phrase("There are no checks.")
+    if left:
+        return Phrase("No check fails, but {left}.", left=left)
+    if accepted := found.parts.accepted if found.parts else 0:
+        one, many = (
+            "All checks pass; {n} part is accepted without a rating.",
+            "All checks pass; {n} parts are accepted without a rating.",
+        )
+        return Counted(accepted, one, many)
+    return phrase("All checks pass.")
+
+
+def _left(found: Sequence[OpenRecord]) -> Iterator[Phrase]:
+    """How much of each kind is left open."""
+    count = Counter(each.what for each in found)
+    yield from (counted(count[what]) for what, counted in LEFT.items() if count[what])
 
 
 def _listed(parts: list[Phrase]) -> str:
-    *most, last = parts or [phrase("")]
+    if not parts:
+        return ""
+    *most, last = parts
     return Phrase("{first} and {next}", first=joined(most, ", "), next=last) if most else last

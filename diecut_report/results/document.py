@@ -26,7 +26,7 @@ from diecut_report.mechanism.inputs import Block, Extremes, Quantity, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import as_given, given_shown
-from diecut_report.results.conclusion import conclusion, counts, governing, shown_alike, summary
+from diecut_report.results.conclusion import counts, governing, shown_alike
 from diecut_report.results.mechanism import worst
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
@@ -40,7 +40,8 @@ from diecut_report.results.model import (
     ReportRecord,
     ResultsRecord,
 )
-from diecut_report.results.origins import Bases, assumed, with_origins
+from diecut_report.results.open_items import run_summary
+from diecut_report.results.origins import Bases, with_origins
 from diecut_report.results.press_run import Found, Run
 from diecut_report.results.record import FORM_VERSION, Status
 from diecut_report.text.phrases import Phrase
@@ -63,7 +64,7 @@ def document(run: Run) -> ResultsRecord:
     if comparisons and run.left_out:
         message = Phrase(LEFT_OUT, count=len(run.left_out), first=run.left_out[0], most=MAX_COMPARISONS)
         left_out = LeftOutRecord(message=message, names=run.left_out)
-    made = ResultsRecord(
+    return ResultsRecord(
         schema_version=1,
         form_version=FORM_VERSION,
         program=_program(config),
@@ -83,12 +84,11 @@ def document(run: Run) -> ResultsRecord:
         press=_press(run),
         status=verdict((data.status for data in mechanisms.values()), run.errors),
         governing=governing(checks),
-        summary=summary(checks, assumed(config)),
+        summary=run_summary(run, checks),
         mechanisms=mechanisms,
         comparisons=comparisons,
         comparisons_left_out=left_out,
     )
-    return made.with_(summary=made.summary.with_(conclusion=conclusion(made)))
 
 
 def verdict(statuses: Iterable[str], errors: Sized) -> Status:

@@ -23,12 +23,14 @@ from diecut_report.results.record import (
     ErrorText,
     Message,
     Name,
+    OpenKind,
     Record,
     Schema,
     Status,
     Text,
     Texts,
     Value,
+    Verdict,
     always,
     sometimes,
 )
@@ -140,7 +142,7 @@ class GoverningRecord(Record):
 
 
 class MoveRecord(Record):
-    """An assumed value that moves a governing check."""
+    """An assumed value that moves a governing check, as files before the three verdicts hold it."""
 
     path: str = always("Its path.")
     check: str = always("The check, MECHANISM.ID.")
@@ -162,13 +164,40 @@ class FollowedAdviceRecord(Record):
     error: ErrorText | None = always("Why there is no such machine; null where there is one.")
 
 
+class OpenRecord(Record):
+    """What is left open of a machine of which no check fails: without it the verdict would be `pass`."""
+
+    what: OpenKind = always(
+        "`assumed`, `default`: a value on which a check may depend; `not_rated`: parts without a calculation; `not_checked`; `warning`."
+    )
+    path: str = always(
+        "The path of the input, of the check (`mechanisms.NAME.checks.ID`), or of the mechanism (`mechanisms.NAME`)."
+    )
+    owner: str = always("Who is to settle it; empty where nobody is named.")
+    why: Message = always("Why it is open.")
+
+
+class PartCountRecord(Record):
+    """How many parts carry load, and how many of them are calculated."""
+
+    carrying: int = always("Parts that carry load.")
+    rated: int = always("Of these those of which each way to fail has a check that was made.")
+    accepted: int = always("Those that somebody accepts without a rating, with a reason.")
+    not_rated: int = always("All others.")
+
+
 class SummaryRecord(CountRecord):
     """The verdict as numbers: how many checks of the machine there are, which governs, what the whole rests on."""
 
     governing: str | None = always("The check that governs, MECHANISM.ID; null where none is made.")
     conclusion: Message = sometimes("The first line on the machine: what fails, and what is left open.", "")
+    verdict: Verdict | None = sometimes(
+        "`fail`: a check does not hold, or a mechanism could not be calculated; `conditional`: something is open; `pass`. Files before it have none."
+    )
+    open: list[OpenRecord] = sometimes("What is open, each with its owner.", [])
+    parts: PartCountRecord | None = sometimes("The parts that carry load, where the parts of the machine are modelled.")
     assumed: list[str] = always("The paths of inputs whose basis is `assumed`.")
-    moves: list[MoveRecord] = sometimes("Of a report: which assumed values move a governing check.", [])
+    moves: list[MoveRecord] = sometimes("Of files before the three verdicts; not written any more.", [])
     advice: FollowedAdviceRecord | None = sometimes(
         "Of a report: what comes of the advice of all failing checks together."
     )

@@ -13,7 +13,7 @@ import numpy as np
 from diecut_report.config.instances import Instance, Node, Slot, Target
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.validation import ASSUMED, Basis, is_founded, weakest
+from diecut_report.config.validation import ASSUMED, Basis, is_founded, keys_of, weakest
 from diecut_report.config.validation import GIVEN as BASES_GIVEN
 from diecut_report.config.yaml import KeyPath
 from diecut_report.formulas import Array
@@ -30,7 +30,6 @@ from diecut_report.quantities.formatting import given_shown, shortest
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, PartRecord, QuantityRecord
-from diecut_report.results.model import MoveRecord, SummaryRecord
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 # What advice names is changed where it begins: a key that follows from another one is not changed in one mechanism alone.
@@ -146,12 +145,17 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
 # What the values of a run rest on: a reference carries the weakest basis of all that it is calculated from.
 
 
-def _is_default(block: Block, key: KeyPath) -> bool:
-    """Whether an input of a block, or of a block within it, has the value that it would have if nobody typed it."""
+def is_default(block: Block, key: KeyPath) -> bool:
+    """Return whether an input of a block, or of a block within it, has the value that it would have if nobody typed it."""
     for part in key[:-1]:
         block = block[part] if isinstance(part, int) else getattr(block, str(part))  # type: ignore[index]
-    name = str(key[-1])
-    return not np.any(getattr(block, name) != type(block).model_fields[name].get_default(call_default_factory=True))
+    declared = keys_of(type(block))[str(key[-1])]
+    default = declared.field.get_default(call_default_factory=True)
+    if declared.field.is_required():
+        return False
+    if isinstance(declared.meta, Quantity) and default is not None:
+        default = declared.meta.validate(default)  # it is declared in the unit of its key
+    return not np.any(getattr(block, str(key[-1])) != default)
 
 
 class Bases:
@@ -196,7 +200,7 @@ class Bases:
         """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default."""
         asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
         keys = [slot.key for slot in (instance.slots if asked else ()) if slot.name in asked]
-        return frozenset(key for key in keys if not (self.is_founded((instance.name, *key)) or _is_default(block, key)))
+        return frozenset(key for key in keys if not (self.is_founded((instance.name, *key)) or is_default(block, key)))
 
     def _of(self, node: Node) -> str:
         chain = [self.said(node).basis]
@@ -230,27 +234,19 @@ class Bases:
                 yield (instance.name, *slot.key)
 
 
+def input_path(name: str, key: KeyPath) -> str:
+    """Return the path of an input of a mechanism, or of the press, in the configuration."""
+    return ".".join(map(str, (*((PRESS,) if name == PRESS else ("mechanisms", name)), *key)))
+
+
 def assumed(config: Config) -> list[str]:
     """Return the paths of the values that the file says are assumed, in its order."""
     return [
-        ".".join(map(str, (*((PRESS,) if name == PRESS else ("mechanisms", name)), *key)))
+        input_path(name, key)
         for name, instance in config.instances.items()
         for key, said in (instance.bases.items() if instance else ())
         if said.basis == ASSUMED
     ]
-
-
-# What a calculation rests on that is assumed: those first that move a governing check most.
-
-
-MOVES = 1e-3  # change of a utilisation, by a change of the value by a tenth, below which it does not count
-
-
-def ordered(summary: SummaryRecord) -> list[MoveRecord]:
-    """Return the assumed values of a machine: those that move a governing check first, then in the file's order; no check where none is known."""
-    moves = {move.path: move for move in summary.moves}
-    found = [moves.get(path, MoveRecord(path=path, check="", change=0.0)) for path in summary.assumed]
-    return sorted(found, key=lambda each: -(each.change or 0.0))
 
 
 # The inputs of a mechanism as results hold them: value, unit, where each comes from and what was typed.

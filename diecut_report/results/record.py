@@ -21,7 +21,9 @@ WORDINGS = "wordings"
 
 Status = Literal["pass", "warn", "fail", "error", "skipped"]
 CheckStatus = Literal["pass", "warn", "fail", "not_checked"]
-CheckClass = Literal["function", "strength", "practice", "numerical"]
+CheckClass = Literal["safety", "function", "strength", "practice", "numerical"]
+Verdict = Literal["fail", "conditional", "pass"]
+OpenKind = Literal["assumed", "default", "not_rated", "not_checked", "warning"]
 Basis = Literal["assumed", "given", "catalogue", "drawing", "standard", "measured"]
 Value = float | int | bool | str
 Texts = list[str]

@@ -27,14 +27,13 @@ from typing import Any, NamedTuple, TypeVar
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.source_hashes import plugin_code
 from diecut_report.machine.calculation import Calculation, ChosenUnits, CurveHandle, same_curve
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI
 from diecut_report.results.checks import check_results
-from diecut_report.results.conclusion import Open, governing, summary
+from diecut_report.results.conclusion import governing
 from diecut_report.results.document import document, verdict
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures, shown_figures
@@ -50,7 +49,8 @@ from diecut_report.results.mechanism import (
 )
 from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, SectionRecord
 from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
-from diecut_report.results.origins import assumed, checks_with_origins, origin_of, placed_inputs
+from diecut_report.results.open_items import run_summary
+from diecut_report.results.origins import checks_with_origins, origin_of, placed_inputs
 from diecut_report.results.press_run import Run, Tell, require_possible
 from diecut_report.results.usual import Beside
 
@@ -199,22 +199,8 @@ class WarmRun(Run):
 
     @property
     def summary(self) -> SummaryRecord:
-        """Return the counts of the checks, the governing one, what is assumed, and the first line."""
-        found = self._open
-        return found.summary.with_(conclusion=found.conclusion())
-
-    @property
-    def is_open(self) -> bool:
-        """Return whether something is left open though no check fails."""
-        return self._open.is_open
-
-    @property
-    def _open(self) -> Open:
-        """What the first line follows from."""
-        kinds, codes = self.config.kinds, (plugin_code(each.mechanism) for each in self.calculations.values())
-        lost = len({*self.errors, *self.skipped} & kinds.keys())
-        doubtful = any(code.get("plugin_check") == "failed" for code in codes)
-        return Open(summary(self.checks, assumed(self.config)), len(kinds), lost, is_doubtful=doubtful)
+        """Return the counts of the checks, the governing one, what is open, the verdict and the first line."""
+        return run_summary(self, self.checks)
 
     def outputs(self, name: str) -> Quantities:
         """Return the outputs of a mechanism; KeyError where it is broken or skipped (``errors``, ``skipped``), as below."""

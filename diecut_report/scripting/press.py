@@ -17,6 +17,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import as_file
 from diecut_report.config.yaml import KeyPath, Tree, parse, read_text
+from diecut_report.design.findings import decided
 from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.carried import carried_results
 from diecut_report.files import in_words, write, write_all
@@ -147,7 +148,7 @@ class LoadedPress:
         Where a plugin breaks it is in ``errors`` of the results, whose status is ``error``; those of other mechanisms stand.
         """
         with told_in(self.language), one_thread():
-            made = self.press.calculate()
+            made = decided(self.press.calculate())
         return Results(made.results, self.press.discovery, self.language, config=self.config, errors=made.broken)
 
     def sweep(

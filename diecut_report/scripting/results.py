@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import DETAILS
@@ -18,7 +18,7 @@ from diecut_report.press import DRAWN, AskedReport, Lost
 from diecut_report.report.pages.html import Screen
 from diecut_report.report.scope import BRIEF, STANDARD
 from diecut_report.report.text import Catalogue
-from diecut_report.results.conclusion import SELF_TEST, conclusion
+from diecut_report.results.conclusion import SELF_TEST, summary_of
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism_record import MechanismRecord, QuantityRecord
 from diecut_report.results.model import ResultsRecord
@@ -212,6 +212,15 @@ def _input(name: str, data: QuantityRecord) -> InputValue:
 Data = dict[str, Any]
 
 
+class OpenItem(NamedTuple):
+    """Hold what is open of a machine: what it is, the path of its input, check or mechanism, who is to settle it, and why it is open."""
+
+    what: str
+    path: str
+    owner: str
+    why: str
+
+
 class Results(NamedParts[MechanismResults]):
     """Hold what was calculated of a machine: a mapping of its mechanisms by name.
 
@@ -229,8 +238,19 @@ class Results(NamedParts[MechanismResults]):
 
     @property
     def status(self) -> str:
-        """Return the verdict on the machine: ``pass``, ``warn`` or ``fail``; ``error`` where a mechanism could not be calculated."""
+        """Return the worst of the checks: ``pass``, ``warn`` or ``fail``; ``error`` where a mechanism could not be calculated."""
         return str(self._data.status)
+
+    @property
+    def verdict(self) -> str:
+        """Return the verdict on the machine: ``pass`` only where nothing is open, ``conditional`` where something is, ``fail``."""
+        return str(summary_of(self._data).verdict)
+
+    @property
+    def open(self) -> list[OpenItem]:
+        """Return what is open: values that are assumed or at their default, parts and checks that are not calculated, warnings."""
+        with speaking(self.language or SOURCE_LANGUAGE):
+            return [OpenItem(each.what, each.path, each.owner, said(each.why)) for each in summary_of(self._data).open]
 
     @property
     def summary(self) -> Data:
@@ -241,7 +261,7 @@ class Results(NamedParts[MechanismResults]):
     def conclusion(self) -> str:
         """Return the first line on the machine, as the report says it: what fails, and what is left open."""
         with speaking(self.language or SOURCE_LANGUAGE):
-            return said(conclusion(self._data))
+            return said(summary_of(self._data).conclusion)
 
     @property
     def governing(self) -> CheckResult | None:

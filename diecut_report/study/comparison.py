@@ -16,7 +16,7 @@ from diecut_report.quantities.formatting import shown as result_shown
 from diecut_report.quantities.units import pretty, to_display, unit
 from diecut_report.report.model import utilisation
 from diecut_report.results.changes import differing_kinds, own_changes
-from diecut_report.results.conclusion import RANK, SELF_TEST, doubtful_kinds, is_open
+from diecut_report.results.conclusion import RANK, SELF_TEST, doubtful_kinds, summary_of
 from diecut_report.results.mechanism_record import CheckRecord, QuantityRecord
 from diecut_report.study.analysis.variants import side_by_side
 from diecut_report.study.machines import BAD, ENDINGS, IMPOSSIBLE, CheckedMachine
@@ -203,11 +203,11 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
     results = machine.results
     if results is None:
         return Verdict(name, machine.file, machine.status, messages=tuple(machine.words), verdict=machine.status)
-    checks, summary = dict(named_checks(machine)), results.summary
+    checks, summary = dict(named_checks(machine)), summary_of(results)
     governing = str(results.governing) if results.governing else ""
     count = Counter(check.status for check in checks.values())
-    parts = getattr(summary, "parts", None)  # results of machines without a model of parts have none
-    concluded = machine.status if machine.status in ("fail", "error") else CONDITIONAL if is_open(results) else "pass"
+    parts = summary.parts  # results of machines without a model of parts have none
+    concluded = machine.status if machine.status == "error" else str(summary.verdict)
     return Verdict(
         name, machine.file, machine.status, governing,
         utilisation=checks[governing].utilisation if governing in checks else None,

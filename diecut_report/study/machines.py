@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
 from dataclasses import dataclass, field, replace
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from diecut_report.config import yaml
 from diecut_report.config.loader import is_study
@@ -24,6 +25,11 @@ from diecut_report.study.execution.engines import WorkerSetup, local_engine, res
 from diecut_report.study.storage.state import STATE
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase
+
+if TYPE_CHECKING:
+    from diecut_report.press import CalculatedPress
+
+Finish = Callable[["CalculatedPress"], "CalculatedPress"]
 
 ENDINGS = (".yaml", ".yml")
 MAX_MACHINES = 10_000  # machines of one check
@@ -127,13 +133,16 @@ def _why_no_configuration(path: Path) -> str:
 
 
 def machines(
-    files: Sequence[Path | Tree], folders: Sequence[str], jobs: int | None = None
+    files: Sequence[Path | Tree], folders: Sequence[str], jobs: int | None, finish: Finish
 ) -> Iterator[tuple[int, CheckedMachine]]:
-    """Yield each configuration's number and what came out, in the order in which they are ready."""
+    """Yield each configuration's number and what came out, in the order in which they are ready.
+
+    ``finish`` is a function of a module, called with each calculated press in its process; it returns it with what is asked for besides.
+    """
     key = sha256(repr((folders, os.getcwd())).encode()).hexdigest()
     chunks = [(number, given if isinstance(given, Tree) else str(given)) for number, given in enumerate(files)]
     with local_engine(jobs, len(files), WorkerSetup(key, _loaded, (tuple(folders),))) as engine:
-        for (number, _), made in results(engine, calculated, chunks):
+        for (number, _), made in results(engine, partial(calculated, finish=finish), chunks):
             yield number, made
 
 
@@ -142,7 +151,7 @@ def _loaded(folders: tuple[str, ...]) -> Discovery:
     return Discovery(tuple(map(Path, folders)))
 
 
-def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMachine:
+def calculated(discovery: Discovery, chunk: tuple[int, str | Tree], finish: Finish) -> CheckedMachine:
     """Return what comes out of a file or a variant ``DIR#N``, or of what was read of it."""
     from diecut_report.press import Press
 
@@ -155,7 +164,7 @@ def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMa
             source = _source(given, discovery, notes)
             press = Press.read(source, discovery)
             status = IMPOSSIBLE
-            made = press.calculate()
+            made = finish(press.calculate())
     except UserError as error:
         problems = error.problems
         try:  # all that is wrong: calculating stops at the first of its checks

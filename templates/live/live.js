@@ -1,7 +1,7 @@
 /* The live page: what the program tells of the machine is shown, what is changed here is sent. Texts are written as texts, never as markup. */
 (function () {
   "use strict";
-  var MARKS = { pass: "✓", warn: "!", fail: "✗", error: "✗", skipped: "–", not_checked: "?" };
+  var MARKS = { pass: "✓", warn: "!", fail: "✗", error: "✗", skipped: "–", not_checked: "?", conditional: "?" };
   var WORDS = JSON.parse(document.body.dataset.words);
   var byId = function (id) { return document.getElementById(id); };
   var PAUSE = 250;  /* milliseconds */
@@ -123,9 +123,9 @@
 
   /* ---- what is told ---- */
   function verdict() {
-    var machine = state.machine, summary = machine && machine.summary, status = state.faults.length ? "error" : machine.status;
+    var machine = state.machine, summary = machine && machine.summary;
+    var shown = state.faults.length || machine.status === "error" ? "error" : summary.verdict;
     var line = byId("verdict"), words = t("verdict_fault");
-    var shown = status === "pass" && machine.is_open ? "not_checked" : status;  /* a tick would say that nothing is left open */
     line.querySelector(".mark").className = "mark s-" + shown;
     line.querySelector(".mark").textContent = MARKS[shown];
     if (!state.faults.length) {

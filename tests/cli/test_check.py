@@ -53,7 +53,7 @@ def test_a_machine_that_passes_on_what_is_assumed_is_conditional(tmp_path: Path,
     folder, text = tmp_path / "firm", LIMITED.replace("150", "250")
     folder.mkdir()
     saved(folder, text, "good.yaml")
-    saved(folder, text.replace("2 kN", "{value: 2 kN, basis: assumed}"), "guessed.yaml")
+    saved(folder, text.replace("2 kN", "{value: 2 kN, basis: assumed}").replace("250", "210"), "guessed.yaml")
     assert check(folder, "-o", tmp_path / "out", "--format", "json,csv,html") == 0
     out, err = capfd.readouterr()
     assert [line.split()[:2] + line.split()[-1:] for line in out.splitlines()[1:]] == [
@@ -62,7 +62,10 @@ def test_a_machine_that_passes_on_what_is_assumed_is_conditional(tmp_path: Path,
     ]
     assert "2 machines: 1 pass, 1 conditional.\n" in err
     stored = json.loads((tmp_path / "out" / "machines.json").read_text("utf-8"))["machines"]
-    assert [each["conclusion"] for each in stored] == ["All checks pass.", "No check fails, but 1 value is assumed."]
+    assert [each["conclusion"] for each in stored] == [
+        "All checks pass.",
+        "No check fails, but 1 assumed value is open and 1 default value is open.",
+    ]
     assert [each["verdict"] for each in stored] == ["pass", "conditional"]
     page = (tmp_path / "out" / "machines.html").read_text("utf-8")
     assert '<span class="conditional">conditional' in page
@@ -143,10 +146,9 @@ def test_strict_ends_with_1_where_something_is_not_checked() -> None:
     from diecut_report.cli.checking import _code
     from diecut_report.study.comparison import Verdict
 
-    doubtful = [Verdict("a", "a.yaml", "pass", not_checked=2)]
-    assert (_code(doubtful, strict=False), _code(doubtful, strict=True)) == (0, 1)
-    warned = [Verdict("a", "a.yaml", "warn", warnings=1)]
-    assert (_code(warned, strict=False), _code(warned, strict=True)) == (0, 1)
+    for verdict, codes in (("pass", (0, 0)), ("conditional", (0, 1)), ("fail", (1, 1))):
+        judged = [Verdict("a", "a.yaml", "pass", verdict=verdict)]
+        assert (_code(judged, strict=False), _code(judged, strict=True)) == codes
 
 
 def test_what_is_not_checked_is_counted_from_the_results() -> None:

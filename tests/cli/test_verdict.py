@@ -48,14 +48,20 @@ def test_a_check_without_its_limit_is_told_and_counted(tmp_path: Path, capfd: Ca
     err = capfd.readouterr().err
     assert code == 0 and found["status"] == "pass"
     told = found["summary"].pop("conclusion")
+    left = found["summary"].pop("open")
     assert found["summary"] == {"pass": 0, "warn": 0, "fail": 0, "not_checked": 1, "numerical": {"pass": 0, "fail": 0},
-                                "governing": None, "assumed": []}  # fmt: skip
-    assert told["text"] == "Nothing was checked, and 1 is not checked."
+                                "governing": None, "assumed": [], "verdict": "conditional"}  # fmt: skip
+    assert [(each["what"], each["path"], each["owner"]) for each in left] == [
+        ("not_checked", "mechanisms.a.checks.moment", ""),
+        ("default", "mechanisms.a.arm", ""),  # typed, but what it would be if nobody typed it
+        ("default", "mechanisms.a.teeth", ""),
+    ]
+    assert told["text"] == "Nothing was checked, and 1 is not checked and 2 default values are open."
     assert told["template"] == "Nothing was checked, and {left}."
-    assert told["values"]["left"]["count"] == 1 and told["values"]["left"]["text"] == "1 is not checked"
+    assert told["values"]["left"]["values"]["first"]["count"] == 1
     assert err.splitlines() == [
         "not checked a: Moment. Moment 200 N·m, but allowable_moment is not given.",
-        "Nothing was checked, and 1 is not checked.",
+        "Nothing was checked, and 1 is not checked and 2 default values are open.",
     ]
 
 
@@ -75,7 +81,7 @@ def test_page_1_does_not_say_that_all_checks_pass_where_one_is_not_made(tmp_path
         pages.append((tmp_path / "press.html").read_text("utf-8"))
     assert "All checks pass" not in pages[0] and "Nothing was checked, and 1 is not checked." in pages[0]
     assert ">allowable_moment</span>" in pages[0]
-    assert "All checks pass" in pages[1] and "not checked" not in pages[1]
+    assert "All checks pass" in pages[1] and "1 is not checked" not in pages[1]
 
 
 def test_a_calculation_that_contradicts_itself_is_an_error_and_what_refers_to_it_is_skipped(

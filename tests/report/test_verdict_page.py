@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.report.chapters.front import assumed_groups, followed_line
+from diecut_report.report.chapters.front import followed_line, machine_facts, not_covered, open_groups
 from diecut_report.report.document import document
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue, sentence
@@ -83,9 +83,9 @@ def test_a_failure_without_a_utilisation_tells_by_how_much_in_words() -> None:
     ("checks", "verdict", "face"),
     [
         ([judged("a", 0.5)], "All checks pass.", "pass"),
-        ([judged("a", 0.5), unchecked("b", "rated")], "No check fails, but 1 is not checked.", "incomplete"),
-        ([unchecked("b", "rated")], "Nothing was checked, and 1 is not checked.", "incomplete"),
-        ([judged("a", 1.1, "warn"), unchecked("b", "rated")], "No check fails, but 1 warns and 1 is not checked.", "warn"),
+        ([judged("a", 0.5), unchecked("b", "rated")], "No check fails, but 1 is not checked.", "conditional"),
+        ([unchecked("b", "rated")], "Nothing was checked, and 1 is not checked.", "conditional"),
+        ([judged("a", 1.1, "warn"), unchecked("b", "rated")], "No check fails, but 1 warns and 1 is not checked.", "conditional"),
         ([judged("a", 1.1, "fail"), unchecked("b", "rated")], "1 of 1 checks fails; 1 is not checked.", "fail"),
         ([], "There are no checks.", "pass"),
     ],
@@ -113,13 +113,60 @@ def test_the_counts_begin_a_sentence() -> None:
     assert sentence("6 of 135 checks fail") == "6 of 135 checks fail"
 
 
-def test_an_assumed_value_that_was_typed_as_a_text_is_not_broken_before_its_unit() -> None:
-    path = "mechanisms.timing.interlocks.0.margin"
-    row = {"basis": "assumed", "display": {"text": "5 ms", "unit": "1"}, "unit": "1"}
-    mechanisms = {"timing": {"inputs": {"interlocks.0.margin": row}, "checks": []}}
-    results = {"mechanisms": mechanisms, "press": {"fields": []}, "summary": {"assumed": [path], "moves": []}}
-    (group,) = assumed_groups(filled(ResultsRecord, results), Catalogue("uk"))
-    assert group.values == [("interlocks.0.margin", "5\u00a0ms", "")]
+def test_open_values_stand_by_their_mechanism_those_with_the_same_reason_together() -> None:
+    shown = {"interlocks.0.margin": "5 ms", "a": "3", "b": "4"}
+    inputs = {key: {"display": {"text": text, "unit": "1"}, "unit": "1"} for key, text in shown.items()}
+    items = [("interlocks.0.margin", "at 6 ms"), ("a", "together"), ("b", "together")]
+    left = [{"what": "assumed", "path": f"mechanisms.timing.{key}", "why": why} for key, why in items]
+    results = {
+        "mechanisms": {"timing": {"inputs": inputs}},
+        "press": {"fields": []},
+        "summary": {"verdict": "conditional", "open": left},
+    }
+    (group,) = open_groups(filled(ResultsRecord, results), Catalogue("en"))
+    assert group.values == [
+        ("interlocks.0.margin", "5\u00a0ms", "assumed: at 6 ms"),
+        ("a", "3", ""),
+        ("b", "4", "assumed: together"),
+    ]
+
+
+def test_page_1_says_what_the_machine_is_as_far_as_the_results_hold_it() -> None:
+    def row(text: str, unit: str, description: str) -> dict[str, Any]:
+        return {"value": 1.0, "unit": "1", "description": description, "display": {"text": text, "unit": unit}}
+
+    fields = [
+        row("700", "mm", "Length") | {"path": "press.sheet.length"},
+        row("470", "mm", "Width") | {"path": "press.sheet.width"},
+    ]
+    train = {"kind": "drive_train", "outputs": {"motor_power": row("1.1", "kW", "Rated power")}}
+    found = machine_facts(
+        filled(ResultsRecord, {"press": {"fields": fields}, "mechanisms": {"train": train}}), Catalogue("en")
+    )
+    assert found == [("Format", "700\u00a0mm × 470\u00a0mm"), ("Rated power (train)", "1.1\u00a0kW")]
+    assert machine_facts(filled(ResultsRecord, {"press": {"fields": []}, "mechanisms": {}}), Catalogue("en")) == []
+
+
+@pytest.mark.parametrize("owner", ["Designer", ""])
+def test_page_1_names_what_is_not_covered_with_its_owner(owner: str) -> None:
+    item = {"what": "not_rated", "path": "mechanisms.cross", "owner": owner, "why": "no part takes torque"}
+    given = {"project": {"prepared_by": owner}, "summary": {"verdict": "conditional", "open": [item]}}
+    found = not_covered(filled(ResultsRecord, given), Catalogue("en"))
+    assert [each.text for each in found][:2] == [
+        "Parts of the drive line are not modelled.",
+        "cross: no part takes torque.",
+    ]
+    assert len(found) == 4 and {each.owner for each in found} == {owner}
+    (alone,) = not_covered(filled(ResultsRecord, {"project": {"prepared_by": owner}}), Catalogue("en"))
+    assert alone.text.endswith("beyond the methods.")
+
+
+def test_each_mechanism_has_its_worst_strength_and_function_check() -> None:
+    strength, practice = {"class": "strength"}, {"class": "practice"}
+    found = page(judged("low", 0.2, **strength), judged("high", 0.9, **strength), judged("rule", 0.99, **practice))
+    assert found.chapters[0].worst("strength", "safety").id == "high" and found.chapters[0].worst("function") is None
+    (hurt,) = page(judged("guard", 0.4, **{"class": "safety"})).checks
+    assert (hurt.check_class, hurt.id) == ("safety", "guard")
 
 
 def test_advice_has_the_numbers_of_the_language() -> None:

@@ -1,4 +1,4 @@
-"""The first line on a machine: that all checks pass is said only where nothing is left open."""
+"""The verdict on a machine and its first line: that all checks pass is said only where nothing is left open."""
 
 from __future__ import annotations
 
@@ -6,46 +6,83 @@ from typing import Any
 
 import pytest
 
-from diecut_report.results.conclusion import conclusion, is_open
-from diecut_report.results.model import ResultsRecord
+from diecut_report.results.conclusion import CalculatedCount, judged, summary_of
+from diecut_report.results.model import OpenRecord, ResultsRecord, SummaryRecord
 from diecut_report.text.translation import said, speaking
 from tests.records import filled
 
+KINDS = ("warning", "not_checked", "not_rated", "assumed", "default")
 
-def results(**counts: Any) -> ResultsRecord:
-    whole = {"pass": 0, "warn": 0, "fail": 0, "not_checked": 0, "assumed": []} | counts
-    lost = whole.pop("lost", 0)
-    doubtful = {"plugin_check": "failed"} if whole.pop("doubtful", False) else {}
-    mechanisms = {f"m{i}": {"kind": "k", **({"error": "broken"} if i < lost else {}), **doubtful} for i in range(3)}
-    return filled(ResultsRecord, {"summary": whole, "mechanisms": mechanisms})
+
+def summary(**counts: Any) -> SummaryRecord:
+    """A judged summary with so many checks of each status and so many open items of each kind; ``lost`` mechanisms of three."""
+    lost, parts = counts.pop("lost", 0), counts.pop("parts", None)
+    items = [{"what": kind, "path": f"m.{number}"} for kind in KINDS for number in range(counts.pop(kind, 0))]
+    whole = (
+        {"pass": 0, "warn": 0, "fail": 0, "not_checked": 0, "open": items}
+        | counts
+        | ({"parts": parts} if parts else {})
+    )
+    return judged(filled(SummaryRecord, whole), CalculatedCount(3, lost))
 
 
 @pytest.mark.parametrize(
-    ("found", "line", "is_left"),
+    ("found", "verdict", "line"),
     [
-        ({"pass": 3}, "All checks pass.", False),
-        ({"pass": 3, "warn": 1}, "No check fails, but 1 warns.", True),
-        ({"pass": 3, "not_checked": 2}, "No check fails, but 2 are not checked.", True),
-        ({"pass": 3, "assumed": ["a.b"]}, "No check fails, but 1 value is assumed.", True),
+        ({"pass": 3}, "pass", "All checks pass."),
+        ({"pass": 2, "warn": 1, "warning": 1}, "conditional", "No check fails, but 1 warns."),
+        ({"pass": 3, "not_checked": 2}, "conditional", "No check fails, but 2 are not checked."),
+        ({"pass": 3, "assumed": 1}, "conditional", "No check fails, but 1 assumed value is open."),
+        ({"pass": 3, "default": 2}, "conditional", "No check fails, but 2 default values are open."),
+        ({"pass": 3, "not_rated": 1}, "conditional", "No check fails, but parts of 1 mechanism are not modelled."),
         (
-            {"pass": 3, "warn": 2, "not_checked": 1, "assumed": ["a.b", "a.c"]},
-            "No check fails, but 2 warn, 1 is not checked and 2 values are assumed.",
-            True,
+            {"pass": 3, "warning": 2, "not_checked": 1, "assumed": 2},
+            "conditional",
+            "No check fails, but 2 warn, 1 is not checked and 2 assumed values are open.",
         ),
-        ({"pass": 3, "doubtful": True}, "No check fails, but formulas of a plugin have faults.", True),
-        ({"pass": 2, "fail": 1, "not_checked": 1, "assumed": ["a"]}, "1 of 3 checks fails; 1 is not checked and 1 value is assumed.", True),
-        ({"not_checked": 1}, "Nothing was checked, and 1 is not checked.", True),
-        ({}, "There are no checks.", False),
-        ({"pass": 3, "lost": 1}, "1 of 3 mechanisms were not calculated.", True),
+        ({"pass": 2, "fail": 1, "not_checked": 1}, "fail", "1 of 3 checks fails; 1 is not checked."),
+        ({"pass": 2, "fail": 1}, "fail", "1 of 3 checks fails."),
+        ({"not_checked": 1}, "conditional", "Nothing was checked, and 1 is not checked."),
+        ({}, "pass", "There are no checks."),
+        ({"pass": 3, "lost": 1}, "fail", "1 of 3 mechanisms were not calculated."),
+        (
+            {"pass": 3, "parts": {"carrying": 9, "rated": 7, "accepted": 2, "not_rated": 0}},
+            "pass",
+            "All checks pass; 2 parts are accepted without a rating.",
+        ),
     ],
-)  # fmt: skip
-def test_all_checks_pass_is_said_only_where_nothing_is_open(found: dict[str, Any], line: str, is_left: bool) -> None:
-    given = results(**found)
-    assert str(conclusion(given)) == line
-    assert is_open(given) == is_left
+)
+def test_the_verdict_is_pass_only_where_nothing_is_open(found: dict[str, Any], verdict: str, line: str) -> None:
+    given = summary(**found)
+    assert (given.verdict, str(given.conclusion)) == (verdict, line)
+    assert ("All checks pass" in line) <= (verdict == "pass")
 
 
 def test_it_is_said_in_ukrainian() -> None:
     with speaking("uk"):
-        line = said(conclusion(results(**{"pass": 3, "not_checked": 23, "assumed": ["a", "b"]})))
-    assert line == "Невиконаних перевірок немає, але 23 не перевірено і 2 значення прийнято без підтвердження."
+        line = said(summary(**{"pass": 3, "not_checked": 23, "assumed": 2}).conclusion)
+    assert line == "Невиконаних перевірок немає, але 23 не перевірено і 2 прийняті значення не підтверджено."
+
+
+def test_a_file_before_the_three_verdicts_is_judged_by_its_checks_and_assumed_inputs() -> None:
+    checks = [
+        {"id": "a", "status": "warn", "message": "too hot"},
+        {"id": "b", "status": "not_checked", "message": "no limit"},
+    ]
+    doubtful = {"kind": "k", "plugin_check": "failed"}
+    given = {"summary": {"pass": 3, "warn": 1, "not_checked": 1, "assumed": ["press.sheet.width"]},
+             "mechanisms": {"m": {"checks": checks}, "n": doubtful}, "project": {"prepared_by": "Designer"}}  # fmt: skip
+    found = summary_of(filled(ResultsRecord, given))
+    assert found.verdict == "conditional"
+    assert [(each.what, each.path, each.owner) for each in found.open] == [
+        ("warning", "mechanisms.n", "Designer"),
+        ("warning", "mechanisms.m.checks.a", "Designer"),
+        ("not_checked", "mechanisms.m.checks.b", "Designer"),
+        ("assumed", "press.sheet.width", "Designer"),
+    ]
+
+
+def test_a_judged_file_is_not_judged_again() -> None:
+    item = OpenRecord(what="default", path="mechanisms.m.x", owner="", why="why")
+    results = filled(ResultsRecord, {"summary": {"verdict": "conditional", "open": [item], "assumed": ["a.b"]}})
+    assert summary_of(results) == results.summary

@@ -42,12 +42,12 @@ def test_a_report_tells_the_faults_and_is_not_whole(tmp_path: Path, home: Path, 
     asked = ("report", str(home / "examples" / "toggle.yaml"), "--format", "html,json", "-o", str(tmp_path))
     assert run(home, *asked) == 0
     told = capfd.readouterr().err
-    assert SAID in told and FAULT in told and "No check fails, but formulas of a plugin have faults." in told
+    assert SAID in told and FAULT in told and "1 warns" in told
     results = json.loads((tmp_path / "toggle.json").read_text("utf-8"))
     page = text(tmp_path / "toggle.html")
     assert results["mechanisms"]["toggle"]["plugin_check"] == "failed"
     assert "The formulas of the plugin of toggle have faults" in page
-    assert "? conditional" in page and "formulas of a plugin have faults" in page
+    assert "? conditional" in page
     assert "All checks pass" not in page and "NOT RELEASED" in page
     assert run(home, *asked, "--strict") == 1
 

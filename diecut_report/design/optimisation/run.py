@@ -35,7 +35,7 @@ from diecut_report.study.definition.wanted_results import Objective
 from diecut_report.study.execution.engines import Engine, WorkerSetup, local_engine, results, settle
 from diecut_report.study.execution.study_run import Counts, Tell, Where, described, engine_for, facts
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
-from diecut_report.study.storage.description import Description, ResultColumn
+from diecut_report.study.storage.description import JUDGED, Description, ResultColumn
 from diecut_report.study.storage.parts import columns_of_part
 from diecut_report.study.storage.state import SEARCHED
 from diecut_report.study.storage.store import Store, refuse_used
@@ -125,7 +125,7 @@ def evaluate(study: Study, piece: GenerationPiece) -> Tried:
     kept = {name: column for name, column in rows.columns.items() if _is_kept(study, name)}
     inputs = {path: np.asarray(v, dtype=float if isinstance(v, np.ndarray) else object) for path, v in values.items()}
     found = {"variant": piece.start + left} | inputs | kept | {VIOLATION.name: violation}
-    found |= {"status": rows.status, "governing": rows.governing, "error": rows.errors}
+    found |= {JUDGED.name: rows.verdict, "status": rows.status, "governing": rows.governing, "error": rows.errors}
     return Tried(found, *_judged(study, broken, known, violation), rows.slow, rows.broken)
 
 

@@ -1,11 +1,11 @@
-"""What matters, as the report prints it: a tornado for each number, with its table, and how probable it is that the checks hold."""
+"""The first sheets of a report: what machine it is, what is open, what inputs move, what changed, and what the report carries."""
 
 from __future__ import annotations
 
 import base64
 import gzip
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from hashlib import sha256
@@ -18,6 +18,7 @@ from diecut_report.quantities.formatting import number_text
 from diecut_report.report.model import CheckRow, TornadoFigure, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, joined, number, quantity
+from diecut_report.results.conclusion import VALUES
 from diecut_report.results.mechanism_record import ItemRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
     ChanceRecord,
@@ -26,13 +27,12 @@ from diecut_report.results.model import (
     ChangedQuantityRecord,
     ChangesRecord,
     CheckSideRecord,
-    MoveRecord,
+    OpenRecord,
     QuantitySideRecord,
     ResultsRecord,
     TolerancesRecord,
     TornadoRecord,
 )
-from diecut_report.results.origins import ordered
 from diecut_report.results.results_file import config_content, encoded, results_text
 
 DIGITS = 4
@@ -319,51 +319,96 @@ def followed_line(results: ResultsRecord, words: Catalogue, rows: Iterable[Check
         yield words.say("advice_passes", changes=changes)
 
 
-# The line of page 1 on what the calculation rests on that is assumed.
+# What machine it is, as the head of page 1 says it: what the press asks for, and of each of these quantities the first that a mechanism has.
 
 
-TOLD = 3  # paths on page 1: all stand in the tables of inputs
+FACTS = (
+    (("drive_train", "motor_power"),),
+    (("cyclogram", "power_mean"), ("cylinder_drive", "power_mean"), ("", "power_mean")),
+    (("cyclogram", "torque_peak"), ("cylinder_drive", "crank_torque_peak"), ("", "torque_peak"), ("", "torque_max")),
+    (("", "machine_mass"), ("cylinder_sizing", "mass")),
+)
+"""Kinds of mechanisms, any where there is none, and the ids of their results: installed and mean power, peak torque, mass."""
+RATES = (("press_consistency", "true_rate"),)
+
+
+def machine_facts(results: ResultsRecord, words: Catalogue) -> list[tuple[str, str]]:
+    """Return what the machine is, as far as the results hold it, each with what it is called: rate, format, board, power, torque, mass."""
+    fields = {row.path: row for row in results.press.fields}
+    sheet = [_shown(fields[path], words) for path in ("press.sheet.length", "press.sheet.width") if path in fields]
+    rate = fields.get("press.productivity")
+    found = [(rate.description, _shown(rate, words))] if rate else []
+    found += [(words["sheet_format"], " × ".join(sheet))] if sheet else []
+    found += (
+        [(words["board"], _shown(fields["press.sheet.thickness"], words))] if "press.sheet.thickness" in fields else []
+    )
+    rows = (_first(results, names) for names in (RATES, *FACTS))
+    found += [(f"{row.description} ({name})", _shown(row, words)) for name, row in filter(None, rows)]
+    return [(label, text) for label, text in found if text]
+
+
+def _first(results: ResultsRecord, names: Sequence[tuple[str, str]]) -> tuple[str, QuantityRecord] | None:
+    for kind, id in names:
+        for name, data in results.mechanisms.items():
+            row = data.outputs.get(id) or data.inputs.get(id)
+            if kind in ("", data.kind) and row is not None and isinstance(row.value, int | float):
+                return name, row
+    return None
+
+
+def _shown(row: QuantityRecord, words: Catalogue) -> str:
+    return _TYPED.sub("\u00a0", quantity(row.display.text, row.display.unit, words["decimal"]))
+
+
+# What the verdict leaves open, and what the report does not cover.
+
+
 _TYPED = re.compile(r"(?<=\d) (?=\S+$)")  # between a number and its unit that were typed as a text
 
 
-class AssumedLine(NamedTuple):
-    """Hold the words, the paths that are told (behind the last of a run what each of it moves), and how many more there are."""
-
-    head: str
-    paths: list[tuple[str, str]]
-    more: str
-
-
-class AssumedGroup(NamedTuple):
-    """Hold the assumed values of the press or of a mechanism: key, value, and behind the last of a run what each of it moves."""
+class OpenGroup(NamedTuple):
+    """Hold the open values of the press or of a mechanism: key, value, and behind the last of those with the same reason that reason."""
 
     name: str
     values: list[tuple[str, str, str]]
 
 
-def assumed_groups(results: ResultsRecord, words: Catalogue) -> list[AssumedGroup]:
-    """Return all assumed values by what they belong to, in the file's order, those of each that move a check first."""
-    groups: dict[str, list[MoveRecord]] = {}
-    found = {each.path: each for each in ordered(results.summary)}
-    for path in results.summary.assumed:
-        groups.setdefault(_input(results, path)[0], []).append(found[path])
-    return [AssumedGroup(name, [*_valued(results, words, values)]) for name, values in groups.items()]
+def open_groups(results: ResultsRecord, words: Catalogue) -> list[OpenGroup]:
+    """Return the assumed and default values that are open by what they belong to, in the file's order, those with the same reason together."""
+    groups: dict[str, list[OpenRecord]] = {}
+    for each in results.summary.open:
+        if each.what in VALUES:
+            groups.setdefault(_input(results, each.path)[0], []).append(each)
+    return [OpenGroup(name, [*_reasoned(results, words, values)]) for name, values in groups.items()]
 
 
-def _valued(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> Iterator[tuple[str, str, str]]:
-    first = list(dict.fromkeys(each.check for each in values if each.check))
-    for each, moves in _runs(results, words, sorted(values, key=lambda one: [*first, ""].index(one.check))):
-        _, key, row = _input(results, each.path)
-        shown = quantity(row.display.text, row.display.unit, words["decimal"]) if row else ""
-        yield key, _TYPED.sub("\u00a0", shown), moves
-
-
-def _runs(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> Iterator[tuple[MoveRecord, str]]:
-    """Each value, behind the last of those that move the same check what they move."""
-    for check, run in groupby(values, lambda each: each.check):
+def _reasoned(results: ResultsRecord, words: Catalogue, values: list[OpenRecord]) -> Iterator[tuple[str, str, str]]:
+    first = list(dict.fromkeys((each.what, each.why) for each in values))
+    for (what, why), run in groupby(
+        sorted(values, key=lambda one: first.index((one.what, one.why))), lambda one: (one.what, one.why)
+    ):
         *others, last = run
-        yield from ((each, "") for each in others)
-        yield last, words.say("move_each" if others else "moves", check=_check_title(results, check)) if check else ""
+        for each in (*others, last):
+            _, key, row = _input(results, each.path)
+            yield key, _shown(row, words) if row else "", f"{words[what]}: {why}" if each is last else ""
+
+
+class NotCovered(NamedTuple):
+    """Hold something that the report does not cover, and who is to settle it."""
+
+    text: str
+    owner: str
+
+
+def not_covered(results: ResultsRecord, words: Catalogue) -> list[NotCovered]:
+    """Return what nothing in the report calculates: parts, load cases, and what lies beyond the methods."""
+    owner = results.project.prepared_by
+    unrated = [each for each in results.summary.open if each.what == "not_rated"]
+    found = [NotCovered(words["beyond_methods"], owner)]
+    if unrated and not results.summary.parts:
+        found = [NotCovered(words["not_modelled"], owner), NotCovered(words["no_load_cases"], owner), *found]
+    parts = [NotCovered(f"{each.path.removeprefix('mechanisms.')}: {each.why}.", each.owner) for each in unrated]
+    return [*found[:1], *parts, *found[1:]] if parts else found
 
 
 def _check_title(results: ResultsRecord, check: str) -> str:
@@ -379,19 +424,6 @@ def _input(results: ResultsRecord, path: str) -> tuple[str, str, QuantityRecord 
         name, _, key = key.partition(".")
         return name, key, results.mechanisms[name].inputs.get(key)
     return whose, key, next((row for row in results.press.fields if row.path == path), None)
-
-
-def assumed_line(results: ResultsRecord, words: Catalogue) -> AssumedLine | None:
-    """Return the line; None where nothing is assumed."""
-    found = ordered(results.summary)
-    if not found:
-        return None
-    moving = [each for each in found if each.check] or found
-    paths = [(each.path, moves) for each, moves in _runs(results, words, moving[:TOLD])]
-    head = words.say("rests_on", n=len(found))
-    head += words["moving_first"] if found[0].check and len(found) > 1 else ""
-    more = words.say("more_assumed", n=len(found) - len(paths)) if len(found) > len(paths) else ""
-    return AssumedLine(head, paths, more)
 
 
 # What a report carries of its calculation: the results file and the configuration, attached to the PDF, linked in the HTML.

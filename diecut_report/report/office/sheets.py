@@ -141,11 +141,16 @@ def _summary(material: Material) -> WorkSheet:
     governing = document.governing
     told = [
         (words["press"], document.press.name),
+        *document.facts,
         *project,
         (words["verdict"], " ".join([document.verdict, *(f"{count}." for count in document.counts)])),
         *([(words["governing"], f"{governing.mechanism}: {governing.title}, {governing.used}")] if governing else []),
         *((words["fail"], f"{row.mechanism}: {row.title}. {row.message}") for row in document.failures),
         *(("", note) for note in document.notes),
+        *(
+            (words["not_covered"], f"{each.text} {words.say('owned_by', owner=each.owner or words['no_owner'])}")
+            for each in document.not_covered
+        ),
         (words["calculated_by"], f"{document.program.name} {document.program.version}"),
         (words["config_file"], document.config.file),
         (words["sha256"], document.config.sha256),

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from diecut_report.report.figures.by_type import Raster
 
 
-MARKS = {"pass": "✓", "warn": "!", "fail": "✗", "error": "✗", "skipped": "–", "not_checked": "?", "incomplete": "?"}
+MARKS = {"pass": "✓", "warn": "!", "fail": "✗", "error": "✗", "skipped": "–", "not_checked": "?", "conditional": "?"}
 NAMED_PART = 3.0  # the share of a column that names parts, where they have more than numbers
 
 

@@ -72,21 +72,23 @@ def summary(body: WordBody, document: ReportDocument) -> None:
     """The verdict, what fails, what governs, and how each mechanism fares."""
     words = document.words
     body.heading(1, "1", words["summary"], "summary")
+    if document.facts:
+        body.say(run(" · ".join(f"{label} {value}" for label, value in document.facts)))
     counts = f" {', '.join(document.counts)}." if document.counts else ""
     is_judged = document.checks or document.unchecked or document.status != "pass"
     body.say((body.status(document.face) + run("  ") if is_judged else "") + bold(document.verdict) + run(counts))
     body.listed(_verdict_lines(body, document))
-    if document.detail == FULL:
-        if document.checks:
-            body.subheading(words["checks"])
-            check_table(body, document.checks)
-    elif len(document.chapters) > 1:
-        _governing(body, document)
+    _not_covered(body, document)
+    if document.checks or document.unchecked:
+        _worst(body, document)
+    if document.checks and document.detail == FULL:
+        body.subheading(words["checks"])
+        check_table(body, document.checks)
     if document.unchecked:
         body.subheading(words["not_checked"].capitalize())
         left = [[_named(body, row), run(row.demand), key(", ".join(row.missing))] for row in document.unchecked]
         body.table(body.heads("check:5 demand:2> missing:4"), left)
-    _assumed(body, document)
+    _open(body, document)
     if document.detail != BRIEF:
         for chapter in document.chapters:
             if not chapter.lost:
@@ -134,18 +136,23 @@ def _verdict_lines(body: WordBody, document: ReportDocument) -> Iterator[Inline]
     yield from map(run, document.notes)
 
 
-def _assumed(body: WordBody, document: ReportDocument) -> None:
-    words, line = document.words, document.assumed
-    if document.assumed_groups:
-        body.subheading(words["assumed_values"])
+def _open(body: WordBody, document: ReportDocument) -> None:
+    if document.open_groups:
+        body.subheading(document.words["open_values"])
         rows = []
-        for group in document.assumed_groups:
-            told = [f"{name} {value}" + (f" ({moves})" if moves else "") for name, value, moves in group.values]
+        for group in document.open_groups:
+            told = [f"{name} {value}" + (f" ({why})" if why else "") for name, value, why in group.values]
             rows.append([key(group.name), run(" · ".join(told))])
         body.table([TableColumn("", 1), TableColumn("", 4)], rows, headed=False)
-    elif line and document.detail != BRIEF:
-        paths = ", ".join(f"{path} ({moves})" if moves else path for path, moves in line.paths)
-        body.say(run(f"{line.head}: {paths}{line.more}."))
+
+
+def _not_covered(body: WordBody, document: ReportDocument) -> None:
+    words = document.words
+    body.subheading(words["not_covered"])
+    body.listed(
+        rich(prose(each.text)) + run(" ") + small(words.say("owned_by", owner=each.owner or words["no_owner"]))
+        for each in document.not_covered
+    )
 
 
 def _named(body: WordBody, row: CheckRow) -> Inline:
@@ -153,16 +160,19 @@ def _named(body: WordBody, row: CheckRow) -> Inline:
     return body.linked(row) + new_line() + small(f"{row.chapter} {row.mechanism}{kind}")
 
 
-def _governing(body: WordBody, document: ReportDocument) -> None:
-    columns = body.heads("mechanism:4 governing_check:5 utilisation:2.2>")
+def _worst(body: WordBody, document: ReportDocument) -> None:
+    columns = body.heads("mechanism:4 worst_strength:4 worst_function:4")
     columns += [*(TableColumn(run(MARKS[status]), 0.7, True) for status in STATUSES), *body.heads("verdict:2")]
     rows = []
     for chapter in document.chapters:
-        row = chapter.governing
-        said = body.linked(row) + new_line() + small(f"{row.demand} {row.operator} {row.limit}") if row else run("–")
+        worst = (chapter.worst("strength", "safety"), chapter.worst("function"))
+        told = [
+            body.linked(row) + run(f" {row.used or row.utilisation}") if row else run(document.words["none"])
+            for row in worst
+        ]
         title = link(body.anchor(chapter.anchor), run(f"{chapter.letter} ") + rich(prose(chapter.title)))
         counts = [run(str(chapter.count(status) or "–")) for status in STATUSES]
-        rows.append([title, said, run(row.utilisation if row else "–"), *counts, body.status(chapter.face)])
+        rows.append([title, *told, *counts, body.status(chapter.face)])
     body.table(columns, rows)
 
 

@@ -8,7 +8,7 @@ import json
 import math
 import shutil
 import sys
-from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -16,17 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.press import Press
 from diecut_report.quantities.units import unit
 from diecut_report.report.text import number
-from diecut_report.results.checks import NOT_CHECKED
-from diecut_report.results.conclusion import governing
-from diecut_report.results.model import MoveRecord, ResultsRecord
-from diecut_report.results.origins import MOVES
 from diecut_report.study.analysis.query import Question, Request, Row, question
 from diecut_report.study.analysis.variant_config import variant_of
 from diecut_report.study.analysis.variants import (
@@ -36,11 +31,7 @@ from diecut_report.study.analysis.variants import (
     compared_text,
     opened,
     table_text,
-    text,
 )
-from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input
-from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
-from diecut_report.study.execution.variant_rows import verdicts
 from diecut_report.study.storage.spreadsheets import SHEET_COLUMNS, SHEET_ROWS, workbook
 from diecut_report.study.storage.state import continuing, read_state
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
@@ -158,11 +149,9 @@ def unfinished(directory: Path) -> Iterator[str]:
 
 
 def is_doubtful(folder: Path) -> bool:
-    """Return whether a stored variant warns, or a check of one is not made: a strict judge counts it as failed, unless it cannot exist."""
+    """Return whether the verdict on a stored variant is conditional: a strict judge counts it as failed."""
     with opened(folder) as stored:
-        columns = (status.sql for _, status in stored.checks.values())
-        asked = " OR ".join(["status = 'warn'", *(f"{column} = {text(NOT_CHECKED)}" for column in columns)])
-        ((count,),) = stored.rows(f"SELECT count(*) FROM v WHERE status <> 'error' AND ({asked})")
+        ((count,),) = stored.rows("SELECT count(*) FROM v WHERE verdict = 'conditional'")
     return bool(count)
 
 
@@ -248,80 +237,6 @@ def _compared(stored: Stored, asked: Question, width: int | None, *, keep_equal:
         one = "; {n} quantity that is equal in all is omitted (--columns, --format csv)"
         words += say_counted(equal, one, "; {n} quantities that are equal in all are omitted (--columns, --format csv)")
     return f"{table}\n{words}.\n"
-
-
-# How much the assumed values of a config matter: each is varied by a tenth, all at once, and the governing checks are looked at.
-
-
-SHARE = 0.1  # of a value, downwards and upwards
-
-
-def moves(config: Config, results: ResultsRecord) -> list[MoveRecord]:
-    """Return the assumed values that move a governing check of a mechanism: path, check and change of its utilisation.
-
-    Mechanisms whose plugin cannot take arrays are left out, with those that refer to them.
-    """
-    varied = {path: found for path in results.summary.assumed if (found := _number(config, path))}
-    # the governing check of each mechanism, the press's first
-    known = [results.governing, *(governing({name: data.checks}) for name, data in results.mechanisms.items())]
-    names = list(dict.fromkeys(f"{each.mechanism}.checks.{each.check}" for each in known if each))
-    if not varied or not names:
-        return []
-    count = 1 + 2 * len(varied)  # the config itself, then two machines for each input
-    given = {asked: np.full(count, value) for asked, value in varied.values()}
-    for index, column in enumerate(given.values()):
-        column[1 + 2 * index : 3 + 2 * index] *= (1 - SHARE, 1 + SHARE)
-    try:
-        made = _calculated(config, given, count)
-    except (NotOnArrays, Mixed):  # not of one mechanism that could be left out: the order is that of the file
-        return []
-    try:
-        return list(_moved(made, list(varied), names))
-    finally:
-        made.release()
-
-
-def _calculated(config: Config, values: Mapping[Input, Array], count: int) -> CalculatedVariants:
-    """Return all variants of what can be calculated together; the others are as if their plugins were broken."""
-    left_out: dict[str, PluginError] = dict(config.broken)
-    while True:
-        try:
-            return calculated(replace(config, broken=left_out), values, count)
-        except NotOnArrays as fault:
-            names = [name for name, kind in config.kinds.items() if kind == fault.kind and name not in left_out]
-            if not names:
-                raise
-            left_out |= {name: PluginError(fault.message, fault.kind, name) for name in names}
-
-
-def _number(config: Config, path: str) -> tuple[Input, float] | None:
-    """Return an input with its value in the file; None for what is not a single number there, and for whole numbers, which have no tenth."""
-    try:
-        asked = find_input(config, path)
-    except UnknownPath:
-        return None
-    instance = config.instances[asked.instance]
-    if instance is None or (asked.instance, *asked.key) in config.links or asked.unit is None or asked.is_integer:
-        return None
-    value = instance.value(asked.key)
-    return (asked, float(value)) if isinstance(value, int | float) else None
-
-
-def _moved(made: CalculatedVariants, paths: list[str], names: list[str]) -> Iterator[MoveRecord]:
-    found = verdicts(made.calculations, made.count)
-    rows = {name: index for index, name in enumerate(found.names)}
-    known = [name for name in names if name in rows]
-    for index, path in enumerate(paths):
-        at = [1 + 2 * index, 2 + 2 * index]
-        changes = {name: _change(found.ratios[rows[name]], at) for name in known}
-        name = max(changes, key=lambda each: changes[each], default="")
-        if name and changes[name] > MOVES:
-            yield MoveRecord(path=path, check=name.replace(".checks.", "."), change=float(f"{changes[name]:.6g}"))
-
-
-def _change(utilisation: Array, at: list[int]) -> float:
-    changes = np.abs(utilisation[at] - utilisation[0])
-    return 0.0 if math.isnan(utilisation[0]) else float(np.where(np.isnan(changes), 1.0, changes).max())
 
 
 # Numbers that differ by rounding alone.

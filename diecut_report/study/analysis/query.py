@@ -237,5 +237,7 @@ def _shown(stored: Stored, asked: Condition, order: Sequence[str]) -> list[Store
     sql = f"SELECT 1 FROM v WHERE error IS NOT NULL AND {asked.sql} LIMIT 1"
     reason = ["error"] if stored.rows(sql, asked.parameters) else []
     varied = (column.name for column in stored.varied)
-    wanted = dict.fromkeys(["variant", "status", "governing", *order, *asked.columns, *objectives, *varied, *reason])
+    wanted = dict.fromkeys(
+        ["variant", "verdict", "status", "governing", *order, *asked.columns, *objectives, *varied, *reason]
+    )
     return [stored.columns[name] for name in wanted if name in stored.columns]

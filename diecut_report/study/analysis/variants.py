@@ -24,6 +24,7 @@ from diecut_report.quantities.units import UnitError, pretty, unit
 from diecut_report.report.text import number
 from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.storage.description import (
+    JUDGED,
     VARIANT,
     VERDICT,
     Description,
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
 
 # the usual units, where a column has none
 DISPLAY = {"m": "mm", "rad": "deg", "rad/s": "rpm", "Pa": "MPa", "1/s": "1/h"}
-FIXED = (VARIANT.name, *(column.name for column in VERDICT))
+FIXED = (VARIANT.name, JUDGED.name, *(column.name for column in VERDICT))
 UTILISATION, STATUS = ".utilisation", ".status"  # ends of the columns of a check
 MEMORY = "400MB"  # of DuckDB
 

@@ -24,6 +24,7 @@ from diecut_report.mechanism.inputs import Quantity, flatten
 from diecut_report.mechanism.names import SI
 from diecut_report.mechanism.steps import PREFIX
 from diecut_report.quantities.plausible import without_rounding
+from diecut_report.results.open_items import free_ports, open_values
 from diecut_report.results.origins import Absent, number, output, require_facts
 from diecut_report.results.press_run import Run, Tell
 from diecut_report.results.usual import note_usual, outside
@@ -69,11 +70,15 @@ def of_plugin(kind: str) -> Iterator[None]:
 
 @dataclass
 class CalculatedVariants:
-    """Hold what was calculated of a number of variants; ``reasons`` has a text for each that cannot exist."""
+    """Hold what was calculated of a number of variants; ``reasons`` has a text for each that cannot exist.
+
+    ``is_open`` says that they rest on assumed or default values, or make forces that no part takes.
+    """
 
     count: int
     calculations: dict[str, Calculation]
     reasons: dict[int, str] = field(default_factory=dict)
+    is_open: bool = False
 
     def release(self) -> None:
         """Free the memory of the curves at once, and not when garbage is collected."""
@@ -98,7 +103,9 @@ def calculated(base: Config, values: Values, count: int, tell: Tell = untold) ->
     if problems:
         variants.reasons = dict.fromkeys(range(count), _reason_text(problems[0]))
     else:
-        variants.calculations = _Rows(config, variants, tell).calculations
+        made = _Rows(config, variants, tell)
+        variants.calculations = made.calculations
+        variants.is_open = bool(free_ports(made)) or any(True for _ in open_values(made))
     return variants
 
 

@@ -22,7 +22,7 @@ from diecut_report.study.execution import worker
 from diecut_report.study.execution.engines import Engine, InProcess, WorkerSetup, local_engine, results
 from diecut_report.study.execution.variant_rows import columns_of, curve_columns
 from diecut_report.study.execution.worker import ChunkClock, judged_rows, without_value
-from diecut_report.study.storage.description import Description, ResultColumn, StudySource
+from diecut_report.study.storage.description import JUDGED, Description, ResultColumn, StudySource
 from diecut_report.study.storage.store import Store
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -264,7 +264,7 @@ def result_columns(study: Study) -> list[ResultColumn]:
         found |= {column.name: column for column in columns_of(base)}
         curves |= {column.name: column for column in curve_columns(base, study.curves)}
     wanted = found if study.outputs is None else study.outputs
-    return [*(each for name, each in found.items() if ".checks." in name or name in wanted), *curves.values()]
+    return [*(each for name, each in found.items() if ".checks." in name or name in wanted), *curves.values(), JUDGED]
 
 
 def facts(study: Study) -> dict[str, Any]:

@@ -197,7 +197,7 @@ class Verdicts:
     """Hold of each check the status codes and utilisations of many variants, shape (checks, variants).
 
     ``unchecked`` are the checks that need more keys, ``sized`` says which show no reserve, and ``faults`` is for each
-    variant whose calculation contradicts itself what does not hold.
+    variant whose calculation contradicts itself what does not hold. ``unmade`` says of which variants some check is not made.
     """
 
     names: list[str]
@@ -206,12 +206,14 @@ class Verdicts:
     sized: Array
     unchecked: list[str]
     faults: dict[int, str]
+    unmade: Array
 
 
 def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
     """Return all checks of all mechanisms; code 0 where a check does not apply."""
     names, codes, ratios, sized, unchecked = [], [], [], [], []
     faults: dict[int, str] = {}
+    unmade = np.zeros(count, dtype=bool)
     for name, calc in calculations.items():
         for check in checks_of(calc):
             if not is_made(calc, check):
@@ -225,6 +227,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
                 }
                 continue
             if without_basis(calc, check):  # what holds by what was typed alone is not checked
+                unmade |= there & held
                 there = there & ~held
                 if not there.any():
                     unchecked.append(f"{name}.checks.{check.id}")
@@ -236,7 +239,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
     shape = (len(names), count)
     unchecked = [name for name in dict.fromkeys(unchecked) if name not in names]
     return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float),
-                    np.array(sized, dtype=bool), unchecked, faults)  # fmt: skip
+                    np.array(sized, dtype=bool), unchecked, faults, unmade | bool(unchecked))  # fmt: skip
 
 
 def governing(found: Verdicts) -> Array:
@@ -274,6 +277,7 @@ class Rows:
     tell: Tell = untold
     columns: dict[str, Array] = field(default_factory=dict)
     status: Array = field(init=False)
+    verdict: Array = field(init=False)
     governing: Array = field(init=False)
     errors: Array = field(init=False)
     slow: dict[str, str] = field(default_factory=dict)
@@ -281,6 +285,7 @@ class Rows:
 
     def __post_init__(self) -> None:
         self.status = np.full(self.count, "pass", dtype=object)
+        self.verdict = np.full(self.count, None, dtype=object)
         self.governing = np.full(self.count, None, dtype=object)
         self.errors = np.full(self.count, None, dtype=object)
 
@@ -361,8 +366,17 @@ def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
             column[row] = values
         column[chosen[bad]] = None
     rows.status[chosen] = STATUS[worst]
+    rows.verdict[chosen] = _verdicts(worst, found.unmade | variants.is_open)
     rows.governing[chosen] = governing(found)
     rows.errors[chosen[bad]] = [variants.reasons[int(row)] for row in bad]
+
+
+def _verdicts(worst: Array, is_open: Array) -> Array:
+    """The verdict on each variant by its worst check and whether something is open; none of one that cannot exist."""
+    passing = np.where(is_open | (worst == WARN), "conditional", "pass")
+    judged = np.where(worst == FAIL, "fail", passing).astype(object)
+    judged[worst == ERROR] = None
+    return judged
 
 
 def _all_columns(variants: CalculatedVariants, found: Verdicts) -> dict[str, Array]:

@@ -22,7 +22,7 @@ from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.definition.variables import Values
 from diecut_report.study.execution.engines import settle
 from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows
-from diecut_report.study.storage.description import source_name
+from diecut_report.study.storage.description import JUDGED, source_name
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import Overran, limited
 
@@ -111,7 +111,7 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     columns: dict[str, Array] = {"variant": chunk.start + kept, **given}
     wanted = rows.columns if study.outputs is None else {*study.outputs, *study.curves}
     columns |= {name: values for name, values in rows.columns.items() if ".checks." in name or name in wanted}
-    columns |= {"status": rows.status, "governing": rows.governing, "error": rows.errors}
+    columns |= {JUDGED.name: rows.verdict, "status": rows.status, "governing": rows.governing, "error": rows.errors}
     left = _left(study, rows, given)
     return Done({name: values[left] for name, values in columns.items()}, rows.slow, rows.broken, seconds)
 

@@ -86,6 +86,8 @@ def libraries() -> dict[str, str]:
 
 
 VARIANT = ResultColumn("variant", "int", description="Number of the variant in the sample, from 0")
+JUDGED = ResultColumn("verdict", "text", description="Verdict on the variant: pass, conditional or fail")
+"""The last of a study's columns; results of before it have none."""
 VERDICT = (
     ResultColumn("status", "text", description="Status of the variant: pass, warn, fail or error"),
     ResultColumn("governing", "text", description="Check that governs the variant"),

@@ -189,6 +189,7 @@ class Summary:
     passing: list[data.PassingValues]
     utilisations: list[data.Utilisation]
     unmade: list[str]
+    proved: int  # variants whose verdict is pass
     unchecked: int
     assumed: int
     idle: int
@@ -229,10 +230,10 @@ class Summary:
 
     @property
     def status(self) -> str:
-        """Return what the whole looks like: pass where some variant passes all checks, on nothing assumed and by formulas without faults."""
-        if self.statuses["pass"]:
-            return "incomplete" if self.doubtful or self.unchecked or self.assumed else "pass"
-        return "warn" if self.statuses["warn"] else "fail"
+        """Return what the whole looks like: the best verdict on a variant, by formulas without faults."""
+        if self.proved and not self.doubtful:
+            return "pass"
+        return "conditional" if self.sound else "fail"
 
 
 def content(stored: Stored, discovery: Discovery) -> Summary:
@@ -272,7 +273,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
         total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored),
         failures=failures, governing=governing, passing=data.passing_values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
-        unchecked=sum(row.unchecked > 0 for row in used), assumed=_assumed(base.data if base else None),
+        proved=data.proved(stored), unchecked=sum(row.unchecked > 0 for row in used), assumed=_assumed(base.data if base else None),
         idle=len(made) - len(matrix), matrices=list(best.matrices(stored, groups, [row.check for row in matrix])),
         is_whole=total <= best.ALL,
         spreads=ranges[:MAX_RANGES], more_spreads=max(0, len(ranges) - MAX_RANGES),

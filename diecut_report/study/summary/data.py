@@ -19,7 +19,7 @@ from diecut_report.report.figures.style import plain, text_size
 from diecut_report.report.text import joined, number
 from diecut_report.study.analysis.answers import reason_text
 from diecut_report.study.analysis.variants import UTILISATION, Stored, StoredColumn, text
-from diecut_report.study.storage.description import STATUSES
+from diecut_report.study.storage.description import JUDGED, STATUSES
 from diecut_report.text.phrases import phrase, worded
 from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted
 
@@ -216,6 +216,14 @@ def statuses(stored: Stored) -> dict[str, int]:
     """Return how many variants have each status."""
     found = dict(stored.rows("SELECT status, count(*) FROM v GROUP BY status"))
     return {status: int(found.get(status, 0)) for status in STATUSES}
+
+
+def proved(stored: Stored) -> int:
+    """Return the verdict on how many variants is pass; none of results of before the three verdicts, which leave open what they rest on."""
+    if JUDGED.name not in stored.columns:
+        return 0
+    ((count,),) = stored.rows("SELECT count(*) FROM v WHERE verdict = 'pass'")
+    return int(count)
 
 
 def _of_each(

@@ -1,0 +1,335 @@
+"""Which assumed and default values are harmless: no check changes its status at either end of what is usual for them.
+
+Each value is tried alone, then all of them together in the direction that is worst for each check. What remains open says why.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TypeVar
+
+import numpy as np
+
+from diecut_report.config.loader import Config
+from diecut_report.config.model import PRESS
+from diecut_report.design.inputs import DesignInput, standing_numbers
+from diecut_report.design.machines import SLACK, downstream, slacks
+from diecut_report.errors import PluginError
+from diecut_report.formulas import Array
+from diecut_report.results.conclusion import VALUES
+from diecut_report.results.model import OpenRecord, ResultsRecord
+from diecut_report.standards.ranges import UsualRange, range_of
+from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
+from diecut_report.study.execution.variant_rows import STATUS, verdicts
+from diecut_report.text.phrases import Phrase, phrase
+
+SHARE = 0.1  # of a value for which no range is known, downwards and upwards
+STILL = 1e-9  # of a slack, by which rounding alone moves it
+LEFT_OUT = (
+    1,
+    2,
+    4,
+    8,
+    16,
+    32,
+    64,
+    128,
+)  # how many of those that change a check together are taken out, strongest first
+
+
+UNTRIED = phrase(
+    "it is not one number of the configuration, or its mechanism takes no arrays, so no other value was tried"
+)
+
+
+def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]:
+    """Return what is open of a machine without the assumed and default values that are proved harmless; those left say which check changes.
+
+    Values that are not a single number of the configuration, or of mechanisms that cannot be calculated on arrays, stay open.
+    """
+    numbers = standing_numbers(config)
+    named = [each for each in results.summary.open if each.what in VALUES and each.path in numbers]
+    trials = [Trial.of(config, each, numbers[each.path]) for each in named]
+    machines = OpenValueTrials(config, [each for each in trials if not each.is_still])
+    changes = dict(machines.harmful()) if machines.trials else {}
+    harmless = {each.item.path for each in trials if each.is_still}
+    harmless |= {each.item.path for each in machines.trials if each.item.path not in changes}
+    harmless -= {each.item.path for each in trials if machines.left_out & each.reached}
+    left = [each for each in results.summary.open if each.what not in VALUES or each.path not in harmless]
+    return [each.with_(why=changes.get(each.path, UNTRIED)) if each.what in VALUES else each for each in left]
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """Hold an open value, its least and greatest usual one (SI), and the mechanisms that follow from it."""
+
+    item: OpenRecord
+    design: DesignInput
+    low: float
+    high: float
+    reached: frozenset[str]
+
+    @staticmethod
+    def of(config: Config, item: OpenRecord, design: DesignInput) -> Trial:
+        """Return a trial of a value within what its declaration allows; of a whole number the whole numbers of its range."""
+        home = design.asked.instance
+        usual = range_of(config.kinds.get(home, PRESS), design.key)
+        low, high = _usual(design.present or 0.0, usual)
+        least, most = design.bounds
+        ends = np.clip([low, high], least, most)
+        ends = np.where(
+            design.allows(ends), ends, (ends + (design.present or 0.0)) / 2
+        )  # an end that is not of the range
+        if design.is_whole:
+            ends = np.array([np.ceil(low - STILL), np.floor(high + STILL)])
+        if len(listed := design.listed):
+            within = listed[(listed >= low) & (listed <= high)]
+            ends = np.array([within.min(initial=design.present or 0.0), within.max(initial=design.present or 0.0)])
+        return Trial(item, design, float(ends[0]), float(ends[1]), frozenset(downstream(config, home)))
+
+    @property
+    def present(self) -> float:
+        """Return the value of the machine."""
+        return self.design.present or 0.0
+
+    @property
+    def is_still(self) -> bool:
+        """Return whether no other value is usual."""
+        return self.low == self.present == self.high
+
+
+def _usual(present: float, usual: UsualRange | None) -> tuple[float, float]:
+    if usual is not None and not usual.of:  # a ratio bounds no key by itself
+        return usual.usual
+    low, high = sorted((present * (1 - SHARE), present * (1 + SHARE)))
+    return low, high
+
+
+def apart(sets: Iterable[frozenset[str]]) -> list[list[int]]:
+    """Return the numbers of sets in groups of which no two have an element in common."""
+    groups: list[tuple[set[str], list[int]]] = []
+    for number, own in sorted(enumerate(sets), key=lambda each: -len(each[1])):
+        home = next((each for each in groups if not each[0] & own), None)
+        if home is None:
+            groups.append((set(own), [number]))
+        else:
+            home[0].update(own)
+            home[1].append(number)
+    return [members for _, members in groups]
+
+
+K = TypeVar("K")
+
+
+@dataclass
+class TriedOpenValues:
+    """Hold machines with other values: the status codes and slacks of each check by name, and which machines cannot exist."""
+
+    codes: dict[str, Array] = field(default_factory=dict)
+    slacks: dict[str, Array] = field(default_factory=dict)
+    impossible: set[int] = field(default_factory=set)
+
+    def keep(self, made: CalculatedVariants, rows: Array, count: int) -> None:
+        """Keep what came out of some of the machines; a value is tried for what it is, not for what it rests on."""
+        for calc in made.calculations.values():
+            calc.unfounded = frozenset()
+        found, own = verdicts(made.calculations, made.count), slacks(made)
+        for name, codes in zip(found.names, found.codes, strict=True):
+            self.codes.setdefault(name, np.zeros(count, dtype=int))[rows] = codes
+            if name + SLACK in own:
+                self.slacks.setdefault(name, np.full(count, np.nan))[rows] = own[name + SLACK]
+        self.impossible |= {int(rows[row]) for row in {**found.faults, **made.reasons}}
+
+
+@dataclass
+class Effects:
+    """Hold of each check what it is today, and what each trial alone makes of it at both of its ends, shape (trials, 2)."""
+
+    codes: dict[str, Array]
+    slacks: dict[str, Array]
+    today: Mapping[str, int]
+    slack: Mapping[str, float]
+    impossible: Array
+
+    @staticmethod
+    def none(machine: TriedOpenValues, trials: int) -> Effects:
+        """Return the effects of trials that change nothing of a machine."""
+        today = {name: int(codes[0]) for name, codes in machine.codes.items()}
+        slack = {name: float(own[0]) for name, own in machine.slacks.items()}
+        codes = {name: np.full((trials, 2), code) for name, code in today.items()}
+        slacks = {name: np.full((trials, 2), own) for name, own in slack.items()}
+        return Effects(codes, slacks, today, slack, np.zeros((trials, 2), dtype=bool))
+
+    def take(
+        self, groups: Sequence[Sequence[int]], trials: Sequence[Trial], tried: TriedOpenValues, first: int
+    ) -> None:
+        """Take what each trial makes of the checks of the mechanisms that follow from it, from two machines a group, counted from the first."""
+        homes = {name: name.partition(".")[0] for name in self.codes}
+        for row, members in enumerate(groups):
+            rows = slice(first + 2 * row, first + 2 * row + 2)
+            for trial in members:
+                self.impossible[trial] = [each in tried.impossible for each in range(rows.start, rows.stop)]
+                for name in (each for each, home in homes.items() if home in trials[trial].reached):
+                    self.codes[name][trial] = tried.codes[name][rows] if name in tried.codes else 0
+                    if name in self.slacks:
+                        self.slacks[name][trial] = tried.slacks[name][rows] if name in tried.slacks else np.nan
+
+    def change(self, trial: int, values: Sequence[str]) -> Phrase | None:
+        """Return what changes with a trial at its ends, whose values are these; None where nothing does."""
+        for end, value in enumerate(values):
+            if self.impossible[trial, end]:
+                return Phrase("with {value} the machine cannot exist", value=value)
+            for name, codes in self.codes.items():
+                if (after := int(codes[trial, end])) != (before := self.today[name]):
+                    template = "with {value} the check {check} turns from {before} to {after}"
+                    return Phrase(
+                        template, value=value, check=_check(name), before=_status(before), after=_status(after)
+                    )
+        return None
+
+    def corner(self, name: str, trials: Sequence[Trial]) -> Corner:
+        """Return the trials that bring a check nearer to its limit, at the worse end of each; none where it fails already or has no limit."""
+        slack = self.slack.get(name, np.nan)
+        if STATUS[self.today[name]] == "fail" or not np.isfinite(slack):
+            return Corner(name, np.array([], dtype=int), np.array([]))
+        ends = np.nan_to_num(self.slacks[name] - slack, nan=0.0)
+        harm, side = ends.min(axis=1), ends.argmin(axis=1)
+        order = np.argsort(harm, kind="stable")[: int((harm < -STILL).sum())]
+        return Corner(
+            name, order, np.array([(each.low, each.high)[end] for each, end in zip(trials, side, strict=True)])
+        )
+
+
+def _check(name: str) -> str:
+    return name.replace(".checks.", ".", 1)
+
+
+def _status(code: int) -> str:
+    return phrase(STATUS[code] or "not checked")
+
+
+@dataclass(frozen=True, eq=False)
+class Corner:
+    """Hold the values that bring a check nearer to its limit: which trials, the strongest first, and the worse end of every trial."""
+
+    check: str
+    order: Array
+    worse: Array
+
+    def without(self, trials: set[int]) -> Corner:
+        """Return the corner with these trials at their present values."""
+        return replace(self, order=self.order[~np.isin(self.order, list(trials))])
+
+    def after(self, first: int) -> Corner:
+        """Return the corner without so many of the strongest."""
+        return replace(self, order=self.order[first:])
+
+    def values(self, present: Array) -> Array:
+        """Return the values of all trials there, shape (trials,)."""
+        found = present.copy()
+        found[self.order] = self.worse[self.order]
+        return found
+
+
+@dataclass
+class OpenValueTrials:
+    """Calculate a machine with other values of its open inputs; ``left_out`` are mechanisms whose plugin cannot take arrays."""
+
+    config: Config
+    trials: Sequence[Trial]
+    left_out: set[str] = field(default_factory=set)
+
+    def harmful(self) -> Iterator[tuple[str, Phrase]]:
+        """Yield the paths of the values that are not harmless, each with what changes."""
+        effects, harmful = self._alone(), set[int]()
+        for index, trial in enumerate(self.trials):
+            why = effects.change(index, [trial.design.told(end) for end in (trial.low, trial.high)])
+            if why is not None:
+                harmful.add(index)
+                yield trial.item.path, why
+        for index, name in self._together(effects, harmful).items():
+            template = "together with other assumed and default values it changes the check {check}"
+            yield self.trials[index].item.path, Phrase(template, check=_check(name))
+
+    @property
+    def present(self) -> Array:
+        """Return the values of the machine, shape (trials,)."""
+        return np.array([each.present for each in self.trials])
+
+    def _alone(self) -> Effects:
+        """The effects of each trial alone; those that no mechanism follows from in common are tried in one machine."""
+        groups = apart([each.reached for each in self.trials])
+        tried = self._tried(np.concatenate([self.present[None, :], self._ends(groups)]))
+        effects = Effects.none(tried, len(self.trials))
+        effects.take(groups, self.trials, tried, 1)
+        # which of several makes a machine impossible shows alone
+        unclear = [[int(index)] for index in np.flatnonzero(effects.impossible.any(axis=1))]
+        if unclear:
+            effects.take(unclear, self.trials, self._tried(self._ends(unclear)), 0)
+        return effects
+
+    def _ends(self, groups: Sequence[Sequence[int]]) -> Array:
+        """Two machines for each group of trials, all of it at their low and at their high ends, shape (2 groups, trials)."""
+        values = np.tile(self.present, (2 * len(groups), 1))
+        for row, members in enumerate(groups):
+            for index in members:
+                values[2 * row : 2 * row + 2, index] = self.trials[index].low, self.trials[index].high
+        return values
+
+    def _together(self, effects: Effects, harmful: set[int]) -> dict[int, str]:
+        """The values that change a check only together with others, with that check: the fewest that need be taken out, strongest first."""
+        corners, found = [effects.corner(name, self.trials) for name in effects.codes], dict[int, str]()
+        while True:
+            asked = {each.check: each.without({*harmful, *found}) for each in corners}
+            asked = {name: each for name, each in asked.items() if len(each.order) > 1}
+            failing = [name for name, changes in self._changing(effects, asked).items() if changes]
+            if not failing:
+                return found
+            fewer = {
+                (name, k): asked[name].after(k) for name in failing for k in LEFT_OUT if k < len(asked[name].order)
+            }
+            changing = self._changing(effects, fewer)
+            for name in failing:
+                enough = next((k for k in LEFT_OUT if changing.get((name, k)) is False), len(asked[name].order))
+                found |= {int(index): name for index in asked[name].order[:enough] if index not in found}
+
+    def _changing(self, effects: Effects, corners: Mapping[K, Corner]) -> dict[K, bool]:
+        """Whether the check of each corner changes its status there, or the machine cannot exist."""
+        if not corners:
+            return {}
+        made = self._tried(np.array([each.values(self.present) for each in corners.values()]))
+        found = {}
+        for row, (key, each) in enumerate(corners.items()):
+            codes = made.codes.get(each.check)
+            is_same = codes is not None and int(codes[row]) == effects.today[each.check]
+            found[key] = row in made.impossible or not is_same
+        return found
+
+    def _tried(self, values: Array) -> TriedOpenValues:
+        """Machines with these values, shape (machines, trials)."""
+        while True:
+            made = TriedOpenValues()
+            try:
+                self._fill(made, values, np.arange(len(values)))
+                return made
+            except NotOnArrays as fault:
+                names = {name for name, kind in self.config.kinds.items() if kind == fault.kind} - self.left_out
+                if not names:
+                    raise
+                self.left_out |= names
+
+    def _fill(self, made: TriedOpenValues, values: Array, rows: Array) -> None:
+        given: dict[Input, Array] = {each.design.asked: values[rows, i] for i, each in enumerate(self.trials)}
+        lost = {name: PluginError("", self.config.kinds[name], name) for name in self.left_out}
+        try:
+            found = calculated(replace(self.config, broken={**self.config.broken, **lost}), given, len(rows))
+        except Mixed as mixed:
+            for part in (mixed.rows, ~mixed.rows):
+                self._fill(made, values, rows[part])
+            return
+        try:
+            made.keep(found, rows, len(values))
+        finally:
+            found.release()

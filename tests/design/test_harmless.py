@@ -1,0 +1,88 @@
+"""Which assumed and default values are harmless: tried at both ends of what is usual, alone and together."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.findings import decided, with_findings
+from diecut_report.design.harmless import UNTRIED, apart, without_harmless
+from diecut_report.press import Press
+from tests.configs import GOOD, HEAD, saved
+
+FORCE, ARM, TEETH = "mechanisms.a.force", "mechanisms.a.arm", "mechanisms.a.teeth"
+MOMENT = "the check a.moment turns from pass to fail"
+
+
+def press(folder: Path, allowed: str, more: str = "") -> Press:
+    """A lever of 2 kN, assumed, on its default arm of 100 mm: 200 N·m."""
+    force = "{value: 2 kN, basis: assumed}"
+    text = HEAD + f"  a: {{kind: lever, force: {force}, allowable_moment: {allowed}{more}}}\n"
+    return Press.read(saved(folder, text), Discovery([GOOD]))
+
+
+def left(made: Press) -> dict[str, str]:
+    return {each.path: str(each.why) for each in without_harmless(made.config, made.calculate().results)}
+
+
+@pytest.mark.parametrize(
+    ("allowed", "found"),
+    [
+        ("250 N*m", {}),  # 200 · 1.1 · 1.1 = 242
+        ("230 N*m", {FORCE: "together", ARM: "together"}),  # each alone 220, together 242
+        ("210 N*m", {FORCE: f"with 2.2 kN {MOMENT}", ARM: f"with 110 mm {MOMENT}"}),
+    ],
+)
+def test_values_are_open_where_a_check_changes_with_them(tmp_path: Path, allowed: str, found: dict[str, str]) -> None:
+    known = left(press(tmp_path, allowed))
+    if "together" in found.values():  # taking out one of both is enough
+        assert len(known) == 1 and known.keys() < found.keys()
+        assert set(known.values()) == {"together with other assumed and default values it changes the check a.moment"}
+    else:
+        assert known == found
+
+
+def test_a_check_that_an_end_makes_hold_changes_too(tmp_path: Path) -> None:
+    assert left(press(tmp_path, "190 N*m")) == {
+        FORCE: "with 1.8 kN the check a.moment turns from fail to pass",
+        ARM: "with 90 mm the check a.moment turns from fail to pass",
+    }
+
+
+def test_a_machine_that_cannot_be_at_an_end_is_open(tmp_path: Path) -> None:
+    known = left(press(tmp_path, "900 N*m", ", teeth: {value: 95, basis: assumed}"))  # a hundred at most
+    assert known == {TEETH: "with 104 the machine cannot exist"}
+
+
+def test_what_is_not_one_number_of_the_file_stays_open(tmp_path: Path) -> None:
+    width = ", width: {value: '${press.sheet.thickness} * 9', basis: assumed}"
+    assert left(press(tmp_path, "900 N*m", width)) == {"mechanisms.a.width": str(UNTRIED)}
+
+
+def test_the_verdict_is_proved_where_nothing_else_is_open(tmp_path: Path) -> None:
+    for allowed, verdict, line in (
+        ("250 N*m", "pass", "All checks pass."),
+        ("210 N*m", "conditional", "No check fails, but 1 assumed value is open and 1 default value is open."),
+    ):
+        made = press(tmp_path, allowed).calculate()
+        assert made.results.summary.verdict == "conditional"
+        summary = decided(made).results.summary
+        assert (summary.verdict, str(summary.conclusion)) == (verdict, line)
+
+
+def test_values_are_tried_once(tmp_path: Path) -> None:
+    """The second of two values that together change a check would be called harmless with the first alone."""
+    once = decided(press(tmp_path, "230 N*m").calculate())
+    assert with_findings(once).results.summary.open == once.results.summary.open != []
+
+
+def test_a_failing_machine_is_not_tried_with_other_values(tmp_path: Path) -> None:
+    made = press(tmp_path, "190 N*m").calculate()
+    assert decided(made) is made
+
+
+def test_sets_with_an_element_in_common_stand_in_different_groups() -> None:
+    found = apart([frozenset("ab"), frozenset("c"), frozenset("bc"), frozenset(), frozenset("d")])
+    assert sorted(sorted(group) for group in found) == [[0, 1, 3, 4], [2]]
