@@ -172,6 +172,11 @@ class Config:
         logo = {self.logo.name: self.logo.sha256} if self.logo else {}
         return {name: tree.sha256 for name, tree in self.tables.items()} | logo
 
+    def named(self, kind: str) -> str | None:
+        """Return the only mechanism of a kind."""
+        found = [name for name, own in self.kinds.items() if own == kind]
+        return found[0] if len(found) == 1 else None
+
     @property
     def source_hashes(self) -> dict[str, str]:
         """The SHA-256 of the code of all that calculates this configuration, by its name in words."""

@@ -11,6 +11,7 @@ from diecut_report.config.validation import ASSUMED
 from diecut_report.machine.calculation import Calculation
 from diecut_report.mechanism.inputs import POINTS, Quantity
 from diecut_report.quantities.units import unit
+from diecut_report.results.carrying_parts import counted, unrated
 from diecut_report.results.conclusion import LEFT, CalculatedCount, judged, summary, unsettled
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, SummaryRecord
@@ -34,10 +35,12 @@ def is_tried(found: SummaryRecord) -> bool:
 
 def run_summary(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> SummaryRecord:
     """Return the verdict on a run as numbers; an assumed value is open as long as it is not proved harmless."""
-    counted = summary(checks, assumed(run.config)).with_(open=open_items(run, checks))
+    found = summary(checks, assumed(run.config)).with_(open=open_items(run, checks))
+    if run.config.parts is not None:
+        found = found.with_(parts=counted(run.config.parts, run.config.named("drive_train"), checks))
     lost = {*run.errors, *run.skipped} & {*run.config.kinds, *(case.name for case in run.cases)}
     total = len(run.config.kinds) + len(run.comparisons)
-    return judged(counted, CalculatedCount(total, len(lost), bool(run.comparisons)))
+    return judged(found, CalculatedCount(total, len(lost), bool(run.comparisons)))
 
 
 def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[OpenRecord]:
@@ -47,7 +50,9 @@ def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[Op
     mechanisms |= {case.name: case.comparison.mechanism for case in run.cases}
     doubtful = [name for name, own in mechanisms.items() if plugin_code(own).get("plugin_check") == "failed"]
     found = unsettled(checks, doubtful, owner)
-    for name, ports in free_ports(run).items():
+    if run.config.parts is not None:
+        found += unrated(run.config.parts, run.config.named("drive_train"), checks, owner)
+    for name, ports in free_ports(run).items() if run.config.parts is None else ():
         why = Phrase("no part takes {ports}", ports=", ".join(ports))
         found.append(OpenRecord(what="not_rated", path=f"mechanisms.{name}", owner=owner, why=why))
     found += [OpenRecord(what=what, path=path, owner=owner, why=UNPROVED) for path, what in open_values(run)]

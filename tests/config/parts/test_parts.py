@@ -13,6 +13,9 @@ from diecut_report.config.loader import Config, examined, load_config
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
+from diecut_report.press import Press
+from diecut_report.results.carrying_parts import carrying_parts, is_rated
+from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.press_run import Run
 
 FILE = Path(import_module("diecut_report.configs").__path__[0]) / "machines" / "flat_cylinder.yaml"
@@ -205,3 +208,39 @@ def test_teeth_in_mesh_push_each_other_apart_with_one_force() -> None:
         if load["name"] == name
     ]
     assert abs(float(angles[0].split()[0]) - float(angles[1].split()[0])) == pytest.approx(180)
+
+
+def test_54_parts_carry_load_and_have_a_method_and_three_of_them_no_load_that_is_known() -> None:
+    every = list(carrying_parts(parts(), whole().named("drive_train")))
+    assert len(every) == 54
+    assert [part.name for part in every if part.calculation not in whole().kinds] == [
+        "flywheel.rim.key",
+        "far.left.key",
+        "far.right.key",
+    ]
+
+
+def test_a_part_is_rated_by_checks_of_strength_that_are_all_made() -> None:
+    made = CheckRecord(id="a", title="A", check_class="strength", status="fail")
+    left = made.with_(id="b", status="not_checked")
+    other = made.with_(check_class="function", status="pass")
+    checks = {"sound": [made, other], "partly": [made, left], "light": [other]}
+    assert [is_rated(name, checks) for name in (*checks, "nobody")] == [True, False, False, False]
+
+
+@pytest.mark.nightly
+def test_the_whole_machine_is_calculated_and_fails_where_the_sheet_says() -> None:
+    results = Press.read(FILE, DISCOVERY).calculate().results
+    assert results.summary.verdict == "fail" and results.summary.parts is not None
+    assert results.summary.parts.carrying == 54 and not [
+        name for name, each in results.mechanisms.items() if each.error
+    ]
+    failing = {
+        f"{name}.{check.id}"
+        for name, each in results.mechanisms.items()
+        for check in each.checks
+        if check.status == "fail"
+    }
+    assert {"shafts_crank_disc_key.pressure_key", "meshes_step_up.pitting_1"} <= failing
+    inertia = results.mechanisms["cross"].inputs["driven_inertia"].value
+    assert inertia == pytest.approx(8.813, abs=1e-3)

@@ -1,0 +1,85 @@
+"""The parts of a machine that carry load, with the calculation that rates each, and those that no method rates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from diecut_report.config.parts.model import MachineParts, ShaftPart
+from diecut_report.results.mechanism_record import CheckRecord
+from diecut_report.results.model import OpenRecord, PartCountRecord
+from diecut_report.text.phrases import Phrase, phrase
+
+BODIES = ("crank", "rocker", "geneva_wheel", "clutch", "coupling", "cam")
+"""Kinds of parts whose bodies no method rates."""
+
+
+@dataclass(frozen=True)
+class CarryingPart:
+    """Hold a part: what it is called, where it stands in the file, the calculation that would rate it, and who accepts it without."""
+
+    name: str
+    path: str
+    calculation: str
+    accepted: str = ""
+
+
+def carrying_parts(parts: MachineParts, train: str | None) -> Iterator[CarryingPart]:
+    """Yield the parts that carry load and have a method: shafts, pins, bearings, keys, meshes, chains, belts."""
+    for shaft in (each for each in parts.shafts.values() if each.is_rated and each.sections):
+        home = f"shafts_{shaft.name}"
+        yield CarryingPart(shaft.name, _dotted(shaft.path), home)
+        for part in shaft.parts:
+            yield from _of_part(part, home)
+    for join in parts.joins:
+        calculation = (train or "") if join.word == "belts" else f"{join.word}_{join.name}"
+        yield CarryingPart(join.name, _dotted(join.path), calculation)
+
+
+def _of_part(part: ShaftPart, home: str) -> Iterator[CarryingPart]:
+    path, accepted = _dotted(part.path), part.keys.accepted.by if part.keys.accepted else ""
+    if part.kind == "bearing":
+        yield CarryingPart(part.called, path, f"{home}_bearings", accepted)
+    if part.keys.key:
+        yield CarryingPart(f"{part.called}.key", path, f"{home}_{part.name}_key", accepted)
+    if part.keys.pin is not None:
+        yield CarryingPart(f"{part.called}.pin", path, f"{home}_{part.name}_pin", accepted)
+        if part.keys.pin.bearing:
+            yield CarryingPart(f"{part.called}.pin.bearing", path, f"{home}_bearings", accepted)
+
+
+def _dotted(path: Sequence[str | int]) -> str:
+    return ".".join(map(str, path))
+
+
+def is_rated(calculation: str, checks: Mapping[str, Sequence[CheckRecord]]) -> bool:
+    """Return whether a calculation rates its parts: it has checks of strength, and each of them was made."""
+    strength = [check for check in checks.get(calculation, ()) if check.check_class == "strength"]
+    return bool(strength) and all(check.status != "not_checked" for check in strength)
+
+
+def counted(parts: MachineParts, train: str | None, checks: Mapping[str, Sequence[CheckRecord]]) -> PartCountRecord:
+    """Return how many parts carry load, and how many of them are rated or accepted without."""
+    every = list(carrying_parts(parts, train))
+    rated = [part for part in every if is_rated(part.calculation, checks)]
+    accepted = sum(bool(part.accepted) for part in every if part not in rated)
+    left = len(every) - len(rated) - accepted
+    return PartCountRecord(carrying=len(every), rated=len(rated), accepted=accepted, not_rated=left)
+
+
+def unrated(
+    parts: MachineParts, train: str | None, checks: Mapping[str, Sequence[CheckRecord]], owner: str
+) -> Iterator[OpenRecord]:
+    """Yield the parts that carry load and are neither rated nor accepted, with the reason."""
+    own = parts.keys.owner or owner
+    for part in carrying_parts(parts, train):
+        if not (part.accepted or is_rated(part.calculation, checks)):
+            is_there = part.calculation in checks
+            why = phrase("not all of its checks of strength are made") if is_there else phrase("its load is not known")
+            yield OpenRecord(
+                what="not_rated", path=part.path, owner=own, why=Phrase("{part}: {why}", part=part.name, why=why)
+            )
+    for shaft in parts.shafts.values():
+        for body in (each for each in shaft.parts if each.kind in BODIES and each.keys.accepted is None):
+            why = Phrase("{part}: no method rates its body", part=body.called)
+            yield OpenRecord(what="not_rated", path=_dotted(body.path), owner=own, why=why)
