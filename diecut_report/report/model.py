@@ -209,13 +209,19 @@ class PrintedChapter:
         """The check of the machine that fails first or is most utilised; none where none is made."""
         return min((row for row in self.checks if row.is_made), key=lambda row: row.order, default=None)
 
-    def worst(self, *classes: str) -> CheckRow | None:
-        """The check of these classes that fails first or is most utilised; none where none is made."""
-        return min(
-            (row for row in self.checks if row.is_made and row.check_class in classes),
-            key=lambda row: row.order,
-            default=None,
-        )
+    @property
+    def worst_strength(self) -> CheckRow | None:
+        """The check of strength or safety that fails first or is most utilised; none where none is made."""
+        return self._worst("strength", "safety")
+
+    @property
+    def worst_function(self) -> CheckRow | None:
+        """The check of function that fails first or is most utilised; none where none is made."""
+        return self._worst("function")
+
+    def _worst(self, *classes: str) -> CheckRow | None:
+        found = (row for row in self.checks if row.is_made and row.check_class in classes)
+        return min(found, key=lambda row: row.order, default=None)
 
     @property
     def face(self) -> str:

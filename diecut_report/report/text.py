@@ -321,7 +321,9 @@ def translated(results: ResultsRecord, catalogues: Catalogues) -> ResultsRecord:
     words, project = _translator(catalogues), results.project
     rest, changes = _MechanismTexts(words, ""), results.changes
     lines = [line.with_(date=_date(line.date)) for line in project.revisions]
+    left = [each.with_texts(rest.text) for each in results.summary.open]
     return results.with_(
+        summary=results.summary.with_(open=left),
         project=project.with_(date=_date(project.date), revisions=lines),
         press=results.press.with_texts(rest.text),
         mechanisms={name: _mechanism(words, data, results) for name, data in results.mechanisms.items()},

@@ -265,7 +265,7 @@ def unsettled(checks: Mapping[str, Sequence[CheckRecord]], doubtful: Iterable[st
 
 def _conclusion(found: SummaryRecord, calculated: CalculatedCount) -> Phrase:
     """The one sentence that every command, page and file begins with."""
-    left, made = _listed(list(_left(found.open))), found.passing + found.warn + found.fail
+    left, made = _listed([*_left(found.open, calculated.lost)]), found.passing + found.warn + found.fail
     if found.fail:
         failed = Counted(found.fail, "{n} of {total} checks fails", "{n} of {total} checks fail", total=made)
         return Phrase("{failed}; {left}.", failed=failed, left=left) if left else Phrase("{failed}.", failed=failed)
@@ -287,8 +287,10 @@ def _conclusion(found: SummaryRecord, calculated: CalculatedCount) -> Phrase:
     return phrase("All checks pass.")
 
 
-def _left(found: Sequence[OpenRecord]) -> Iterator[Phrase]:
-    """How much of each kind is left open."""
+def _left(found: Sequence[OpenRecord], lost: int) -> Iterator[Phrase]:
+    """How much of each kind is left open, and how many parts are not calculated."""
+    if lost:
+        yield Counted(lost, "{n} part is not calculated", "{n} parts are not calculated")
     count = Counter(each.what for each in found)
     yield from (counted(count[what]) for what, counted in LEFT.items() if count[what])
 

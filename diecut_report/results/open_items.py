@@ -39,8 +39,8 @@ def run_summary(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> Summar
     if run.config.parts is not None:
         found = found.with_(parts=counted(run.config.parts, run.config.named("drive_train"), checks))
     lost = {*run.errors, *run.skipped} & {*run.config.kinds, *(case.name for case in run.cases)}
-    total = len(run.config.kinds) + len(run.comparisons)
-    return judged(found, CalculatedCount(total, len(lost), bool(run.comparisons)))
+    total = len(run.config.kinds) + len(run.cases)
+    return judged(found, CalculatedCount(total, len(lost), bool(run.cases)))
 
 
 def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[OpenRecord]:

@@ -60,7 +60,7 @@ def test_calc_to_a_file_is_what_it_prints_and_tells_the_failing_checks(tmp_path:
     config, file = saved(tmp_path, FAILS), tmp_path / "r.json"
     assert run("calc", config) == run("calc", config, "-o", file) == run("calc", config, "-o", "-") == 1
     out, err = capfd.readouterr()
-    assert out == 2 * file.read_text("utf-8") and err.count("1 of 1 checks fails.") == 1
+    assert out == 2 * file.read_text("utf-8") and err.count("1 of 1 checks fails; 2 default values are open.") == 1
     assert run("calc", config, "-o", file, "--quiet") == 1
     assert capfd.readouterr() == ("", "")
 

@@ -87,7 +87,7 @@ def test_outputs_and_curves_are_those_that_were_asked_for(tmp_path: Path) -> Non
     run("batch", files(tmp_path, text), "-o", tmp_path / "out", "--quiet")
     schema = pq.read_schema(next((tmp_path / "out" / "variants").iterdir()))
     assert [name for name in schema.names if ".checks." not in name] == [
-        "variant", "mechanisms.a.force", "a.moment", "a.angle", "status", "governing", "error"]  # fmt: skip
+        "variant", "mechanisms.a.force", "a.moment", "a.angle", "verdict", "status", "governing", "error"]  # fmt: skip
     assert schema.field("a.moment").metadata[b"unit"] == b"N*m"
     assert len({len(row["a.angle"]) for row in rows(tmp_path / "out")}) == 1  # type: ignore[arg-type]
 

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report.config.plugins import Discovery
+from diecut_report.design.findings import decided
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from diecut_report.report.office.workbook import book_of
@@ -43,7 +44,7 @@ def test_at_most_twelve_machines_stand_abreast(count: int, tables: list[int]) ->
 
 
 def machine(folder: Path, name: str, text: str) -> CheckedMachine:
-    return calculated(KNOWN, (0, str(saved(folder, text, name))))
+    return calculated(KNOWN, (0, str(saved(folder, text, name))), decided)
 
 
 def side_by_side(
@@ -201,6 +202,6 @@ def test_names_of_strangers_stand_as_texts(tmp_path: Path) -> None:
 
 def test_the_press_of_a_comparison_is_that_of_its_report(tmp_path: Path) -> None:
     file = saved(tmp_path, LEVER.replace("2 kN", "{value: 2 kN, basis: assumed}, allowable_moment: 250 N*m"))
-    whole = Press.read(file, KNOWN).calculate().results
-    (found,) = compared([calculated(KNOWN, (0, str(file)))], []).machines
-    assert (found.conclusion, found.verdict) == (whole.summary.conclusion, "conditional")
+    whole = decided(Press.read(file, KNOWN).calculate()).results
+    (found,) = compared([calculated(KNOWN, (0, str(file)), decided)], []).machines
+    assert (found.conclusion, found.verdict) == (whole.summary.conclusion, whole.summary.verdict)

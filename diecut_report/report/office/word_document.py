@@ -165,7 +165,7 @@ def _worst(body: WordBody, document: ReportDocument) -> None:
     columns += [*(TableColumn(run(MARKS[status]), 0.7, True) for status in STATUSES), *body.heads("verdict:2")]
     rows = []
     for chapter in document.chapters:
-        worst = (chapter.worst("strength", "safety"), chapter.worst("function"))
+        worst = (chapter.worst_strength, chapter.worst_function)
         told = [
             body.linked(row) + run(f" {row.used or row.utilisation}") if row else run(document.words["none"])
             for row in worst

@@ -22,6 +22,7 @@ from diecut_report.formulas import Array
 from diecut_report.press import Press
 from diecut_report.quantities.units import unit
 from diecut_report.report.text import number
+from diecut_report.results.checks import NOT_CHECKED
 from diecut_report.study.analysis.query import Question, Request, Row, question
 from diecut_report.study.analysis.variant_config import variant_of
 from diecut_report.study.analysis.variants import (
@@ -31,6 +32,7 @@ from diecut_report.study.analysis.variants import (
     compared_text,
     opened,
     table_text,
+    text,
 )
 from diecut_report.study.storage.spreadsheets import SHEET_COLUMNS, SHEET_ROWS, workbook
 from diecut_report.study.storage.state import continuing, read_state
@@ -149,9 +151,11 @@ def unfinished(directory: Path) -> Iterator[str]:
 
 
 def is_doubtful(folder: Path) -> bool:
-    """Return whether the verdict on a stored variant is conditional: a strict judge counts it as failed."""
+    """Return whether a stored variant warns, or a check of one is not made: a strict judge counts it as failed, unless it cannot exist."""
     with opened(folder) as stored:
-        ((count,),) = stored.rows("SELECT count(*) FROM v WHERE verdict = 'conditional'")
+        columns = (status.sql for _, status in stored.checks.values())
+        asked = " OR ".join(["status = 'warn'", *(f"{column} = {text(NOT_CHECKED)}" for column in columns)])
+        ((count,),) = stored.rows(f"SELECT count(*) FROM v WHERE status <> 'error' AND ({asked})")
     return bool(count)
 
 

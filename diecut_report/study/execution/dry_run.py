@@ -20,7 +20,7 @@ from diecut_report.study.definition.study_file import Optimise, Study
 from diecut_report.study.definition.variables import RangeVariable, Values
 from diecut_report.study.execution.study_run import SMALL, described
 from diecut_report.study.execution.worker import Chunk, Done, calculate, judged, judged_rows
-from diecut_report.study.storage.description import Description
+from diecut_report.study.storage.description import JUDGED, Description
 from diecut_report.study.storage.parts import part_content, schema_of, table_of
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import localised, say, say_counted
@@ -131,7 +131,7 @@ def dry_run(study: Study) -> DryRun:
         varied[variable.path].add(np.array(ends))
     names = [column.name for column in known.columns if column.name not in study.inputs]
     checks = sum(".checks." in name and name.endswith(".status") for name in names)
-    quantities = sum(".checks." not in name for name in names)
+    quantities = sum(".checks." not in name and name != JUDGED.name for name in names)
     return DryRun(study, study.sample.count, looked_at, dropped, by, [each.as_data() for each in varied.values()],
                   quantities, checks, known.parts, first, _measured(study, known, first))  # fmt: skip
 
