@@ -51,7 +51,9 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
     """
     numbers = standing_numbers(config)
     named = [each for each in results.summary.open if each.what in VALUES and each.path in numbers]
-    trials = [Trial.of(config, each, numbers[each.path]) for each in named]
+    homes = {numbers[each.path].asked.instance for each in named}
+    reached = {home: frozenset(downstream(config, home)) for home in homes}
+    trials = [Trial.of(config, each, numbers[each.path], reached) for each in named]
     machines = OpenValueTrials(config, [each for each in trials if not each.is_still])
     changes = dict(machines.harmful()) if machines.trials else {}
     harmless = {each.item.path for each in trials if each.is_still}
@@ -72,7 +74,7 @@ class Trial:
     reached: frozenset[str]
 
     @staticmethod
-    def of(config: Config, item: OpenRecord, design: DesignInput) -> Trial:
+    def of(config: Config, item: OpenRecord, design: DesignInput, reached: Mapping[str, frozenset[str]]) -> Trial:
         """Return a trial of a value within what its declaration allows; of a whole number the whole numbers of its range."""
         home = design.asked.instance
         usual = range_of(config.kinds.get(home, PRESS), design.key)
@@ -87,7 +89,7 @@ class Trial:
         if len(listed := design.listed):
             within = listed[(listed >= low) & (listed <= high)]
             ends = np.array([within.min(initial=design.present or 0.0), within.max(initial=design.present or 0.0)])
-        return Trial(item, design, float(ends[0]), float(ends[1]), frozenset(downstream(config, home)))
+        return Trial(item, design, float(ends[0]), float(ends[1]), reached[home])
 
     @property
     def present(self) -> float:

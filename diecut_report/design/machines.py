@@ -137,19 +137,30 @@ def narrowed(config: Config, names: Iterable[str]) -> Config:
 
 def upstream(config: Config, names: Iterable[str]) -> set[str]:
     """Return these mechanisms and all that they follow from, the press too where they do."""
-    found: set[str] = set()
-    left = list(names)
-    while left:
-        name = left.pop()
-        found.add(name)
-        own = (target for node, target in config.links.items() if node[0] == name)
-        left += [each.instance for target in own for each in target.single if each.instance not in found]
-    return found
+    sources: dict[str, set[str]] = {}
+    for (name, *_), target in config.links.items():
+        sources.setdefault(str(name), set()).update(each.instance for each in target.single)
+    return _reached(sources, names)
 
 
 def downstream(config: Config, name: str) -> list[str]:
     """Return the mechanism, or the press, and all mechanisms that follow from it."""
-    return [each for each in config.instances if name in upstream(config, [each])]
+    followers: dict[str, set[str]] = {}
+    for (own, *_), target in config.links.items():
+        for each in target.single:
+            followers.setdefault(each.instance, set()).add(str(own))
+    found = _reached(followers, [name])
+    return [each for each in config.instances if each in found]
+
+
+def _reached(neighbours: Mapping[str, set[str]], names: Iterable[str]) -> set[str]:
+    found: set[str] = set()
+    left = list(names)
+    while left:
+        if (name := left.pop()) not in found:
+            found.add(name)
+            left += neighbours.get(name, ())
+    return found
 
 
 def slacks(made: CalculatedVariants) -> dict[str, Array]:

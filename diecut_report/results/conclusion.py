@@ -189,9 +189,7 @@ def weight(check: CheckRecord) -> tuple[int, float]:
 LEFT: dict[OpenKind, Callable[[int], Counted]] = {
     "warning": lambda n: Counted(n, "{n} warns", "{n} warn"),
     "not_checked": lambda n: Counted(n, "{n} is not checked", "{n} are not checked"),
-    "not_rated": lambda n: Counted(
-        n, "parts of {n} mechanism are not modelled", "parts of {n} mechanisms are not modelled"
-    ),
+    "not_rated": lambda n: Counted(n, "{n} part is not rated", "{n} parts are not rated"),
     "assumed": lambda n: Counted(n, "{n} assumed value is open", "{n} assumed values are open"),
     "default": lambda n: Counted(n, "{n} default value is open", "{n} default values are open"),
 }
@@ -265,7 +263,7 @@ def unsettled(checks: Mapping[str, Sequence[CheckRecord]], doubtful: Iterable[st
 
 def _conclusion(found: SummaryRecord, calculated: CalculatedCount) -> Phrase:
     """The one sentence that every command, page and file begins with."""
-    left, made = _listed([*_left(found.open, calculated.lost)]), found.passing + found.warn + found.fail
+    left, made = _listed([*_left(found, calculated.lost)]), found.passing + found.warn + found.fail
     if found.fail:
         failed = Counted(found.fail, "{n} of {total} checks fails", "{n} of {total} checks fail", total=made)
         return Phrase("{failed}; {left}.", failed=failed, left=left) if left else Phrase("{failed}.", failed=failed)
@@ -287,12 +285,17 @@ def _conclusion(found: SummaryRecord, calculated: CalculatedCount) -> Phrase:
     return phrase("All checks pass.")
 
 
-def _left(found: Sequence[OpenRecord], lost: int) -> Iterator[Phrase]:
+def _left(found: SummaryRecord, lost: int) -> Iterator[Phrase]:
     """How much of each kind is left open, and how many parts are not calculated."""
     if lost:
         yield Counted(lost, "{n} part is not calculated", "{n} parts are not calculated")
-    count = Counter(each.what for each in found)
-    yield from (counted(count[what]) for what, counted in LEFT.items() if count[what])
+    count = Counter(each.what for each in found.open)
+    for what, counted in LEFT.items():
+        if what == "not_rated" and count[what] and found.parts is None:  # then it names the mechanisms whose forces nothing takes
+            one, many = "parts of {n} mechanism are not modelled", "parts of {n} mechanisms are not modelled"
+            yield Counted(count[what], one, many)
+        elif count[what]:
+            yield counted(count[what])
 
 
 def _listed(parts: list[Phrase]) -> str:

@@ -77,9 +77,9 @@ def test_mechanisms_are_counted(tmp_path: Path) -> None:
 
 
 def test_a_pdf_of_many_mechanisms_is_refused_before_it_is_calculated(tmp_path: Path) -> None:
-    many = "".join(f"  m{index}: {{kind: lever, force: 2 kN}}\n" for index in range(61))
+    many = "".join(f"  m{index}: {{kind: lever, force: 2 kN}}\n" for index in range(81))
     path = saved(tmp_path, HEAD + many)
-    template = r"61 mechanisms; the PDF of a report has at most 60\. Leave the PDF out with --format html,json"
+    template = r"81 mechanisms; the PDF of a report has at most 80\. Leave the PDF out with --format html,json"
     with pytest.raises(UserError, match=template):
         Press.read(path, DISCOVERY).require_reportable(("html", "pdf"))
 

@@ -164,7 +164,7 @@ def test_page_1_names_what_is_not_covered_with_its_owner(owner: str) -> None:
 def test_each_mechanism_has_its_worst_strength_and_function_check() -> None:
     strength, practice = {"class": "strength"}, {"class": "practice"}
     found = page(judged("low", 0.2, **strength), judged("high", 0.9, **strength), judged("rule", 0.99, **practice))
-    assert found.chapters[0].worst("strength", "safety").id == "high" and found.chapters[0].worst("function") is None
+    assert found.chapters[0].worst_strength.id == "high" and found.chapters[0].worst_function is None
     (hurt,) = page(judged("guard", 0.4, **{"class": "safety"})).checks
     assert (hurt.check_class, hurt.id) == ("safety", "guard")
 

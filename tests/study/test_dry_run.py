@@ -55,7 +55,7 @@ def test_the_size_is_that_of_the_run(tmp_path: Path, without_summary: None) -> N
     checks = [name for name in described if ".checks." in name and name.endswith(".status")]
     assert found.checks == len(checks)
     assert (
-        found.quantities == len([name for name in described if ".checks." not in name]) - 5
+        found.quantities == len([name for name in described if ".checks." not in name]) - 6
     )  # varied, variant, verdict
 
 
