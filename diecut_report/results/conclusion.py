@@ -291,7 +291,8 @@ def _left(found: SummaryRecord, lost: int) -> Iterator[Phrase]:
         yield Counted(lost, "{n} part is not calculated", "{n} parts are not calculated")
     count = Counter(each.what for each in found.open)
     for what, counted in LEFT.items():
-        if what == "not_rated" and count[what] and found.parts is None:  # then it names the mechanisms whose forces nothing takes
+        if what == "not_rated" and count[what] and found.parts is None:
+            # mechanisms whose forces nothing takes
             one, many = "parts of {n} mechanism are not modelled", "parts of {n} mechanisms are not modelled"
             yield Counted(count[what], one, many)
         elif count[what]:
