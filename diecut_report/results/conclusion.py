@@ -292,9 +292,8 @@ def _left(found: SummaryRecord, lost: int) -> Iterator[Phrase]:
     count = Counter(each.what for each in found.open)
     for what, counted in LEFT.items():
         if what == "not_rated" and count[what] and found.parts is None:
-            # mechanisms whose forces nothing takes
-            one, many = "parts of {n} mechanism are not modelled", "parts of {n} mechanisms are not modelled"
-            yield Counted(count[what], one, many)
+            n = count[what]  # mechanisms whose forces nothing takes
+            yield Counted(n, "parts of {n} mechanism are not modelled", "parts of {n} mechanisms are not modelled")
         elif count[what]:
             yield counted(count[what])
 

@@ -89,7 +89,7 @@ def test_report_tells_what_it_wrote_and_what_fails(tmp_path: Path, capfd: Captur
     assert err.splitlines() == [
         f"written: {tmp_path / 'press.json'}",
         "fail a: Moment. Moment 200 N·m, allowed 150 N·m: shorten the arm.",
-        "1 of 1 checks fails. Governing: a.moment.",
+        "1 of 1 checks fails; 2 default values are open. Governing: a.moment.",
     ]
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
@@ -210,6 +210,7 @@ def test_pad_and_number_against_buckling_are_the_least(
     if side > 5:
         assert "slenderness" not in passing(damper(**keys | {"ring_width": side - 5, "pad_height": side - 5}))
     count = round(number(calc, "steady_damper_count"))
+    assume(count <= 1_000_000)  # more are refused as not plausible
     assert "slenderness" in passing(damper(**keys | {"damper_count": count}))
     if count > 1:
         assert "slenderness" not in passing(damper(**keys | {"damper_count": count - 1}))
