@@ -24,7 +24,15 @@ from diecut_report.report.chapters.front import (
 )
 from diecut_report.report.chapters.repetition import ToldBefore
 from diecut_report.report.equations import Equations
-from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
+from diecut_report.report.model import (
+    CheckRow,
+    JudgedPart,
+    PrintedChapter,
+    QuantityRow,
+    judged_parts,
+    quantity_row,
+    rested,
+)
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
 from diecut_report.report.symbols import BOLD, drawn, measured
 from diecut_report.report.text import Catalogue, sentence
@@ -198,6 +206,11 @@ class ReportDocument:
         lines = [line for line in self.contents if line[3] == 1 or not is_long]
         size = -(-len(lines) // CONTENTS_COLUMNS)
         return [lines[start : start + size] for start in range(0, len(lines), size)]
+
+    @property
+    def judged_parts(self) -> list[JudgedPart]:
+        """The rows of the first page."""
+        return judged_parts(self.chapters)
 
     @property
     def face(self) -> str:

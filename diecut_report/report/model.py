@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
 from typing import Any
@@ -83,6 +83,12 @@ class CheckRow:
     missing: tuple[str, ...] = ()
     parts: PartsTable | None = None
     changed: str = ""
+    part: str = ""
+
+    @property
+    def home(self) -> str:
+        """Where it stands: the letter of its chapter; of the many chapters of a machine's parts the name too."""
+        return f"{self.chapter} {self.mechanism}" if self.part else self.chapter
 
     def repeats(self, other: CheckRow) -> bool:
         """Whether it is the check before it, of another part: its words are the same but for the part's name."""
@@ -227,6 +233,61 @@ class PrintedChapter:
     def face(self) -> str:
         """The verdict as it is shown: one that does not fail, but leaves something open, is conditional."""
         return "conditional" if self.is_open and self.record.status in ("pass", "warn") else self.record.status
+
+
+FACES = ("pass", "warn", "conditional", "fail", "skipped", "error")  # from the best to the worst
+
+
+@dataclass(frozen=True)
+class JudgedPart:
+    """A row of the first page: a mechanism, or a part of the machine with all calculations that are made of it."""
+
+    chapters: list[PrintedChapter]
+
+    @property
+    def title(self) -> str:
+        """The chapters' letters with the title of the mechanism, or the name of the part."""
+        first, last = self.chapters[0], self.chapters[-1]
+        letters = first.letter if first is last else f"{first.letter}–{last.letter}"
+        return f"{letters} {first.record.part or first.title}"
+
+    @property
+    def anchor(self) -> str:
+        """The first of its chapters."""
+        return self.chapters[0].anchor
+
+    @property
+    def worst_strength(self) -> CheckRow | None:
+        """The check of strength or safety that fails first or is most utilised; none where none is made."""
+        return min(
+            filter(None, (each.worst_strength for each in self.chapters)), key=lambda row: row.order, default=None
+        )
+
+    @property
+    def worst_function(self) -> CheckRow | None:
+        """The check of function that fails first or is most utilised; none where none is made."""
+        return min(
+            filter(None, (each.worst_function for each in self.chapters)), key=lambda row: row.order, default=None
+        )
+
+    @property
+    def counts(self) -> list[int]:
+        """How many checks fail, warn, pass, and are not made."""
+        return [sum(each.count(status) for each in self.chapters) for status in ("fail", "warn", "pass", "not_checked")]
+
+    @property
+    def face(self) -> str:
+        """The worst verdict of its chapters as it is shown."""
+        return max((each.face for each in self.chapters), key=FACES.index)
+
+
+def judged_parts(chapters: Iterable[PrintedChapter]) -> list[JudgedPart]:
+    """Return the rows of the first page: chapters of one part together, and none of a comparison without checks."""
+    groups: dict[str, list[PrintedChapter]] = {}
+    for each in chapters:
+        if each.checks or not each.between:
+            groups.setdefault(each.record.part or each.anchor, []).append(each)
+    return [JudgedPart(each) for each in groups.values()]
 
 
 def quantity_row(row: QuantityRecord, decimal: str, description: str = "", names: Collection[str] = ()) -> QuantityRow:

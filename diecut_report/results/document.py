@@ -56,7 +56,9 @@ LEFT_OUT = (
 def document(run: Run) -> ResultsRecord:
     """Return all results; the same config gives the same document, byte for byte."""
     config, tree = run.config, run.config.tree
-    mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
+    parts = config.parts.calculations if config.parts else {}
+    found = {name: _mechanism_data(run, name) for name in config.instances if name != PRESS}
+    mechanisms = with_origins({name: data.with_(part=parts.get(name, "")) for name, data in found.items()})
     comparisons = shown_alike({case.name: _comparison_data(run, case) for case in run.cases}, mechanisms)
     mechanisms = shown_alike(mechanisms, mechanisms)
     checks = {name: data.checks for name, data in mechanisms.items()}

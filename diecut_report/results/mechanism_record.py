@@ -371,6 +371,7 @@ class MechanismRecord(Record):
 
     kind: str = always("Its kind.")
     title: Text = always("What its kind is called.")
+    part: str = sometimes("The part of the machine that it is made of: `shafts.crank`, `meshes.step_up`.", "")
     plugin_version: str = always("The version of its plugin.")
     plugin_sha256: str = always("The SHA-256 of the plugin's code.")
     plugin_file: str = sometimes("The file of a plugin that is not the program's own.", "")

@@ -174,3 +174,19 @@ def test_advice_has_the_numbers_of_the_language() -> None:
     results = {"summary": {"advice": {"changes": changes, "failing": [], "error": None}}}
     (line,) = followed_line(filled(ResultsRecord, results), Catalogue("uk"))
     assert "cylinder.radius 105,2 mm, clutch.single_position true" in line
+
+
+def test_calculations_of_one_part_are_one_row_with_the_worst_of_them() -> None:
+    results = sample()
+    results["mechanisms"] = {
+        "train": mechanism("Train", checks=[judged("own", 0.2)]),
+        "crank": mechanism("Shaft", part="shafts.crank", checks=[judged("low", 0.3, **{"class": "strength"})]),
+        "key": mechanism("Key", part="shafts.crank", status="fail", checks=[judged("high", 1.2, "fail", **{"class": "strength"})]),
+    }  # fmt: skip
+    words = Catalogue("en")
+    found = document(typed(results | {"comparisons": {}}), Equations(words, lambda _: 0.0), words)
+    _, part = found.judged_parts
+    assert (part.title, part.counts, part.face) == ("B–C shafts.crank", [1, 0, 1, 0], "fail")
+    assert part.worst_strength is not None and part.worst_function is None
+    assert (part.worst_strength.id, part.worst_strength.home) == ("high", "C key")
+    assert found.judged_parts[0].title.startswith("A ")

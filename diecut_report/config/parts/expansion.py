@@ -56,6 +56,7 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
         return Expanded(_without(tree), parts, None, tuple(reader.problems))
     elements = Elements(parts, blocks, known)
     made = elements.all()
+    parts.calculations.update({each.name: ".".join(map(str, each.path[:2])) for each in made if len(each.path) > 1})
     taken = [each.name for each in made if each.name in given]
     for name in taken:
         parts.fault(("mechanisms", name), "is the name of a calculation that the parts make; choose another one")

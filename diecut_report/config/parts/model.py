@@ -262,6 +262,9 @@ class MachineParts:
     shafts: dict[str, MachineShaft] = field(default_factory=dict)
     joins: list[Join] = field(default_factory=list)
     findings: list[Any] = field(default_factory=list)
+    calculations: dict[str, str] = field(
+        default_factory=dict
+    )  # those that are made of parts, with the part: shafts.crank
 
     @staticmethod
     def read(reader: PartsReader, mechanisms: Mapping[str, str]) -> MachineParts | None:

@@ -276,6 +276,7 @@ class _Filler:
             missing=tuple(check.missing),
             parts=self.tables.of_check(check) if check.parts and is_told_by_part else None,
             changed=check.before,
+            part=self.part.record.part,
         )
 
     def _side(self, display: ShownRecord | None) -> str:

@@ -312,7 +312,7 @@ def followed_line(results: ResultsRecord, words: Catalogue, rows: Iterable[Check
     if advice.error:
         yield words.say("advice_impossible", changes=changes)
     elif advice.failing:
-        titles = {f"{row.mechanism}.{row.id}": f"{row.chapter} · {row.title}" for row in rows}
+        titles = {f"{row.mechanism}.{row.id}": f"{row.home} · {row.title}" for row in rows}
         left = ", ".join(titles.get(check, check) for check in advice.failing)
         yield words.say("advice_leaves", changes=changes, checks=left)
     else:
@@ -407,7 +407,9 @@ def not_covered(results: ResultsRecord, words: Catalogue) -> list[NotCovered]:
     found = [NotCovered(words["beyond_methods"], owner)]
     if unrated and not results.summary.parts:
         found = [NotCovered(words["not_modelled"], owner), NotCovered(words["no_load_cases"], owner), *found]
-    parts = [NotCovered(f"{each.path.removeprefix('mechanisms.')}: {each.why}.", each.owner) for each in unrated]
+    home = "mechanisms."  # a part of the machine is named by the reason itself
+    names = [f"{each.path.removeprefix(home)}: " if each.path.startswith(home) else "" for each in unrated]
+    parts = [NotCovered(f"{name}{each.why}.", each.owner) for name, each in zip(names, unrated, strict=True)]
     return [*found[:1], *parts, *found[1:]] if parts else found
 
 

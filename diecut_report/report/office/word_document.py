@@ -121,17 +121,17 @@ def influence(body: WordBody, document: ReportDocument) -> None:
 def _verdict_lines(body: WordBody, document: ReportDocument) -> Iterator[Inline]:
     words, governing = document.words, document.governing
     for row in document.failures:
-        yield run(f"{MARKS['fail']} {row.chapter} · ") + body.linked(row) + run(": ") + rich(prose(row.message))
+        yield run(f"{MARKS['fail']} {row.home} · ") + body.linked(row) + run(": ") + rich(prose(row.message))
     for chapter in document.chapters:
         if chapter.lost:
             cause = prose(chapter.record.error or words["skipped_text"])
             yield run(f"{MARKS['fail']} {chapter.letter} · {chapter.title}: ") + rich(cause)
     if governing:
         margin = f", {words.say('reserve', margin=governing.margin)}" if governing.status == "pass" else ""
-        home = run(f"{words['governing']}: {governing.chapter} · ")
+        home = run(f"{words['governing']}: {governing.home} · ")
         yield home + body.linked(governing) + run(f", {governing.used}{margin}")
     if document.sized:
-        told = ", ".join(f"{row.chapter} · {row.title} ({row.utilisation})" for row in document.sized)
+        told = ", ".join(f"{row.home} · {row.title} ({row.utilisation})" for row in document.sized)
         yield run(f"{words['sized']}: {told}")
     yield from map(run, document.notes)
 
@@ -164,15 +164,15 @@ def _worst(body: WordBody, document: ReportDocument) -> None:
     columns = body.heads("mechanism:4 worst_strength:4 worst_function:4")
     columns += [*(TableColumn(run(MARKS[status]), 0.7, True) for status in STATUSES), *body.heads("verdict:2")]
     rows = []
-    for chapter in document.chapters:
-        worst = (chapter.worst_strength, chapter.worst_function)
+    for part in document.judged_parts:
+        worst = (part.worst_strength, part.worst_function)
         told = [
             body.linked(row) + run(f" {row.used or row.utilisation}") if row else run(document.words["none"])
             for row in worst
         ]
-        title = link(body.anchor(chapter.anchor), run(f"{chapter.letter} ") + rich(prose(chapter.title)))
-        counts = [run(str(chapter.count(status) or "–")) for status in STATUSES]
-        rows.append([title, *told, *counts, body.status(chapter.face)])
+        title = link(body.anchor(part.anchor), rich(prose(part.title)))
+        counts = [run(str(count or "–")) for count in part.counts]
+        rows.append([title, *told, *counts, body.status(part.face)])
     body.table(columns, rows)
 
 

@@ -221,6 +221,12 @@ def test_54_parts_carry_load_and_have_a_method_and_three_of_them_no_load_that_is
     ]
 
 
+def test_each_calculation_knows_the_part_that_it_is_made_of() -> None:
+    made = parts().calculations
+    assert made["shafts_crank_disc_key"] == made["shafts_crank"] == "shafts.crank"
+    assert made["meshes_step_up"] == "meshes.step_up" and "drive" not in made
+
+
 def test_a_part_is_rated_by_checks_of_strength_that_are_all_made() -> None:
     made: Any = SimpleNamespace(check_class="strength", status="fail")
     left: Any = SimpleNamespace(check_class="strength", status="not_checked")
