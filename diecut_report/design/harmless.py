@@ -27,15 +27,8 @@ from diecut_report.text.phrases import Phrase, phrase
 
 SHARE = 0.1  # of a value for which no range is known, downwards and upwards
 STILL = 1e-9  # of a slack, by which rounding alone moves it
-LEFT_OUT = (
-    1,
-    2,
-    4,
-    8,
-    16,
-    32,
-    64,
-    128,
+LEFT_OUT = tuple(
+    2**k for k in range(8)
 )  # how many of those that change a check together are taken out, strongest first
 
 
