@@ -377,7 +377,7 @@ def note_findings(calc: Calculation, parts: MachineParts) -> None:
         found = by_level[level]
         if found:
             calc.values[id] = np.full((calc.count, 1), float(len(found)))
-            texts = [Phrase("{place}: {message}", place=parts.where(each.path), message=each.message) for each in found]
+            texts = [Phrase("{place}: {message}", place=parts.line(each.path), message=each.message) for each in found]
             checks.append(
                 Check(
                     id=id, title=title, check_class="function" if level == "fail" else "practice", severity="fail" if level == "fail" else "warn",

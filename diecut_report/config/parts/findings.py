@@ -40,7 +40,8 @@ def finding(
     text = Phrase(template, **values)
     if against is None:
         return Finding(rule, level, path, text)
-    return Finding(rule, level, path, Phrase("{text} (against {place})", text=text, place=parts.where(against)))
+    place = parts.where(against) if level == "error" else parts.line(against)
+    return Finding(rule, level, path, Phrase("{text} (against {place})", text=text, place=place))
 
 
 def hubs(parts: MachineParts) -> Iterator[tuple[MachineShaft, ShaftPart]]:

@@ -299,6 +299,10 @@ class MachineParts:
         line, column = self.reader.tree.position(path)
         return f"{self.reader.tree.file}:{line}:{column}"
 
+    def line(self, path: KeyPath) -> Phrase:
+        """Return the path with its line, as results name a place: where the file stands is not of the machine."""
+        return Phrase("{path}, line {line}", path=".".join(map(str, path)), line=self.reader.tree.position(path)[0])
+
     def _join(self, word: str, name: str, keys: Any, path: KeyPath, more: tuple[str, ...]) -> None:
         kind, first, second = SIDES[word]
         sides: list[tuple[ShaftPart, ...]] = []

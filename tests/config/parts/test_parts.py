@@ -18,6 +18,7 @@ from diecut_report.config.yaml import parse
 from diecut_report.press import Press
 from diecut_report.results.carrying_parts import carrying_parts, is_rated
 from diecut_report.results.press_run import Run
+from diecut_report.results.results_file import results_text
 
 FILE = Path(import_module("diecut_report.configs").__path__[0]) / "machines" / "flat_cylinder.yaml"
 TEXT = FILE.read_text("utf-8")
@@ -221,6 +222,13 @@ def test_54_parts_carry_load_and_have_a_method_and_three_of_them_no_load_that_is
     ]
 
 
+def test_what_is_doubtful_is_told_by_path_and_line_as_results_say_the_same_wherever_the_file_stands() -> None:
+    (found,) = parts().findings
+    told = f"{parts().line(found.path)}: {found.message}"
+    assert told.startswith("shafts.") and "(against shafts." in told and ", line " in told
+    assert FILE.name not in told
+
+
 def test_each_calculation_knows_the_part_that_it_is_made_of() -> None:
     made = parts().calculations
     assert made["shafts_crank_disc_key"] == made["shafts_crank"] == "shafts.crank"
@@ -239,6 +247,7 @@ def test_a_part_is_rated_by_checks_of_strength_that_are_all_made() -> None:
 def test_the_whole_machine_is_calculated_and_fails_where_the_sheet_says() -> None:
     results = Press.read(FILE, DISCOVERY).calculate().results
     assert results.summary.verdict == "fail" and results.summary.parts is not None
+    assert str(FILE) not in results_text(results)
     assert results.summary.parts.carrying == 54 and not [
         name for name, each in results.mechanisms.items() if each.error
     ]
