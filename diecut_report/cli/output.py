@@ -89,7 +89,7 @@ OF_CHECKS = phrase(
 )
 OF_FILES = phrase("Exit codes: 0 all are valid, 2 one is not, 3 a plugin broke.")
 OF_STUDY = phrase(
-    "Exit codes: 0 no check of a variant fails, 1 one fails (with --strict also where one is conditional) or no variant can exist, "
+    "Exit codes: 0 no check of a variant fails, 1 one fails (with --strict also where one warns or is not made) or no variant can exist, "
     "2 bad input, 3 a plugin broke, 130 stopped: what is finished is kept."
 )
 OF_PLUGIN = phrase("Exit codes: 0 the rules are kept, 1 one is broken, 2 bad input, 3 the plugin broke.")

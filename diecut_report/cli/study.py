@@ -24,7 +24,6 @@ from diecut_report.cli.options import (
     path_option,
     results_folder,
     split,
-    strict_option,
     study_folder_option,
 )
 from diecut_report.cli.output import (
@@ -74,7 +73,11 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     help="Time limit for a part of the study, after which it is ended as an error; 0 for none (default: many times the duration of other parts).",
 )
 @click.option("--yes", is_flag=True, help="Calculate even a very large sample without confirmation.")
-@strict_option
+@click.option(
+    "--strict",
+    is_flag=True,
+    help="Exit with 1 also where a variant warns, or a check of one is not performed because a key is not given.",
+)
 @common
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
           chunk_limit: float | None, yes: bool, strict: bool, discovery: Discovery) -> int:  # fmt: skip

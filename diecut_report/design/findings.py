@@ -9,7 +9,6 @@ from diecut_report.config.loader import Config
 from diecut_report.press import CalculatedPress
 from diecut_report.results.conclusion import VALUES, rejudged
 from diecut_report.results.model import ResultsRecord
-from diecut_report.results.open_items import is_tried
 from diecut_report.text.phrases import phrase
 
 
@@ -32,7 +31,7 @@ def _proved(config: Config, results: ResultsRecord, tell: Callable[[str], None])
     from diecut_report.design.harmless import without_harmless
 
     tell(phrase("trying assumed and default values"))
-    found = results.with_(summary=results.summary.with_(open=without_harmless(config, results)))
+    found = results.with_(summary=results.summary.with_(open=without_harmless(config, results), tried=True))
     return found.with_(summary=rejudged(found))
 
 
@@ -43,7 +42,7 @@ def findings(config: Config, results: ResultsRecord, tell: Callable[[str], None]
 
     # once: of values that only together change a check the others were proved with these as they are;
     # of a machine that fails all stay open, as what it is changed into has other checks near their limits
-    if not (results.summary.fail or is_tried(results.summary)):
+    if not (results.summary.fail or results.summary.tried):
         results = _proved(config, results, tell)
     summary = results.summary
     if summary.fail:

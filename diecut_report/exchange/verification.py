@@ -24,7 +24,6 @@ from diecut_report.press import AskedReport, Press
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.results.changes import compare_with
 from diecut_report.results.model import CarriedConfigRecord, ProgramRecord, ResultsRecord
-from diecut_report.results.open_items import is_tried
 from diecut_report.results.results_file import config_content
 from diecut_report.text.phrases import Counted, Phrase, cell, joined, phrase
 
@@ -143,7 +142,7 @@ def recalculated(
         tree = _tree(given.config, f"{carried.path} (its configuration)")
         made = decided(Press.read(tree, discovery, tell, find=find).calculate())
         # a results file without any part of a report is as ``calc`` writes it
-        has_more = is_tried(given.summary) and not is_tried(made.results.summary)
+        has_more = bool(given.summary.tried or given.summary.moves) and not made.results.summary.tried
         is_report = carried.form != "json" or has_more or given.summary.advice or given.influence
         made = with_findings(made) if is_report else made
     results = made.results

@@ -276,9 +276,11 @@ def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[Prin
 
 
 def _counts(results: ResultsRecord, chapters: list[PrintedChapter], words: Catalogue) -> list[str]:
-    """How many checks pass, as a sentence begins (the first line has told what does not), and which comparisons are not made."""
+    """How many checks pass, as a sentence begins (the first line tells what does not), how many parts are rated, which comparisons are not made."""
     count, left = sum(part.count("pass") for part in chapters), results.comparisons_left_out
     counts = [words.say("count_pass", n=count)] if count else []
+    if parts := results.summary.parts:
+        counts.append(words.say("count_rated", rated=parts.rated, carrying=parts.carrying))
     counts += [left.message.removesuffix(".")] if left else []
     return [sentence(text) if not k else text for k, text in enumerate(counts)]
 

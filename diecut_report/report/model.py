@@ -211,25 +211,6 @@ class PrintedChapter:
         return sum(row.status == status and not row.is_self_test for row in self.checks)
 
     @property
-    def governing(self) -> CheckRow | None:
-        """The check of the machine that fails first or is most utilised; none where none is made."""
-        return min((row for row in self.checks if row.is_made), key=lambda row: row.order, default=None)
-
-    @property
-    def worst_strength(self) -> CheckRow | None:
-        """The check of strength or safety that fails first or is most utilised; none where none is made."""
-        return self._worst("strength", "safety")
-
-    @property
-    def worst_function(self) -> CheckRow | None:
-        """The check of function that fails first or is most utilised; none where none is made."""
-        return self._worst("function")
-
-    def _worst(self, *classes: str) -> CheckRow | None:
-        found = (row for row in self.checks if row.is_made and row.check_class in classes)
-        return min(found, key=lambda row: row.order, default=None)
-
-    @property
     def face(self) -> str:
         """The verdict as it is shown: one that does not fail, but leaves something open, is conditional."""
         return "conditional" if self.is_open and self.record.status in ("pass", "warn") else self.record.status
@@ -259,15 +240,19 @@ class JudgedPart:
     @property
     def worst_strength(self) -> CheckRow | None:
         """The check of strength or safety that fails first or is most utilised; none where none is made."""
-        return min(
-            filter(None, (each.worst_strength for each in self.chapters)), key=lambda row: row.order, default=None
-        )
+        return self._worst("strength", "safety")
 
     @property
     def worst_function(self) -> CheckRow | None:
         """The check of function that fails first or is most utilised; none where none is made."""
+        return self._worst("function")
+
+    def _worst(self, *classes: str) -> CheckRow | None:
+        every = (row for each in self.chapters for row in each.checks)
         return min(
-            filter(None, (each.worst_function for each in self.chapters)), key=lambda row: row.order, default=None
+            (row for row in every if row.is_made and row.check_class in classes),
+            key=lambda row: row.order,
+            default=None,
         )
 
     @property

@@ -94,9 +94,10 @@ class Disagreement:
         if self.other is None:
             return self.part.instance.place.problem(self.key, told)
         against = self.other.instance.place.problem(self.other_key, "")
-        place = f"{against.file}:{against.line}:{against.column}"
-        template = "{told} (against {place}: {path}). Change the one that is not so."
-        return self.part.instance.place.problem(self.key, template, told=told, place=place, path=against.path)
+        # without the file, which is the same: results keep this as what the advice led to, and do not depend on where the file stands
+        place = Phrase("{path}, line {line}", path=against.path, line=against.line)
+        template = "{told} (against {place}). Change the one that is not so."
+        return self.part.instance.place.problem(self.key, template, told=told, place=place)
 
 
 def _shown(given: tuple[Array, str] | str, variant: int) -> str:

@@ -195,6 +195,9 @@ class SummaryRecord(CountRecord):
         "`fail`: a check does not hold, or a mechanism could not be calculated; `conditional`: something is open; `pass`. Files before it have none."
     )
     open: list[OpenRecord] = sometimes("What is open, each with its owner.", [])
+    tried: bool = sometimes(
+        "Whether the values that are open were tried with others: those left may change a check.", False
+    )
     parts: PartCountRecord | None = sometimes("The parts that carry load, where the parts of the machine are modelled.")
     assumed: list[str] = always("The paths of inputs whose basis is `assumed`.")
     moves: list[MoveRecord] = sometimes("Of files before the three verdicts; not written any more.", [])

@@ -27,12 +27,6 @@ UNPROVED = phrase("it is not proved that no check depends on it")
 """Why a value is open as long as nobody has calculated the machine with others."""
 
 
-def is_tried(found: SummaryRecord) -> bool:
-    """Return whether the values that are open were tried with others, as for a report; by files before the three verdicts, too."""
-    is_judged = found.verdict is not None and not any(str(each.why) == UNPROVED for each in found.open)
-    return is_judged or bool(found.moves)
-
-
 def run_summary(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> SummaryRecord:
     """Return the verdict on a run as numbers; an assumed value is open as long as it is not proved harmless."""
     found = summary(checks, assumed(run.config)).with_(open=open_items(run, checks))

@@ -12,7 +12,7 @@ from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue, sentence
 from diecut_report.results.conclusion import governing, summary
 from diecut_report.results.mechanism_record import CheckRecord
-from diecut_report.results.model import ResultsRecord
+from diecut_report.results.model import PartCountRecord, ResultsRecord
 from tests.records import filled
 from tests.report.made_results import check, mechanism, sample, typed
 
@@ -164,7 +164,8 @@ def test_page_1_names_what_is_not_covered_with_its_owner(owner: str) -> None:
 def test_each_mechanism_has_its_worst_strength_and_function_check() -> None:
     strength, practice = {"class": "strength"}, {"class": "practice"}
     found = page(judged("low", 0.2, **strength), judged("high", 0.9, **strength), judged("rule", 0.99, **practice))
-    assert found.chapters[0].worst_strength.id == "high" and found.chapters[0].worst_function is None
+    (row,) = found.judged_parts
+    assert row.worst_strength.id == "high" and row.worst_function is None
     (hurt,) = page(judged("guard", 0.4, **{"class": "safety"})).checks
     assert (hurt.check_class, hurt.id) == ("safety", "guard")
 
@@ -190,3 +191,12 @@ def test_calculations_of_one_part_are_one_row_with_the_worst_of_them() -> None:
     assert part.worst_strength is not None and part.worst_function is None
     assert (part.worst_strength.id, part.worst_strength.home) == ("high", "C key")
     assert found.judged_parts[0].title.startswith("A ")
+
+
+def test_page_1_counts_the_parts_that_are_rated() -> None:
+    results, words = typed(sample()), Catalogue("en")
+    parts = PartCountRecord(carrying=54, rated=49, accepted=0, not_rated=5)
+    counted = results.with_(summary=results.summary.with_(parts=parts))
+    told = "49 of 54 parts with a method of calculation are rated"
+    assert told in document(counted, Equations(words, lambda _: 0.0), words).counts
+    assert told not in document(results, Equations(words, lambda _: 0.0), words).counts

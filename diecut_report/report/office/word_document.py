@@ -172,7 +172,8 @@ def _worst(body: WordBody, document: ReportDocument) -> None:
         ]
         title = link(body.anchor(part.anchor), rich(prose(part.title)))
         counts = [run(str(count or "–")) for count in part.counts]
-        rows.append([title, *told, *counts, body.status(part.face)])
+        is_judged = any(part.counts) or part.face != "pass"
+        rows.append([title, *told, *counts, body.status(part.face) if is_judged else run("–")])
     body.table(columns, rows)
 
 

@@ -72,7 +72,7 @@ def of_plugin(kind: str) -> Iterator[None]:
 class CalculatedVariants:
     """Hold what was calculated of a number of variants; ``reasons`` has a text for each that cannot exist.
 
-    ``is_open`` says that they rest on assumed or default values, or make forces that no part takes.
+    ``is_open`` says that they rest on assumed or default values, make forces that no part takes, or have parts, whose rating is not judged here.
     """
 
     count: int
@@ -105,7 +105,8 @@ def calculated(base: Config, values: Values, count: int, tell: Tell = untold) ->
     else:
         made = _Rows(config, variants, tell)
         variants.calculations = made.calculations
-        variants.is_open = bool(free_ports(made)) or any(True for _ in open_values(made))
+        has_parts = config.parts is not None
+        variants.is_open = has_parts or bool(free_ports(made)) or any(True for _ in open_values(made))
     return variants
 
 
