@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -106,3 +108,32 @@ def test_what_ends_in_time_is_left_alone() -> None:
     with limited(None):
         time.sleep(0.06)
     time.sleep(0.06)  # no alarm rings afterwards
+
+
+TRACED = """
+import sys, threading, time
+from diecut_report.time_limit import Overran, limited
+
+def work(seconds):
+    try:
+        with limited(seconds):
+            time.sleep(0)
+            while time.monotonic() < end:
+                pass
+    except Overran:
+        print("overran")
+
+for seconds in (0.05, 30):
+    end = time.monotonic() + 0.2
+    thread = threading.Thread(target=work, args=(seconds,))
+    thread.start()
+    thread.join()
+sys.settrace(lambda *_: None)
+print(sum(abs(number) for number in range(1000)), [len(text) for text in "abc"], (lambda: "goes on")())
+"""
+
+
+def test_a_thread_that_was_interrupted_leaves_nothing_behind_that_stops_a_debugger() -> None:
+    """On Python 3.11 an interruption that was asked for and withdrawn let the first traced call stand still for ever."""
+    made = subprocess.run([sys.executable, "-c", TRACED], capture_output=True, text=True, timeout=60, check=True)
+    assert made.stdout.split() == ["overran", "499500", "[1,", "1,", "1]", "goes", "on"]
