@@ -153,6 +153,7 @@ def test_a_value_that_the_base_gives_in_a_list_stands_in_that_list(tmp_path: Pat
 
 
 texts = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc", "Cf")), max_size=12)
+texts = texts.filter(lambda text: not yaml.FORBIDDEN.search(text))  # which are refused, by tests of their own
 WORDS = ["", "~", "null", "yes", "1e5", "0012", "089", "1:30", "0x10", ".5", "- a", "a: b", "# no",
          "<<", "*a", "&a", "é · °", " x ", "a\nb\n", "%"]  # fmt: skip
 words = st.sampled_from(WORDS)
