@@ -80,6 +80,19 @@ def unrated(
                 what="not_rated", path=part.path, owner=own, why=Phrase("{part}: {why}", part=part.name, why=why)
             )
     for shaft in parts.shafts.values():
-        for body in (each for each in shaft.parts if each.kind in BODIES and each.keys.accepted is None):
-            why = Phrase("{part}: no method rates its body", part=body.called)
-            yield OpenRecord(what="not_rated", path=_dotted(body.path), owner=own, why=why)
+        for part in (each for each in shaft.parts if each.keys.accepted is None):
+            for template in _without_method(part):
+                why = Phrase(template, part=part.called)
+                yield OpenRecord(what="not_rated", path=_dotted(part.path), owner=own, why=why)
+
+
+def _without_method(part: ShaftPart) -> Iterator[str]:
+    """What of a part carries load and has no method of calculation."""
+    if part.kind in BODIES:
+        yield phrase("{part}: no method rates its body")
+    if part.keys.interference is not None:
+        yield phrase("{part}: no method rates its press fit")
+    if part.keys.bolted:
+        yield phrase("{part}: no method rates its bolts")
+    if part.keys.pin is not None and part.keys.pin.held is not None:
+        yield phrase("{part}: no method rates the press fit of its pin")

@@ -201,6 +201,8 @@ class Demands:
         for join in self.parts.joins_of(part):
             if part in join.drivers and (found := self._through(join, len(join.drivers))):
                 return found | {"name": part.name}
+            if part in join.driven[1:] and (own := self.inertia_of(part.shaft)):  # drives its share, the first one the rest
+                return own | {"name": part.name, "ratio": own["ratio"].times(number=-1 / len(join.driven))}
         return None
 
     def _through(self, join: Join, share: int) -> dict[str, Any] | None:
@@ -250,7 +252,7 @@ class Demands:
         """Return all torques on a shaft but the one that balances them; none where its parts take none."""
         found = [torque for part in shaft.parts if (torque := self.torque_on(part))]
         own = self.inertia_of(shaft)
-        return [*found, own] if found and own else found
+        return [*found, own] if own else found
 
     def _moved(self, join: Join, share: int) -> dict[str, Any] | None:
         """What chains take from their sprockets to move the part of a mechanism that they name, each its share."""

@@ -82,6 +82,8 @@ class PinKeys(Block):
     span_end: Annotated[float | None, size("x_2", "Second support, from the pin's end", gt=0)] = None
     plane: Annotated[float, size("x_p", "Middle of the bearing: beyond the disc's outer face, or from the pin's end", ge=0)]
     bearing: Annotated[str | None, Text("Designation of the pin's bearing")] = None
+    limiting_speed: Annotated[float | None, Quantity("n_lim", "rpm", "Limiting speed of the pin's bearing", gt=0)] = None
+    allowable_deflection: Annotated[float | None, size("[y]", "Allowable deflection of the pin", gt=0)] = None
 
 
 class MotorKeys(Block):

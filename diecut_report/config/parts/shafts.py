@@ -14,7 +14,7 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.mechanism import Port
 
 ROLLER_SERIES = ("N", "2")  # how designations of roller bearings begin, spherical ones by 2
-NOTHING = 1e-9  # share of a force below which it has no part in a direction
+NOTHING = 1e-9  # share of a force that has no part in a direction; offset (m) that is rounding
 
 
 class ShaftElements(Masses):
@@ -127,8 +127,8 @@ class ShaftElements(Masses):
             found["torque"] = f"${{{loads}.balance}}"
         for force in (*self._port_forces(part), *self._chain_forces(part)):
             found[f"force_{force['name'][-1]}"] = f"${{{loads}.{force['name']}_force}}"
-        if abs(part.plane - part.keys.at) > 0 and "force_y" in found:
-            found["offset"] = TypedNumber(millimetres(part.plane - part.keys.at), (*part.path, "at"))
+        if abs(offset := part.plane - part.keys.at) > NOTHING and "force_y" in found:
+            found["offset"] = TypedNumber(millimetres(offset), (*part.path, "at"))
         if (gear := self._gear(part)) and "torque" in found:
             found["gear"] = gear
         found |= self._belt_force(part)
@@ -274,6 +274,8 @@ class ShaftElements(Masses):
             inputs["notches"] = [{"position": TypedNumber(millimetres(pin.held), path), "type": "press_fit"}]
         if self.parts.keys.shaft_material:
             inputs["material"] = TypedValue(("machine", "shaft_material"))
+        if pin.allowable_deflection is not None:
+            inputs["allowable_deflection"] = TypedValue((*path, "allowable_deflection"))
         inputs |= (
             {"rotation": f"${{{mechanism}.{port.joint[1]}}}"}
             if port.joint[1]
@@ -293,7 +295,9 @@ class ShaftElements(Masses):
         if pin is None or pin.bearing is None or port is None or not part.port or not port.joint[0]:
             return None
         mechanism, home = part.port[0], f"shafts_{part.shaft.name}"
-        found = self._catalogued(f"{part.name}_pin", pin.bearing, {}, (*part.path, "pin", "bearing"))
+        path = (*part.path, "pin")
+        more = {} if pin.limiting_speed is None else {"limiting_speed": TypedValue((*path, "limiting_speed"))}
+        found = self._catalogued(f"{part.name}_pin", pin.bearing, more, (*path, "bearing"))
         found["radial_force"] = f"${{{mechanism}.{port.joint[0]}}}"
         shaft_slope = f"${{{home}.{part.name}_slope}} + " if self.is_made(home) else ""
         found["tilt"] = f"{shaft_slope}${{{home}_{part.name}_pin.joint_slope}}"
