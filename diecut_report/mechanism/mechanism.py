@@ -184,8 +184,10 @@ class Erratum:
 class Port:
     """Declare a shaft of the mechanism that a part of the machine stands for, by the ids of its curves over one cycle of the mechanism.
 
-    ``torque`` is what the mechanism takes from the shaft. ``forces`` act on the part: two in the directions of the frame's axes, or a single
-    one whose direction is not known; ``opposite`` where they act the other way. ``angle`` is that of a shaft which swings or turns in steps.
+    ``torque`` is what the mechanism takes from the shaft. ``forces`` act on the part: along the line from the turning shaft's axis to the
+    other one's, and across it, to the left where the turning shaft turns anticlockwise; a single one acts along the line. ``opposite`` where
+    they act the other way.
+    ``angle`` is that of a shaft which swings or turns in steps, ``backwards`` where it is counted against the turning of the other shaft.
     ``speed`` is the input with the speed of one that turns. ``joint`` are the force in the joint of its pin and the angle that the joint's
     parts turn by, nothing where they turn with the shaft. ``advance`` is the input whose reciprocal is the part of a revolution by which a
     shaft that turns in steps has moved on after a cycle. ``fills`` gives inputs of the mechanism by what the shaft's join provides: ratio,
@@ -197,6 +199,7 @@ class Port:
     forces: tuple[str, ...] = ()
     opposite: bool = False
     angle: str = ""
+    backwards: bool = False
     speed: str = ""
     joint: tuple[str, str] = ("", "")
     advance: str = ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import lcm
+from math import atan2, cos, lcm, sin
 from typing import Any, NamedTuple
 
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
@@ -66,6 +66,18 @@ class Moving(NamedTuple):
     part: ShaftPart
 
 
+class LineOfAxes(NamedTuple):
+    """Hold the direction (rad) from the axis of a mechanism's turning shaft to its other one, and the sense in which the former turns."""
+
+    angle: float
+    sense: int
+
+    def shares(self) -> tuple[tuple[float, float], ...]:
+        """Return what forces along and across the line have in the directions y and z of the shafts, the frame's x and y."""
+        along, across = cos(self.angle), sin(self.angle)
+        return (along, across), (-self.sense * across, self.sense * along)
+
+
 def millimetres(value: float) -> str:
     """Return a length as it is written in a configuration."""
     return f"{value * 1e3:.12g} mm"
@@ -120,16 +132,31 @@ class Demands:
         return found
 
     def sense(self, shaft: str) -> int:
-        """Return −1 for a shaft that turns the other way than the one on which a mechanism's forces act in the directions of the frame."""
+        """Return +1 for a shaft that turns, or whose angle is counted, as the shaft which is seen turning anticlockwise in the frame, else −1."""
         if shaft in self.parts.ratios:
             return 1 if self.parts.ratios[shaft] * self.parts.ratios[self._reference] > 0 else -1
         moving = self.moved_by(self.parts.shafts[shaft])
-        joins = self.chain_from(moving.part.shaft.name, shaft) if moving else []
-        return -1 if sum(isinstance(join.keys, MeshKeys) for join in joins) % 2 else 1
+        if moving is None:
+            return 1
+        joins = self.chain_from(moving.part.shaft.name, shaft)
+        turned = sum(isinstance(join.keys, MeshKeys) for join in joins) + moving.port.backwards
+        return self.line_of_axes(moving.mechanism).sense * (-1) ** turned
+
+    def line_of_axes(self, mechanism: str) -> LineOfAxes:
+        """Return how the line between the axes of a mechanism's two shafts lies in the frame."""
+        every = (part for each in self.parts.shafts.values() for part in each.parts if part.port)
+        shafts = [part.shaft.name for part in every if part.port and part.port[0] == mechanism]
+        turning = next((name for name in shafts if name in self.parts.ratios), "")
+        other = next((name for name in shafts if name not in self.parts.ratios), "")
+        sense = self.sense(turning) if turning else 1
+        if not {turning, other} <= self.parts.axes.keys():
+            return LineOfAxes(0.0, sense)
+        (x, y), (u, v) = self.parts.axes[turning], self.parts.axes[other]
+        return LineOfAxes(atan2(v - y, u - x), sense)
 
     @property
     def _reference(self) -> str:
-        """The steadily turning shaft with such forces; the anchor where there is none."""
+        """The first steadily turning shaft with a mechanism's forces; the anchor where there is none."""
         steady = (part for name in self.parts.ratios for part in self.parts.shafts[name].parts)
         directed = (part for part in steady if (port := self.port(part)) and len(port.forces) > 1)
         return next((part.shaft.name for part in directed), self.parts.keys.anchor)

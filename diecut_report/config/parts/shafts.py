@@ -35,18 +35,23 @@ class ShaftElements(Masses):
             found = self._source("", moving.mechanism, moving.port.angle, 1)
             factors = tuple(join.ratio_text for join in self.chain_from(moving.part.shaft.name, shaft.name))
             inputs["motion"] = {key: value for key, value in found.items() if key != "name"} | {
-                "ratio": Ratio(1, factors).text
+                "ratio": Ratio(sense, factors).text
             }
         if len(inputs) > 1:
             self._add(f"shafts_{shaft.name}_loads", "shaft_loads", inputs, shaft.path)
 
     def _port_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
-        port = self.port(part)
-        for direction, curve in zip("yz", port.forces if port else (), strict=False):
-            found = self._source(
-                f"{part.name}_{direction}", str(part.port and part.port[0]), curve, -1 if port and port.opposite else 1
-            )
-            yield found | {"ratio": found["ratio"].text}
+        """The forces of a mechanism on a part, in the directions of the frame; a second one in a direction is named across."""
+        port, taken = self.port(part), set[str]()
+        if port is None or part.port is None:
+            return
+        sign, line = -1 if port.opposite else 1, self.line_of_axes(part.port[0])
+        for shares, curve in zip(line.shares(), port.forces, strict=False):
+            for direction, share in zip("yz", shares, strict=True):
+                if abs(share) > NOTHING:
+                    name = f"{part.name}_across_{direction}" if direction in taken else f"{part.name}_{direction}"
+                    taken.add(direction)
+                    yield self._source(name, part.port[0], curve, 1) | {"ratio": Ratio(sign * share).text}
 
     def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The pull of a chain on its sprocket, towards the other one, or along the frame's x where the chain runs over idlers."""
@@ -125,10 +130,13 @@ class ShaftElements(Masses):
             found["torque"] = f"${{{loads}.{part.name}_torque}}"
         elif self._balances(part):
             found["torque"] = f"${{{loads}.balance}}"
+        across: dict[str, Any] = {}
         for force in (*self._port_forces(part), *self._chain_forces(part)):
-            found[f"force_{force['name'][-1]}"] = f"${{{loads}.{force['name']}_force}}"
-        if abs(offset := part.plane - part.keys.at) > NOTHING and "force_y" in found:
-            found["offset"] = TypedNumber(millimetres(offset), (*part.path, "at"))
+            name = force["name"]
+            (across if "_across_" in name else found)[f"force_{name[-1]}"] = f"${{{loads}.{name}_force}}"
+        place = {key: found[key] for key in ("name", "position")}
+        if abs(offset := part.plane - part.keys.at) > NOTHING and {"force_y", "force_z"} & found.keys():
+            place["offset"] = found["offset"] = TypedNumber(millimetres(offset), (*part.path, "at"))
         if (gear := self._gear(part)) and "torque" in found:
             found["gear"] = gear
         found |= self._belt_force(part)
@@ -140,6 +148,8 @@ class ShaftElements(Masses):
             )
         found |= {key: TypedValue((*part.path, key)) for key in part.more if key not in ("mass", "inertia")}
         yield found
+        if across:
+            yield place | {"name": f"{part.name}_across", "seat": "none"} | across
 
     def _balances(self, part: ShaftPart) -> bool:
         """Whether the torque on a part balances all others on its shaft: it is driven there."""
