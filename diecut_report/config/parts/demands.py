@@ -156,10 +156,14 @@ class Demands:
 
     @property
     def _reference(self) -> str:
-        """The first steadily turning shaft with a mechanism's forces; the anchor where there is none."""
+        """The shaft that is seen turning anticlockwise in the frame: a linkage's crank, else any shaft with a mechanism's forces, else the anchor."""
         steady = (part for name in self.parts.ratios for part in self.parts.shafts[name].parts)
-        directed = (part for part in steady if (port := self.port(part)) and len(port.forces) > 1)
-        return next((part.shaft.name for part in directed), self.parts.keys.anchor)
+        directed = [part for part in steady if (port := self.port(part)) and len(port.forces) > 1]
+        linkages = [part for part in directed if part.port and not self._turns_in_steps(part.port[0])]
+        return next((part.shaft.name for part in (*linkages, *directed)), self.parts.keys.anchor)
+
+    def _turns_in_steps(self, mechanism: str) -> bool:
+        return any(port.advance for port in self.of_kind[self.parts.mechanisms[mechanism]].ports)
 
     def moved_by(self, shaft: MachineShaft) -> Moving | None:
         """Return by what a shaft swings or turns in steps; None of one that turns steadily."""
