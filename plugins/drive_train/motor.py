@@ -6,6 +6,7 @@ import numpy as np
 
 from diecut_report.api import Chapter, as_number, bind, standard_series, standard_table
 from diecut_report.mechanics import common
+from diecut_report.mechanics.timing import engagement as motor_slip
 from diecut_report.plugins.drive_train import belts, inertia
 
 RATINGS = standard_series("iec_60072_ratings")
@@ -60,6 +61,12 @@ flywheel.value("loaded_output_speed", "n_oL", "rpm", "Output speed under the mea
 flywheel.value("swing_to_slip", "κ_s", "1", "Ratio of the swing of the motor's speed at the accepted fluctuation to its slip at the rated speed",
     lambda speed_fluctuation, shaft_1_speed, rated_slip: speed_fluctuation * shaft_1_speed / rated_slip, source="this method",
     exists=lambda rated_slip: rated_slip > 0)
+flywheel.value("slip_stiffness", "k", "N*m*s/rad", "Torque of the motor per unit of slip speed",
+    bind(motor_slip.slip_stiffness, rated_torque="motor_rated_torque", rated_speed="shaft_1_speed"), source="this method", output=False, exists=SLIPS)
+flywheel.value("flywheel_stiffness", "k_f", "N*m*s/rad", "The same at the flywheel's shaft",
+    bind(motor_slip.stiffness_at_flywheel, ratio="vbelt_ratio_actual", efficiency="vbelt.efficiency"), source="energy", output=False, exists=SLIPS)
+flywheel.value("motor_time_constant", "τ", "ms", "Time constant with which the motor's torque follows the load's",
+    bind(motor_slip.time_constant, inertia="flywheel_inertia", stiffness_at_flywheel="flywheel_stiffness"), source="this method", exists=SLIPS)
 flywheel.lookup("flywheel_density", "ρ", "kg/m**3", "Density of the flywheel", DENSITIES, by="flywheel_material", source="material", output=False)
 flywheel.lookup("flywheel_rim_limit", "[v]", "m/s", "Allowable rim speed of the flywheel", RIM_SPEEDS, by="flywheel_material", source="material",
     output=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import GivenMechanism, Phrase, Refusal
+from diecut_report.mechanics.timing.engagement import motor_response
 from diecut_report.mechanics.timing.intervals import exact_turns
-from diecut_report.mechanics.timing.shaft_curves import ShaftCurve, with_losses
+from diecut_report.mechanics.timing.shaft_curves import PIECES, PieceRows, ShaftCurve, with_losses
 
 Array = NDArray[Any]
 TURN = 2 * np.pi
@@ -34,9 +35,25 @@ class CurveLoad:
     is_absolute: bool = False
     is_motion: bool = False
 
+    def lagging(self, lag: Array) -> CurveLoad:
+        """Return the load as a motor follows it behind a flywheel; the angle of the main shaft in its time constant is ``lag`` (machines, 1)."""
+        count, none = len(self.curve.offset), np.zeros((1, 1))
+        corners = (self.curve.breakpoints, *(() if self.reversals is None else (self.reversals,)))
+        own = np.concatenate([np.broadcast_to(each, (count, each.shape[1])) for each in corners], axis=1)
+        load = PieceRows.of(lambda share, middle, row: self._of_shares(share, middle, none, row), own, PIECES[-1])
+        shares = np.broadcast_to(lag * float(self.curve.turns) / TURN, (count, 1))[:, 0]
+        followed = motor_response(load, np.ones(count), shares)
+        curve = replace(self.curve, function=lambda share, middle, row: followed.at(share, row, middle), breakpoints=own)
+        one = np.ones((1, 1))
+        return replace(self, curve=curve, factor=one, efficiency=one)
+
     def at(self, angle: Array, middle: Array, machine: Array | None) -> Array:
         """Return the load at main-shaft angles (rows, points)."""
         share, inside, passed, row = self.curve.turned(angle, middle, machine)
+        return self._of_shares(share, inside, passed, row)
+
+    def _of_shares(self, share: Array, inside: Array, passed: Array, row: Array) -> Array:
+        """The load at shares of the own turn, so many turns having passed."""
         # an angle is differentiated, also across the end of a piece, where only the function itself goes on
         found = self.curve.function if self.is_motion else self.curve.of_shares
         machine = (
@@ -141,7 +158,7 @@ def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> C
     turns = _turns(text("turns_per_sheet"), mechanism, f"{home}.turns_per_sheet")
     shaft = ShaftCurve(curve.values, curve.breakpoints, turns, offset)
     gain = np.reshape(curve.gain(None), (-1, 1)) if of == "motion" else np.zeros((1, 1))
-    return CurveLoad(
+    load = CurveLoad(
         shaft,
         factor,
         number("efficiency", 1.0),
@@ -150,6 +167,8 @@ def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> C
         of == "forces" and bool(text("absolute")),
         of == "motion",
     )
+    lag = number("lag", 0.0)
+    return load.lagging(lag) if (lag > 0).any() else load
 
 
 def _turns(text: str, mechanism: GivenMechanism, key: str) -> Fraction:

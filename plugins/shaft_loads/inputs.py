@@ -25,6 +25,9 @@ class Torque(LoadCurve):
 
     inertia: Annotated[float, Quantity("J", "kg*m**2", "Inertia that turns an angular acceleration into a torque; 0 for a torque", ge=0)] = 0
     efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the way from this shaft to the torque", gt=0, le=1)] = 1
+    lag: Annotated[float,
+        Quantity("Φ_τ", "deg", "Angle of the main shaft in the time constant with which a motor behind a flywheel follows the torque; 0: at once",
+            ge=0)] = 0
 
 
 class Force(LoadCurve):
@@ -62,7 +65,7 @@ class ShaftLoads(Inputs):
 OF_CURVE = ("name", "mechanism", "curve", "turns_per_sheet", "offset", "ratio")
 KEYS = (
     "main_turns",
-    *(f"torques.{key}" for key in (*OF_CURVE, "inertia", "efficiency")),
+    *(f"torques.{key}" for key in (*OF_CURVE, "inertia", "efficiency", "lag")),
     *(f"forces.{key}" for key in (*OF_CURVE, "inertia", "lever", "absolute", "constant")),
     *(f"motion.{key}" for key in OF_CURVE[1:]),
 )

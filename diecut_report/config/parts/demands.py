@@ -230,11 +230,46 @@ class Demands:
         if port is not None and port.torque and not port.angle:
             return self._source(part.name, str(part.port and part.port[0]), port.torque, -1)
         for join in self.parts.joins_of(part):
-            if part in join.drivers and (found := self._through(join, len(join.drivers))):
+            if part in join.drivers and (found := self._of_swing(part) or self._through(join, len(join.drivers))):
                 return found | {"name": part.name}
-            if part in join.driven[1:] and (own := self.inertia_of(part.shaft)):  # drives its share, the first one the rest
+            if part in join.driven and self.flywheel(part.shaft) and (found := self._motor_torque(part)):
+                return found | {"name": part.name}
+            if part in join.driven[1:] and (
+                own := self.inertia_of(part.shaft)
+            ):  # drives its share, the first one the rest
                 return own | {"name": part.name, "ratio": own["ratio"].times(number=-1 / len(join.driven))}
         return None
+
+    def _of_swing(self, part: ShaftPart) -> dict[str, Any] | None:
+        """What a mechanism takes from the only gear on the shaft that it swings, its own losses behind that shaft with it."""
+        moving = self.moved_by(part.shaft)
+        drivers = [each for each in part.shaft.parts if any(each in join.drivers for join in self.parts.joins_of(each))]
+        if (
+            moving is None
+            or moving.part.shaft is not part.shaft
+            or moving.port.advance
+            or not moving.port.torque
+            or len(drivers) > 1
+        ):
+            return None
+        return self._source(part.name, moving.mechanism, moving.port.torque, -1)
+
+    def flywheel(self, shaft: MachineShaft) -> ShaftPart | None:
+        """Return the flywheel on a shaft that a motor drives by a belt; None where there is none, or nothing is known of the motor."""
+        driving, train = self.parts.driving_join(shaft), self.named("drive_train")
+        if driving is None or driving.word != "belts" or train is None:
+            return None
+        return next((part for part in shaft.parts if part.kind == "flywheel"), None)
+
+    def _motor_torque(self, part: ShaftPart) -> dict[str, Any] | None:
+        """The motor's torque on the pulley beside a flywheel: it follows what the other parts take, and the flywheel gives the rest."""
+        demand = self._added(
+            [found for each in part.shaft.parts if each is not part and (found := self.torque_on(each))]
+        )
+        if demand is None:
+            return None
+        lag = f"${{{self.named('drive_train')}.motor_time_constant}} * {self.reference_speed}"
+        return demand | {"ratio": demand["ratio"].times(number=-1), "lag": lag}
 
     def _through(self, join: Join, share: int) -> dict[str, Any] | None:
         """What a join takes from its driving shaft, each of several sprockets its share."""
@@ -249,7 +284,7 @@ class Demands:
                 "ratio": Ratio(-1),
             }
         else:
-            demand = self._added(self.torques_of(driven))
+            demand = self._added([each for each in self.torques_of(driven) if "lag" not in each])
         if demand is None:
             return None
         found = demand | {"ratio": demand["ratio"].times(join.ratio_text, number=1 / share)}
@@ -290,7 +325,8 @@ class Demands:
         mechanism, _, what = (join.keys.moves or "").partition(".")
         kind = self.parts.mechanisms.get(mechanism)
         if kind == "cylinder_drive" and what == "cylinder":
-            return self._source("", mechanism, "total_moment", -1) | {"ratio": Ratio(-1 / share)}
+            losses = f"1 / (${{{mechanism}.efficiency_chain}} * ${{{mechanism}.efficiency_bearings}})"  # also where it brakes: safe
+            return self._source("", mechanism, "total_moment", -1) | {"ratio": Ratio(-1 / share, (losses,))}
         wheels = (
             part
             for each in self.parts.shafts.values()

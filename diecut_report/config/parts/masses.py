@@ -68,15 +68,24 @@ class Masses(Demands):
         return tooth_width(join.keys) if isinstance(join.keys, ChainKeys) else part.keys.hub
 
     def _has_mass(self, part: ShaftPart) -> bool:
-        return "mass" in part.more or self._disc(part) is not None
+        return "mass" in part.more or self._is_sized(part) or self._disc(part) is not None
+
+    def _is_sized(self, part: ShaftPart) -> bool:
+        """Whether a part is the flywheel that the drive train sizes."""
+        train = f"${{{self.named('drive_train')}.flywheel_inertia}}"
+        return part.kind == "flywheel" and str(self._raw(part.path).get("inertia")) == train
 
     def _given_mass(self, part: ShaftPart) -> Any:
-        return TypedValue((*part.path, "mass"))
+        return (
+            f"${{{self.named('drive_train')}.flywheel_mass}}"
+            if self._is_sized(part)
+            else TypedValue((*part.path, "mass"))
+        )
 
     def _mass(self, part: ShaftPart, mass: str) -> dict[str, Any]:
         """The mass of a part as it is typed, and its inertia: typed, or of a disc of that ``mass`` without bore."""
         join = next(self.parts.joins_of(part), None)
-        found: dict[str, Any] = {"mass": TypedValue((*part.path, "mass"))} if "mass" in part.more else {"mass": 0}
+        found: dict[str, Any] = {"mass": self._given_mass(part) if "mass" in part.more or self._is_sized(part) else 0}
         if "inertia" in part.more:
             return found | {"inertia": TypedValue((*part.path, "inertia"))}
         if part.kind == "geneva_wheel" and "mass" not in part.more:

@@ -21,10 +21,7 @@ class ShaftElements(Masses):
     """Make the calculations of the shafts."""
 
     def _loads(self, shaft: MachineShaft) -> None:
-        sense = self.sense(
-            shaft.name
-        )  # all torques are about one direction of the axes, so that meshing teeth push each other apart
-        torques = [each | {"ratio": each["ratio"].times(number=sense).text} for each in self.torques_of(shaft)]
+        torques = [each | {"ratio": each["ratio"].text} for each in self.torques_of(shaft)]
         forces = [force for part in shaft.parts for force in (*self._port_forces(part), *self._chain_forces(part))]
         inputs: dict[str, Any] = {"main_turns": self.cycle(shaft.name)}
         if torques:
@@ -35,23 +32,30 @@ class ShaftElements(Masses):
             found = self._source("", moving.mechanism, moving.port.angle, 1)
             factors = tuple(join.ratio_text for join in self.chain_from(moving.part.shaft.name, shaft.name))
             inputs["motion"] = {key: value for key, value in found.items() if key != "name"} | {
-                "ratio": Ratio(sense, factors).text
+                "ratio": Ratio(1, factors).text
             }
         if len(inputs) > 1:
             self._add(f"shafts_{shaft.name}_loads", "shaft_loads", inputs, shaft.path)
 
     def _port_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
-        """The forces of a mechanism on a part, in the directions of the frame; a second one in a direction is named across."""
+        """The forces of a mechanism on a part, in the directions of its shaft; a second one in a direction is named across."""
         port, taken = self.port(part), set[str]()
         if port is None or part.port is None:
             return
         sign, line = -1 if port.opposite else 1, self.line_of_axes(part.port[0])
         for shares, curve in zip(line.shares(), port.forces, strict=False):
-            for direction, share in zip("yz", shares, strict=True):
+            for direction, share in self._directions(part, *shares):
                 if abs(share) > NOTHING:
                     name = f"{part.name}_across_{direction}" if direction in taken else f"{part.name}_{direction}"
                     taken.add(direction)
                     yield self._source(name, part.port[0], curve, 1) | {"ratio": Ratio(sign * share).text}
+
+    def _directions(self, part: ShaftPart, x: float, y: float) -> tuple[tuple[str, float], ...]:
+        """The shares of a force in the frame's x and y as those in the directions of its shaft, which turns from y to z.
+
+        A shaft that is seen turning clockwise in the frame is looked at from its other end: its z is against the frame's y.
+        """
+        return ("y", x), ("z", self.sense(part.shaft.name) * y)
 
     def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The pull of a chain on its sprocket, towards the other one, or along the frame's x where the chain runs over idlers."""
@@ -65,7 +69,7 @@ class ShaftElements(Masses):
         (x, y), (u, v) = (self.parts.axes.get(name, (0.0, 0.0)) for name in (part.shaft.name, other))
         angle = atan2(v - y, u - x)
         pretension = f"2 * ${{{join.home}.pretension}} * " if "pretension" in join.more else ""
-        for direction, share in (("y", cos(angle)), ("z", sin(angle))):
+        for direction, share in self._directions(part, cos(angle), sin(angle)):
             if abs(share) > NOTHING:
                 constant = {"constant": f"{pretension}{share:.12g}"} if pretension else {}
                 number = abs(pull["ratio"].number) * share
@@ -152,9 +156,11 @@ class ShaftElements(Masses):
             yield place | {"name": f"{part.name}_across", "seat": "none"} | across
 
     def _balances(self, part: ShaftPart) -> bool:
-        """Whether the torque on a part balances all others on its shaft: it is driven there."""
+        """Whether the torque on a part balances all others on its shaft: it is driven there, or by a flywheel."""
         if not self.torques_of(part.shaft):
             return False
+        if (flywheel := self.flywheel(part.shaft)) is not None:
+            return part is flywheel
         driving = self.parts.driving_join(part.shaft)
         return part is (driving.driven[0] if driving is not None else self.parts.motion_port(part.shaft))
 
@@ -167,13 +173,14 @@ class ShaftElements(Masses):
         if not {part.shaft.name, other.shaft.name} <= axes.keys():
             return None
         (x, y), (u, v) = axes[part.shaft.name], axes[other.shaft.name]
-        angle = degrees(atan2(v - y, u - x))
+        sense = self.sense(part.shaft.name)
+        angle = sense * degrees(atan2(v - y, u - x))
         found: dict[str, Any] = {
             "pitch_radius": self._pitch_radius(join, part),
             "mesh_angle": TypedNumber(f"{angle:.10g} deg", ("machine", "frame")),
         }
         if join.keys.helix_angle:  # a pair has teeth of opposite hands
-            hand = "" if part in join.drivers else "-"
+            hand = "" if (part in join.drivers) == (sense > 0) else "-"
             found["helix_angle"] = TypedNumber(f"{hand}{degrees(join.keys.helix_angle):.12g} deg", join.path)
         return found
 
@@ -191,10 +198,9 @@ class ShaftElements(Masses):
         other = join.driven[0] if part in join.drivers else join.drivers[0]
         (x, y), (u, v) = (self.parts.axes.get(each.shaft.name, (0.0, 0.0)) for each in (part, other))
         angle = atan2(v - y, u - x)
-        shares = {"force_y": cos(angle), "force_z": sin(angle)}
-        return {
-            key: f"${{{train}.shaft_load}} * ({share:.12g})" for key, share in shares.items() if abs(share) > NOTHING
-        }
+        shares = self._directions(part, cos(angle), sin(angle))
+        load = f"${{{train}.shaft_load}}"
+        return {f"force_{axis}": f"{load} * ({share:.12g})" for axis, share in shares if abs(share) > NOTHING}
 
     def _bearings(self, shaft: MachineShaft) -> None:
         home = f"shafts_{shaft.name}"

@@ -1,4 +1,4 @@
-"""The forces of mechanisms on their shafts act where they do in the frame: their moment about the axis is the torque there."""
+"""The loads of shafts by their own statics: the moment of a force about the axis is the torque there, and a motor lags behind its flywheel."""
 
 from __future__ import annotations
 
@@ -14,7 +14,16 @@ from diecut_report.formulas import Array
 from diecut_report.results.press_run import Run
 from tests.config.parts.test_parts import DISCOVERY, FILE, TEXT
 
-KINDS = ("cylinder_sizing", "cylinder_drive", "geneva_transport", "cyclogram", "shaft_body", "drive_line", "shaft_loads")
+KINDS = (
+    "cylinder_sizing",
+    "cylinder_drive",
+    "geneva_transport",
+    "cyclogram",
+    "shaft_body",
+    "drive_line",
+    "shaft_loads",
+    "drive_train",
+)
 GENEVA = "geneva: [180, 240], conveyor: [180, 520], far: [2180.254, 520]"
 FRAMES = {
     "above": GENEVA,
@@ -33,6 +42,9 @@ def run_in(frame: str) -> Run:
     return Run(replace(config, order=order), lambda _: None)
 
 
+SENSES = {"main": -1, "geneva": 1, "rocker": 1}  # the crank of the drive is seen turning anticlockwise
+
+
 def force_on(run: Run, shaft: str, part: str) -> tuple[Array, Array]:
     """Its components in the frame, shape (points,), of all curves that make them up."""
     loads = run.calculations[f"shafts_{shaft}_loads"]
@@ -40,7 +52,7 @@ def force_on(run: Run, shaft: str, part: str) -> tuple[Array, Array]:
     y, z = (
         sum(loads.curve_samples(name)[0] for name in names if name.endswith(f"{axis}_force")) + 0.0 for axis in "yz"
     )
-    return y, z
+    return y, SENSES[shaft] * z
 
 
 def axis_of(run: Run, shaft: str) -> tuple[float, float]:
@@ -65,14 +77,57 @@ def test_the_rollers_force_has_the_moment_of_the_torque_about_both_axes(frame: s
     run = run_in(frame)
     right, up = roller(run, "main")
     along, across = force_on(run, "main", "disc")
-    torque = run.calculations["shafts_main_loads"].curve_samples("disc_torque")[0]
+    torque = run.calculations["shafts_main_loads"].curve_samples("disc_torque")[0] * SENSES["main"]
     assert np.abs(torque).max() > 900
     np.testing.assert_allclose(right * across - up * along, torque, atol=1e-6 * np.abs(torque).max())
 
     (x, y), (u, v) = axis_of(run, "main"), axis_of(run, "geneva")
     right, up = roller(run, "geneva")
     along, across = force_on(run, "geneva", "cross")
-    driving = run.calculations["shafts_geneva_loads"].curve_samples("balance")[0]
+    driving = run.calculations["shafts_geneva_loads"].curve_samples("balance")[0] * SENSES["geneva"]
     assert np.abs(driving).max() > 1200
     moment = (x + right - u) * across - (y + up - v) * along
     np.testing.assert_allclose(moment, driving, atol=1e-6 * np.abs(driving).max())
+
+
+def test_the_couplers_force_has_the_moment_of_the_torque_about_the_rockers_axis() -> None:
+    run = run_in("above")
+    loads = run.calculations["shafts_rocker_loads"]
+    crank = loads.curve_samples("main_angle")[0] / 2
+    frame, coupler, rocker = 0.5, 0.5, 0.205
+    to_pin = np.array([0.1 * np.cos(crank) - frame, 0.1 * np.sin(crank)])
+    distance = np.hypot(*to_pin)
+    # the rocker lies from the crank's pin, seen from its own axis, by the angle of the triangle
+    angle = np.arctan2(to_pin[1], to_pin[0]) - np.arccos(
+        (rocker**2 + distance**2 - coupler**2) / (2 * rocker * distance)
+    )
+    along, across = force_on(run, "rocker", "arm")
+    moment = rocker * (np.cos(angle) * across - np.sin(angle) * along)
+    driving = loads.curve_samples("balance")[0]
+    assert np.abs(driving).max() > 1900
+    np.testing.assert_allclose(moment, driving, atol=1e-6 * np.abs(driving).max())
+
+
+def test_the_motor_drives_the_pulley_with_what_a_first_order_lag_leaves_of_the_load() -> None:
+    run = run_in("above")
+    loads, train = run.calculations["shafts_flywheel_loads"], run.calculations["train"]
+    load, motor = (loads.curve_samples(f"{name}_torque")[0] for name in ("pinion", "large"))
+    main = loads.curve_samples("main_angle")[0]
+    load, motor, main = load[:-1], motor[:-1], main[:-1]  # the end is the start again
+    speed = run.calculations["drive_line"]["reference_speed"][0, 0]
+    time_constant = train["motor_time_constant"][0, 0]
+    assert time_constant == pytest.approx(
+        train["flywheel_inertia"][0, 0] / (train["motor_rated_torque"][0, 0] / (50 * np.pi / 30) * 9 * 0.95), rel=0.05
+    )
+    rates = np.fft.fftfreq(len(load), (main[1] - main[0]) / (2 * np.pi)) * speed
+    expected = np.fft.ifft(np.fft.fft(load) / (1 + 1j * rates * time_constant)).real
+    assert np.ptp(expected) > 0.1 * np.ptp(load)
+    np.testing.assert_allclose(-motor, expected, atol=0.01 * np.ptp(load))
+    assert np.mean(motor) == pytest.approx(-np.mean(load), rel=5e-3)
+    assert np.abs(loads.curve_samples("balance")[0]).max() > np.abs(motor).max()  # most of it the flywheel gives
+
+
+def test_the_flywheel_that_the_train_sizes_has_a_mass() -> None:
+    run = run_in("above")
+    body, train = run.calculations["shafts_flywheel_body"], run.calculations["train"]
+    assert body["bodies.mass"][0, 0] == train["flywheel_mass"][0, 0] > 100
