@@ -1,19 +1,10 @@
-"""Chapters on the load: the torque on the pinion over a cycle, its peak, whether it turns round, and the K factors."""
+"""Chapters on the load: the torque on the pinion over a cycle, its peak, and whether it turns round."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, case, named
-
-KEYS = ("application_factor", "dynamic_factor", "face_load_factor", "transverse_load_factor")
-
-
-def assumed_factors(*assumed: float) -> str:
-    """The keys of the factors that are assumed."""
-    *first, last = [key for key, is_assumed in zip(KEYS, assumed, strict=True) if is_assumed] or [""]
-    return named([named(first, ", "), last] if first else [last], " and ")
-
+from diecut_report.api import Chapter, bind, case
 
 # fmt: off
 
@@ -50,26 +41,3 @@ load.value("alternating_factor", "Y_M", "1", "Mean stress influence factor: as g
 load.choice("alternating_factor", "Y_M", "1", "Mean stress influence factor",
     case(lambda: 0.7, "the torque reverses, so that each tooth is bent in both directions", lambda reversing: reversing > 0),
     case(lambda: 1, "the torque keeps its sign"), lacks=("alternating_factor",), source="ISO 6336-5 (idlers)")
-
-FACTORS = {"application": ("K_A", "Application factor", 1.25), "dynamic": ("K_V", "Dynamic factor", 1.1),
-           "face_load": ("K_Hβ", "Face load factor for contact stress", 1.3)}
-"""The K factors by the beginning of their keys: symbol, words, and what is assumed without the key."""
-
-factors = Chapter("K factors", text="The factors of ISO 6336-1 are given, not calculated; those that are not given are assumed.")
-for name, (symbol, words, assumed) in FACTORS.items():
-    key = f"{name}_factor"
-    factors.value(key, symbol, "1", f"{words}: as given", bind(lambda given: given, given=f"inputs.{key}"), needs=(key,), source="input")
-    factors.value(key, symbol, "1", f"{words}: assumed", bind(lambda assumed: assumed, assumed=assumed), lacks=(key,), source="this method")
-factors.value("transverse_load_factor", "K_Hα", "1", "Transverse load factor: as given",
-    bind(lambda given: given, given="inputs.transverse_load_factor"), needs=("transverse_load_factor",), source="input")
-factors.choice("transverse_load_factor", "K_Hα", "1", "Transverse load factor: assumed",
-    case(lambda: 1.2, "the teeth are helical", lambda helix_angle: helix_angle > 0), case(lambda: 1, "the teeth are straight"),
-    lacks=("transverse_load_factor",), source="this method")
-for name, words in (*((name, words) for name, (_, words, _) in FACTORS.items()), ("transverse_load", "Transverse load factor")):
-    key, told = f"{name}_factor", f"{words}: 1 where it is assumed, 0 where it is given"
-    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", told, lambda: 0, needs=(key,), output=False, printed=False)
-    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", told, lambda: 1, lacks=(key,), output=False, printed=False)
-ASSUMED = tuple(f"{name}_assumed" for name in (*FACTORS, "transverse_load"))
-factors.computed("factors_assumed", "n_K", "1", "Number of assumed K factors", lambda *assumed: sum(assumed), ASSUMED, "those above that are assumed",
-    whole=True, source="this method")
-factors.words("assumed_told", assumed_factors, ASSUMED, output=False)
