@@ -56,6 +56,10 @@ class Gears:
         across = -tangential * np.sin(mesh) - radial * np.cos(mesh), tangential * np.cos(mesh) - radial * np.sin(mesh)
         return tangential * np.tan(helix), *across
 
+    def of(self, rows: Array) -> Gears:
+        """Return the toothings of some variants."""
+        return Gears(*(each[:, rows] for each in vars(self).values()))
+
     def levers(self) -> tuple[Array, Array]:
         """Return what an axial force is multiplied by to give the couples xy and xz, (loads, variants, 1)."""
         radius = np.where(np.isfinite(self.radius), self.radius, 0.0)
@@ -87,7 +91,7 @@ class Cycle:
         """Return the loads at shares of the cycle (rows, instants), each in the smooth piece of its middle; rows are variants."""
         own = {name: self._component(name, share, middle, rows) for name in COMPONENTS}
         torque = self._balanced(own["torque"])
-        gears = Gears(*(each[:, rows] for each in vars(self.gears).values()))
+        gears = self.gears.of(rows)
         axial, across_y, across_z = gears.forces(torque)
         force_y, force_z = own["force_y"] + across_y, own["force_z"] + across_z
         offset = self.offset[:, rows][:, :, None]

@@ -19,6 +19,7 @@ CYCLE = ("loads.name", "loads.position", "loads.force_y", "loads.force_z", "load
          "loads.couple_xz", "loads.offset", "loads.mass", "loads.gear.pitch_radius", "loads.gear.pressure_angle", "loads.gear.helix_angle",
          "loads.gear.mesh_angle", "rotation", "turns_per_cycle")
 LOADED = ("body", "cycle", "bearing_a", "bearing_b", "locating", "elastic_modulus", "shear_modulus", "density")
+TOOTHED = ("loads.gear.pitch_radius",)
 OVER_CYCLE = "over 720 instants of the cycle and both limits at each breakpoint of the loads"
 INTEGRATED = "E I v″ = M exactly, piece by piece, " + OVER_CYCLE
 FACTORS = {"k_f": "k_f", "k_fs": "k_fs", "endurance": "place_endurance", "area": "place_area", "modulus": "place_modulus",
@@ -91,6 +92,11 @@ bending.value("bearing_slope_max", "v′_max", "mrad", "Maximum slope at a beari
     source="Euler–Bernoulli")
 bending.computed("slope", "v′_i", "mrad", "Maximum slope at the load", lambda under_load: under_load.load_slopes, ("under_load",), INTEGRATED,
     over="loads", named_by="loads.name", source="Euler–Bernoulli")
+bending.computed("is_toothed", "s_z", "1", "Load with teeth (1) or without (0)", lambda under_load: under_load.is_toothed, ("under_load",),
+    "as given", over="loads", needs=TOOTHED, output=False)
+bending.computed("mesh_slope", "v′_t", "mrad", "Slope at the gear in the direction of the force on its teeth, at its maximum torque",
+    lambda under_load: under_load.mesh_slopes, ("under_load",), INTEGRATED, over="loads", named_by="loads.name", source="Euler–Bernoulli",
+    exists=lambda is_toothed: is_toothed > 0, needs=TOOTHED)
 _number(bending, "twist", "ϑ", "deg", "Maximum twist between the outermost torques", "twist", "Σ T h/(2 G I), " + OVER_CYCLE, source="Saint-Venant")
 _number(bending, "torque_span", "l_T", "mm", "Distance between the outermost torques", "torque_span", "from the loads that have one", output=False)
 bending.value("twist_by_length", "ϑ′", "deg/m", "Twist per unit length between the outermost torques", lambda twist, torque_span: twist / torque_span,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import log10
+from math import cos, log10, pi, radians, tan
 from typing import Any
 
 import numpy as np
@@ -176,6 +176,61 @@ def test_the_twist_of_a_hollow_shaft_is_that_of_its_closed_form() -> None:
     polar = np.pi * (0.06**4 - 0.03**4) / 32
     assert number(calculation, "twist") == pytest.approx(500 * 0.4 / (79.3e9 * polar), rel=1e-9)
     assert number(calculation, "twist") == pytest.approx(2.114368e-3, rel=1e-6)
+
+
+def geared(place: float, mesh_angle: float, torque: Any, **more: Any) -> Calculation:
+    """A plain shaft of 40 mm on bearings 300 mm apart, with a gear whose torque is balanced at a bearing; its slope at the teeth."""
+    gear = {
+        "name": "gear",
+        "position": place,
+        "torque": torque,
+        "gear": {"pitch_radius": 60, "mesh_angle": mesh_angle},
+    } | more
+    return shaft(
+        {key: value for key, value in CRANKSHAFT.items() if key != "notches"},
+        sections=[{"length": 300, "diameter": 40}], bearing_a=0, bearing_b=300,
+        loads=[gear, {"name": "driver", "position": 300, "torque": "balance", "seat": "none"}],
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("torque", [200, -200])
+@pytest.mark.parametrize("mesh_angle", [0, 37, 250])
+def test_the_slope_at_the_teeth_is_that_of_a_beam_in_the_direction_of_their_force(
+    torque: float, mesh_angle: float
+) -> None:
+    force = 200 / 0.06 / cos(radians(20))
+    for place in (0.1, 0.2):
+        left, right = place, 0.3 - place
+        expected = force * left * right * (right - left) / (3 * 206e9 * pi * 0.04**4 / 64 * 0.3)
+        calc = geared(place * 1e3, mesh_angle, torque)
+        assert calc["mesh_slope"][0, 0] == pytest.approx(expected, rel=1e-9)
+        assert np.isnan(calc["mesh_slope"][0, 1])
+
+
+def test_teeth_open_between_like_shafts_and_stay_parallel_between_mirrored_ones() -> None:
+    """What bends both gears apart at one end adds up; shafts that lean to the same side leave the teeth parallel."""
+    one, like, mirrored = (
+        geared(place, angle, torque)["mesh_slope"][0, 0]
+        for place, angle, torque in ((100, 0, 150), (100, 180, 150), (200, 180, 150))
+    )
+    assert one + like == pytest.approx(2 * one) and one > 0
+    assert one + mirrored == pytest.approx(0, abs=1e-12)
+
+
+def test_the_slope_at_the_teeth_is_that_of_the_instant_of_the_greatest_torque() -> None:
+    """The torque is greatest at a quarter turn: a force of then counts by its part along the force on the teeth, one of another instant does not."""
+    torque = Turned(lambda a: 200 + 100 * np.sin(a))
+    alone = geared(100, 0, torque)["mesh_slope"][0, 0]
+    assert alone == pytest.approx(geared(100, 0, 300)["mesh_slope"][0, 0], rel=1e-9)
+    elsewhen = geared(100, 0, torque, force_y=Turned(lambda a: 9000 * np.cos(a)))["mesh_slope"][0, 0]
+    assert elsewhen == pytest.approx(alone, rel=1e-9)
+    then = geared(100, 0, torque, force_y=Turned(lambda a: -1000 * np.sin(a)))["mesh_slope"][0, 0]
+    tangential = 300 / 0.06
+    along = np.array(
+        [-tangential * tan(radians(20)), tangential]
+    )  # the mate stands in y: it pushes back, and turns by z
+    share = np.dot([-1000, 0], along) / np.dot(along, along)
+    assert then == pytest.approx(alone * (1 + share), rel=1e-9)
 
 
 def test_a_helical_gear_loads_the_shaft_as_its_tooth_force_does() -> None:
