@@ -30,11 +30,11 @@ MECHANISM = Mechanism(
     assumptions=(
         "Edition 2006 of ISO 6336: that of 2019 adds f_ε to Y_F for helical gears and divides Y_β by cos³β; for spur gears with a contact ratio "
         "below 2 both agree.",
-        "Not covered: scuffing, micropitting, flank breakage, static overload, load spectra, "
+        "Not covered: scuffing, micropitting, flank breakage, yield of the flanks, load spectra, "
         "internal gears, racks, bevel gears, protuberance and grinding notches, thin rims (Y_B > 1), deep teeth (Y_DT < 1), virtual contact "
         "ratios from 2 upwards.",
         "The misalignment under load is that of the shafts alone: twist and bending of the pinion's own body are left out. Solid gears.",
-        "The maximum torque of the cycle acts at any position in the mesh, on every tooth; no losses between pinion and wheel.",
+        "The maximum torque of cycle and load cases acts at any position in the mesh, on every tooth; no losses between pinion and wheel.",
         "A torque that changes its sign bends each tooth in both directions: Y_M = 0.7, on the safe side where the reverse torque is smaller. A "
         "reversing sector hammers through its backlash at each change of flank; the application factor must include that shock.",
         "All lengths are without backlash; both gears are cut by the same basic rack.",

@@ -22,11 +22,13 @@ def _strength(gear: int) -> tuple[Check, Check]:
     return (
         Check(id=f"pitting_{gear}", check_class="strength", title=f"Pitting of the {name}", demand="required_pitting_safety",
               limit=f"pitting_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING,
-              source="ISO 6336-2:2006", founded=(f"life_factor_h_{gear}",), consequence=f"the flanks of the {name} wear out by pitting.",
+              source="ISO 6336-2:2006", founded=(f"life_factor_h_{gear}",),
+              consequence=f"the flanks of the {name} wear out by pitting; governing load case: {{pitting_case}}.",
               advise=(Vary(f"sigma_h_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
         Check(id=f"root_{gear}", check_class="strength", title=f"Tooth root of the {name}", demand="required_root_safety",
               limit=f"root_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING,
-              source="ISO 6336-3:2006", founded=(f"life_factor_f_{gear}",), consequence=f"teeth of the {name} break at the root.",
+              source="ISO 6336-3:2006", founded=(f"life_factor_f_{gear}",),
+              consequence=f"teeth of the {name} break at the root; governing load case: {{root_case}}.",
               advise=(Vary(f"sigma_f_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
     )
 

@@ -16,6 +16,15 @@ class Sector(Block):
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Number of teeth of the sector", ge=1, integer=True)] = None
 
 
+class LoadCase(Block):
+    """A load case beside the run."""
+
+    name: Annotated[Literal["engage", "start", "stop"], Text("Engagement of the clutch, start of the motor, or stop by the brake")]
+    torque: Annotated[float, Quantity("T_j", "N*m", "Torque of the load case on the pinion, its size", ge=0)]
+    cycles: Annotated[float, Quantity("N_j", "1", "Number of its load cycles in the life; it counts for pitting above 10⁵", ge=0,
+        plausible=("1", "1e12"))]
+
+
 Flanks = Literal["through_hardened", "case_hardened", "grey_iron"]
 OF_MATERIAL = ("sigma_h_lim", "sigma_f_lim", "elastic_modulus")
 
@@ -52,6 +61,7 @@ class ExternalGearPair(Inputs):
     torque: Annotated[float | None, Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is used as torque_curve")] = None
     torque_curve: Annotated[Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")] = None
     torque_on: Annotated[Literal["pinion", "wheel"], Text("Gear on which the torque acts")] = "pinion"
+    load_cases: Annotated[list[LoadCase], Text("Load cases beside the run: for the tooth root, and for pitting where they are frequent")] = []  # noqa: RUF012
     speed: Annotated[float | None,
         Quantity("n_1", "rpm", "Speed of the pinion, the greatest one; required for pitch line velocity and power", gt=0)] = None
     grade: Annotated[int | None,

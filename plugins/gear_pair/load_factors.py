@@ -128,8 +128,8 @@ for g in TEETH:
         bind(f.helix_deviation, diameter=f"pitch_diameter_{g}"), source="ISO 1328-1:2013", output=False, **GIVEN)
 face.value("manufacture", "f_ma", "um", "Misalignment by manufacture", lambda helix_deviation_1, helix_deviation_2:
         np.sqrt(helix_deviation_1**2 + helix_deviation_2**2), source=f"{ISO}, 7", **GIVEN)
-face.value("bending", "f_sh", "um", "Misalignment by the shafts under load", lambda face_width, slope: face_width * abs(slope),
-    source="this method", **GIVEN)
+face.value("bending", "f_sh", "um", "Misalignment by the shafts under load, of which the slope is that of the run",
+    lambda face_width, slope, torque_peak, torque_run: face_width * abs(slope) * torque_peak / torque_run, source="this method", **GIVEN)
 face.value("crowning_height", "C_β", "um", "Height of the crowning", lambda manufacture, bending: (manufacture + bending) / 2,
     needs=("crowned=true",), source=f"{ISO}, 7", **GIVEN)
 face.value("mean_line_load", "w_m", "N/mm", "Mean line load with the dynamic factor",

@@ -66,9 +66,13 @@ sizes.value("overlap_ratio", "ε_β", "1", "Overlap ratio",
 sizes.value("contact_ratio_total", "ε_γ", "1", "Total contact ratio", lambda contact_ratio, overlap_ratio: contact_ratio + overlap_ratio,
     source=ISO_21771)
 
-forces = Chapter("Forces", text="For the maximum torque. F_t acts at the reference circle and is used for the rating; the others act at the mesh.")
+forces = Chapter("Forces",
+    text="For the maximum torque of run and frequent load cases. F_t acts at the reference circle and is used for the rating; the others act at the "
+        "mesh.")
 forces.value("tangential_force", "F_t", "N", "Tangential force at the reference circle",
     lambda torque_peak, pitch_diameter_1: 2 * torque_peak / pitch_diameter_1, source="ISO 6336-1")
+forces.value("root_force", "F_tF", "N", "Tangential force at the reference circle, for the tooth root",
+    lambda torque_root, pitch_diameter_1: 2 * torque_root / pitch_diameter_1, source="ISO 6336-1", output=False)
 forces.value("working_force", "F_tw", "N", "Tangential force at the working pitch circle",
     lambda torque_peak, working_diameter_1: 2 * torque_peak / working_diameter_1, source=STATICS)
 forces.value("radial_force", "F_r", "N", "Radial force, which separates the axes",
@@ -125,7 +129,7 @@ root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor for toot
 for g in TEETH:
     root_stress.value(f"nominal_root_stress_{g}", f"σ_F0{g}", "MPa", f"Nominal tooth root stress of gear {g}",
         bind(lambda force, form_factor, stress_factor, helix_factor, face_width, module:
-                force * form_factor * stress_factor * helix_factor / (face_width * module), force="tangential_force", form_factor=f"form_factor_{g}",
+                force * form_factor * stress_factor * helix_factor / (face_width * module), force="root_force", form_factor=f"form_factor_{g}",
             stress_factor=f"stress_factor_{g}", helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
     root_stress.value(f"root_stress_{g}", f"σ_F{g}", "MPa", f"Tooth root stress of gear {g}",
         bind(f.root_stress, nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5")

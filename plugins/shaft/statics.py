@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import SPARSE, Cycle, Gears, Instants, looked_at_first
+from diecut_report.plugins.shaft.cycle import COMPONENTS, SPARSE, Cycle, Gears, Instants, looked_at_first
 from diecut_report.plugins.shaft.elastic import ElasticShaft
 
 Array = NDArray[Any]
@@ -249,6 +249,19 @@ class Statics:
         places = self.cycle.places
         found: Array = np.max(np.where(acts, places, -np.inf), axis=0) - np.min(np.where(acts, places, np.inf), axis=0)
         return np.where(np.isfinite(found), found, 0.0)
+
+    @property
+    def in_cases(self) -> Statics | None:
+        """The same in the load cases in place of the instants of the run; None without any."""
+        cases = [case.loads(self.loads) for case in self.cycle.cases]
+        if not cases:
+            return None
+        return replace(
+            self,
+            loads=Instants(
+                **{name: np.concatenate([getattr(each, name) for each in cases], axis=2) for name in COMPONENTS}
+            ),
+        )
 
     def some_instants(self, chosen: Array) -> Statics:
         """The same at some instants of the cycle."""

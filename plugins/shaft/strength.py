@@ -8,6 +8,7 @@ import numpy as np
 
 from diecut_report.api import Chapter, bind, case
 from diecut_report.mechanics import beams
+from diecut_report.mechanics.load_cases import called
 from diecut_report.plugins.shaft import curves, formulas
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import Cycle, cycle
@@ -17,8 +18,9 @@ from diecut_report.plugins.shaft.under_load import Array, UnderLoad
 
 CYCLE = ("loads.name", "loads.position", "loads.force_y", "loads.force_z", "loads.axial_force", "loads.torque", "loads.couple_xy",
          "loads.couple_xz", "loads.offset", "loads.mass", "loads.gear.pitch_radius", "loads.gear.pressure_angle", "loads.gear.helix_angle",
-         "loads.gear.mesh_angle", "rotation", "turns_per_cycle")
+         "loads.gear.mesh_angle", "rotation", "turns_per_cycle", "load_cases.torque", "load_cases.enters", "load_cases.leaves")
 LOADED = ("body", "cycle", "bearing_a", "bearing_b", "locating", "elastic_modulus", "shear_modulus", "density")
+CASES = ("load_cases",)
 TOOTHED = ("loads.gear.pitch_radius",)
 OVER_CYCLE = "over 720 instants of the cycle and both limits at each breakpoint of the loads"
 INTEGRATED = "E I v″ = M exactly, piece by piece, " + OVER_CYCLE
@@ -155,6 +157,13 @@ for name, symbol, unit, description in (("nominal_position", "x_y", "mm", "Locat
                                         ("nominal_torque", "T_y", "N*m", "Torque at this location")):
     _number(yielding, name, symbol, unit, description, name, "at the location and instant of the maximum stress, of all locations on both sides",
         output=False)
+_number(yielding, "nominal_case", "j", "1", "Load case of the maximum stress, by its place in the list; 0 is the run", "nominal_case",
+    "the one with the maximum stress", output=False, needs=CASES, printed=False)
+YIELD_CASE = ("yield_case", "C_y", "1", "Governing load case for yield")
+yielding.computed(*YIELD_CASE, lambda index, names: [called(int(each), names) for each in index[:, 0]], ("nominal_case", "load_cases.name"),
+    "the one with the maximum stress", is_text=True, needs=CASES)
+yielding.computed(*YIELD_CASE, lambda length: [called(0)] * len(length), ("length",), "the one with the maximum stress", is_text=True, lacks=CASES,
+    printed=False, output=False)
 yielding.value("nominal_area", "A_y", "mm**2", "Area at this location", bind(beams.circle_area, diameter="nominal_diameter", bore="nominal_bore"),
     source="geometry", output=False)
 yielding.value("nominal_modulus", "W_by", "mm**3", "Section modulus at this location",

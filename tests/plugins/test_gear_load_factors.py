@@ -212,3 +212,48 @@ def test_method_c_ends_at_a_speed() -> None:
 def test_a_slope_to_either_side_opens_the_teeth_alike() -> None:
     assert number(pair(GRADED, slope=-0.106), "face_load_factor") == number(pair(GRADED), "face_load_factor")
     assert degrees(number(pair(GRADED), "slope")) == pytest.approx(0.106e-3 * 180 / pi)
+
+
+# --- load cases ------------------------------------------------------------------------------------------------------
+
+ASSUMED: dict[str, Any] = {key: value for key, value in GRADED.items() if key != "grade"} | {
+    "transverse_load_factor": 1.1
+}
+
+
+def engaged(torque: float, cycles: float, keys: dict[str, Any] = ASSUMED) -> Calculation:
+    """A pair whose clutch engages with a torque on the wheel."""
+    return pair(keys, load_cases=[{"name": "engage", "torque": torque / 2, "cycles": cycles}])
+
+
+def test_an_engagement_that_is_frequent_pits_as_the_sheet_says() -> None:
+    assert number(engaged(752.3, 1.2e6), "pitting_safety_1") == pytest.approx(1.123, abs=5e-4)
+    with_curve = engaged(752.3, 1.2e6, GRADED)
+    torque = number(with_curve, "torque_peak")
+    assert torque == pytest.approx(752.3 / 2)
+    scaled = pair(GRADED | {"torque": 752.3, "slope": 0.106 * 752.3 / 501.53})  # the shafts bend as much more
+    for name in (*FACTORS, "pitting_safety_1", "root_safety_2"):
+        assert number(with_curve, name) == pytest.approx(number(scaled, name)), name
+
+
+def test_one_that_is_rare_counts_for_the_root_alone() -> None:
+    run, rare = pair(ASSUMED), engaged(752.3, 1e5)
+    assert number(rare, "pitting_safety_1") == number(run, "pitting_safety_1")
+    assert number(rare, "root_safety_1") == pytest.approx(number(run, "root_safety_1") * 501.53 / 752.3)
+    assert (rare["pitting_case"][0, 0], rare["root_case"][0, 0]) == ("run", "engagement of the clutch")
+
+
+def test_a_load_case_below_the_run_changes_nothing() -> None:
+    for name in ("pitting_safety_1", "root_safety_1", "torque_root"):
+        assert number(engaged(300, 1e7), name) == number(pair(ASSUMED), name)
+
+
+def test_a_check_that_fails_names_the_load_case() -> None:
+    found = checks(engaged(2000, 1.2e6))
+    assert "governing load case: engagement of the clutch" in found["pitting_1"].message
+
+
+@pytest.mark.parametrize("change", [{"cycles": -1}, {"torque": -5}, {"name": "brake"}, {"cycles": None}])
+def test_a_load_case_that_is_none_is_refused(change: dict[str, Any]) -> None:
+    with pytest.raises(ValidationError):
+        pair(ASSUMED, load_cases=[{"name": "engage", "torque": 300, "cycles": 1e6} | change])

@@ -193,6 +193,8 @@ class Elements(ShaftElements):
         if inputs["torque"] is None:
             return
         inputs |= self._accuracy(pinion, wheel)
+        if cases := self.cases_of_mesh(join, pinion):
+            inputs["load_cases"] = cases
         for limit in GEAR_LIMITS:
             if getattr(self.parts.keys.gears, limit):
                 inputs |= {f"{limit}_{gear}": TypedValue(("machine", "gears", limit)) for gear in (1, 2)}
