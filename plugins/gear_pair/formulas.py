@@ -6,8 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import as_number, formula
+from diecut_report.api import Constant, as_number, formula
 from diecut_report.mechanics.involute import involute
+
+MILLIMETRE = Constant(1e-3, "1 mm", "m")
+MICROMETRE = Constant(1e-6, "1 µm", "m")
+METRE_PER_SECOND = Constant(1.0, "1 m/s", "m/s")
+LINE_LOAD = Constant(1e3, "1 N/mm", "N/m")
+MEGAPASCAL = Constant(1e6, "1 MPa", "Pa")
+STIFFNESS = Constant(1e9, "1 N/(mm·µm)", "Pa")
+STEEL = Constant(206e9, "206 GPa", "Pa")
+MIDDLE_DEVIATION = Constant(80e-6, "80 µm", "m")
+SMALL_DEVIATION = Constant(40e-6, "40 µm", "m")
 
 # --- geometry --------------------------------------------------------------------------------------------------------
 
@@ -188,3 +198,107 @@ def worse_notch(notch_parameter_1: Any, notch_parameter_2: Any) -> Any:
     """The parameter of the two that leaves the range 1 … 8, or comes nearest to its end."""
     least = np.minimum(notch_parameter_1, notch_parameter_2)
     return np.where(least < 1, least, np.maximum(notch_parameter_1, notch_parameter_2))
+
+
+# --- load factors (ISO 6336-1:2019) ----------------------------------------------------------------------------------
+
+
+@formula
+def speed_parameter(velocity: Any, teeth_1: Any, ratio: Any) -> Any:
+    """Speed by which the dynamic factor of method C goes."""
+    return velocity * teeth_1 / 100 * np.sqrt(ratio**2 / (1 + ratio**2))
+
+
+@formula
+def dynamic_factor(line_load: Any, k_1: Any, k_2: Any, speed_parameter: Any) -> Any:
+    """Dynamic factor by method C, below the resonance."""
+    speed = speed_parameter / METRE_PER_SECOND
+    slope = np.where(speed <= 0.2, 2, 2.071 - 0.357 * speed)
+    return 1 + (k_1 / np.maximum(line_load, 100 * LINE_LOAD) + k_2) * speed * slope
+
+
+@formula
+def of_overlap(spur: Any, helical: Any, overlap_ratio: Any) -> Any:
+    """Between what holds for spur teeth and, from an overlap ratio of 1 on, for helical teeth."""
+    return spur - np.minimum(overlap_ratio, 1) * (spur - helical)
+
+
+@formula
+def tooth_compliance(teeth_1: Any, teeth_2: Any, shift_1: Any, shift_2: Any) -> Any:
+    """Compliance q′ of a pair of teeth of steel, theoretical, by the teeth of the virtual gears."""
+    series = (
+        0.04723 + 0.15551 / teeth_1 + 0.25791 / teeth_2 - 0.00635 * shift_1 - 0.11654 * shift_1 / teeth_1 - 0.00193 * shift_2
+        - 0.24188 * shift_2 / teeth_2 + 0.00529 * shift_1**2 + 0.00182 * shift_2**2
+    )  # fmt: skip
+    return series / STIFFNESS
+
+
+@formula
+def tooth_stiffness(
+    compliance: Any, dedendum: Any, pressure_angle: Any, helix_angle: Any, elastic_modulus_1: Any, elastic_modulus_2: Any
+) -> Any:  # fmt: skip
+    """Stiffness c′ of a pair of teeth of solid gears under a line load from 100 N/mm on."""
+    rack = (1 + (1.2 - dedendum) / 2) * (1 - 0.02 * as_number(np.pi / 9 - pressure_angle) * 180 / as_number(np.pi))
+    modulus = 2 * elastic_modulus_1 * elastic_modulus_2 / (elastic_modulus_1 + elastic_modulus_2)
+    return 0.8 / compliance * rack * np.cos(helix_angle) * modulus / STEEL
+
+
+@formula
+def mesh_stiffness(stiffness: Any, contact_ratio: Any, line_load: Any) -> Any:
+    """Mean stiffness c_γα of all teeth in mesh."""
+    low_load = np.minimum(line_load / (100 * LINE_LOAD), 1) ** 0.25
+    return stiffness * low_load * (0.75 * contact_ratio + 0.25)
+
+
+@formula
+def helix_deviation(diameter: Any, face_width: Any, grade_step: Any) -> Any:
+    """Permissible helix slope deviation f_Hβ (ISO 1328-1:2013)."""
+    size = 0.05 * np.sqrt(diameter / MILLIMETRE) + 0.35 * np.sqrt(face_width / MILLIMETRE) + 4
+    return size * grade_step * MICROMETRE
+
+
+@formula
+def pitch_deviation(diameter: Any, module: Any, grade_step: Any) -> Any:
+    """Permissible single pitch deviation f_pt (ISO 1328-1:2013)."""
+    return (0.001 * diameter / MILLIMETRE + 0.4 * module / MILLIMETRE + 5) * grade_step * MICROMETRE
+
+
+@formula
+def run_in_deviation(deviation: Any, velocity: Any, slow: Any, fast: Any) -> Any:
+    """The part of a deviation that running in reduces in proportion: all of it at low speed."""
+    reached = np.where(velocity <= fast, MIDDLE_DEVIATION, SMALL_DEVIATION)
+    return np.where(velocity <= slow, deviation, np.minimum(deviation, reached))
+
+
+@formula
+def misalignment(bending: Any, manufacture: Any, crowning: Any, line_load: Any, deviation_1: Any, deviation_2: Any) -> Any:  # fmt: skip
+    """Equivalent misalignment F_βx before running in."""
+    least = np.maximum(0.005 * line_load / LINE_LOAD * MICROMETRE, np.maximum(deviation_1, deviation_2) / 2)
+    return np.maximum(crowning * (1.33 * bending + manufacture), least)
+
+
+@formula
+def face_load_factor(opening: Any) -> Any:
+    """Face load factor K_Hβ; from an opening of 1 on a part of the width does not carry."""
+    return np.where(opening < 1, 1 + opening, 2 * np.sqrt(opening))
+
+
+@formula
+def transverse_factor(contact_ratio_total: Any, stiffness: Any, deviation: Any, line_load: Any) -> Any:
+    """Transverse load factor of method B, before its limits."""
+    share = 0.4 * stiffness * deviation / line_load
+    many = np.sqrt(2 * (contact_ratio_total - 1) / contact_ratio_total)
+    return np.where(contact_ratio_total <= 2, contact_ratio_total / 2 * (0.9 + share), 0.9 + share * many)
+
+
+@formula
+def limited_for_flank(factor: Any, contact_ratio: Any, overlap_ratio: Any, contact_ratio_total: Any) -> Any:
+    """K_Hα: at least 1, at most what a single pair of teeth carries."""
+    limit = contact_ratio_total / (contact_ratio * contact_ratio_factor(contact_ratio, overlap_ratio) ** 2)
+    return np.maximum(np.minimum(factor, limit), 1)
+
+
+@formula
+def limited_for_root(factor: Any, contact_ratio: Any, contact_ratio_total: Any) -> Any:
+    """K_Fα: at least 1, at most what a single pair of teeth carries."""
+    return np.maximum(np.minimum(factor, contact_ratio_total / (0.25 * contact_ratio + 0.75)), 1)

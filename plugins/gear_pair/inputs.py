@@ -16,6 +16,16 @@ class Sector(Block):
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Number of teeth of the sector", ge=1, integer=True)] = None
 
 
+class LoadCase(Block):
+    """A load case beside the run."""
+
+    name: Annotated[Literal["engage", "start", "stop"], Text("Engagement of the clutch, start of the motor, or stop by the brake")]
+    torque: Annotated[float, Quantity("T_j", "N*m", "Torque of the load case on the pinion, its size", ge=0)]
+    cycles: Annotated[float, Quantity("N_j", "1", "Number of its load cycles in the life; it counts for pitting above 10⁵", ge=0,
+        plausible=("1", "1e12"))]
+
+
+Flanks = Literal["through_hardened", "case_hardened", "grey_iron"]
 OF_MATERIAL = ("sigma_h_lim", "sigma_f_lim", "elastic_modulus")
 
 
@@ -51,13 +61,26 @@ class ExternalGearPair(Inputs):
     torque: Annotated[float | None, Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is used as torque_curve")] = None
     torque_curve: Annotated[Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")] = None
     torque_on: Annotated[Literal["pinion", "wheel"], Text("Gear on which the torque acts")] = "pinion"
-    speed: Annotated[float | None, Quantity("n_1", "rpm", "Speed of the pinion; required for pitch line velocity and power", gt=0)] = None
+    load_cases: Annotated[list[LoadCase], Text("Load cases beside the run: for the tooth root, and for pitting where they are frequent")] = []  # noqa: RUF012
+    speed: Annotated[float | None,
+        Quantity("n_1", "rpm", "Speed of the pinion, the greatest one; required for pitch line velocity and power", gt=0)] = None
+    grade: Annotated[int | None,
+        Quantity("Q", "1", "Grade of accuracy of the worse gear (ISO 1328-1:2013); with it and the speed the K factors are calculated", ge=3, le=11,
+            integer=True)] = None
+    crowned: Annotated[bool, Text("Teeth crowned by half of the misalignments by manufacture and load")] = False
+    slope: Annotated[float | None,
+        Quantity("Δv′", "mrad", "Difference of the slopes of both shafts at the mesh, in the plane of action; with it K_Hβ is calculated",
+            plausible=("1e-7 rad", "0.1 rad"))] = None
+    flanks_1: Annotated[Flanks, Text("Flanks of the pinion, by which it runs in; case_hardened also for nitrided ones")] = "through_hardened"
+    flanks_2: Annotated[Flanks, Text("Flanks of the wheel, by which it runs in; case_hardened also for nitrided ones")] = "through_hardened"
     application_factor: Annotated[float | None,
         Quantity("K_A", "1", "Application factor; default 1.25 (1 where a torque curve includes the dynamics)", ge=1)] = None
-    dynamic_factor: Annotated[float | None, Quantity("K_V", "1", "Dynamic factor; default 1.1", ge=1)] = None
-    face_load_factor: Annotated[float | None, Quantity("K_Hβ", "1", "Face load factor for contact stress; default 1.3", ge=1)] = None
+    dynamic_factor: Annotated[float | None,
+        Quantity("K_V", "1", "Dynamic factor; default: calculated, or 1.1 without grade and speed", ge=1)] = None
+    face_load_factor: Annotated[float | None,
+        Quantity("K_Hβ", "1", "Face load factor for contact stress; default: calculated, or 1.3 without grade, speed and slope", ge=1)] = None
     transverse_load_factor: Annotated[float | None,
-        Quantity("K_Hα", "1", "Transverse load factor; default 1 for spur and 1.2 for helical teeth", ge=1)] = None
+        Quantity("K_Hα", "1", "Transverse load factor; default: calculated, or without grade and speed 1 (helical teeth 1.2)", ge=1)] = None
     material_1: Annotated[str | None,
         Text("Material of the pinion: an entry of gear_materials in a table of your own, in place of its limits")] = None
     material_2: Annotated[str | None, Text("Material of the wheel: an entry of gear_materials in a table of your own, in place of its limits")] = None

@@ -11,7 +11,9 @@ from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, ISO_21771, TEET
 # fmt: off
 
 PITTING, ROOT, STATICS = "ISO 6336-2:2006", "ISO 6336-3:2006", "statics"
-FACTORS = {"application": "application_factor", "dynamic": "dynamic_factor", "transverse": "transverse_load_factor"}
+FACTORS = {"application": "application_factor", "dynamic": "dynamic_factor"}
+FOR_FLANK = FACTORS | {"face": "face_load_factor", "transverse": "transverse_load_factor"}
+FOR_ROOT = FACTORS | {"face": "face_load_root", "transverse": "transverse_load_root"}
 
 sizes = Chapter("Dimensions")
 for g, teeth in TEETH.items():
@@ -64,9 +66,13 @@ sizes.value("overlap_ratio", "ε_β", "1", "Overlap ratio",
 sizes.value("contact_ratio_total", "ε_γ", "1", "Total contact ratio", lambda contact_ratio, overlap_ratio: contact_ratio + overlap_ratio,
     source=ISO_21771)
 
-forces = Chapter("Forces", text="For the maximum torque. F_t acts at the reference circle and is used for the rating; the others act at the mesh.")
+forces = Chapter("Forces",
+    text="For the maximum torque of run and frequent load cases. F_t acts at the reference circle and is used for the rating; the others act at the "
+        "mesh.")
 forces.value("tangential_force", "F_t", "N", "Tangential force at the reference circle",
     lambda torque_peak, pitch_diameter_1: 2 * torque_peak / pitch_diameter_1, source="ISO 6336-1")
+forces.value("root_force", "F_tF", "N", "Tangential force at the reference circle, for the tooth root",
+    lambda torque_root, pitch_diameter_1: 2 * torque_root / pitch_diameter_1, source="ISO 6336-1", output=False)
 forces.value("working_force", "F_tw", "N", "Tangential force at the working pitch circle",
     lambda torque_peak, working_diameter_1: 2 * torque_peak / working_diameter_1, source=STATICS)
 forces.value("radial_force", "F_r", "N", "Radial force, which separates the axes",
@@ -103,7 +109,7 @@ for g, teeth in TEETH.items():
     pitting.value(f"contact_factor_{g}", "Z_B" if g == 1 else "Z_D", "1", f"Single pair tooth contact factor of gear {g}",
         bind(f.contact_factor, single_contact=f"single_contact_{g}"), source=f"{PITTING}, 6")
     pitting.value(f"contact_stress_{g}", f"σ_H{g}", "MPa", f"Contact stress of gear {g}",
-        bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", face="face_load_factor", **FACTORS),
+        bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", **FOR_FLANK),
         source=f"{PITTING}, 5")
     pitting.value(f"pitting_safety_{g}", f"S_H{g}", "1", f"Safety factor of gear {g} against pitting",
         bind(f.pitting_safety, limit=f"sigma_h_lim_{g}", life=f"life_factor_h_{g}", film="film_factor", stress=f"contact_stress_{g}"),
@@ -123,10 +129,10 @@ root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor for toot
 for g in TEETH:
     root_stress.value(f"nominal_root_stress_{g}", f"σ_F0{g}", "MPa", f"Nominal tooth root stress of gear {g}",
         bind(lambda force, form_factor, stress_factor, helix_factor, face_width, module:
-                force * form_factor * stress_factor * helix_factor / (face_width * module), force="tangential_force", form_factor=f"form_factor_{g}",
+                force * form_factor * stress_factor * helix_factor / (face_width * module), force="root_force", form_factor=f"form_factor_{g}",
             stress_factor=f"stress_factor_{g}", helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
     root_stress.value(f"root_stress_{g}", f"σ_F{g}", "MPa", f"Tooth root stress of gear {g}",
-        bind(f.root_stress, nominal=f"nominal_root_stress_{g}", face="face_load_root", **FACTORS), source=f"{ROOT}, 5")
+        bind(f.root_stress, nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5")
     root_stress.value(f"root_safety_{g}", f"S_F{g}", "1", f"Safety factor of gear {g} against tooth breakage",
         bind(lambda limit, life, notch, alternating, stress: 2 * limit * life * notch * alternating / stress, limit=f"sigma_f_lim_{g}",
             life=f"life_factor_f_{g}", notch="notch_size_factor", alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5")
@@ -137,7 +143,7 @@ over_cycle.value("tangential_force_curve", "F_tφ", "N", "Tangential force at th
 over_cycle.value("nominal_contact_curve", "σ_H0φ", "MPa", "Nominal contact stress",
     bind(f.nominal_contact_stress, force="tangential_force_curve", diameter="pitch_diameter_1"), source=f"{PITTING}, 5", output=False)
 over_cycle.value("contact_stress_curve", "σ_H1φ", "MPa", "Contact stress of the pinion",
-    bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", face="face_load_factor", **FACTORS),
+    bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", **FOR_FLANK),
     source=f"{PITTING}, 5")
 
 sector = Chapter("Sector", needs=("sector",), absent="sector is not given: the wheel makes full revolutions",

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from diecut_report.api import Bound, Chapter, Formula, Value, Vary, bind, phrase, si, standard_series
-from diecut_report.plugins.gear_pair import rating
+from diecut_report.plugins.gear_pair import load_factors, rating
+from diecut_report.plugins.gear_pair.load_factors import KEYS
 from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, TEETH
 
 MODULES = standard_series("iso_54_modules")
@@ -17,36 +18,49 @@ SAFETIES = {f"{kind}_safety_{g}": f"required_{kind}_safety" for kind in ("pittin
 """The safeties that the module settles, each with the one that is required."""
 
 
-def _rating() -> tuple[Value, ...]:
-    """The steps of the rating that the safeties follow from, in their order."""
-    chapters = (rating.sizes, rating.forces, rating.pitting, rating.root_stress)
-    steps = [step for chapter in chapters for step in chapter.steps if isinstance(step, Value)]
+CHAPTERS = (
+    rating.sizes,
+    rating.forces,
+    load_factors.dynamic,
+    load_factors.face,
+    load_factors.transverse,
+    rating.pitting,
+    rating.root_stress,
+)
+
+
+def _rating() -> tuple[tuple[frozenset[str], Value], ...]:
+    """The steps of the rating that the safeties follow from, in their order, each with the inputs that it needs."""
+    steps = [
+        (frozenset(chapter.needs), step) for chapter in CHAPTERS for step in chapter.steps if isinstance(step, Value)
+    ]
     wanted = set(SAFETIES)
-    for step in reversed(steps):
+    for _, step in reversed(steps):
         wanted |= {name for name in step.takes() if isinstance(name, str)} if step.id in wanted else set()
-    return tuple(step for step in steps if step.id in wanted)
+    return tuple((needs | set(step.needs), step) for needs, step in steps if step.id in wanted)
 
 
 RATING = _rating()
 
 
-def _taken() -> Iterator[str]:
-    """What the rating takes beside the module and what its own steps give."""
-    given = {"module"} | {step.id for step in RATING}
-    yield from dict.fromkeys(
-        name for step in RATING for name in step.takes() if isinstance(name, str) and name not in given
-    )
-    yield from dict.fromkeys(SAFETIES.values())
+def _taken() -> tuple[str, ...]:
+    """What the rating takes beside the module, of which there is more or less by what is given; the factors where they do not follow from it."""
+    names = {
+        name: None for needs, step in RATING for name in (*step.takes(), *needs, *step.lacks) if isinstance(name, str)
+    }
+    made = {"module", *GIVEN_DISTANCE, *(step.id for _, step in RATING)} - {*KEYS, "transverse_load_root"}
+    return (*(name for name in names if name not in made), *dict.fromkeys(SAFETIES.values()))
 
 
-TAKES = tuple(_taken())
+TAKES = _taken()
 
 
-def least_module(*taken: Any) -> Any:
+def least_module(given: Mapping[str, Any]) -> Any:
     """Least module of the series with which all safeties are reached, shape (variants, 1); 0 where none is enough."""
-    known: dict[str, Any] = dict(zip(TAKES, taken, strict=True)) | {"module": SERIES}
-    for step in RATING:
-        known[step.id] = _value(step, known)
+    known = dict(given) | {"module": SERIES}
+    for needs, step in RATING:
+        if needs <= given.keys() and not given.keys() & step.lacks:
+            known[step.id] = _value(step, known)
     held = np.all([known[name] >= known[required] for name, required in SAFETIES.items()], axis=0)
     first = SERIES[np.argmax(held, axis=1)]
     return np.where(held.any(axis=1), first, 0.0)[:, None]
@@ -63,7 +77,8 @@ def _value(step: Value, known: dict[str, Any]) -> Any:
 module = Chapter("Module",
     text="The rating below is evaluated with each module of the preferred series; the smallest one with which flank and root of both gears reach "
         "their required safety factors is selected.")
-module.computed("module_least", "m_min", "mm", "Smallest sufficient preferred module", function=least_module, takes=TAKES,
+module.prepared("sufficient_module", least_module, TAKES, for_many=True, lacks=GIVEN_DISTANCE)
+module.computed("module_least", "m_min", "mm", "Smallest sufficient preferred module", function=lambda found: found, takes=("sufficient_module",),
     method="the safety factors for pitting and tooth root below, with each module of ISO 54, series I, in turn; 0 where none is sufficient",
     lacks=GIVEN_DISTANCE, output=False)
 module.require("module_exists", lambda module_least: module_least > 0, key="face_width", lacks=("module",),

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, Constant, bind, case
+from diecut_report.mechanics.load_cases import GREATEST, governing_case
 from diecut_report.plugins.parallel_key import formulas as f
 
 # fmt: off
 
 CURVE = ("torque_curve",)
+CASES = ("load_cases",)
 REVERSED = 1e-6  # share of the torque's size up to which the other sign is rounding
 ROUNDING = 1e-9
 ONE_SPEED = 1e-3  # relative difference of two speeds that are one
@@ -53,10 +55,16 @@ load.require("peak_is_greatest",
     bind(lambda peak, torque_size, rounding: peak >= torque_size * (1 - rounding), peak="inputs.torque_peak", rounding=ROUNDING), key="torque_peak",
     needs=("torque_peak",),
     message="is {inputs.torque_peak}, less than the torque of {torque_size} that acts anyway; give the maximum one, or remove the key")
-load.value("torque_peak", "T_max", "N*m", "Maximum torque: as given", bind(lambda given: given, given="inputs.torque_peak"), needs=("torque_peak",),
-    source="input")
-load.value("torque_peak", "T_max", "N*m", "Maximum torque: that of the cycle", lambda torque_size: torque_size, lacks=("torque_peak",),
-    source="this method")
+PEAK = ("torque_run", "T_run", "N*m", "Maximum torque of the run")
+load.value(*PEAK, bind(lambda given: given, given="inputs.torque_peak"), needs=("torque_peak",), source="input", output=False)
+load.value(*PEAK, lambda torque_size: torque_size, lacks=("torque_peak",), source="this method", output=False)
+load.total("torque_case", "T_j,max", "N*m", "Maximum torque of the load cases", "max", of="load_cases.torque", needs=CASES, output=False)
+load.value("torque_peak", "T_max", "N*m", "Maximum torque: that of the run", lambda torque_run: torque_run, lacks=CASES, source="this method")
+load.value("torque_peak", "T_max", "N*m", "Maximum torque of run and load cases", lambda torque_run, torque_case: np.maximum(torque_run, torque_case),
+    needs=CASES, source="this method")
+PEAK_CASE = ("peak_case", "C", "1", "Load case of the maximum torque", governing_case)
+load.computed(*PEAK_CASE, ("torque_run", "load_cases.name", "load_cases.torque"), GREATEST, is_text=True, needs=CASES)
+load.computed(*PEAK_CASE, ("torque_run",), GREATEST, is_text=True, lacks=CASES, printed=False, output=False)
 load.value("reversing", "R_T", "1", "Reversing torque over the cycle",
     bind(lambda torque_greatest, torque_least, torque_size, share: (torque_greatest > share * torque_size) & (-torque_least > share * torque_size),
         share=REVERSED), needs=CURVE, source="this method")

@@ -15,8 +15,8 @@ CHECKS = (
             "the loads helps, too.", advise=THICKER),
     Check(id="yield", check_class="strength", title="Yield", demand="required_yield_safety", limit="yield_safety", unit="1",
         demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-16",
-        consequence="the shaft would bend for good at {nominal_position} from the left end; a stronger steel or bearings nearer to the loads helps, "
-            "too.", advise=THICKER),
+        consequence="the shaft would bend for good at {nominal_position} from the left end, governing load case: {yield_case}; a stronger steel or "
+            "bearings nearer to the loads helps, too.", advise=THICKER),
     Check(id="yield_notch", check_class="practice", title="Yield in a notch", demand=1.0, limit="place_yield_safety", unit="1", severity="warn",
         demand_label="minimum safety factor", limit_label="safety factor with the notch", tolerance=ROUNDING, source="Shigley 7-16",
         consequence="the ground of a notch yields.", advise=(Vary("yield_strength", "up"), *THICKER)),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,10 +56,44 @@ class Gears:
         across = -tangential * np.sin(mesh) - radial * np.cos(mesh), tangential * np.cos(mesh) - radial * np.sin(mesh)
         return tangential * np.tan(helix), *across
 
+    def of(self, rows: Array) -> Gears:
+        """Return the toothings of some variants."""
+        return Gears(*(each[:, rows] for each in vars(self).values()))
+
     def levers(self) -> tuple[Array, Array]:
         """Return what an axial force is multiplied by to give the couples xy and xz, (loads, variants, 1)."""
         radius = np.where(np.isfinite(self.radius), self.radius, 0.0)
         return (-radius * np.cos(self.mesh))[:, :, None], (-radius * np.sin(self.mesh))[:, :, None]
+
+
+class LoadCase(NamedTuple):
+    """A torque (variants,) that passes the shaft from one load to another one, by their indices."""
+
+    enters: int
+    leaves: int
+    torque: Array
+
+    def of(self, rows: Array) -> LoadCase:
+        """Return the load case of some variants."""
+        return self._replace(torque=self.torque[rows])
+
+    def loads(self, run: Instants) -> Instants:
+        """Return the loads (loads, variants, 1): those of the run when most torque passes there, which grow with it, and no other torque."""
+        passing = np.abs(run.torque[[self.enters, self.leaves]])
+        instant = np.argmax(np.sum(passing, axis=0), axis=1)[None, :, None]
+        then = {name: np.take_along_axis(each, instant, axis=2) for name, each in vars(run).items()}
+        sense = np.where(then["torque"][self.enters] - then["torque"][self.leaves] < 0, -1.0, 1.0)
+        case = self.torque[:, None]
+        for index, sign in ((self.enters, sense), (self.leaves, -sense)):
+            size = np.abs(then["torque"][index])
+            growth = np.where(size > 0, case / np.where(size > 0, size, 1), 1)
+            for each in then.values():
+                each[index] = each[index] * growth
+            then["torque"][index] = sign * case
+        others = np.ones(len(run.torque), dtype=bool)
+        others[[self.enters, self.leaves]] = False
+        then["torque"][others] = 0
+        return Instants(**then)
 
 
 @dataclass(frozen=True)
@@ -77,6 +111,7 @@ class Cycle:
     share: Array
     middle: Array
     edges: Array
+    cases: tuple[LoadCase, ...] = ()
 
     @property
     def count(self) -> int:
@@ -87,7 +122,7 @@ class Cycle:
         """Return the loads at shares of the cycle (rows, instants), each in the smooth piece of its middle; rows are variants."""
         own = {name: self._component(name, share, middle, rows) for name in COMPONENTS}
         torque = self._balanced(own["torque"])
-        gears = Gears(*(each[:, rows] for each in vars(self.gears).values()))
+        gears = self.gears.of(rows)
         axial, across_y, across_z = gears.forces(torque)
         force_y, force_z = own["force_y"] + across_y, own["force_z"] + across_z
         offset = self.offset[:, rows][:, :, None]
@@ -162,6 +197,7 @@ class Cycle:
             self.names, self.places[:, rows], self.offset[:, rows], self.mass[:, rows],
             {name: tuple(_extremes_of(each, rows) for each in given) for name, given in self.given.items()},
             self.gears, self.rotation, self.turns[rows], self.share[rows], self.middle[rows], self.edges[rows],
+            tuple(case.of(rows) for case in self.cases),
         )  # fmt: skip
 
 
@@ -190,6 +226,7 @@ def is_curve(given: Any) -> bool:
 def cycle(
     names: Any, places: Any, force_y: Any, force_z: Any, axial_force: Any, torque: Any, couple_xy: Any, couple_xz: Any, offset: Any,
     mass: Any, pitch_radius: Any, pressure: Any, helix: Any, mesh: Any, rotation: Any, turns: Array,
+    case_torques: Any = None, enters: Any = None, leaves: Any = None,
 ) -> Cycle:  # fmt: skip
     """Return the loads of what is given; Refusal where curves run over other cycles, or torques cannot be told."""
     if names is None:
@@ -209,7 +246,25 @@ def cycle(
     return Cycle(
         tuple(names), columns(places, count, variants), columns(offset, count, variants, 0.0), columns(mass, count, variants, 0.0),
         given, gears, rotation if is_curve(rotation) or isinstance(rotation, str) else "none", turns[:, 0], share, middle, edges,
+        tuple(_cases(names, columns(case_torques, len(enters), variants), enters, leaves)) if enters else (),
     )  # fmt: skip
+
+
+def _cases(names: Any, torques: Array, enters: Sequence[str], leaves: Sequence[str]) -> Iterator[LoadCase]:
+    """The load cases; Refusal where there is no load of a name, or one with both."""
+    for index, (ends, torque) in enumerate(zip(zip(enters, leaves, strict=True), torques, strict=True)):
+        for key, name in zip(("enters", "leaves"), ends, strict=True):
+            if name not in names:
+                template = "is “{name}”, which is not the name of a load; there are {known}"
+                raise Refusal(
+                    f"load_cases.{index}.{key}", Phrase(template, name=name, known=", ".join(map(str, names)))
+                )
+        if ends[0] == ends[1]:
+            raise Refusal(
+                f"load_cases.{index}.leaves",
+                "is the load at which the torque enters, so that none passes the shaft; name another load",
+            )
+        yield LoadCase(names.index(ends[0]), names.index(ends[1]), torque)
 
 
 def _unlike(joints: Iterable[Array]) -> list[Array]:

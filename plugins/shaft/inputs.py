@@ -68,6 +68,15 @@ class Load(Block):
     mass: Annotated[float, Quantity("m_i", "kg", "Mass that turns there, for the critical speed", ge=0)] = 0
 
 
+class LoadCase(Block):
+    """A load case beside the run: a torque that passes the shaft from one load to another one."""
+
+    name: Annotated[Literal["engage", "start", "stop"], Text("Engagement of the clutch, start of the motor, or stop by the brake")]
+    torque: Annotated[float, Quantity("T_j", "N*m", "Torque of the load case, its size", ge=0)]
+    enters: Annotated[str, Text("Name of the load at which the torque enters")]
+    leaves: Annotated[str, Text("Name of the load at which the torque leaves")]
+
+
 class Strength(Block):
     """The strengths of a steel up to a diameter, as a maker or a standard states them."""
 
@@ -95,6 +104,7 @@ class Shaft(Inputs):
     seat_b: Annotated[Seat, Text("Seat of bearing B: tight, with the notch effect of a press fit, or loose (g6, h6)")] = "tight"
     locating: Annotated[Literal["a", "b"], Text("Bearing that takes the axial force")] = "a"
     loads: Annotated[list[Load], Text("Loads of the shaft")]
+    load_cases: Annotated[list[LoadCase], Text("Load cases beside the run, for which the shaft must not yield")] = []  # noqa: RUF012
     material: Annotated[Literal["42CrMo4+QT", "C45E+QT", "C45E+N"] | None,
         Text("Steel, in place of its strengths (EN 10083, round bars); or an entry of steels in a table of your own")] = None
     strengths: Annotated[list[Strength], Text("Strengths of a steel by diameter, in place of its name")] = []  # noqa: RUF012

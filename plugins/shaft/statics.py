@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import SPARSE, Cycle, Instants, looked_at_first
+from diecut_report.plugins.shaft.cycle import COMPONENTS, SPARSE, Cycle, Gears, Instants, looked_at_first
 from diecut_report.plugins.shaft.elastic import ElasticShaft
 
 Array = NDArray[Any]
@@ -173,6 +173,19 @@ class Statics:
         """Return the resultant slope at places (places, variants) among all, (places, variants, instants)."""
         return self._resultant(self.elastic.at_joints.at(places)[1])
 
+    def mesh_slopes(self, gears: Gears) -> Array:
+        """Return the slope of each load in the direction of the force on its teeth, when its torque is greatest, (variants, loads)."""
+        torque, places = self.loads.torque, self.cycle.places
+        instants = np.argmax(np.abs(torque), axis=2)  # (loads, variants)
+        _, *across = gears.forces(np.take_along_axis(torque, instants[:, :, None], axis=2))
+        force = np.hypot(*across)
+        by_units = np.moveaxis(self.elastic.at_joints.at(places)[1], 1, 0)
+        found: Array = np.zeros(by_units.shape[:2])
+        for direction, given in zip(across, self._given, strict=True):
+            then = np.take_along_axis(given, instants.T[:, None], axis=2)
+            found += np.einsum("vpj,vjp->vp", by_units, then) * (direction / np.where(force > 0, force, 1))[:, :, 0].T
+        return found
+
     def _resultant(self, of_units: Array) -> Array:
         """The resultant over both planes of what unit loads do (places, variants, loads)."""
         found: Array = np.sqrt(self._size(of_units))
@@ -236,6 +249,19 @@ class Statics:
         places = self.cycle.places
         found: Array = np.max(np.where(acts, places, -np.inf), axis=0) - np.min(np.where(acts, places, np.inf), axis=0)
         return np.where(np.isfinite(found), found, 0.0)
+
+    @property
+    def in_cases(self) -> Statics | None:
+        """The same in the load cases in place of the instants of the run; None without any."""
+        cases = [case.loads(self.loads) for case in self.cycle.cases]
+        if not cases:
+            return None
+        return replace(
+            self,
+            loads=Instants(
+                **{name: np.concatenate([getattr(each, name) for each in cases], axis=2) for name in COMPONENTS}
+            ),
+        )
 
     def some_instants(self, chosen: Array) -> Statics:
         """The same at some instants of the cycle."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from diecut_report.api import Chapter, bind, case
 from diecut_report.mechanics import beams
+from diecut_report.mechanics.load_cases import called
 from diecut_report.plugins.shaft import curves, formulas
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import Cycle, cycle
@@ -17,8 +18,10 @@ from diecut_report.plugins.shaft.under_load import Array, UnderLoad
 
 CYCLE = ("loads.name", "loads.position", "loads.force_y", "loads.force_z", "loads.axial_force", "loads.torque", "loads.couple_xy",
          "loads.couple_xz", "loads.offset", "loads.mass", "loads.gear.pitch_radius", "loads.gear.pressure_angle", "loads.gear.helix_angle",
-         "loads.gear.mesh_angle", "rotation", "turns_per_cycle")
+         "loads.gear.mesh_angle", "rotation", "turns_per_cycle", "load_cases.torque", "load_cases.enters", "load_cases.leaves")
 LOADED = ("body", "cycle", "bearing_a", "bearing_b", "locating", "elastic_modulus", "shear_modulus", "density")
+CASES = ("load_cases",)
+TOOTHED = ("loads.gear.pitch_radius",)
 OVER_CYCLE = "over 720 instants of the cycle and both limits at each breakpoint of the loads"
 INTEGRATED = "E I v″ = M exactly, piece by piece, " + OVER_CYCLE
 FACTORS = {"k_f": "k_f", "k_fs": "k_fs", "endurance": "place_endurance", "area": "place_area", "modulus": "place_modulus",
@@ -91,6 +94,11 @@ bending.value("bearing_slope_max", "v′_max", "mrad", "Maximum slope at a beari
     source="Euler–Bernoulli")
 bending.computed("slope", "v′_i", "mrad", "Maximum slope at the load", lambda under_load: under_load.load_slopes, ("under_load",), INTEGRATED,
     over="loads", named_by="loads.name", source="Euler–Bernoulli")
+bending.computed("is_toothed", "s_z", "1", "Load with teeth (1) or without (0)", lambda under_load: under_load.is_toothed, ("under_load",),
+    "as given", over="loads", needs=TOOTHED, output=False)
+bending.computed("mesh_slope", "v′_t", "mrad", "Slope at the gear in the direction of the force on its teeth, at its maximum torque",
+    lambda under_load: under_load.mesh_slopes, ("under_load",), INTEGRATED, over="loads", named_by="loads.name", source="Euler–Bernoulli",
+    exists=lambda is_toothed: is_toothed > 0, needs=TOOTHED)
 _number(bending, "twist", "ϑ", "deg", "Maximum twist between the outermost torques", "twist", "Σ T h/(2 G I), " + OVER_CYCLE, source="Saint-Venant")
 _number(bending, "torque_span", "l_T", "mm", "Distance between the outermost torques", "torque_span", "from the loads that have one", output=False)
 bending.value("twist_by_length", "ϑ′", "deg/m", "Twist per unit length between the outermost torques", lambda twist, torque_span: twist / torque_span,
@@ -149,6 +157,13 @@ for name, symbol, unit, description in (("nominal_position", "x_y", "mm", "Locat
                                         ("nominal_torque", "T_y", "N*m", "Torque at this location")):
     _number(yielding, name, symbol, unit, description, name, "at the location and instant of the maximum stress, of all locations on both sides",
         output=False)
+_number(yielding, "nominal_case", "j", "1", "Load case of the maximum stress, by its place in the list; 0 is the run", "nominal_case",
+    "the one with the maximum stress", output=False, needs=CASES, printed=False)
+YIELD_CASE = ("yield_case", "C_y", "1", "Governing load case for yield")
+yielding.computed(*YIELD_CASE, lambda index, names: [called(int(each), names) for each in index[:, 0]], ("nominal_case", "load_cases.name"),
+    "the one with the maximum stress", is_text=True, needs=CASES)
+yielding.computed(*YIELD_CASE, lambda length: [called(0)] * len(length), ("length",), "the one with the maximum stress", is_text=True, lacks=CASES,
+    printed=False, output=False)
 yielding.value("nominal_area", "A_y", "mm**2", "Area at this location", bind(beams.circle_area, diameter="nominal_diameter", bore="nominal_bore"),
     source="geometry", output=False)
 yielding.value("nominal_modulus", "W_by", "mm**3", "Section modulus at this location",

@@ -38,7 +38,7 @@ def numbers(statics: Statics) -> dict[str, Array]:
         "twist": statics.twist,
         "torque_span": statics.torque_span,
         "energy_difference": statics.energy_difference,
-        **_nominal(statics, sides),
+        **_yielding(statics, sides),
     }
 
 
@@ -76,8 +76,21 @@ def _load_scale(statics: Statics) -> Array:
     return found
 
 
+def _yielding(statics: Statics, sides: Sides) -> dict[str, Array]:
+    """Return where and in which load case, counted from 1, the nominal stress is greatest; 0 is the run."""
+    run = _nominal(statics, sides)
+    cases = statics.in_cases
+    if cases is None:
+        return run
+    found = _nominal(cases, cases.sides(cases.x))
+    found["nominal_case"] += 1
+    run["nominal_case"] *= 0
+    is_worse = found["nominal_stress"] > run["nominal_stress"]
+    return {name: np.where(is_worse, found[name], each) for name, each in run.items()}
+
+
 def _nominal(statics: Statics, sides: Sides) -> dict[str, Array]:
-    """Return where the nominal stress is greatest over shaft and cycle, and the forces there, (variants,) each."""
+    """Return where and at which instant the nominal stress is greatest over shaft and cycle, and the forces there, (variants,) each."""
     index = np.stack([statics.body.section_of(statics.x, behind=each) for each in (False, True)])
     diameter, bore = (
         np.take_along_axis(each[None], index, axis=1) for each in (statics.body.diameter, statics.body.bore)
@@ -90,6 +103,8 @@ def _nominal(statics: Statics, sides: Sides) -> dict[str, Array]:
         "nominal_diameter": diameter[..., None],
         "nominal_bore": bore[..., None],
         "nominal_position": statics.x[None, :, :, None],
+        "nominal_stress": stress,
+        "nominal_case": np.arange(stress.shape[3]),
     }
     at = _greatest(stress)
     return {name: np.broadcast_to(each, stress.shape)[at] for name, each in found.items()}

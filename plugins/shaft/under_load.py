@@ -96,6 +96,16 @@ class UnderLoad:
         loads = len(self.cycle.places)
         return np.concatenate([np.max(block.slopes(block.body.x[-loads:]), axis=2).T for _, block in self.blocks()])
 
+    @property
+    def is_toothed(self) -> Array:
+        """Return 1 for each load with teeth, 0 for others, (variants, loads)."""
+        return np.isfinite(self.cycle.gears.radius).T * 1.0
+
+    @cached_property
+    def mesh_slopes(self) -> Array:
+        """Return the slope of each gear in the direction of the force on its teeth, at its greatest torque, (variants, loads); 0 of other loads."""
+        return np.concatenate([block.mesh_slopes(self.cycle.gears.of(rows)) for rows, block in self.blocks()])
+
     # --- curves over the cycle ---------------------------------------------------------------------------------------------
 
     @property

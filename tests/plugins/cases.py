@@ -23,7 +23,7 @@ from tests.plugins.clutches import COOLED
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import PAIRS, UNEVEN
 from tests.plugins.followers import SHAFT
-from tests.plugins.gears import AT_DISTANCE, SECTOR, SIZED
+from tests.plugins.gears import AT_DISTANCE, GRADED, SECTOR, SIZED, SIZED_BY_GRADE
 from tests.plugins.keys import OWN, TURNING
 from tests.plugins.keys import SIZED as SIZED_KEY
 from tests.plugins.platens import GUIDED
@@ -82,7 +82,9 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
         "shaft": SHAFT | {"n_points": 72, "motion_law": "modified_trapezoidal", "allowable_torque": 100},
         "slide": SLIDE | {"n_points": 72, "allowable_torque": 100},
     },
-    "gear_pair": {"sector": SECTOR | {"n_points": 72}, "sized": SIZED, "at distance": AT_DISTANCE},
+    "gear_pair": {
+        "sector": SECTOR | {"n_points": 72}, "sized": SIZED, "at distance": AT_DISTANCE, "graded": GRADED, "sized by grade": SIZED_BY_GRADE,
+    },
     "geneva_transport": {"loaded": CROSS},
     "knife_drive": {side: KNIVES | {"crank_rocker": LINKAGE | {"lowest_dead_center": side}} for side in ("outer", "inner")},
     "machine_inertia": {"moving": machine_parts.INERTIA},

@@ -31,6 +31,13 @@ AT_DISTANCE: dict[str, Any] = HELICAL | {
     "alternating_factor": 0.8,
 }
 del AT_DISTANCE["shift_2"]
+GRADED: dict[str, Any] = STEEL | {  # the crank drive of the method's sheet
+    "module": 5, "teeth_1": 24, "teeth_2": 48, "face_width": 50, "torque": 501.53, "torque_on": "wheel", "application_factor": 1, "grade": 8,
+    "speed": 100, "slope": 0.106,
+}  # fmt: skip
+SIZED_BY_GRADE: dict[str, Any] = {key: value for key, value in GRADED.items() if key != "module"} | {
+    "helix_angle": 10, "crowned": True, "flanks_1": "case_hardened", "flanks_2": "grey_iron",
+}  # fmt: skip
 SIZED: dict[str, Any] = {key: value for key, value in HELICAL.items() if key != "module"}
 
 

@@ -266,6 +266,36 @@ def test_a_peak_that_is_the_torque_itself_is_taken() -> None:
     assert number(key(torque_peak=494), "key_force_peak") == pytest.approx(number(key(), "key_force"), rel=1e-14)
 
 
+@pytest.mark.parametrize(("diameter", "length", "pressure"), [(50, 50, 238.8), (55, 70, 126.7)])
+def test_an_engagement_of_the_clutch_presses_as_the_sheet_says(diameter: float, length: float, pressure: float) -> None:
+    calc = key(
+        KEY, shaft_diameter=diameter, key_length=length, load_distribution_factor=1, load_cases=[{"name": "engage", "torque": 752.3}]
+    )  # fmt: skip
+    assert number(calc, "pressure_key_peak") / 1e6 == pytest.approx(pressure, abs=0.1)
+    assert number(calc, "allowed_key_peak") / 1e6 == pytest.approx(368.5)
+    assert number(calc, "pressure_key") == pytest.approx(494 / 752.3 * number(calc, "pressure_key_peak"))
+
+
+CASES = [{"name": "start", "torque": 600}, {"name": "engage", "torque": 4000}]
+
+
+def test_the_load_case_with_the_greatest_torque_governs_and_is_named() -> None:
+    assert number(key(load_cases=CASES), "torque_peak") == 4000
+    check = checks(key(load_cases=CASES))["pressure_peak"]
+    assert check.status == "fail" and "governing load case: engagement of the clutch" in check.message
+    assert number(key(load_cases=CASES[:1], torque_peak=3000), "torque_peak") == 3000
+    assert number(key(load_cases=[{"name": "stop", "torque": 10}]), "torque_peak") == 494
+    assert key(load_cases=[{"name": "stop", "torque": 10}])["peak_case"][0, 0] == "run"
+
+
+@pytest.mark.parametrize(
+    "case", [{"name": "brake", "torque": 10}, {"name": "stop", "torque": -10}, {"name": "stop"}, {"torque": 10}, "stop"]
+)
+def test_a_load_case_that_is_none_is_refused(case: Any) -> None:
+    with pytest.raises(ValidationError):
+        key(load_cases=[case])
+
+
 def test_own_dimensions_and_a_chamfer_are_taken() -> None:
     calc = key(OWN)
     assert number(calc, "bearing_length") == pytest.approx(0.063)

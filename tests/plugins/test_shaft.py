@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import log10
+from math import cos, log10, pi, radians, tan
 from typing import Any
 
 import numpy as np
@@ -176,6 +176,115 @@ def test_the_twist_of_a_hollow_shaft_is_that_of_its_closed_form() -> None:
     polar = np.pi * (0.06**4 - 0.03**4) / 32
     assert number(calculation, "twist") == pytest.approx(500 * 0.4 / (79.3e9 * polar), rel=1e-9)
     assert number(calculation, "twist") == pytest.approx(2.114368e-3, rel=1e-6)
+
+
+def geared(place: float, mesh_angle: float, torque: Any, case: Any = None, **more: Any) -> Calculation:
+    """A plain shaft of 40 mm on bearings 300 mm apart, with a gear whose torque is balanced at a bearing; its slope at the teeth."""
+    gear = {
+        "name": "gear",
+        "position": place,
+        "torque": torque,
+        "gear": {"pitch_radius": 60, "mesh_angle": mesh_angle},
+    } | more
+    return shaft(
+        {key: value for key, value in CRANKSHAFT.items() if key != "notches"},
+        sections=[{"length": 300, "diameter": 40}], bearing_a=0, bearing_b=300,
+        loads=[gear, {"name": "driver", "position": 300, "torque": "balance", "seat": "none"}],
+        load_cases=[case] if case else [],
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("torque", [200, -200])
+@pytest.mark.parametrize("mesh_angle", [0, 37, 250])
+def test_the_slope_at_the_teeth_is_that_of_a_beam_in_the_direction_of_their_force(
+    torque: float, mesh_angle: float
+) -> None:
+    force = 200 / 0.06 / cos(radians(20))
+    for place in (0.1, 0.2):
+        left, right = place, 0.3 - place
+        expected = force * left * right * (right - left) / (3 * 206e9 * pi * 0.04**4 / 64 * 0.3)
+        calc = geared(place * 1e3, mesh_angle, torque)
+        assert calc["mesh_slope"][0, 0] == pytest.approx(expected, rel=1e-9)
+        assert np.isnan(calc["mesh_slope"][0, 1])
+
+
+def test_teeth_open_between_like_shafts_and_stay_parallel_between_mirrored_ones() -> None:
+    """What bends both gears apart at one end adds up; shafts that lean to the same side leave the teeth parallel."""
+    one, like, mirrored = (
+        geared(place, angle, torque)["mesh_slope"][0, 0]
+        for place, angle, torque in ((100, 0, 150), (100, 180, 150), (200, 180, 150))
+    )
+    assert one + like == pytest.approx(2 * one) and one > 0
+    assert one + mirrored == pytest.approx(0, abs=1e-12)
+
+
+def test_the_slope_at_the_teeth_is_that_of_the_instant_of_the_greatest_torque() -> None:
+    """The torque is greatest at a quarter turn: a force of then counts by its part along the force on the teeth, one of another instant does not."""
+    torque = Turned(lambda a: 200 + 100 * np.sin(a))
+    alone = geared(100, 0, torque)["mesh_slope"][0, 0]
+    assert alone == pytest.approx(geared(100, 0, 300)["mesh_slope"][0, 0], rel=1e-9)
+    elsewhen = geared(100, 0, torque, force_y=Turned(lambda a: 9000 * np.cos(a)))["mesh_slope"][0, 0]
+    assert elsewhen == pytest.approx(alone, rel=1e-9)
+    then = geared(100, 0, torque, force_y=Turned(lambda a: -1000 * np.sin(a)))["mesh_slope"][0, 0]
+    tangential = 300 / 0.06
+    along = np.array(
+        [-tangential * tan(radians(20)), tangential]
+    )  # the mate stands in y: it pushes back, and turns by z
+    share = np.dot([-1000, 0], along) / np.dot(along, along)
+    assert then == pytest.approx(alone * (1 + share), rel=1e-9)
+
+
+CASE = {"name": "engage", "enters": "gear", "leaves": "driver"}
+
+
+def test_a_load_case_twists_the_shaft_by_its_torque_alone_where_nothing_bends_it() -> None:
+    loads = [{"name": "gear", "position": 130, "torque": 100}, {"name": "driver", "position": 310, "torque": "balance"}]
+    calc = shaft(CRANKSHAFT, loads=loads, load_cases=[CASE | {"torque": 900}])
+    assert number(calc, "von_mises_max") == pytest.approx(
+        3**0.5 * 16 * 900 / (pi * 0.05**3)
+    )  # the thinnest section that it passes
+    assert calc["yield_case"][0, 0] == "engagement of the clutch"
+    assert number(calc, "fatigue_safety") == number(shaft(CRANKSHAFT, loads=loads), "fatigue_safety")
+
+
+def test_what_bends_the_shaft_in_a_load_case_is_the_run_grown_with_its_torque() -> None:
+    """At its greatest torque of 300 N·m the gear has also a force of its own; a load case of 750 N·m has 2.5 times all of it."""
+    torque = Turned(lambda a: 200 + 100 * np.sin(a))
+    force = {"force_y": Turned(lambda a: -1000 * np.sin(a))}
+    case = geared(100, 0, torque, case={**CASE, "torque": 750}, **force)
+    still = geared(100, 0, 300, force_y=-1000)
+    assert number(case, "von_mises_max") == pytest.approx(2.5 * number(still, "von_mises_max"))
+    assert number(geared(100, 0, torque, case={**CASE, "torque": 290}, **force), "yield_safety") == number(
+        geared(100, 0, torque, **force), "yield_safety"
+    )
+
+
+def test_a_load_without_a_torque_of_its_own_takes_that_of_the_load_case() -> None:
+    """As a flywheel does; the torque of the load that does not take part is none then."""
+    loads = [
+        {"name": "pulley", "position": 20, "torque": -50, "force_z": 500},
+        {"name": "rim", "position": 150},
+        {"name": "pinion", "position": 310, "torque": 50},
+    ]
+    case = {"name": "start", "torque": 400, "enters": "pulley", "leaves": "rim"}
+    calc = shaft(CRANKSHAFT, loads=loads, load_cases=[case])
+    assert calc["yield_case"][0, 0] == "start of the motor"
+    assert number(calc, "nominal_torque") == pytest.approx(400)
+    assert number(calc, "nominal_position") <= 0.15
+
+
+BAD_CASES = [
+    ({"enters": "wheel"}, "load_cases.0.enters", "not the name of a load"),
+    ({"leaves": "wheel"}, "load_cases.0.leaves", "not the name of a load"),
+    ({"leaves": "gear"}, "load_cases.0.leaves", "name another load"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("change", "key", "words"), BAD_CASES)
+def test_a_load_case_between_loads_that_are_not_there_is_refused(change: dict[str, str], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        geared(100, 0, 200, case={**CASE, "torque": 300} | change)
+    assert refused.value.key == key and words in str(refused.value.message)
 
 
 def test_a_helical_gear_loads_the_shaft_as_its_tooth_force_does() -> None:

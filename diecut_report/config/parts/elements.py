@@ -192,8 +192,9 @@ class Elements(ShaftElements):
         inputs |= {"torque": torque} if torque else {"torque": self._torque_reference(wheel), "torque_on": "wheel"}
         if inputs["torque"] is None:
             return
-        if pinion.shaft.name in self.parts.ratios:
-            inputs["speed"] = self.speed(pinion.shaft.name)
+        inputs |= self._accuracy(pinion, wheel)
+        if cases := self.cases_of_mesh(join, pinion):
+            inputs["load_cases"] = cases
         for limit in GEAR_LIMITS:
             if getattr(self.parts.keys.gears, limit):
                 inputs |= {f"{limit}_{gear}": TypedValue(("machine", "gears", limit)) for gear in (1, 2)}
@@ -205,6 +206,25 @@ class Elements(ShaftElements):
             }
         inputs |= {key: TypedValue((*path, key)) for key in join.more}
         self._add(f"meshes_{join.name}", "gear_pair", inputs, path)
+
+    def _accuracy(self, pinion: ShaftPart, wheel: ShaftPart) -> dict[str, Any]:
+        """What the load factors of a pair follow from, as far as it is known: speed, grade, and how the shafts stand askew."""
+        gears, home = self.parts.keys.gears, f"shafts_{pinion.shaft.name}"
+        found: dict[str, Any] = {}
+        if pinion.shaft.name in self.parts.ratios:
+            found["speed"] = self.speed(pinion.shaft.name)
+        elif self.is_made(f"{home}_bearings"):
+            found["speed"] = f"${{{home}_bearings.{pinion.shaft.bearings[0].name}_speed_max}}"
+        found |= {key: TypedValue(("machine", "gears", key)) for key in ("grade", "crowned") if getattr(gears, key)}
+        if self._has_teeth(pinion) and self._has_teeth(wheel):
+            slopes = (f"${{shafts_{part.shaft.name}.{part.name}_mesh_slope}}" for part in (pinion, wheel))
+            found["slope"] = " + ".join(slopes)
+        return found
+
+    def _has_teeth(self, part: ShaftPart) -> bool:
+        """Whether the calculation of its shaft has the forces on the teeth of a gear."""
+        shaft = next((each for each in self.made if each.name == f"shafts_{part.shaft.name}"), None)
+        return shaft is not None and any(load["name"] == part.name and "gear" in load for load in shaft.inputs["loads"])
 
     def _torque_reference(self, part: ShaftPart) -> str | None:
         loads = f"shafts_{part.shaft.name}_loads"

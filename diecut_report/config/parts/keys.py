@@ -39,7 +39,7 @@ class GearDefaults(Block):
 
     sigma_h_lim: Annotated[float | None, Quantity("σ_Hlim", "MPa", "Allowable contact stress number (ISO 6336-5)", gt=0)] = None
     sigma_f_lim: Annotated[float | None, Quantity("σ_Flim", "MPa", "Nominal bending stress number (ISO 6336-5)", gt=0)] = None
-    grade: Annotated[int | None, Quantity("Q", "1", "Grade of accuracy (ISO 1328-1)", ge=3, le=12, integer=True)] = None
+    grade: Annotated[int | None, Quantity("Q", "1", "Grade of accuracy (ISO 1328-1:2013)", ge=3, le=11, integer=True)] = None
     crowned: Annotated[bool, Text("Crowned teeth")] = False
     hub_yield: Annotated[float | None, Quantity("R_eN", "MPa", "Yield strength of the hubs", gt=0)] = None
 

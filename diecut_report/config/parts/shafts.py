@@ -8,6 +8,7 @@ from typing import Any
 
 from diecut_report.config.parts.demands import Ratio, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import LOOSE
+from diecut_report.config.parts.load_cases import LoadCases
 from diecut_report.config.parts.masses import Masses
 from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
@@ -17,7 +18,7 @@ ROLLER_SERIES = ("N", "2")  # how designations of roller bearings begin, spheric
 NOTHING = 1e-9  # share of a force that has no part in a direction; offset (m) that is rounding
 
 
-class ShaftElements(Masses):
+class ShaftElements(Masses, LoadCases):
     """Make the calculations of the shafts."""
 
     def _loads(self, shaft: MachineShaft) -> None:
@@ -101,6 +102,8 @@ class ShaftElements(Masses):
             )
         if notches := [notch for part in shaft.parts for notch in self._notches(part)]:
             inputs["notches"] = notches
+        if cases := self.cases_of_shaft(shaft):
+            inputs["load_cases"] = cases
         if self.parts.keys.shaft_material and not {"material", "tensile_strength"} & set(shaft.more):
             inputs["material"] = TypedValue(("machine", "shaft_material"))
         if self.parts.keys.surface and "surface" not in shaft.more:
@@ -248,15 +251,17 @@ class ShaftElements(Masses):
         home = f"shafts_{part.shaft.name}"
         inputs: dict[str, Any] = {
             "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": TypedValue((*part.path, "key")),
-            "torque": torque, "cycle_speed": f"{self.reference_speed} / {self.cycle(part.shaft.name)}",
-            "form": part.keys.key_form, "key_count": part.keys.key_count, "yield_shaft": f"${{{home}.yield_strength}}",
+            "torque": torque, "form": part.keys.key_form, "key_count": part.keys.key_count, "yield_shaft": f"${{{home}.yield_strength}}",
         }  # fmt: skip
+        if cases := self.cases_of_key(part):
+            inputs["load_cases"] = cases
         if part.keys.hub is not None:
             inputs["hub_length"] = TypedValue((*part.path, "hub"))
         if self.parts.keys.gears.hub_yield:
             inputs["yield_hub"] = TypedValue(("machine", "gears", "hub_yield"))
-        if self.parts.keys.required_life:
+        if self.parts.keys.required_life:  # by which the changes of flank are counted
             inputs["required_life"] = TypedValue(("machine", "required_life"))
+            inputs["cycle_speed"] = f"{self.reference_speed} / {self.cycle(part.shaft.name)}"
         self._add(f"{home}_{part.name}_key", "parallel_key", inputs, part.path)
 
     def _passed(self, part: ShaftPart) -> str | None:

@@ -156,6 +156,69 @@ def test_a_reference_to_a_part_stands_for_what_is_calculated_of_it(reference: st
     assert config.tree.data["mechanisms"]["drive"]["allowable_torque"] == stands_for
 
 
+def cases(name: str) -> list[str]:
+    """The load cases of a calculation with their torques, as the file of mechanisms has them."""
+    return [f"{case['name']} {case['torque']}" for case in whole().tree.data["mechanisms"][name].get("load_cases", [])]
+
+
+ENGAGE = "engage ${clutch.design_torque}"
+TO_MAIN = f"{ENGAGE} * (${{drive_line.meshes.1.teeth_1}} / ${{drive_line.meshes.1.teeth_2}}) / 0.97"
+TO_FLYWHEEL = f"{TO_MAIN} * (${{drive_line.meshes.0.teeth_1}} / ${{drive_line.meshes.0.teeth_2}}) / 0.97"
+START = "start ${train.vbelt_peak_torque} * ${drive_line.motor_belt_ratio}"
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("shafts_crank", [ENGAGE]), ("shafts_crank_clutch_key", [ENGAGE]), ("shafts_crank_disc_key", [ENGAGE]),
+        ("meshes_crank_drive", [TO_MAIN]), ("shafts_main", [TO_MAIN]), ("shafts_main_pinion_key", [TO_MAIN]), ("shafts_main_wheel_key", [TO_MAIN]),
+        ("meshes_main_drive", [TO_FLYWHEEL]), ("shafts_flywheel", [TO_FLYWHEEL, START]), ("shafts_flywheel_pinion_key", [TO_FLYWHEEL]),
+        ("shafts_flywheel_large_key", [START]), ("shafts_main_disc_key", []), ("shafts_geneva", []), ("meshes_step_up", []),
+    ],
+)  # fmt: skip
+def test_the_clutch_loads_both_its_sides_and_the_motor_all_up_to_the_flywheel(name: str, expected: list[str]) -> None:
+    assert cases(name) == expected
+
+
+def test_a_load_case_passes_the_shaft_from_the_part_that_drives_to_the_one_that_takes() -> None:
+    data = whole().tree.data["mechanisms"]
+    assert [(case["enters"], case["leaves"]) for case in data["shafts_crank"]["load_cases"]] == [("wheel", "disc")]
+    assert [(case["enters"], case["leaves"]) for case in data["shafts_flywheel"]["load_cases"]] == [
+        ("rim", "pinion"),
+        ("large", "rim"),
+    ]
+    assert data["meshes_crank_drive"]["load_cases"][0]["cycles"] == "${clutch.engagements_per_hour} * 20000 h"
+
+
+def test_engagements_whose_number_is_not_known_are_frequent() -> None:
+    config, problems = changed("  required_life: 20000 h\n", "")
+    assert not problems
+    assert config.tree.data["mechanisms"]["meshes_crank_drive"]["load_cases"][0]["cycles"] == "1e6"
+
+
+def test_a_pair_of_gears_gets_what_its_load_factors_follow_from() -> None:
+    data = whole().tree.data["mechanisms"]
+    pair, swinging = data["meshes_crank_drive"], data["meshes_sector"]
+    assert pair["grade"]["value"] == 8 and pair["speed"] == "${drive_line.main_speed}" and "crowned" not in pair
+    assert pair["slope"] == "${shafts_main.pinion_mesh_slope} + ${shafts_crank.wheel_mesh_slope}"
+    assert swinging["speed"] == "${shafts_pinion_bearings.a_speed_max}"
+    crowned, problems = changed("grade: 8,", "grade: 8, crowned: true,")
+    assert not problems and crowned.tree.data["mechanisms"]["meshes_sector"]["crowned"] is True
+    own, problems = changed("teeth: 120/20, module: 4, width: 30}", "teeth: 120/20, module: 4, width: 30, grade: 6}")
+    assert not problems and own.tree.data["mechanisms"]["meshes_step_up"]["grade"]["value"] == 6
+
+
+def test_a_pair_without_a_grade_has_none_and_its_factors_stay_open() -> None:
+    config, problems = changed("grade: 8, ", "")
+    assert not problems and "grade" not in config.tree.data["mechanisms"]["meshes_crank_drive"]
+
+
+@pytest.mark.parametrize("grade", ["12", "2", "fine", "7.5"])
+def test_a_grade_that_is_none_is_refused_at_its_place(grade: str) -> None:
+    _, problems = changed("grade: 8,", f"grade: {grade},")
+    assert problems and all(str(FILE) in problem for problem in problems)
+
+
 def test_a_number_of_a_part_has_the_basis_of_the_machine_and_stands_where_it_is_typed() -> None:
     config = whole()
     hub = config.instances["shafts_crank_disc_key"]

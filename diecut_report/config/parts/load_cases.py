@@ -1,0 +1,144 @@
+"""Load cases beside the run: which torque passes which part where the clutch engages, and where the motor starts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from diecut_report.config.parts.demands import Demands
+from diecut_report.config.parts.keys import MeshKeys
+from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
+
+FREQUENT = "1e6"  # engagements of a clutch, whose number is not known: they count for pitting
+
+
+@dataclass(frozen=True, eq=False)
+class Passing:
+    """Hold a torque that passes a shaft in a load case, from one part to another one, as an expression."""
+
+    case: str
+    torque: str
+    enters: ShaftPart
+    leaves: ShaftPart
+
+    @property
+    def shaft(self) -> MachineShaft:
+        """Return the shaft that it passes."""
+        return self.enters.shaft
+
+    def ends_at(self, part: ShaftPart) -> bool:
+        """Return whether it passes what joins a part to its shaft, or one that rides on it."""
+        riders = (part.name, *(each.name for each in part.shaft.parts if each.keys.rides_on == part.name))
+        return part.shaft is self.shaft and bool({self.enters.name, self.leaves.name} & {*riders})
+
+
+@dataclass(frozen=True, eq=False)
+class Meshing:
+    """Hold a torque on the driving gear of a pair in a load case, as an expression."""
+
+    case: str
+    torque: str
+    join: Join
+
+
+class LoadCases(Demands):
+    """Know the load cases of the parts: the clutch's design torque on both its sides, and the motor's greatest one up to the flywheel."""
+
+    @cached_property
+    def load_cases(self) -> list[Passing | Meshing]:
+        """Return all torques of load cases."""
+        return [*self._engagements(), *self._starts()]
+
+    def passing(self, shaft: MachineShaft) -> list[Passing]:
+        """Return the load cases of a shaft."""
+        return [each for each in self.load_cases if isinstance(each, Passing) and each.shaft is shaft]
+
+    def meshing(self, join: Join) -> list[Meshing]:
+        """Return the load cases of a pair of gears."""
+        return [each for each in self.load_cases if isinstance(each, Meshing) and each.join is join]
+
+    # The clutch: its torque acts on what is between it and the flywheel, and on what it drives, as far as that turns steadily.
+
+    def _engagements(self) -> Iterator[Passing | Meshing]:
+        for shaft in (self.parts.shafts[name] for name in self.parts.ratios):
+            for clutch in (
+                part
+                for part in shaft.parts
+                if part.kind == "clutch" and self.parts.mechanisms.get(part.name) == "clutch"
+            ):
+                yield from self._from_clutch(shaft, f"${{{clutch.name}.design_torque}}")
+
+    def _from_clutch(self, shaft: MachineShaft, torque: str) -> Iterator[Passing | Meshing]:
+        driving = self.parts.driving_join(shaft)
+        if driving is not None:
+            yield from self._towards_flywheel(driving, torque)
+            yield from self._onward(driving.driven[0], torque)
+
+    def _onward(self, enters: ShaftPart, torque: str) -> Iterator[Passing | Meshing]:
+        """The torque on a shaft from the part that drives it, and on the steadily turning shafts that it drives."""
+        for part in (each for each in enters.shaft.parts if each is not enters and self.torque_on(each)):
+            yield Passing("engage", torque, enters, part)
+            for join in (each for each in self.parts.joins_of(part) if part in each.drivers):
+                if join.driven and join.driven[0].shaft.name in self.parts.ratios:
+                    if isinstance(join.keys, MeshKeys):
+                        yield Meshing("engage", torque, join)
+                    yield from self._onward(join.driven[0], f"{torque} / {join.ratio_text}")
+
+    def _towards_flywheel(self, join: Join, torque: str) -> Iterator[Passing | Meshing]:
+        """The torque on the driving side of a join and of all before it, up to the shaft with the flywheel."""
+        while True:
+            if isinstance(join.keys, MeshKeys):
+                torque = f"{torque} * {join.ratio_text} / {join.keys.efficiency:.15g}"
+                yield Meshing("engage", torque, join)
+            else:
+                torque = f"{torque} * {join.ratio_text}"
+            driver = join.drivers[0]
+            flywheel = next((part for part in driver.shaft.parts if part.kind == "flywheel"), None)
+            before = self.parts.driving_join(driver.shaft)
+            source = flywheel or (before.driven[0] if before else None)
+            if source is None:
+                return
+            yield Passing("engage", torque, source, driver)
+            if flywheel is not None or before is None:
+                return
+            join = before
+
+    # The motor: its breakdown torque acts on what is between it and the flywheel.
+
+    def _starts(self) -> Iterator[Passing]:
+        train = self.named("drive_train")
+        for join in (each for each in self.parts.joins if each.word == "belts" and train is not None):
+            pulley = join.driven[0]
+            flywheel = next((part for part in pulley.shaft.parts if part.kind == "flywheel"), None)
+            if flywheel is not None and join.drivers[0].shaft.keys.motor is not None:
+                torque = f"${{{train}.vbelt_peak_torque}} * ${{drive_line.{join.name}_belt_ratio}}"
+                yield Passing("start", torque, pulley, flywheel)
+
+    # As inputs.
+
+    def cases_of_shaft(self, shaft: MachineShaft) -> list[dict[str, Any]]:
+        """Return the load cases of a shaft as its calculation takes them."""
+        return [
+            {"name": each.case, "torque": each.torque, "enters": each.enters.name, "leaves": each.leaves.name}
+            for each in self.passing(shaft)
+        ]
+
+    def cases_of_key(self, part: ShaftPart) -> list[dict[str, Any]]:
+        """Return the load cases of the key of a part."""
+        return [{"name": each.case, "torque": each.torque} for each in self.passing(part.shaft) if each.ends_at(part)]
+
+    def cases_of_mesh(self, join: Join, pinion: ShaftPart) -> list[dict[str, Any]]:
+        """Return the load cases of a pair of gears, as torques on its pinion."""
+        onto = "" if pinion in join.drivers else f" / {join.ratio_text}"
+        return [
+            {"name": each.case, "torque": f"{each.torque}{onto}", "cycles": self._engagements_in_life}
+            for each in self.meshing(join)
+        ]
+
+    @property
+    def _engagements_in_life(self) -> str:
+        """How often the clutch engages in the life of the machine; often, where no life is asked for, or there are several clutches."""
+        clutch, life = self.named("clutch"), self.parts.keys.required_life
+        return f"${{{clutch}.engagements_per_hour}} * {life / 3600:.12g} h" if clutch and life else FREQUENT
