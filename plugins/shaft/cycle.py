@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Curve, Extremes, Phrase, Refusal, named
+from diecut_report.api import GRAVITY, Curve, Extremes, Phrase, Refusal, named
 from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
@@ -112,6 +112,7 @@ class Cycle:
     middle: Array
     edges: Array
     cases: tuple[LoadCase, ...] = ()
+    downwards: Array | None = None  # (variants,)
 
     @property
     def count(self) -> int:
@@ -127,14 +128,22 @@ class Cycle:
         force_y, force_z = own["force_y"] + across_y, own["force_z"] + across_z
         offset = self.offset[:, rows][:, :, None]
         lever_y, lever_z = gears.levers()
+        weight_y, weight_z = self._weights(rows)
         return Instants(
-            force_y,
-            force_z,
+            force_y + weight_y,
+            force_z + weight_z,
             own["axial_force"] + axial,
             torque,
             own["couple_xy"] + force_y * offset + lever_y * axial,
             own["couple_xz"] + force_z * offset + lever_z * axial,
         )
+
+    def _weights(self, rows: Array) -> tuple[Array | float, Array | float]:
+        """The weights in y and z, (loads, rows, 1): of masses on the shaft's axis, wherever the plane of their other forces is."""
+        if self.downwards is None:
+            return 0.0, 0.0
+        weight, direction = GRAVITY * self.mass[:, rows], self.downwards[rows]
+        return (weight * np.cos(direction))[:, :, None], (weight * np.sin(direction))[:, :, None]
 
     def _component(self, name: str, share: Array, middle: Array, rows: Array) -> Array:
         found = np.empty((len(self.given[name]), *share.shape))
@@ -197,7 +206,7 @@ class Cycle:
             self.names, self.places[:, rows], self.offset[:, rows], self.mass[:, rows],
             {name: tuple(_extremes_of(each, rows) for each in given) for name, given in self.given.items()},
             self.gears, self.rotation, self.turns[rows], self.share[rows], self.middle[rows], self.edges[rows],
-            tuple(case.of(rows) for case in self.cases),
+            tuple(case.of(rows) for case in self.cases), None if self.downwards is None else self.downwards[rows],
         )  # fmt: skip
 
 
@@ -226,7 +235,7 @@ def is_curve(given: Any) -> bool:
 def cycle(
     names: Any, places: Any, force_y: Any, force_z: Any, axial_force: Any, torque: Any, couple_xy: Any, couple_xz: Any, offset: Any,
     mass: Any, pitch_radius: Any, pressure: Any, helix: Any, mesh: Any, rotation: Any, turns: Array,
-    case_torques: Any = None, enters: Any = None, leaves: Any = None,
+    case_torques: Any = None, enters: Any = None, leaves: Any = None, downwards: Any = None,
 ) -> Cycle:  # fmt: skip
     """Return the loads of what is given; Refusal where curves run over other cycles, or torques cannot be told."""
     if names is None:
@@ -247,6 +256,7 @@ def cycle(
         tuple(names), columns(places, count, variants), columns(offset, count, variants, 0.0), columns(mass, count, variants, 0.0),
         given, gears, rotation if is_curve(rotation) or isinstance(rotation, str) else "none", turns[:, 0], share, middle, edges,
         tuple(_cases(names, columns(case_torques, len(enters), variants), enters, leaves)) if enters else (),
+        None if downwards is None else np.broadcast_to(downwards[:, 0], (variants,)),
     )  # fmt: skip
 
 

@@ -65,7 +65,7 @@ class Load(Block):
         Text(
             "Seat of the hub or ring that carries the load: tight, with the notch effect of a press fit, loose (g6, h6), or none: cut on "
                 "the shaft, or a force alone")] = "tight"
-    mass: Annotated[float, Quantity("m_i", "kg", "Mass that turns there, for the critical speed", ge=0)] = 0
+    mass: Annotated[float, Quantity("m_i", "kg", "Mass that turns there, for the critical speed, and for its weight with downwards", ge=0)] = 0
 
 
 class LoadCase(Block):
@@ -120,6 +120,8 @@ class Shaft(Inputs):
     rotation: Annotated[Any,
         Varying("θ", "deg", "Motion of the shaft under its loads: turning, none, or by reference a curve of its angle over the cycle",
             words=("turning", "none"))] = "turning"
+    downwards: Annotated[float | None,
+        Quantity("ζ_g", "deg", "Direction of gravity, from y towards z; without it the weights of the loads are left out", ge=-360, le=360)] = None
     turns_per_cycle: Annotated[int, Quantity("k_T", "1", "Revolutions of the shaft per cycle of its loads", ge=1, le=1000, integer=True)] = 1
     speed: Annotated[float | None, Quantity("n", "rpm", "Speed of the shaft, compared with the critical one", gt=0)] = None
     required_fatigue_safety: Annotated[float, Quantity("[n_f]", "1", "Required safety factor against fatigue", ge=1)] = 1.5

@@ -18,7 +18,8 @@ from diecut_report.plugins.shaft.under_load import Array, UnderLoad
 
 CYCLE = ("loads.name", "loads.position", "loads.force_y", "loads.force_z", "loads.axial_force", "loads.torque", "loads.couple_xy",
          "loads.couple_xz", "loads.offset", "loads.mass", "loads.gear.pitch_radius", "loads.gear.pressure_angle", "loads.gear.helix_angle",
-         "loads.gear.mesh_angle", "rotation", "turns_per_cycle", "load_cases.torque", "load_cases.enters", "load_cases.leaves")
+         "loads.gear.mesh_angle", "rotation", "turns_per_cycle", "load_cases.torque", "load_cases.enters", "load_cases.leaves",
+         "downwards")
 LOADED = ("body", "cycle", "bearing_a", "bearing_b", "locating", "elastic_modulus", "shear_modulus", "density")
 CASES = ("load_cases",)
 TOOTHED = ("loads.gear.pitch_radius",)
@@ -48,8 +49,8 @@ critical = Chapter("Critical speed",
         "is hardly longer than thick the value only means that the critical speed is far above any running speed: shear, which is neglected, lowers "
         "it.")
 loads = Chapter("Loads and reactions",
-    text="Reactions are forces on the shaft. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x M = Σ F_i "
-        "(x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an interval.")
+    text="Reactions are forces on the shaft. The weights of the loads' masses act with downwards alone, that of the shaft "
+        "itself is left out. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x M = Σ F_i (x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an interval.")
 loads.prepared("cycle", lambda given: cycle(*map(given.get, CYCLE)), CYCLE, for_many=True)
 loads.prepared("under_load", lambda given: _under_load(*map(given.get, LOADED)), LOADED, for_many=True)
 _number(loads, "torque_left", "ΣT", "N*m", "Torque balance", "torque_left", OVER_CYCLE, output=False)

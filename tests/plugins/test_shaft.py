@@ -321,6 +321,20 @@ def test_reactions_over_the_cycle_are_in_balance_with_the_loads() -> None:
     )
 
 
+@pytest.mark.parametrize(("downwards", "y", "z"), [("-90 deg", 0, -1), ("0 deg", 1, 0), ("30 deg", cos(pi / 6), 0.5)])
+def test_weights_act_downwards_at_the_place_of_their_mass(downwards: str, y: float, z: float) -> None:
+    force = {"name": "rim", "position": 130, "mass": "100 kg", "force_y": 50, "offset": 40}
+    bare, weighed = (shaft(CRANKSHAFT, loads=[force], **keys) for keys in ({}, {"downwards": downwards}))
+    weight, a, b = 100 * 9.80665, number(bare, "bearing_a"), number(bare, "bearing_b")
+    share = (0.13 - a) / (b - a)
+    for axis, direction in (("y", y), ("z", z)):
+        before, after = (
+            [each.curve_samples(f"reaction_{name}_{axis}")[0, 0] for name in "ab"] for each in (bare, weighed)
+        )
+        added = np.array(after) - before
+        assert_allclose(added, [-weight * direction * (1 - share), -weight * direction * share], atol=1e-9)
+
+
 def test_the_seat_of_what_brings_a_load_weakens_the_shaft_unless_it_is_loose_or_none() -> None:
     """By DIN 743-2, R_m 900 MPa: 2.7 · 0.9^0.43 = 2.580 of 40 mm, 2.604 of 55 mm."""
     found = {seat: row(shaft(CRANKSHAFT, notches=[], loads=[GEAR | seated, CRANK]), "k_f")["load gear"]

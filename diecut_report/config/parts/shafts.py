@@ -89,6 +89,7 @@ class ShaftElements(Masses, LoadCases):
             "bearing_a": TypedValue((*first.path, "at")), "bearing_b": TypedValue((*second.path, "at")),
             "seat_a": self._seat(first), "seat_b": self._seat(second), "locating": "b" if first.keys.floating else "a",
             "loads": [load for part in shaft.parts if part.kind != "bearing" for load in self._load(part)],
+            "downwards": f"{-90 * self.sense(shaft.name)} deg",
         }  # fmt: skip
         if self.inertia_of(shaft) and self.torques_of(shaft):
             place = next(part for part in shaft.parts if self._balances(part))
