@@ -28,13 +28,17 @@ def roller_force(driven_inertia: Any, wheel_acceleration: Any, roller_distance: 
 
 
 @formula
-def force_along(roller_force: Any, crank_angle: Any, center_distance: Any, crank_ratio: Any, roller_distance: Any) -> Any:
+def force_along(
+    roller_force: Any, crank_angle: Any, center_distance: Any, crank_ratio: Any, roller_distance: Any
+) -> Any:
     """Force of the wheel on the crank along the line of centres, towards the wheel."""
     return -roller_force * center_distance * crank_ratio * np.sin(crank_angle) / roller_distance
 
 
 @formula
-def force_across(roller_force: Any, crank_angle: Any, center_distance: Any, crank_ratio: Any, roller_distance: Any) -> Any:
+def force_across(
+    roller_force: Any, crank_angle: Any, center_distance: Any, crank_ratio: Any, roller_distance: Any
+) -> Any:
     """Force of the wheel on the crank across the line of centres, the way the crank turns where it is nearest to the wheel."""
     return -roller_force * center_distance * (1 - crank_ratio * np.cos(crank_angle)) / roller_distance
 

@@ -43,7 +43,9 @@ class CurveLoad:
         load = PieceRows.of(lambda share, middle, row: self._of_shares(share, middle, none, row), own, PIECES[-1])
         shares = np.broadcast_to(lag * float(self.curve.turns) / TURN, (count, 1))[:, 0]
         followed = motor_response(load, np.ones(count), shares)
-        curve = replace(self.curve, function=lambda share, middle, row: followed.at(share, row, middle), breakpoints=own)
+        curve = replace(
+            self.curve, function=lambda share, middle, row: followed.at(share, row, middle), breakpoints=own
+        )
         one = np.ones((1, 1))
         return replace(self, curve=curve, factor=one, efficiency=one)
 
