@@ -15,6 +15,8 @@ MAX_BYTES = 300_000  # bytes of a picture
 MAX_PIXELS = 4_000_000
 MAX_ELEMENTS = 5_000
 MAX_DEPTH = 50
+MAX_LETTERS = 500  # of an attribute that the page engine searches for numbers and addresses, again from each letter
+LONG = {"d": MAX_BYTES, "points": MAX_BYTES, "style": 2000}  # attributes that may have more
 PNG, SVG = "image/png", "image/svg+xml"
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 SVG_NAMESPACE = "http://www.w3.org/2000/svg"
@@ -232,7 +234,10 @@ def _judge_repetition(text: str) -> None:
 
 
 def _judge_attribute(key: str, value: str) -> None:
-    name = key.rpartition(" ")[2]
+    space, _, name = key.rpartition(" ")
+    if not space and len(value) > LONG.get(name, MAX_LETTERS):
+        template = "has an attribute ({name}) of {count} characters; at most {most} are taken: save it as plain SVG"
+        raise PictureFault(template, name=name, count=len(value), most=LONG.get(name, MAX_LETTERS))
     if name == "viewBox" and not _is_view(value):
         raise PictureFault("does not say its size; give it a viewBox, or width and height")
     if name in ("spreadMethod", "style"):

@@ -236,6 +236,10 @@ def test_letters_that_no_page_can_hold_are_refused(letter: str) -> None:
         ("<a ping=//x href='#x'>", "<a> //x would be fetched"),
         ("<script>x</script>", "<script> would be fetched"),
         ("<noscript><img src=//x></noscript>", "<noscript> would be fetched"),
+        ('<select><meta http-equiv=refresh content="0;url=//x"></select>', "<meta> refresh would be fetched"),
+        ("<table><tr><td><SELECT\n><option><img src=//x></SELECT>", "<img> //x would be fetched"),
+        ("<select><button><style>@import '//x'</style></button></select>", "@import would be fetched"),
+        ("<style>p{x:" + 20_000 * "(" + "url(//x", "url(//x would be fetched"),
         ('<meta http-equiv="Content-Security-Policy" content="">', "has lost its Content-Security-Policy"),
     ],
 )

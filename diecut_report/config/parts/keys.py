@@ -83,6 +83,7 @@ class PinKeys(Block):
     plane: Annotated[float, size("x_p", "Middle of the bearing: beyond the disc's outer face, or from the pin's end", ge=0)]
     bearing: Annotated[str | None, Text("Designation of the pin's bearing")] = None
     limiting_speed: Annotated[float | None, Quantity("n_lim", "rpm", "Limiting speed of the pin's bearing", gt=0)] = None
+    rolling_elements: Annotated[int | None, Quantity("Z_g", "1", "Rolling elements per row of the pin's bearing", ge=5, integer=True)] = None
     allowable_deflection: Annotated[float | None, size("[y]", "Allowable deflection of the pin", gt=0)] = None
 
 

@@ -318,7 +318,11 @@ class ShaftElements(Masses, LoadCases):
             return None
         mechanism, home = part.port[0], f"shafts_{part.shaft.name}"
         path = (*part.path, "pin")
-        more = {} if pin.limiting_speed is None else {"limiting_speed": TypedValue((*path, "limiting_speed"))}
+        more = {
+            key: TypedValue((*path, key))
+            for key in ("limiting_speed", "rolling_elements")
+            if getattr(pin, key) is not None
+        }
         found = self._catalogued(f"{part.name}_pin", pin.bearing, more, (*path, "bearing"))
         found["radial_force"] = f"${{{mechanism}.{port.joint[0]}}}"
         shaft_slope = f"${{{home}.{part.name}_slope}} + " if self.is_made(home) else ""

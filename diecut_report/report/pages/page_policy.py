@@ -28,6 +28,8 @@ LINKS = re.compile(r"(https?:|mailto:|tel:|data:|#)", re.IGNORECASE)
 FETCHING_FUNCTIONS = {
     "url", "src", "image", "image-set", "-webkit-image-set", "cross-fade", "-webkit-cross-fade", "element", "attr",
 }  # fmt: skip
+_SELECT = re.compile(r"(?<=<)(/?)select(?![^\s/>])", re.IGNORECASE)
+"""A list of choices: the parser leaves out what it holds beside them, newer browsers do not."""
 _UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # characters that no page may hold
 
 
@@ -40,7 +42,9 @@ def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
 
     tree: Any = parse(page)
     advice = phrase('a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.')
-    found = [Phrase("{each} would be fetched; {advice}", each=each, advice=advice) for each in _fetched(tree)]
+    trees = [tree, *([parse(_SELECT.sub(r"\1div", page))] if _SELECT.search(page) else [])]
+    fetched = dict.fromkeys(each for one in trees for each in _fetched(one))
+    found = [Phrase("{each} would be fetched; {advice}", each=each, advice=advice) for each in fetched]
     if policy and not _is_protected(tree, policy):
         words = Phrase("The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
                        "or keep its head.", main=main)  # fmt: skip
@@ -104,19 +108,24 @@ def fetched_by_css(css: str) -> Iterator[tuple[str, int]]:
     yield from _fetched_by_tokens(tinycss2.parse_component_value_list(css, skip_comments=True))
 
 
-def _fetched_by_tokens(tokens: Iterable[Any], within: str = "") -> Iterator[tuple[str, int]]:
-    for token in tokens:
-        name = getattr(token, "lower_name", "") if token.type == "function" else ""
-        if token.type == "at-keyword" and token.lower_value == "import":
+def _fetched_by_tokens(every: Iterable[Any]) -> Iterator[tuple[str, int]]:
+    """What tokens would fetch, however deep they lie in each other."""
+    open_lists: list[tuple[Iterator[Any], str]] = [(iter(every), "")]
+    while open_lists:
+        tokens, within = open_lists[-1]
+        token = next(tokens, None)
+        if token is None:
+            open_lists.pop()
+        elif token.type == "at-keyword" and token.lower_value == "import":
             yield "@import", token.source_line
-        elif (
-            token.type == "url" or (token.type == "string" and within)
-        ) and not token.value.strip().lower().startswith(("data:", "#")):
-            yield f"{within or 'url'}({token.value[:60]}", token.source_line
+        elif token.type == "url" or (token.type == "string" and within):
+            if not token.value.strip().lower().startswith(("data:", "#")):
+                yield f"{within or 'url'}({token.value[:60]}", token.source_line
         elif token.type == "function":
-            yield from _fetched_by_tokens(token.arguments, name if name in FETCHING_FUNCTIONS else within)
+            name = token.lower_name if token.lower_name in FETCHING_FUNCTIONS else within
+            open_lists.append((iter(token.arguments), name))
         else:
-            yield from _fetched_by_tokens(getattr(token, "content", None) or (), within)
+            open_lists.append((iter(getattr(token, "content", None) or ()), within))
 
 
 # The print page as WeasyPrint takes it: read by expat where it is well-formed, since reading HTML by its rules takes a tenth of a report.
