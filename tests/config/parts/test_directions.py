@@ -42,7 +42,13 @@ def run_in(frame: str) -> Run:
     return Run(replace(config, order=order), lambda _: None)
 
 
-SENSES = {"main": -1, "geneva": 1, "rocker": 1}  # the crank of the drive is seen turning anticlockwise
+SENSES = {
+    "main": -1,
+    "geneva": 1,
+    "rocker": 1,
+    "crank": 1,
+    "pinion": -1,
+}  # the crank of the drive is seen turning anticlockwise
 
 
 def force_on(run: Run, shaft: str, part: str) -> tuple[Array, Array]:
@@ -88,6 +94,46 @@ def test_the_rollers_force_has_the_moment_of_the_torque_about_both_axes(frame: s
     assert np.abs(driving).max() > 1200
     moment = (x + right - u) * across - (y + up - v) * along
     np.testing.assert_allclose(moment, driving, atol=1e-6 * np.abs(driving).max())
+
+
+@pytest.mark.parametrize(
+    ("driver", "driven"), [(("main", "pinion"), ("crank", "wheel")), (("rocker", "sector"), ("pinion", "pinion"))]
+)
+def test_teeth_push_each_other_apart_with_one_force(driver: tuple[str, str], driven: tuple[str, str]) -> None:
+    """By the tangential force of the torque, and the radial one away from the mate, in the frame."""
+    run, forces = run_in("above"), []
+    for shaft, part in (driver, driven):
+        loads, gear = run.calculations[f"shafts_{shaft}_loads"], _gear(run, shaft, part)
+        name = f"{part}_torque" if f"{part}_torque" in loads.curves else "balance"
+        pull, angle = loads.curve_samples(name)[0] / gear["radius"], gear["angle"]
+        push = np.abs(pull) * np.tan(np.radians(20))
+        y, z = -pull * np.sin(angle) - push * np.cos(angle), pull * np.cos(angle) - push * np.sin(angle)
+        forces.append(np.array([y, SENSES[shaft] * z]))
+    size = np.hypot(*forces[0])
+    assert size.max() > 4000
+    strong = size > 0.05 * size.max()
+    ratio = -np.sum(forces[0] * forces[1], axis=0)[strong] / size[strong] ** 2  # 1 but for the losses
+    most = (
+        1.03 if shaft == "crank" else 1.2
+    )  # of a shaft that swings losses count as if it drove throughout, also where it brakes
+    assert ratio.min() > 0.95 and ratio.max() < most
+    across = np.abs(forces[0][0] * forces[1][1] - forces[0][1] * forces[1][0])[strong]
+    np.testing.assert_allclose(across / size[strong] ** 2, 0, atol=1e-9)
+
+
+def _gear(run: Run, shaft: str, part: str) -> dict[str, float]:
+    """The pitch radius of a gear, m, and where its mate stands, rad."""
+    assert run.config.parts is not None
+    load = next(each for each in run.config.tree.data["mechanisms"][f"shafts_{shaft}"]["loads"] if each["name"] == part)
+    join = next(
+        each
+        for each in run.config.parts.joins
+        if any(gear.called == f"{shaft}.{part}" for gear in (*each.drivers, *each.driven))
+    )
+    gear = next(each for each in (*join.drivers, *join.driven) if each.called == f"{shaft}.{part}")
+    angle = load["gear"]["mesh_angle"]
+    degrees = (angle["value"] if isinstance(angle, dict) else angle).split()[0]
+    return {"radius": join.radius(gear), "angle": float(np.radians(float(degrees)))}
 
 
 def test_the_couplers_force_has_the_moment_of_the_torque_about_the_rockers_axis() -> None:

@@ -16,7 +16,7 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
 from diecut_report.press import Press
-from diecut_report.results.carrying_parts import carrying_parts, is_rated
+from diecut_report.results.carrying_parts import carrying_parts, is_rated, unrated
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
 
@@ -260,29 +260,30 @@ def test_references_that_go_round_end_in_words() -> None:
     assert found and "itself" in " ".join(map(str, found))
 
 
-def test_teeth_in_mesh_push_each_other_apart_with_one_force() -> None:
-    """The torques of both gears over their radii are alike about the axes, whose mesh angles are opposite."""
-    data = whole().tree.data["mechanisms"]
-    senses = {name: data[f"shafts_{name}_loads"]["torques"][0]["ratio"] for name in ("main", "crank")}
-    signs = {name: float(str(ratio).split(" ")[0]) for name, ratio in senses.items()}
-    assert signs["main"] * signs["crank"] < 0
-    angles = [
-        load["gear"]["mesh_angle"]["value"]
-        for shaft, name in (("main", "pinion"), ("crank", "wheel"))
-        for load in data[f"shafts_{shaft}"]["loads"]
-        if load["name"] == name
-    ]
-    assert abs(float(angles[0].split()[0]) - float(angles[1].split()[0])) == pytest.approx(180)
-
-
-def test_54_parts_carry_load_and_have_a_method_and_three_of_them_no_load_that_is_known() -> None:
+def test_54_parts_carry_load_and_each_has_a_calculation() -> None:
     every = list(carrying_parts(parts(), whole().named("drive_train")))
     assert len(every) == 54
-    assert [part.name for part in every if part.calculation not in whole().kinds] == [
-        "flywheel.rim.key",
-        "far.left.key",
-        "far.right.key",
-    ]
+    assert not [part.name for part in every if part.calculation not in whole().kinds]
+
+
+def test_what_carries_load_without_a_method_is_not_rated() -> None:
+    text = TEXT.replace(
+        "hub: 60, key: 50}\n      - {gear: pinion, at: 330", "hub: 60, bolted: true}\n      - {gear: pinion, at: 330", 1
+    )
+    text = text.replace("at: 130, hub: 80, key: 70, mass: 6 kg", "at: 130, hub: 80, interference: 0.05, mass: 6 kg", 1)
+    config, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    assert not problems and config.parts is not None
+    told = {
+        str(each.why)
+        for each in unrated(config.parts, config.named("drive_train"), {}, "")
+        if "no method" in str(each.why)
+    }
+    assert {
+        "main.wheel: no method rates its bolts",
+        "crank.clutch: no method rates its press fit",
+        "crank.disc: no method rates the press fit of its pin",
+        "rocker.arm: no method rates its body",
+    } <= told
 
 
 def test_what_is_doubtful_is_told_by_path_and_line_as_results_say_the_same_wherever_the_file_stands() -> None:
