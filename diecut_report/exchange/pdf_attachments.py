@@ -53,8 +53,10 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
 
 
 def opened(content: bytes) -> pikepdf.Pdf:
-    """Return a PDF as it stands: what is damaged is not repaired."""
-    return pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True)
+    """Return a PDF as it stands: what is damaged is not repaired, and what all sheets have in common stays where it is written."""
+    return pikepdf.open(
+        io.BytesIO(content), attempt_recovery=False, suppress_warnings=True, inherit_page_attributes=False
+    )
 
 
 @cache

@@ -212,6 +212,12 @@ def turned(root: Any) -> Any:
     return sheet
 
 
+def turned_together(root: Any) -> Any:
+    """The list of the sheets, whose turning all of them inherit."""
+    root["/Pages"][NameObject("/Rotate")] = NumberObject(90)
+    return root["/Pages"]
+
+
 def cropped(root: Any) -> Any:
     sheet = root["/Pages"]["/Kids"][0]
     sheet["/MediaBox"][3] = NumberObject(300)
@@ -323,6 +329,7 @@ OF_PDF = (
             told_by("xref\n{number} 1\n{first}\n"), PAGES),
     Forgery("the same, which no table names", told_by("xref\n0 1\n0000000000 65535 f \n"), PAGES),
     Forgery("a sheet, turned", added(turned), PAGES),
+    Forgery("all sheets, turned in their list", added(turned_together), PAGES),
     Forgery("a sheet, cut smaller", added(cropped), PAGES),
     Forgery("a sheet, taken out", added(without_sheet), PAGES),
     Forgery("letters that are copied and found as others", added(other_letters), PAGES),

@@ -26,6 +26,7 @@ from tests.exchange.forgeries import (
     later,
     moved_field,
     turned,
+    turned_together,
     with_action,
     with_other_results,
     without_sheet,
@@ -158,7 +159,9 @@ def test_an_object_that_is_written_again_as_it_was_is_no_change(signed: Path) ->
     assert found[0].holds and "added to the file after the last signature" in found[1].words
 
 
-@pytest.mark.parametrize("change", [turned, without_sheet, with_other_results, moved_field, filled_field, with_action])
+@pytest.mark.parametrize(
+    "change", [turned, turned_together, without_sheet, with_other_results, moved_field, filled_field, with_action]
+)
 def test_an_object_that_is_changed_after_signing_is_told(signed: Path, change: Callable[[Any], Any]) -> None:
     found = next(iter(signatures(later(signed.read_bytes(), change))))
     assert not found.holds and "the document has been changed since" in found.words
