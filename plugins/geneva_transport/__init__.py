@@ -26,7 +26,8 @@ MECHANISM = Mechanism(
                  "sheet_acceleration_max", "sheet_force", "torque_peak", "roller_force_peak", "contact_pressure", "arm_tip", "sheet_play"),
     ports=(
         Port(name="crank", torque="torque", forces=("roller_force",), speed="crank_speed"),
-        Port(name="wheel", torque="wheel_acceleration", forces=("roller_force",), opposite=True, angle="wheel_angle", advance="slots",
+        Port(name="wheel", torque="wheel_acceleration", forces=("roller_force",), opposite=True, angle="wheel_angle",
+             acceleration="wheel_acceleration", advance="slots",
              fills={"gear_ratio": "ratio", "sprocket_teeth": "teeth", "chain_pitch": "pitch", "driven_inertia": "inertia"}),
     ),
     checks=CHECKS,

@@ -215,6 +215,8 @@ class Demands:
                 "turns_per_sheet": "main",
                 "ratio": Ratio(-1),
             }
+        elif (mechanism := self._rolled_by(driven)) is not None:
+            demand = self._source("", mechanism, "pinion_moment", -1)
         else:
             demand = self._added(self.torques_of(driven))
         if demand is None:
@@ -225,6 +227,17 @@ class Demands:
                 TypedValue((*join.path, "efficiency")) if "efficiency" in self._raw(join.path) else join.keys.efficiency
             )
         return found
+
+    def _rolled_by(self, shaft: MachineShaft) -> str | None:
+        """The mechanism whose cylinder the chains of a shaft roll; None of other shafts."""
+        moves = (
+            join.keys.moves or ""
+            for part in shaft.parts
+            for join in self.parts.joins_of(part)
+            if isinstance(join.keys, ChainKeys)
+        )
+        names = (mechanism for mechanism, _, what in (each.partition(".") for each in moves) if what == "cylinder")
+        return next((name for name in names if self.parts.mechanisms.get(name) == "cylinder_drive"), None)
 
     def _added(self, every: list[dict[str, Any]]) -> dict[str, Any] | None:
         """The demands of several parts of one curve as one, such as of two chains side by side; None where they are unlike."""
@@ -238,12 +251,12 @@ class Demands:
         return first | {"ratio": Ratio(-1, first["ratio"].factors), "inertia": inertia}
 
     def inertia_of(self, shaft: MachineShaft) -> dict[str, Any] | None:
-        """Return the torque that the inertia of a shaft takes that turns in steps; None of others: theirs is part of their mechanism."""
+        """Return the torque that the inertia of a shaft takes that swings or turns in steps; None of others."""
         moving = self.moved_by(shaft)
-        if moving is None or not moving.port.advance or not moving.port.torque:
+        if moving is None or not moving.port.acceleration:
             return None
         factors = tuple(each.ratio_text for each in self.chain_from(moving.part.shaft.name, shaft.name))
-        found = self._source("inertia", moving.mechanism, moving.port.torque, -1)
+        found = self._source("inertia", moving.mechanism, moving.port.acceleration, -1)
         return found | {"ratio": Ratio(-1, factors), "inertia": f"${{shafts_{shaft.name}_body.inertia}}"}
 
     def torques_of(self, shaft: MachineShaft) -> list[dict[str, Any]]:
@@ -257,7 +270,7 @@ class Demands:
         mechanism, _, what = (join.keys.moves or "").partition(".")
         kind = self.parts.mechanisms.get(mechanism)
         if kind == "cylinder_drive" and what == "cylinder":
-            return self._source("", mechanism, "total_moment", -1) | {"ratio": Ratio(-1 / share)}
+            return self._source("", mechanism, "cylinder_moment", -1) | {"ratio": Ratio(-1 / share)}
         wheels = (
             part
             for each in self.parts.shafts.values()

@@ -69,6 +69,10 @@ class Elements(ShaftElements):
             ),
             None,
         )
+        if what in ("own_inertia", "driven_inertia"):
+            own, driven = (f"shafts_{each.name}_body" for each in (part.shaft, last))
+            is_known = mesh is not None and self.is_made(own) and self.is_made(driven)
+            return f"${{{own if what == 'own_inertia' else driven}.inertia}}" if is_known else None
         if what == "ratio":
             return mesh.ratio_text.strip("()") if mesh else None
         if what == "pinion_radius" and mesh:
