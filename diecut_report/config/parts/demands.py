@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
 from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
+from diecut_report.mechanics.timing.intervals import exact_turns
 from diecut_report.mechanism.mechanism import Mechanism, Port
 
 USUAL_STEPS = 6  # of a Geneva wheel whose slots are not typed
@@ -163,8 +164,8 @@ class Demands:
         for index, line in enumerate(lines if isinstance(lines, list) else []):
             if isinstance(line, dict) and line.get("mechanism") == mechanism:
                 try:
-                    turns = Fraction(str(line.get("turns_per_sheet", "1")).replace(" ", ""))
-                except (ValueError, ZeroDivisionError):
+                    turns = exact_turns(str(line.get("turns_per_sheet", "1")))
+                except ValueError:
                     turns = Fraction(1)
                 return turns, f"${{{timing}.line_offset.{index}}}"
         return Fraction(1), "0 deg"
@@ -257,7 +258,7 @@ class Demands:
             return None
         factors = tuple(each.ratio_text for each in self.chain_from(moving.part.shaft.name, shaft.name))
         found = self._source("inertia", moving.mechanism, moving.port.acceleration, -1)
-        return found | {"ratio": Ratio(-1, factors), "inertia": f"${{shafts_{shaft.name}_body.inertia}}"}
+        return found | {"ratio": Ratio(-1, factors), "inertia": f"${{{shaft.body}.inertia}}"}
 
     def torques_of(self, shaft: MachineShaft) -> list[dict[str, Any]]:
         """Return all torques on a shaft but the one that balances them; none where its parts take none."""
@@ -286,9 +287,7 @@ class Demands:
 
     def _conveyor_inertia(self, chain: Join) -> str:
         """The inertia of a conveyor and the far shaft at its sprockets' shaft."""
-        far = "".join(
-            f" + ${{shafts_{each}_body.inertia}}" for each in dict.fromkeys(part.shaft.name for part in chain.driven)
-        )
+        far = "".join(f" + ${{{each}.inertia}}" for each in dict.fromkeys(part.shaft.body for part in chain.driven))
         return f"${{drive_line.{chain.name}_chain_mass}} * (${{drive_line.{chain.name}_chain_travel}} / 1 rad)**2{far}"
 
     def _raw(self, path: KeyPath) -> Mapping[str, Any]:
