@@ -13,7 +13,7 @@ from diecut_report.text.phrases import phrase
 CASE_NAMES = {"engage": phrase("engagement of the clutch"), "start": phrase("start of the motor"), "stop": phrase("stop by the brake")}  # fmt: skip
 """What load cases are called, by their names in a configuration."""
 RUN = phrase("run")
-GREATEST = "the one with the greatest torque, the run where none exceeds its"
+GREATEST = "that with the greatest torque"
 """How the governing load case is found."""
 
 

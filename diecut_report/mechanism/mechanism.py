@@ -188,10 +188,11 @@ class Port:
     other one's, and across it, to the left where the turning shaft turns anticlockwise; a single one acts along the line. ``opposite`` where
     they act the other way.
     ``angle`` is that of a shaft which swings or turns in steps, ``backwards`` where it is counted against the turning of the other shaft.
+    ``acceleration`` is its angular acceleration, by which the inertia of what turns with it counts.
     ``speed`` is the input with the speed of one that turns. ``joint`` are the force in the joint of its pin and the angle that the joint's
     parts turn by, nothing where they turn with the shaft. ``advance`` is the input whose reciprocal is the part of a revolution by which a
     shaft that turns in steps has moved on after a cycle. ``fills`` gives inputs of the mechanism by what the shaft's join provides: ratio,
-    pinion_radius, teeth, pitch, inertia.
+    pinion_radius, teeth, pitch, inertia, and by the shafts' own: own_inertia, driven_inertia.
     """
 
     name: str
@@ -200,6 +201,7 @@ class Port:
     opposite: bool = False
     angle: str = ""
     backwards: bool = False
+    acceleration: str = ""
     speed: str = ""
     joint: tuple[str, str] = ("", "")
     advance: str = ""

@@ -27,25 +27,24 @@ class CarryingPart:
 def carrying_parts(parts: MachineParts, train: str | None) -> Iterator[CarryingPart]:
     """Yield the parts that carry load and have a method: shafts, pins, bearings, keys, meshes, chains, belts."""
     for shaft in (each for each in parts.shafts.values() if each.is_rated and each.sections):
-        home = f"shafts_{shaft.name}"
-        yield CarryingPart(shaft.name, _dotted(shaft.path), home)
+        yield CarryingPart(shaft.name, _dotted(shaft.path), shaft.calculation)
         for part in shaft.parts:
-            yield from _of_part(part, home)
+            yield from _of_part(part)
     for join in parts.joins:
-        calculation = (train or "") if join.word == "belts" else f"{join.word}_{join.name}"
+        calculation = (train or "") if join.word == "belts" else join.calculation
         yield CarryingPart(join.name, _dotted(join.path), calculation)
 
 
-def _of_part(part: ShaftPart, home: str) -> Iterator[CarryingPart]:
+def _of_part(part: ShaftPart) -> Iterator[CarryingPart]:
     path, accepted = _dotted(part.path), part.keys.accepted.by if part.keys.accepted else ""
     if part.kind == "bearing":
-        yield CarryingPart(part.called, path, f"{home}_bearings", accepted)
+        yield CarryingPart(part.called, path, part.shaft.bearing_calculation, accepted)
     if part.keys.key:
-        yield CarryingPart(f"{part.called}.key", path, f"{home}_{part.name}_key", accepted)
+        yield CarryingPart(f"{part.called}.key", path, part.calculation("key"), accepted)
     if part.keys.pin is not None:
-        yield CarryingPart(f"{part.called}.pin", path, f"{home}_{part.name}_pin", accepted)
+        yield CarryingPart(f"{part.called}.pin", path, part.calculation("pin"), accepted)
         if part.keys.pin.bearing:
-            yield CarryingPart(f"{part.called}.pin.bearing", path, f"{home}_bearings", accepted)
+            yield CarryingPart(f"{part.called}.pin.bearing", path, part.shaft.bearing_calculation, accepted)
 
 
 def _dotted(path: Sequence[str | int]) -> str:

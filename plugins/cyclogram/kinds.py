@@ -43,7 +43,7 @@ class Energy:
 ENERGIES = {
     "cylinder_drive": Energy(
         ("cylinder_rotation", "cylinder_speed"),
-        ("reduced_inertia", "cylinder_radius", "static_unbalance"),
+        ("moved_inertia", "cylinder_radius", "static_unbalance"),
         lambda turned, speed, inertia, radius, unbalance: (
             (inertia + 2 * radius * unbalance * np.cos(turned)) * speed**2 / 2
         ),

@@ -128,8 +128,8 @@ def of_part(row: Any, index: int) -> Any:
 
 def turns_of(text: str, key: str) -> Fraction:
     try:
-        return exact_turns(Fraction(text.replace(" ", "")))
-    except (ValueError, ZeroDivisionError):
+        return exact_turns(text)
+    except ValueError:
         message = Phrase(
             "is “{text}”; a number or a ratio above zero such as 1/2 is needed, with a denominator of at most 64",
             text=text,

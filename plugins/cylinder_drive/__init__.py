@@ -29,7 +29,8 @@ MECHANISM = Mechanism(
         Port(name="crank", torque="crank_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), speed="crank_speed",
              joint=("coupler_force", "")),
         Port(name="rocker", torque="rocker_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), opposite=True, angle="rocker_angle",
-             joint=("coupler_force", "transmission_angle"), fills={"sector_ratio": "ratio", "pinion_radius": "pinion_radius"}),
+             acceleration="rocker_acceleration", joint=("coupler_force", "transmission_angle"),
+             fills={"sector_ratio": "ratio", "pinion_radius": "pinion_radius", "pinion_inertia": "driven_inertia", "rocker_inertia": "own_inertia"}),
     ),
     checks=(
         Check(id="grashof", check_class="function", title="Crank-rocker (Grashof)",
@@ -82,7 +83,8 @@ MECHANISM = Mechanism(
         "The technological moment is constant over the cutting part of the stroke, counted in rolled length, and resists the motion "
         "on both strokes.",
         "One efficiency per transmission, the same in both directions of power.",
-        "Mass and inertia of the links, the sector and the pinion are not included: their contribution to torque and forces is additional.",
+        "Mass and inertia of the links are not included, those of the shafts of pinion and rocker where they are given: their contribution to "
+        "torque and forces is additional.",
     ),
     sources=(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "

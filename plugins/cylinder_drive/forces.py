@@ -11,6 +11,8 @@ from diecut_report.plugins.cylinder_drive.linkage import TECHNOLOGICAL
 
 # fmt: off
 
+SHAFTS = ("pinion_inertia", "rocker_inertia")
+
 moments = Chapter("Moments on the cylinder", text="The flat is down at θ = 0; the technological moment always resists the motion.")
 moments.value("reduced_inertia", "I_r", "kg*m**2", "Equivalent inertia of the rolling cylinder, translation included", loads.reduced_inertia,
     source="000 eq. 12")
@@ -19,8 +21,27 @@ moments.value("greatest_unbalance", "me_max", "kg*m", "Unbalance if the centre o
 moments.value("inertia_moment", "M_in", "N*m", "Moment of inertia forces and unbalance", loads.inertia_moment,
     source="000 eq. 12, with the unbalance")
 moments.add(TECHNOLOGICAL)
-moments.value("total_moment", "M_Σ", "N*m", "Moment on the cylinder's axis",
-    lambda inertia_moment, technological_moment, direction: inertia_moment + technological_moment * direction, source="000 eq. 11, 20, corrected")
+for id, symbol, words, when in (("total_moment", "M_Σ", "Moment on the cylinder's axis", {"lacks": SHAFTS}),
+                                ("cylinder_moment", "M_c", "Moment on the cylinder's axis, of the cylinder alone", {"needs": SHAFTS})):
+    moments.value(id, symbol, "N*m", words,
+        lambda inertia_moment, technological_moment, direction: inertia_moment + technological_moment * direction,
+        source="000 eq. 11, 20, corrected", **when)
+moments.value("pinion_moment", "M_p", "N*m", "Moment on the pinion, with the inertia of its shaft",
+    lambda cylinder_moment, pinion_inertia, cylinder_acceleration: cylinder_moment + pinion_inertia * cylinder_acceleration, needs=SHAFTS,
+    source="this method")
+moments.value("total_moment", "M_Σ", "N*m", "Moment on the cylinder's axis, with the inertia of the shafts of pinion and rocker",
+    lambda pinion_moment, rocker_inertia, sector_ratio, cylinder_acceleration:
+        pinion_moment + rocker_inertia / sector_ratio**2 * cylinder_acceleration, needs=SHAFTS, source="this method")
+for id, symbol, words in (("cylinder_moment", "M_c", "Moment on the cylinder's axis, of the cylinder alone"),
+                          ("pinion_moment", "M_p", "Moment on the pinion")):
+    moments.value(id, symbol, "N*m", words, lambda total_moment: total_moment, lacks=SHAFTS, output=False, printed=False)
+moments.value("moved_inertia", "I_Σ", "kg*m**2", "Equivalent inertia at the cylinder, with the shafts of pinion and rocker",
+    lambda reduced_inertia, pinion_inertia, rocker_inertia, sector_ratio: reduced_inertia + pinion_inertia + rocker_inertia / sector_ratio**2,
+    needs=SHAFTS, source="energy")
+moments.value("moved_inertia", "I_Σ", "kg*m**2", "Equivalent inertia at the cylinder", lambda reduced_inertia: reduced_inertia, lacks=SHAFTS,
+    output=False, printed=False)
+moments.value("rocker_acceleration", "ε_3", "rad/s**2", "Angular acceleration of the rocker",
+    lambda cylinder_acceleration, sector_ratio: cylinder_acceleration / sector_ratio, output=False, needs=SHAFTS, source="kinematics")
 moments.crossings("flank_change", "φ_f", "deg", "Crank angle at which the teeth of sector and pinion change flanks", of="total_moment")
 moments.breakpoints("losses", "crank_angle", "flank_change")
 moments.reduction("inertia_moment_max", "M_in,max", "N*m", "Maximum moment of inertia forces", "max", of="inertia_moment")
@@ -54,8 +75,8 @@ energy = Chapter("Energy balance",
 energy.reduction("energy_turn", "E", "J", "Energy over a revolution without losses", "integral", of="lossless_torque", output=False)
 energy.value("technological_work", "E_t", "J", "Work of the technological moment, two strokes",
     lambda cutting_arc_fraction, cutting_moment, sector_ratio, swing_angle: 2 * cutting_arc_fraction * cutting_moment * sector_ratio * swing_angle)
-energy.value("kinetic_energy_max", "E_k", "J", "Maximum kinetic energy of the cylinder, without the unbalance",
-    lambda reduced_inertia, velocity_max, cylinder_radius: reduced_inertia * (velocity_max / cylinder_radius) ** 2 / 2)
+energy.value("kinetic_energy_max", "E_k", "J", "Maximum kinetic energy of the cylinder and of the shafts that swing with it, without the unbalance",
+    lambda moved_inertia, velocity_max, cylinder_radius: moved_inertia * (velocity_max / cylinder_radius) ** 2 / 2)
 energy.value("energy_residual", "r_E", "1", "Relative difference between energy and work",
     lambda energy_turn, technological_work, kinetic_energy_max:
         abs(energy_turn - technological_work) / np.maximum(technological_work, kinetic_energy_max))
@@ -104,11 +125,12 @@ clearance.phase("carriage_window", "window", "Clearance for the carriages", "cra
 
 teeth = Chapter("Tooth force of the sector",
     text="The pinion's shaft is fixed in the frame and turns with the cylinder, and a chain moves the carriages of the cylinder: the power at the "
-        "teeth is that at the cylinder, so the moment on the pinion is M_Σ. Losses between the teeth and the cylinder are not included: where the "
-        "crank drives, the load on the teeth is higher by the losses of chain and bearings.", needs=("pinion_radius",),
+        "teeth is that at the cylinder, so the moment on the pinion is M_Σ, without the inertia of the rocker's shaft where that is given. Losses "
+        "between the teeth and the cylinder are not included: where the crank drives, the load on the teeth is higher by the losses of chain and "
+        "bearings.", needs=("pinion_radius",),
     absent="not calculated: pinion_radius is not given")
 teeth.value("sector_radius", "r_s", "mm", "Pitch radius of the sector", bind(loads.length_of, ratio="sector_ratio", crank_length="pinion_radius"))
-teeth.value("tooth_force", "F_t", "kN", "Tangential force between the teeth", lambda total_moment, pinion_radius: total_moment / pinion_radius)
+teeth.value("tooth_force", "F_t", "kN", "Tangential force between the teeth", lambda pinion_moment, pinion_radius: pinion_moment / pinion_radius)
 teeth.value("tooth_normal_force", "F_n", "kN", "Force normal to the flanks", lambda tooth_force, pressure_angle: tooth_force / np.cos(pressure_angle))
 teeth.reduction("tooth_force_max", "F_t,max", "kN", "Maximum tangential force", "abs_max", of="tooth_force")
 teeth.reduction("tooth_normal_force_max", "F_n,max", "kN", "Maximum force normal to the flanks", "abs_max", of="tooth_normal_force")

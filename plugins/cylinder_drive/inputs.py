@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, formula
+from diecut_report.api import POINTS, Annotated, FromPress, Inputs, OneOf, Quantity, formula
 
 # fmt: off
 
@@ -24,6 +24,8 @@ def _efficiency(index: str, of: str) -> Quantity:
 class CylinderDrive(Inputs):
     """Keys of ``cylinder_drive``."""
 
+    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("pinion_inertia", "rocker_inertia"), optional=True),)
+
     frame_ratio: Annotated[float, Quantity("λ_1", "1", "Frame-to-crank ratio, d/a", gt=0)] = 5.0
     coupler_ratio: Annotated[float, Quantity("λ_2", "1", "Coupler-to-crank ratio, b/a", gt=0)] = 5.0
     rocker_ratio: Annotated[float, Quantity("λ_3", "1", "Rocker-to-crank ratio, c/a", gt=0)] = 2.05
@@ -37,6 +39,10 @@ class CylinderDrive(Inputs):
     cylinder_length: Annotated[float, Quantity("L", "mm", "Length of the cylinder's generatrix", gt=0)]
     cylinder_mass: Annotated[float, Quantity("m", "kg", "Mass of the cylinder", gt=0)]
     cylinder_inertia: Annotated[float, Quantity("I", "kg*m**2", "Moment of inertia of the cylinder about its axis", gt=0)]
+    pinion_inertia: Annotated[float | None,
+        Quantity("J_p", "kg*m**2", "Moment of inertia of the pinion's shaft with its parts", ge=0)] = None
+    rocker_inertia: Annotated[float | None,
+        Quantity("J_r", "kg*m**2", "Moment of inertia of the shaft of rocker and sector with its parts", ge=0)] = None
     cutting_force_per_length: Annotated[float, Quantity("q_a", "N/mm", "Cutting force per unit length of the rules", ge=0)] = 25
     ejection_force_per_length: Annotated[float, Quantity("q_e", "N/mm", "Force of the ejection material per unit length", ge=0)] = 5
     material_thickness: Annotated[float | None,

@@ -17,10 +17,10 @@ from diecut_report.api import (
     Quantity,
     Source,
     Text,
-    as_number,
     bind,
     formula,
 )
+from diecut_report.mechanics import drive_line as formulas
 
 # fmt: off
 
@@ -98,21 +98,17 @@ turning.value("speed", "n", "rpm", "Speed of the shaft", bind(lambda ratio, refe
 turning.part_table("shafts_table", "Shafts", "shafts", ("speed",))
 
 joins = Chapter("Gears, chains and belts", needs=("meshes",))
-OF_MESH = {key: f"meshes.{key}" for key in ("module", "helix_angle", "teeth_1", "teeth_2")}
 joins.value("mesh_ratio", "i_z", "1", "Speed of the driven gear for each of the driving one",
-    bind(lambda teeth_1, teeth_2: teeth_1 / teeth_2, teeth_1="meshes.teeth_1", teeth_2="meshes.teeth_2"), source="kinematics", named_by="meshes.name")
-joins.value("radius_1", "r_1", "mm", "Pitch radius of the driving gear",
-    bind(lambda module, teeth_1, helix_angle: module * teeth_1 / (2 * np.cos(helix_angle)),
-        **{key: OF_MESH[key] for key in ("module", "teeth_1", "helix_angle")}), source="ISO 21771", output=False)
-joins.value("radius_2", "r_2", "mm", "Pitch radius of the driven gear",
-    bind(lambda module, teeth_2, helix_angle: module * teeth_2 / (2 * np.cos(helix_angle)),
-        **{key: OF_MESH[key] for key in ("module", "teeth_2", "helix_angle")}), source="ISO 21771", output=False)
-joins.value("center_distance", "a", "mm", "Centre distance", lambda radius_1, radius_2: radius_1 + radius_2,
-    source="ISO 21771", named_by="meshes.name")
+    bind(formulas.speed_ratio, driving="meshes.teeth_1", driven="meshes.teeth_2"), source="kinematics", named_by="meshes.name")
+for number, gear in ((1, "driving"), (2, "driven")):
+    joins.value(f"radius_{number}", f"r_{number}", "mm", f"Pitch radius of the {gear} gear",
+        bind(formulas.pitch_radius, module="meshes.module", teeth=f"meshes.teeth_{number}", helix_angle="meshes.helix_angle"), source="ISO 21771",
+        output=False, named_by="meshes.name")
+joins.value("center_distance", "a", "mm", "Centre distance", formulas.center_distance, source="ISO 21771", named_by="meshes.name")
 joins.part_table("meshes_table", "Pairs of gears", "meshes", ("mesh_ratio", "radius_1", "radius_2", "center_distance"))
 drives = Chapter("Chains", needs=("chains",))
 drives.value("chain_travel", "v_φ", "mm", "Travel of the chain per radian of the driving sprocket",
-    bind(lambda teeth, pitch: teeth * pitch / (2 * as_number(np.pi)), teeth="chains.teeth_1", pitch="chains.pitch"), source="kinematics",
+    bind(formulas.chain_travel, teeth="chains.teeth_1", pitch="chains.pitch"), source="kinematics",
     named_by="chains.name")
 drives.value("chain_length", "L_c", "mm", "Length of the chain", bind(lambda links, pitch: links * pitch, links="chains.links", pitch="chains.pitch"),
     source="geometry", named_by="chains.name")
@@ -126,7 +122,7 @@ drives.value("chain_pull", "F_0", "N", "Load of all chains at rest on the shaft 
 drives.part_table("chains_table", "Chains", "chains", ("chain_travel", "chain_length", "chain_mass", "chain_pull"))
 rolling = Chapter("Rolling of the cylinder", needs=("rolling",))
 rolling.value("rolling_travel", "v_R", "mm", "Travel of the chain per radian of its sprocket",
-    bind(lambda teeth, pitch: teeth * pitch / (2 * as_number(np.pi)), teeth="rolling.teeth", pitch="rolling.pitch"),
+    bind(formulas.chain_travel, teeth="rolling.teeth", pitch="rolling.pitch"),
     source="kinematics", output=False)
 rolling.value("rolling_error", "ε_R", "%", "Relative difference of travel and radius: the cylinder slips on the board by that much",
     bind(lambda rolling_travel, radius: abs(rolling_travel / radius - 1), radius="rolling.radius"), source="kinematics", output=False)
@@ -136,7 +132,7 @@ rolling.require("rolls", lambda rolling_error: rolling_error <= 0.005, key="roll
         "0.5 %; take other teeth, or another radius")
 belts = Chapter("V-belts", needs=("belts",))
 belts.value("belt_ratio", "i_b", "1", "Speed of the driving pulley for each of the driven one, without creep",
-    bind(lambda large, small: large / small, large="belts.diameter_2", small="belts.diameter_1"), source="kinematics", named_by="belts.name")
+    bind(formulas.speed_ratio, driving="belts.diameter_2", driven="belts.diameter_1"), source="kinematics", named_by="belts.name")
 belts.part_table("belts_table", "V-belts", "belts", ("belt_ratio",))
 
 EXAMPLE = ExampleBlock("drive_line", {

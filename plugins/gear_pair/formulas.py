@@ -50,12 +50,6 @@ def distance_coefficient(teeth_1: Any, teeth_2: Any, helix_angle: Any, alpha: An
 
 
 @formula
-def reference_diameter(module: Any, teeth: Any, helix_angle: Any) -> Any:
-    """Diameter of the reference circle."""
-    return module * teeth / np.cos(helix_angle)
-
-
-@formula
 def tip_thickness(tip_diameter: Any, half_thickness: Any, helix_angle: Any, reference_diameter: Any) -> Any:
     """Normal thickness of the tooth at its tip; ``half_thickness`` is half of it as an angle."""
     helix_at_tip = np.arctan(np.tan(helix_angle) * tip_diameter / reference_diameter)

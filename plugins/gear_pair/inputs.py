@@ -16,7 +16,7 @@ class Sector(Block):
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Number of teeth of the sector", ge=1, integer=True)] = None
 
 
-class LoadCase(Block):
+class MeshLoadCase(Block):
     """A load case beside the run."""
 
     name: Annotated[Literal["engage", "start", "stop"], Text("Engagement of the clutch, start of the motor, or stop by the brake")]
@@ -61,7 +61,7 @@ class ExternalGearPair(Inputs):
     torque: Annotated[float | None, Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is used as torque_curve")] = None
     torque_curve: Annotated[Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")] = None
     torque_on: Annotated[Literal["pinion", "wheel"], Text("Gear on which the torque acts")] = "pinion"
-    load_cases: Annotated[list[LoadCase], Text("Load cases beside the run: for the tooth root, and for pitting where they are frequent")] = []  # noqa: RUF012
+    load_cases: Annotated[list[MeshLoadCase], Text("Load cases beside the run: for the tooth root, and for pitting where they are frequent")] = []  # noqa: RUF012
     speed: Annotated[float | None,
         Quantity("n_1", "rpm", "Speed of the pinion, the greatest one; required for pitch line velocity and power", gt=0)] = None
     grade: Annotated[int | None,

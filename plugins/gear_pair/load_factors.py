@@ -103,8 +103,8 @@ for g in TEETH:
     for of, share in (("case_hardened", 0.15), ("grey_iron", 0.55)):
         accuracy.value(f"run_in_share_{g}", f"η_β{g}", "1", f"Share of a helix deviation that gear {g} loses by running in",
             bind(lambda share: share, share=share), needs=(f"{flanks}={of}",), source=f"{ISO}, 7", output=False)
-    for end, symbol, speed in (("slow", "s", 5), ("fast", "f", 10)):
-        accuracy.lookup(f"run_in_{end}_{g}", f"v_{symbol}{g}", "m/s", f"Pitch line velocity up to which gear {g} runs in {end}ly",
+    for end, symbol, speed, words in (("slow", "s", 5, "whatever the deviation"), ("fast", "f", 10, "deviations of up to 80 µm")):
+        accuracy.lookup(f"run_in_{end}_{g}", f"v_{symbol}{g}", "m/s", f"Pitch line velocity up to which gear {g} runs in {words}",
             {"through_hardened": speed, "case_hardened": 0, "grey_iron": speed}, by=flanks, source=f"{ISO}, 7", output=False)
 
 dynamic = Chapter("Dynamic load", needs=CALCULATED, text="Method C: below the resonance, for the worse grade of the pair.")
@@ -158,7 +158,7 @@ for g in TEETH:
     transverse.value(f"run_in_pitch_{g}", f"f_p{g}", "um", f"Pitch deviation that gear {g} reduces by running in",
         bind(f.run_in_deviation, deviation="pitch_deviation", velocity="pitch_velocity", slow=f"run_in_slow_{g}", fast=f"run_in_fast_{g}"),
         source=f"{ISO}, 8", output=False, **TYPED)
-transverse.value("pitch_run_in", "f_pbe", "um", "Base pitch deviation after running-in, which is half of that of a helix deviation",
+transverse.value("pitch_run_in", "f_pbe", "um", "Base pitch deviation after running-in, which takes half of the share of a helix deviation",
     lambda pitch_deviation, run_in_share_1, run_in_pitch_1, run_in_share_2, run_in_pitch_2:
         pitch_deviation - (run_in_share_1 * run_in_pitch_1 + run_in_share_2 * run_in_pitch_2) / 4, source=f"{ISO}, 8", output=False, **TYPED)
 transverse.value("transverse_line_load", "w_H", "N/mm", "Greatest line load over the face width",

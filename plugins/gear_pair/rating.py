@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, as_number, bind
+from diecut_report.mechanics import drive_line
 from diecut_report.plugins.gear_pair import formulas as f
 from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, ISO_21771, TEETH
 
@@ -17,7 +18,8 @@ FOR_ROOT = FACTORS | {"face": "face_load_root", "transverse": "transverse_load_r
 
 sizes = Chapter("Dimensions")
 for g, teeth in TEETH.items():
-    sizes.value(f"pitch_diameter_{g}", f"d_{g}", "mm", f"Reference diameter of gear {g}", bind(f.reference_diameter, teeth=teeth), source=ISO_21771,
+    sizes.value(f"pitch_diameter_{g}", f"d_{g}", "mm", f"Reference diameter of gear {g}",
+        bind(drive_line.reference_diameter, teeth=teeth), source=ISO_21771,
         digits=6)
 sizes.value("reference_distance", "a_d", "mm", "Reference centre distance",
     lambda pitch_diameter_1, pitch_diameter_2: (pitch_diameter_1 + pitch_diameter_2) / 2, source=ISO_21771, output=False, digits=6)

@@ -27,7 +27,7 @@ MECHANISM = Mechanism(
     ports=(
         Port(name="crank", torque="torque", forces=("crank_force_x", "crank_force_y"), speed="crank_speed"),
         Port(name="wheel", torque="wheel_acceleration", forces=("crank_force_x", "crank_force_y"), opposite=True, angle="wheel_angle",
-             backwards=True, advance="slots",
+             backwards=True, acceleration="wheel_acceleration", advance="slots",
              fills={"gear_ratio": "ratio", "sprocket_teeth": "teeth", "chain_pitch": "pitch", "driven_inertia": "inertia"}),
     ),
     checks=CHECKS,

@@ -9,7 +9,7 @@ from diecut_report.api import POINTS, Annotated, Block, CurveInput, FromTable, I
 # fmt: off
 
 
-class LoadCase(Block):
+class KeyLoadCase(Block):
     """A load case beside the run."""
 
     name: Annotated[Literal["engage", "start", "stop"], Text("Engagement of the clutch, start of the motor, or stop by the brake")]
@@ -42,7 +42,7 @@ class ParallelKey(Inputs):
     torque: Annotated[float | None, Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is used as torque_curve")] = None
     torque_curve: Annotated[Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")] = None
     torque_peak: Annotated[float | None, Quantity("T_max", "N*m", "Rare peak of the torque; default: the maximum absolute torque", gt=0)] = None
-    load_cases: Annotated[list[LoadCase], Text("Load cases beside the run, each as a maximum torque")] = []  # noqa: RUF012
+    load_cases: Annotated[list[KeyLoadCase], Text("Load cases beside the run, each as a maximum torque")] = []  # noqa: RUF012
     application_factor: Annotated[float | None,
         Quantity("K_A", "1", "Application factor; default 1 with a curve, which includes the dynamics", ge=1)] = None
     yield_shaft: Annotated[float, Quantity("R_eW", "MPa", "Yield strength of the shaft", gt=0)]

@@ -14,12 +14,6 @@ HORSEPOWER = Constant(745.7, "hp", "W")
 
 
 @formula
-def pitch_diameter(pitch: Any, teeth: Any) -> Any:
-    """Circle through the joints of a chain on its sprocket."""
-    return pitch / np.sin(np.pi / teeth)
-
-
-@formula
 def exact_links(center: Any, pitch: Any, teeth_1: Any, teeth_2: Any) -> Any:
     """Links over two sprockets, by the formula of all catalogues."""
     return (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, bind
+from diecut_report.mechanics import drive_line
 from diecut_report.plugins.roller_chain import formulas as f
 from diecut_report.plugins.roller_chain.chains import BY_PITCH, CHAINS
 
@@ -44,7 +45,7 @@ loop.value("teeth_small", "z_s", "1", "Number of teeth of the smaller sprocket",
     source="geometry", whole=True, output=False)
 for g, teeth in TEETH.items():
     loop.value(f"sprocket_diameter_{g}", f"d_{g}", "mm", f"Pitch circle diameter of the {'driving' if g == 1 else 'driven'} sprocket",
-        bind(f.pitch_diameter, teeth=teeth), source="geometry", digits=6)
+        bind(drive_line.sprocket_diameter, teeth=teeth), source="geometry", digits=6)
 loop.value("center_least", "a_min", "mm", "Centre distance at which the sprockets touch",
     lambda sprocket_diameter_1, sprocket_diameter_2: (sprocket_diameter_1 + sprocket_diameter_2) / 2, source="geometry", output=False)
 loop.require("sprockets_apart", lambda center_distance, center_least: center_distance > center_least, key="center_distance", needs=GIVEN_DISTANCE,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Chapter, Curve, bind, case, si
+from diecut_report.mechanics import drive_line
 from diecut_report.plugins.roller_chain import formulas as f
 from diecut_report.plugins.roller_chain.chains import CHAINS
 from diecut_report.plugins.roller_chain.formulas import INCH
@@ -51,7 +52,7 @@ def _tensions(known: Known, own: Known) -> tuple[Array, Array]:
     """Greatest tension and greatest static tension with a chain, each of shape (variants, 1); NaN where it does not go round."""
     pitch, mass = own["pitch"], own["mass_per_length"]
     teeth = known["teeth_1"], known["driven_teeth"]
-    diameters = [f.pitch_diameter(pitch, z) for z in teeth]
+    diameters = [drive_line.sprocket_diameter(pitch, z) for z in teeth]
     center, links = _loop(known, pitch, teeth)
     useful, velocity, angular = _motion(known, mass, links * pitch, diameters, pitch)
     always = f.sag_tension(mass, center, known["sag"], known["inclination"])

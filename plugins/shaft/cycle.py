@@ -66,14 +66,14 @@ class Gears:
         return (-radius * np.cos(self.mesh))[:, :, None], (-radius * np.sin(self.mesh))[:, :, None]
 
 
-class LoadCase(NamedTuple):
+class PassingTorque(NamedTuple):
     """A torque (variants,) that passes the shaft from one load to another one, by their indices."""
 
     enters: int
     leaves: int
     torque: Array
 
-    def of(self, rows: Array) -> LoadCase:
+    def of(self, rows: Array) -> PassingTorque:
         """Return the load case of some variants."""
         return self._replace(torque=self.torque[rows])
 
@@ -111,7 +111,7 @@ class Cycle:
     share: Array
     middle: Array
     edges: Array
-    cases: tuple[LoadCase, ...] = ()
+    cases: tuple[PassingTorque, ...] = ()
     downwards: Array | None = None  # (variants,)
 
     @property
@@ -260,7 +260,7 @@ def cycle(
     )  # fmt: skip
 
 
-def _cases(names: Any, torques: Array, enters: Sequence[str], leaves: Sequence[str]) -> Iterator[LoadCase]:
+def _cases(names: Any, torques: Array, enters: Sequence[str], leaves: Sequence[str]) -> Iterator[PassingTorque]:
     """The load cases; Refusal where there is no load of a name, or one with both."""
     for index, (ends, torque) in enumerate(zip(zip(enters, leaves, strict=True), torques, strict=True)):
         for key, name in zip(("enters", "leaves"), ends, strict=True):
@@ -274,7 +274,7 @@ def _cases(names: Any, torques: Array, enters: Sequence[str], leaves: Sequence[s
                 f"load_cases.{index}.leaves",
                 "is the load at which the torque enters, so that none passes the shaft; name another load",
             )
-        yield LoadCase(names.index(ends[0]), names.index(ends[1]), torque)
+        yield PassingTorque(names.index(ends[0]), names.index(ends[1]), torque)
 
 
 def _unlike(joints: Iterable[Array]) -> list[Array]:

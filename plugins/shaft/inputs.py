@@ -68,7 +68,7 @@ class Load(Block):
     mass: Annotated[float, Quantity("m_i", "kg", "Mass that turns there, for the critical speed, and for its weight with downwards", ge=0)] = 0
 
 
-class LoadCase(Block):
+class ShaftLoadCase(Block):
     """A load case beside the run: a torque that passes the shaft from one load to another one."""
 
     name: Annotated[Literal["engage", "start", "stop"], Text("Engagement of the clutch, start of the motor, or stop by the brake")]
@@ -104,7 +104,7 @@ class Shaft(Inputs):
     seat_b: Annotated[Seat, Text("Seat of bearing B: tight, with the notch effect of a press fit, or loose (g6, h6)")] = "tight"
     locating: Annotated[Literal["a", "b"], Text("Bearing that takes the axial force")] = "a"
     loads: Annotated[list[Load], Text("Loads of the shaft")]
-    load_cases: Annotated[list[LoadCase], Text("Load cases beside the run, for which the shaft must not yield")] = []  # noqa: RUF012
+    load_cases: Annotated[list[ShaftLoadCase], Text("Load cases beside the run, for which the shaft must not yield")] = []  # noqa: RUF012
     material: Annotated[Literal["42CrMo4+QT", "C45E+QT", "C45E+N"] | None,
         Text("Steel, in place of its strengths (EN 10083, round bars); or an entry of steels in a table of your own")] = None
     strengths: Annotated[list[Strength], Text("Strengths of a steel by diameter, in place of its name")] = []  # noqa: RUF012

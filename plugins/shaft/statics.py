@@ -183,7 +183,10 @@ class Statics:
         found: Array = np.zeros(by_units.shape[:2])
         for direction, given in zip(across, self._given, strict=True):
             then = np.take_along_axis(given, instants.T[:, None], axis=2)
-            found += np.einsum("vpj,vjp->vp", by_units, then) * (direction / np.where(force > 0, force, 1))[:, :, 0].T
+            found += (
+                np.sum(by_units * np.swapaxes(then, 1, 2), axis=2)
+                * (direction / np.where(force > 0, force, 1))[:, :, 0].T
+            )
         return found
 
     def _resultant(self, of_units: Array) -> Array:

@@ -160,11 +160,11 @@ for name, symbol, unit, description in (("nominal_position", "x_y", "mm", "Locat
     _number(yielding, name, symbol, unit, description, name, "at the location and instant of the maximum stress, of all locations on both sides",
         output=False)
 _number(yielding, "nominal_case", "j", "1", "Load case of the maximum stress, by its place in the list; 0 is the run", "nominal_case",
-    "the one with the maximum stress", output=False, needs=CASES, printed=False)
+    "that with the maximum stress", output=False, needs=CASES, printed=False)
 YIELD_CASE = ("yield_case", "C_y", "1", "Governing load case for yield")
 yielding.computed(*YIELD_CASE, lambda index, names: [called(int(each), names) for each in index[:, 0]], ("nominal_case", "load_cases.name"),
-    "the one with the maximum stress", is_text=True, needs=CASES)
-yielding.computed(*YIELD_CASE, lambda length: [called(0)] * len(length), ("length",), "the one with the maximum stress", is_text=True, lacks=CASES,
+    "that with the maximum stress", is_text=True, needs=CASES)
+yielding.computed(*YIELD_CASE, lambda length: [called(0)] * len(length), ("length",), "that with the maximum stress", is_text=True, lacks=CASES,
     printed=False, output=False)
 yielding.value("nominal_area", "A_y", "mm**2", "Area at this location", bind(beams.circle_area, diameter="nominal_diameter", bore="nominal_bore"),
     source="geometry", output=False)

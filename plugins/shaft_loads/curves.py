@@ -175,9 +175,7 @@ def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> C
 
 def _turns(text: str, mechanism: GivenMechanism, key: str) -> Fraction:
     try:
-        if text == MAIN:
-            return exact_turns(Fraction(TURN / mechanism.period()).limit_denominator(64))
-        return exact_turns(Fraction(str(text).replace(" ", "")))
-    except (ValueError, ZeroDivisionError):
+        return exact_turns(Fraction(TURN / mechanism.period()).limit_denominator(64) if text == MAIN else text)
+    except ValueError:
         template = "is “{text}”; a number or a ratio above zero such as 1/2 is needed, with a denominator of at most 64, or main"
         raise Refusal(key, Phrase(template, text=text)) from None

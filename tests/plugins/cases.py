@@ -69,7 +69,10 @@ FULL: dict[str, dict[str, dict[str, Any]]] = {
     "cam_gear_transport": {law: PUBLISHED | LOADED | {"motion_law": law, "allowable_torque": 300, "n_points": 72} for law in LAWS},
     "circular_knife": {"worked": CIRCULAR | {"n_points": 72, "allowable_force": 20, "allowable_torque": 1}},
     "clutch": {"cooled": COOLED | {"available_force": 4000, "allowable_slip_time": 1}},
-    "cylinder_drive": {"unbalanced": PUBLISHED_DRIVE | UNBALANCED | LIMITED | {"n_points": 72}, "published": PUBLISHED_DRIVE | {"n_points": 72}},
+    "cylinder_drive": {
+        "unbalanced": PUBLISHED_DRIVE | UNBALANCED | LIMITED | {"n_points": 72, "pinion_inertia": 0.03, "rocker_inertia": 1.2},
+        "published": PUBLISHED_DRIVE | {"n_points": 72},
+    },
     "cylinder_sizing": {"published": PUBLISHED_CYLINDER, "sized": {"working_length": 500, "segment_height": 30, "generatrix_length": 700}},
     "damper": {"driven": DAMPER | {"drive": {"force": 1}, "impacts_per_hour": 3000, "allowable_force": 4000, "allowable_deceleration": 50,
                                    "allowable_heat_power": 10}},

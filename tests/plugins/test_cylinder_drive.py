@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible
@@ -48,6 +49,45 @@ def test_means_and_extremes_are_those_of_dense_sampling(changes: dict[str, Any])
     assert number(calc, "crank_torque_max") >= torque.max() * (1 - 1e-12)
     assert number(calc, "crank_torque_mean") == pytest.approx(torque[:-1].mean(), rel=1e-3)
     assert number(calc, "crank_torque_rms") == pytest.approx(np.sqrt((torque[:-1] ** 2).mean()), rel=1e-4)
+
+
+SHAFTS = {"pinion_inertia": "0.03467 kg*m**2", "rocker_inertia": "1.2606 kg*m**2", "pinion_radius": "70 mm"}
+
+
+def test_the_shafts_of_pinion_and_rocker_take_what_their_kinetic_energy_gains() -> None:
+    """By finite differences of the rocker's angle: the power at each place beside that without them."""
+    bare, whole = drive(**LOSSLESS, pinion_radius="70 mm"), drive(**LOSSLESS, **SHAFTS)
+    phi, step = np.radians([[20.0, 75.0, 131.0, 205.0, 263.0, 318.0]]), 1e-4
+    domain = whole.domains["crank_angle"]
+
+    def at(calc: Calculation, curve: str, turned: float = 0.0) -> Array:
+        return calc.sample(curve, phi + turned, domain.middle_of(phi))[0]
+
+    crank, u = number(whole, "crank_speed"), number(whole, "sector_ratio")
+    before, here, behind = (at(whole, "rocker_angle", turned) for turned in (-step, 0, step))
+    speed, acceleration = (behind - before) / (2 * step) * crank, (behind - 2 * here + before) / step**2 * crank**2
+    energy_gain = (0.03467 * u**2 + 1.2606) * speed * acceleration  # of both shafts, in W
+    assert (at(whole, "total_moment") - at(bare, "total_moment")) * speed * u == pytest.approx(energy_gain, rel=2e-4)
+    assert (at(whole, "crank_torque") - at(bare, "crank_torque")) * crank == pytest.approx(energy_gain, rel=2e-4)
+    assert at(whole, "cylinder_moment") == pytest.approx(at(bare, "total_moment"))  # which is what the chain carries
+    pinion_gain = 0.03467 * u**2 * speed * acceleration
+    tooth = (at(whole, "tooth_force") - at(bare, "tooth_force")) * 0.07 * speed * u
+    assert tooth == pytest.approx(pinion_gain, rel=2e-4)
+    assert number(whole, "moved_inertia") == pytest.approx(number(bare, "reduced_inertia") + 0.03467 + 1.2606 / u**2)
+    assert number(whole, "kinetic_energy_max") / number(bare, "kinetic_energy_max") == pytest.approx(
+        number(whole, "moved_inertia") / number(bare, "reduced_inertia")
+    )
+
+
+def test_inertias_of_shafts_are_given_both_or_none() -> None:
+    (rule,) = MECHANISM.inputs.one_of
+    assert "rocker_inertia" in rule.fault(["pinion_inertia"]) and not rule.fault(["pinion_inertia", "rocker_inertia"])
+    with pytest.raises(ValidationError):
+        drive(**SHAFTS | {"rocker_inertia": "-1 kg*m**2"})
+    for name in ("crank_torque_peak", "kinetic_energy_max"):
+        assert number(drive(pinion_inertia=0, rocker_inertia=0), name) == pytest.approx(
+            number(drive(), name), rel=1e-12
+        )
 
 
 def test_the_peak_between_two_grid_points_wins_over_a_higher_grid_point_elsewhere() -> None:

@@ -26,7 +26,8 @@ class Part(NamedTuple):
 
 PARTS = (
     Part("Using it", ("configuration", "commands", "comparing-machines", "questions", "live", "studies", "results", "results-file",
-                      "reports-and-revisions", "office-files", "house-style", "own-tables", "limits", "mending-a-press", "correcting-a-drive-line", "python", "own-repository")),
+                      "reports-and-revisions", "office-files", "house-style", "own-tables", "limits", "mending-a-press",
+                      "correcting-a-drive-line", "python", "own-repository")),
     Part("Examples", ("gallery/index", "reports")),
     Part("Writing a mechanism", ("tutorial", "how-to/index", "plugins", "reference/index")),
     Part("Whether to trust it", ("need-and-field", "trust", "validation", "standards", "plausible-values")),

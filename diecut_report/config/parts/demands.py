@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
 from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
+from diecut_report.mechanics.timing.intervals import exact_turns
 from diecut_report.mechanism.mechanism import Mechanism, Port
 
 USUAL_STEPS = 6  # of a Geneva wheel whose slots are not typed
@@ -194,8 +195,8 @@ class Demands:
         for index, line in enumerate(lines if isinstance(lines, list) else []):
             if isinstance(line, dict) and line.get("mechanism") == mechanism:
                 try:
-                    turns = Fraction(str(line.get("turns_per_sheet", "1")).replace(" ", ""))
-                except (ValueError, ZeroDivisionError):
+                    turns = exact_turns(str(line.get("turns_per_sheet", "1")))
+                except ValueError:
                     turns = Fraction(1)
                 return turns, f"${{{timing}.line_offset.{index}}}"
         return Fraction(1), "0 deg"
@@ -241,7 +242,7 @@ class Demands:
         return None
 
     def _of_swing(self, part: ShaftPart) -> dict[str, Any] | None:
-        """What a mechanism takes from the only gear on the shaft that it swings, its own losses behind that shaft with it."""
+        """What a mechanism takes from the only gear on the shaft that it swings: losses behind that shaft, and the shaft's inertia, are in it."""
         moving = self.moved_by(part.shaft)
         drivers = [each for each in part.shaft.parts if any(each in join.drivers for join in self.parts.joins_of(each))]
         if (
@@ -283,6 +284,8 @@ class Demands:
                 "turns_per_sheet": "main",
                 "ratio": Ratio(-1),
             }
+        elif (mechanism := self._rolled_by(driven)) is not None:
+            demand = self._source("", mechanism, "pinion_moment", -1)
         else:
             demand = self._added([each for each in self.torques_of(driven) if "lag" not in each])
         if demand is None:
@@ -293,6 +296,17 @@ class Demands:
                 TypedValue((*join.path, "efficiency")) if "efficiency" in self._raw(join.path) else join.keys.efficiency
             )
         return found
+
+    def _rolled_by(self, shaft: MachineShaft) -> str | None:
+        """The mechanism whose cylinder the chains of a shaft roll; None of other shafts."""
+        moves = (
+            join.keys.moves or ""
+            for part in shaft.parts
+            for join in self.parts.joins_of(part)
+            if isinstance(join.keys, ChainKeys)
+        )
+        names = (mechanism for mechanism, _, what in (each.partition(".") for each in moves) if what == "cylinder")
+        return next((name for name in names if self.parts.mechanisms.get(name) == "cylinder_drive"), None)
 
     def _added(self, every: list[dict[str, Any]]) -> dict[str, Any] | None:
         """The demands of several parts of one curve as one, such as of two chains side by side; None where they are unlike."""
@@ -306,13 +320,13 @@ class Demands:
         return first | {"ratio": Ratio(-1, first["ratio"].factors), "inertia": inertia}
 
     def inertia_of(self, shaft: MachineShaft) -> dict[str, Any] | None:
-        """Return the torque that the inertia of a shaft takes that turns in steps; None of others: theirs is part of their mechanism."""
+        """Return the torque that the inertia of a shaft takes that swings or turns in steps; None of others."""
         moving = self.moved_by(shaft)
-        if moving is None or not moving.port.advance or not moving.port.torque:
+        if moving is None or not moving.port.acceleration or any(self._of_swing(part) for part in shaft.parts):
             return None
         factors = tuple(each.ratio_text for each in self.chain_from(moving.part.shaft.name, shaft.name))
-        found = self._source("inertia", moving.mechanism, moving.port.torque, -1)
-        return found | {"ratio": Ratio(-1, factors), "inertia": f"${{shafts_{shaft.name}_body.inertia}}"}
+        found = self._source("inertia", moving.mechanism, moving.port.acceleration, -1)
+        return found | {"ratio": Ratio(-1, factors), "inertia": f"${{{shaft.body}.inertia}}"}
 
     def torques_of(self, shaft: MachineShaft) -> list[dict[str, Any]]:
         """Return all torques on a shaft but the one that balances them; none where its parts take none."""
@@ -326,7 +340,7 @@ class Demands:
         kind = self.parts.mechanisms.get(mechanism)
         if kind == "cylinder_drive" and what == "cylinder":
             losses = f"1 / (${{{mechanism}.efficiency_chain}} * ${{{mechanism}.efficiency_bearings}})"  # also where it brakes: safe
-            return self._source("", mechanism, "total_moment", -1) | {"ratio": Ratio(-1 / share, (losses,))}
+            return self._source("", mechanism, "cylinder_moment", -1) | {"ratio": Ratio(-1 / share, (losses,))}
         wheels = (
             part
             for each in self.parts.shafts.values()
@@ -342,9 +356,7 @@ class Demands:
 
     def _conveyor_inertia(self, chain: Join) -> str:
         """The inertia of a conveyor and the far shaft at its sprockets' shaft."""
-        far = "".join(
-            f" + ${{shafts_{each}_body.inertia}}" for each in dict.fromkeys(part.shaft.name for part in chain.driven)
-        )
+        far = "".join(f" + ${{{each}.inertia}}" for each in dict.fromkeys(part.shaft.body for part in chain.driven))
         return f"${{drive_line.{chain.name}_chain_mass}} * (${{drive_line.{chain.name}_chain_travel}} / 1 rad)**2{far}"
 
     def _raw(self, path: KeyPath) -> Mapping[str, Any]:

@@ -69,6 +69,10 @@ class Elements(ShaftElements):
             ),
             None,
         )
+        if what in ("own_inertia", "driven_inertia"):
+            own, driven = part.shaft.body, last.body
+            is_known = mesh is not None and self.is_made(own) and self.is_made(driven)
+            return f"${{{own if what == 'own_inertia' else driven}.inertia}}" if is_known else None
         if what == "ratio":
             return mesh.ratio_text.strip("()") if mesh else None
         if what == "pinion_radius" and mesh:
@@ -83,17 +87,17 @@ class Elements(ShaftElements):
 
     def _moved_inertia(self, shaft: MachineShaft, mesh: Join | None, chain: Join) -> str:
         """The inertia of the conveyor with its shafts, referred to the shaft of the wheel that moves it."""
-        own, conveyor = f"${{shafts_{shaft.name}_body.inertia}}", self._conveyor_inertia(chain)
+        own, conveyor = f"${{{shaft.body}.inertia}}", self._conveyor_inertia(chain)
         if mesh is None:
             return f"{conveyor} + {own}"
-        return f"({conveyor} + ${{shafts_{mesh.driven[0].shaft.name}_body.inertia}}) * {mesh.ratio_text}**2 + {own}"
+        return f"({conveyor} + ${{{mesh.driven[0].shaft.body}.inertia}}) * {mesh.ratio_text}**2 + {own}"
 
     def _drive_line(self) -> None:
         bodies = {each.name for each in self.made if each.kind == "shaft_body"}
         speeds: list[dict[str, Any]] = []
         turning, moving = list[dict[str, Any]](), list[dict[str, Any]]()
-        for name in self.parts.shafts:
-            home = f"shafts_{name}_body"
+        for name, shaft in self.parts.shafts.items():
+            home = shaft.body
             mass = {"name": name, "mass": f"${{{home}.mass}}"}
             if name in self.parts.ratios:
                 ratio = Ratio(
@@ -205,29 +209,29 @@ class Elements(ShaftElements):
                 "teeth_present": TypedValue((*path, "teeth_present")),
             }
         inputs |= {key: TypedValue((*path, key)) for key in join.more}
-        self._add(f"meshes_{join.name}", "gear_pair", inputs, path)
+        self._add(join.calculation, "gear_pair", inputs, path)
 
     def _accuracy(self, pinion: ShaftPart, wheel: ShaftPart) -> dict[str, Any]:
         """What the load factors of a pair follow from, as far as it is known: speed, grade, and how the shafts stand askew."""
-        gears, home = self.parts.keys.gears, f"shafts_{pinion.shaft.name}"
+        gears, bearings = self.parts.keys.gears, pinion.shaft.bearing_calculation
         found: dict[str, Any] = {}
         if pinion.shaft.name in self.parts.ratios:
             found["speed"] = self.speed(pinion.shaft.name)
-        elif self.is_made(f"{home}_bearings"):
-            found["speed"] = f"${{{home}_bearings.{pinion.shaft.bearings[0].name}_speed_max}}"
+        elif self.is_made(bearings):
+            found["speed"] = f"${{{bearings}.{pinion.shaft.bearings[0].name}_speed_max}}"
         found |= {key: TypedValue(("machine", "gears", key)) for key in ("grade", "crowned") if getattr(gears, key)}
         if self._has_teeth(pinion) and self._has_teeth(wheel):
-            slopes = (f"${{shafts_{part.shaft.name}.{part.name}_mesh_slope}}" for part in (pinion, wheel))
+            slopes = (f"${{{part.shaft.calculation}.{part.name}_mesh_slope}}" for part in (pinion, wheel))
             found["slope"] = " + ".join(slopes)
         return found
 
     def _has_teeth(self, part: ShaftPart) -> bool:
         """Whether the calculation of its shaft has the forces on the teeth of a gear."""
-        shaft = next((each for each in self.made if each.name == f"shafts_{part.shaft.name}"), None)
+        shaft = next((each for each in self.made if each.name == part.shaft.calculation), None)
         return shaft is not None and any(load["name"] == part.name and "gear" in load for load in shaft.inputs["loads"])
 
     def _torque_reference(self, part: ShaftPart) -> str | None:
-        loads = f"shafts_{part.shaft.name}_loads"
+        loads = part.shaft.loads
         if not self.is_made(loads):
             return None
         if self.torque_on(part):
@@ -253,12 +257,12 @@ class Elements(ShaftElements):
                 "velocity": f"${{{mechanism}.sheet_velocity}}",
             }
             if join.driven:
-                inputs["driven_inertia"] = f"${{shafts_{join.driven[0].shaft.name}_body.inertia}}"
+                inputs["driven_inertia"] = f"${{{join.driven[0].shaft.body}.inertia}}"
         else:
             return
         inputs |= {key: TypedValue((*join.path, key)) for key in join.more}
         inputs |= {key: f"${{{join.home}.{key}}}" for key in ("moving_mass", "pretension") if key in join.more}
-        self._add(f"chains_{join.name}", "roller_chain", inputs, join.path)
+        self._add(join.calculation, "roller_chain", inputs, join.path)
 
     def _belt(self, join: Join) -> None:
         train = self.named("drive_train")

@@ -13,7 +13,7 @@ from typing import Any
 from diecut_report.config.parts.demands import Element, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.keys import WORDS
-from diecut_report.config.parts.model import MachineParts
+from diecut_report.config.parts.model import MachineParts, MachineShaft
 from diecut_report.config.parts.reading import PartsReader
 from diecut_report.config.parts.rules import coherence
 from diecut_report.config.yaml import KeyPath, Tree, YamlNode, with_root
@@ -150,54 +150,49 @@ class _Writer:
         return found if is_alone or SINGLE.fullmatch(found) else f"({found})"
 
     def _meant(self, parts: list[str]) -> str | None:
+        shafts = self.parts.shafts
         match parts:
             case ["shafts", shaft, "speed"] if shaft in self.parts.ratios:
                 return self.elements.speed(shaft)
-            case ["shafts", shaft, "inertia" | "mass" as what]:
-                return f"${{shafts_{shaft}_body.{what}}}"
-            case ["shafts", shaft, "inertia_total"]:
-                return self._total_inertia(shaft)
-            case ["shafts", shaft, "bearings", name, what]:
-                return self._of_bearing(shaft, name, what)
-            case ["shafts", shaft, "parts", name, what]:
-                return self._of_part(shaft, name, what)
-            case ["shafts", shaft, "sections", index, what]:
-                return f"${{shafts_{shaft}.sections.{index}.{what}}}"
+            case ["shafts", name, "inertia" | "mass" as what] if name in shafts:
+                return f"${{{shafts[name].body}.{what}}}"
+            case ["shafts", name, "inertia_total"] if name in shafts:
+                return self._total_inertia(shafts[name])
+            case ["shafts", name, "bearings", bearing, what] if name in shafts:
+                return self._of_bearing(shafts[name], bearing, what)
+            case ["shafts", name, "parts", part, what] if name in shafts:
+                return self._of_part(shafts[name], part, what)
+            case ["shafts", name, "sections", index, what] if name in shafts:
+                return f"${{{shafts[name].calculation}.sections.{index}.{what}}}"
             case [word, name, what] if word in WORDS:
                 return self._of_join(word, name, what)
             case ["machine", what]:
                 return f"${{machine_inertia.{what}}}"
         return None
 
-    def _total_inertia(self, shaft: str) -> str:
+    def _total_inertia(self, shaft: MachineShaft) -> str:
         """Everything that turns with a shaft, referred to it."""
-        own = self.parts.ratios.get(shaft)
+        own = self.parts.ratios.get(shaft.name)
         if own is None:
-            return f"${{shafts_{shaft}_body.inertia}}"
-        others = [
-            (name, abs(ratio / own)) for name, ratio in self.parts.ratios.items() if f"shafts_{name}_body" in self.names
-        ]
-        return " + ".join(f"${{shafts_{name}_body.inertia}} * {ratio:.15g}**2" for name, ratio in others)
+            return f"${{{shaft.body}.inertia}}"
+        every = ((self.parts.shafts[name].body, abs(ratio / own)) for name, ratio in self.parts.ratios.items())
+        return " + ".join(f"${{{body}.inertia}} * {ratio:.15g}**2" for body, ratio in every if body in self.names)
 
-    def _of_bearing(self, shaft: str, name: str, what: str) -> str | None:
-        bearings = self.parts.shafts[shaft].bearings if shaft in self.parts.shafts else []
-        for part, end in zip(bearings, "ab", strict=False):
+    def _of_bearing(self, shaft: MachineShaft, name: str, what: str) -> str | None:
+        for part, end in zip(shaft.bearings, "ab", strict=False):
             if part.name == name and what == "reaction":
-                return f"${{shafts_{shaft}.reaction_{end}}}"
+                return f"${{{shaft.calculation}.reaction_{end}}}"
             if part.name == name and what == "bore" and (bore := part.size("d")) is not None:
                 return millimetres(bore)
         return None
 
-    def _of_part(self, shaft: str, name: str, what: str) -> str | None:
-        own = self.parts.shafts[shaft].parts if shaft in self.parts.shafts else []
-        part = next((each for each in own if each.name == name), None)
+    def _of_part(self, shaft: MachineShaft, name: str, what: str) -> str | None:
+        part = next((each for each in shaft.parts if each.name == name), None)
         if part is None:
             return None
-        if what == "position" and shaft in self.parts.lefts:
-            return millimetres(self.parts.lefts[shaft] + part.keys.at)
-        if what == "torque":
-            return self.elements._torque_reference(part)
-        return None
+        if what == "position" and shaft.name in self.parts.lefts:
+            return millimetres(self.parts.lefts[shaft.name] + part.keys.at)
+        return self.elements._torque_reference(part) if what == "torque" else None
 
     def _of_join(self, word: str, name: str, what: str) -> str | None:
         join = next((each for each in self.parts.joins if (each.word, each.name) == (word, name)), None)

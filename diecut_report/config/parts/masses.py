@@ -18,16 +18,16 @@ class Masses(Demands):
     """Make the calculations of masses and moments of inertia."""
 
     def _body(self, shaft: MachineShaft) -> None:
-        home = f"shafts_{shaft.name}"
+        home = shaft.body
         discs: list[dict[str, Any]] = [self._section_disc(shaft, index) for index in range(len(shaft.sections))]
         bodies: list[dict[str, Any]] = []
         for part in shaft.parts:
             if disc := self._disc(part):
                 discs.append({"name": part.name} | disc)
             elif "mass" in part.more or part.kind == "geneva_wheel" or "inertia" in part.more:
-                bodies.append({"name": part.name} | self._mass(part, f"{home}_body.bodies.{len(bodies)}.mass"))
+                bodies.append({"name": part.name} | self._mass(part, f"{home}.bodies.{len(bodies)}.mass"))
         inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {})
-        self._add(f"{home}_body", "shaft_body", inputs, shaft.path)
+        self._add(home, "shaft_body", inputs, shaft.path)
 
     def _section_disc(self, shaft: MachineShaft, index: int) -> dict[str, Any]:
         section = self._section(shaft, index)

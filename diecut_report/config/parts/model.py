@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import cos, hypot, pi, sin
+from math import hypot
 from typing import Any, Literal
 
 from diecut_report.config.parts.keys import PART_KINDS, BeltKeys, ChainKeys, MachineKeys, MeshKeys, PartKeys, ShaftKeys
@@ -13,6 +13,7 @@ from diecut_report.config.parts.reading import PartsReader
 from diecut_report.config.validation import ConfigPlace
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import nearest
+from diecut_report.mechanics import drive_line
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_table
 from diecut_report.text.phrases import Phrase
@@ -127,6 +128,10 @@ class ShaftPart:
         distance = pin.plane if pin is not None else beyond
         return self.keys.at if distance is None else self.keys.at + self.outward * (self.hub / 2 + distance)
 
+    def calculation(self, of: Literal["key", "pin"]) -> str:
+        """Return the name of the calculation of its key or its pin."""
+        return f"{self.shaft.calculation}_{self.name}_{of}"
+
     @property
     def port(self) -> tuple[str, str] | None:
         """Return the mechanism and the port that it is of."""
@@ -143,6 +148,26 @@ class MachineShaft:
     path: KeyPath
     more: tuple[str, ...]
     parts: list[ShaftPart] = field(default_factory=list)
+
+    @property
+    def calculation(self) -> str:
+        """Return the name of its calculation; those of its body, loads and bearings begin with it."""
+        return f"shafts_{self.name}"
+
+    @property
+    def body(self) -> str:
+        """Return the name of the calculation of its mass and inertia."""
+        return f"{self.calculation}_body"
+
+    @property
+    def loads(self) -> str:
+        """Return the name of the calculation of its loads."""
+        return f"{self.calculation}_loads"
+
+    @property
+    def bearing_calculation(self) -> str:
+        """Return the name of the calculation of its bearings and those of its pins."""
+        return f"{self.calculation}_bearings"
 
     @cached_property
     def sections(self) -> tuple[ShaftSection, ...]:
@@ -206,10 +231,15 @@ class Join:
         keys = self.keys
         match keys:
             case MeshKeys():
-                return -keys.teeth_1 / keys.teeth_2
+                return -float(drive_line.speed_ratio(keys.teeth_1, keys.teeth_2))
             case ChainKeys():
-                return keys.teeth_1 / (keys.teeth_2 or keys.teeth_1)
-        return float(keys.diameter_1 / keys.diameter_2 * (1 - CREEP))
+                return float(drive_line.speed_ratio(keys.teeth_1, keys.teeth_2 or keys.teeth_1))
+        return float(drive_line.speed_ratio(keys.diameter_1, keys.diameter_2)) * (1 - CREEP)
+
+    @property
+    def calculation(self) -> str:
+        """Return the name of its own calculation; a belt's is part of the drive train."""
+        return f"{self.word}_{self.name}"
 
     @property
     def home(self) -> str:
@@ -229,17 +259,17 @@ class Join:
         match keys:
             case MeshKeys():
                 teeth = keys.teeth_1 if is_first else keys.teeth_2
-                return float(keys.module * teeth / 2 / cos(keys.helix_angle))
+                return float(drive_line.pitch_radius(keys.module, teeth, keys.helix_angle))
             case ChainKeys():
                 teeth = keys.teeth_1 if is_first else keys.teeth_2 or keys.teeth_1
-                return chain_pitch(keys) / (2 * sin(pi / teeth))
+                return float(drive_line.sprocket_diameter(chain_pitch(keys), teeth)) / 2
         return float((keys.diameter_1 if is_first else keys.diameter_2) / 2)
 
     @property
     def center_distance(self) -> float | None:
         """Return the distance of the axes that follows from the join itself, m; None of a belt, which is tensioned."""
         if isinstance(self.keys, MeshKeys):
-            return self.radius(self.drivers[0]) + self.radius(self.driven[0])
+            return float(drive_line.center_distance(self.radius(self.drivers[0]), self.radius(self.driven[0])))
         if isinstance(self.keys, ChainKeys) and self.driven and self.keys.teeth_2 in (None, self.keys.teeth_1):
             return (self.keys.links - self.keys.teeth_1) * chain_pitch(self.keys) / 2
         return None

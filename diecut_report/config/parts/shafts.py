@@ -36,7 +36,7 @@ class ShaftElements(Masses, LoadCases):
                 "ratio": Ratio(1, factors).text
             }
         if len(inputs) > 1:
-            self._add(f"shafts_{shaft.name}_loads", "shaft_loads", inputs, shaft.path)
+            self._add(shaft.loads, "shaft_loads", inputs, shaft.path)
 
     def _port_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The forces of a mechanism on a part, in the directions of its shaft; a second one in a direction is named across."""
@@ -78,8 +78,8 @@ class ShaftElements(Masses, LoadCases):
                     "lever": f"${{drive_line.{join.name}_chain_travel}} / 1 rad"} | constant  # fmt: skip
 
     def _shaft(self, shaft: MachineShaft) -> None:
-        home = f"shafts_{shaft.name}"
-        has_loads = self.is_made(f"{home}_loads")
+        home = shaft.calculation
+        has_loads = self.is_made(shaft.loads)
         bearings = shaft.bearings
         if len(bearings) != 2 or not has_loads:
             return
@@ -97,7 +97,7 @@ class ShaftElements(Masses, LoadCases):
                 {
                     "name": "inertia",
                     "position": TypedValue((*place.path, "at")),
-                    "torque": f"${{{home}_loads.inertia_torque}}",
+                    "torque": f"${{{shaft.loads}.inertia_torque}}",
                     "seat": "none",
                 }
             )
@@ -113,7 +113,7 @@ class ShaftElements(Masses, LoadCases):
             turns = self.turns(shaft.name) * self.cycle(shaft.name)
             inputs |= {"speed": self.speed(shaft.name), "turns_per_cycle": int(turns)}
         else:
-            inputs["rotation"] = f"${{{home}_loads.shaft_angle}}"
+            inputs["rotation"] = f"${{{shaft.loads}.shaft_angle}}"
         inputs |= {key: TypedValue((*shaft.path, key)) for key in shaft.more}
         self._add(home, "shaft", inputs, shaft.path)
 
@@ -128,7 +128,7 @@ class ShaftElements(Masses, LoadCases):
                 yield {"position": place, "type": kind}
 
     def _load(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
-        loads = f"shafts_{part.shaft.name}_loads"
+        loads = part.shaft.loads
         found: dict[str, Any] = {"name": part.name, "position": TypedValue((*part.path, "at"))}
         if part.keys.integral or part.keys.rides_on:
             found["seat"] = "none"
@@ -150,9 +150,7 @@ class ShaftElements(Masses, LoadCases):
         found |= self._belt_force(part)
         if self._has_mass(part):
             found["mass"] = (
-                f"${{shafts_{part.shaft.name}_body.{part.name}_disc_mass}}"
-                if self._disc(part)
-                else self._given_mass(part)
+                f"${{{part.shaft.body}.{part.name}_disc_mass}}" if self._disc(part) else self._given_mass(part)
             )
         found |= {key: TypedValue((*part.path, key)) for key in part.more if key not in ("mass", "inertia")}
         yield found
@@ -190,9 +188,8 @@ class ShaftElements(Masses, LoadCases):
 
     @staticmethod
     def _pitch_radius(join: Join, part: ShaftPart) -> str:
-        """The pitch radius of a gear, as an expression."""
-        radius = f"${{{join.home}.module}} * ${{{join.home}.teeth_{1 if part in join.drivers else 2}}} / 2"
-        return f"{radius} / {cos(join.keys.helix_angle):.15g}" if join.keys.helix_angle else radius
+        """The reference to the pitch radius of a gear."""
+        return f"${{drive_line.{join.name}_radius_{1 if part in join.drivers else 2}}}"
 
     def _belt_force(self, part: ShaftPart) -> dict[str, Any]:
         join = next((each for each in self.parts.joins_of(part) if each.word == "belts"), None)
@@ -207,7 +204,7 @@ class ShaftElements(Masses, LoadCases):
         return {f"force_{axis}": f"{load} * ({share:.12g})" for axis, share in shares if abs(share) > NOTHING}
 
     def _bearings(self, shaft: MachineShaft) -> None:
-        home = f"shafts_{shaft.name}"
+        home = shaft.calculation
         pairs = zip(shaft.bearings, "ab", strict=False) if self.is_made(home) else ()
         rows = [self._bearing(part, end) for part, end in pairs]
         rows += [row for part in shaft.parts if (row := self._pin_bearing(part))]
@@ -215,10 +212,10 @@ class ShaftElements(Masses, LoadCases):
             inputs: dict[str, Any] = {"bearings": rows}
             if self.parts.keys.required_life:
                 inputs["required_life"] = TypedValue(("machine", "required_life"))
-            self._add(f"{home}_bearings", "rolling_bearing", inputs, shaft.path)
+            self._add(shaft.bearing_calculation, "rolling_bearing", inputs, shaft.path)
 
     def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
-        home = f"shafts_{part.shaft.name}"
+        home = part.shaft.calculation
         found = self._catalogued(
             part.name,
             str(part.keys.designation),
@@ -240,16 +237,16 @@ class ShaftElements(Masses, LoadCases):
         if shaft.name in self.parts.ratios:
             return {"speed": self.speed(shaft.name)}
         return {
-            "relative_angle": f"${{shafts_{shaft.name}.shaft_angle}}",
+            "relative_angle": f"${{{shaft.calculation}.shaft_angle}}",
             "cycle_speed": f"{self.reference_speed} / {self.cycle(shaft.name)}",
         }
 
     def _key(self, part: ShaftPart) -> None:
-        loads = f"shafts_{part.shaft.name}_loads"
+        loads = part.shaft.loads
         torque = self._passed(part)
         if not part.keys.key or part.section is None or torque is None or not self.is_made(loads):
             return
-        home = f"shafts_{part.shaft.name}"
+        home = part.shaft.calculation
         inputs: dict[str, Any] = {
             "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": TypedValue((*part.path, "key")),
             "torque": torque, "form": part.keys.key_form, "key_count": part.keys.key_count, "yield_shaft": f"${{{home}.yield_strength}}",
@@ -263,11 +260,11 @@ class ShaftElements(Masses, LoadCases):
         if self.parts.keys.required_life:  # by which the changes of flank are counted
             inputs["required_life"] = TypedValue(("machine", "required_life"))
             inputs["cycle_speed"] = f"{self.reference_speed} / {self.cycle(part.shaft.name)}"
-        self._add(f"{home}_{part.name}_key", "parallel_key", inputs, part.path)
+        self._add(part.calculation("key"), "parallel_key", inputs, part.path)
 
     def _passed(self, part: ShaftPart) -> str | None:
         """The torque that passes the key of a part: its own, or that of the part which rides on it."""
-        loads = f"shafts_{part.shaft.name}_loads"
+        loads = part.shaft.loads
         riders = [each for each in part.shaft.parts if each.keys.rides_on == part.name]
         for each in (part, *riders):
             if self.torque_on(each):
@@ -303,7 +300,7 @@ class ShaftElements(Masses, LoadCases):
             if port.joint[1]
             else {"speed": f"${{{mechanism}.{port.speed}}}"}
         )
-        self._add(f"shafts_{part.shaft.name}_{part.name}_pin", "shaft", inputs, path)
+        self._add(part.calculation("pin"), "shaft", inputs, path)
 
     @staticmethod
     def _joint_force(mechanism: str, port: Port) -> dict[str, Any]:
@@ -316,7 +313,7 @@ class ShaftElements(Masses, LoadCases):
         pin, port = part.keys.pin, self.port(part)
         if pin is None or pin.bearing is None or port is None or not part.port or not port.joint[0]:
             return None
-        mechanism, home = part.port[0], f"shafts_{part.shaft.name}"
+        mechanism, home = part.port[0], part.shaft.calculation
         path = (*part.path, "pin")
         more = {
             key: TypedValue((*path, key))
@@ -326,7 +323,7 @@ class ShaftElements(Masses, LoadCases):
         found = self._catalogued(f"{part.name}_pin", pin.bearing, more, (*path, "bearing"))
         found["radial_force"] = f"${{{mechanism}.{port.joint[0]}}}"
         shaft_slope = f"${{{home}.{part.name}_slope}} + " if self.is_made(home) else ""
-        found["tilt"] = f"{shaft_slope}${{{home}_{part.name}_pin.joint_slope}}"
+        found["tilt"] = f"{shaft_slope}${{{part.calculation('pin')}.joint_slope}}"
         if port.joint[1]:
             turns = self.line(mechanism)[0]
             return found | {

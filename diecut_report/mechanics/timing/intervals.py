@@ -118,17 +118,26 @@ WHOLE = 1e-9  # by which a ratio may miss its fraction, relative
 Rational = Fraction | float
 
 
-def exact_turns(turns_per_sheet: Rational) -> Fraction:
+def exact_turns(turns_per_sheet: Rational | str) -> Fraction:
     """Return turns of a line for each turn of the main shaft (a sheet) as a fraction with a denominator of at most 64.
 
-    ValueError where there is no such fraction, or where it is not above zero.
+    A text is a number or a ratio such as ``1 / 2``. ValueError where there is no such fraction, or where it is not above zero.
     """
+    if isinstance(turns_per_sheet, str):
+        turns_per_sheet = _ratio(turns_per_sheet)
     found = Fraction(turns_per_sheet).limit_denominator(MAX_DENOMINATOR)
     if found <= 0 or abs(found - Fraction(turns_per_sheet)) > WHOLE * found:
         raise ValueError(
             f"{turns_per_sheet} is not a fraction above zero with a denominator of at most {MAX_DENOMINATOR}"
         )
     return found
+
+
+def _ratio(text: str) -> Fraction:
+    try:
+        return Fraction(text.replace(" ", ""))
+    except ZeroDivisionError:
+        raise ValueError(f"{text} is divided by zero") from None
 
 
 def common_period(turns: Iterable[Fraction]) -> Fraction:

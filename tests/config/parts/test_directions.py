@@ -113,9 +113,9 @@ def test_teeth_push_each_other_apart_with_one_force(driver: tuple[str, str], dri
     assert size.max() > 4000
     strong = size > 0.05 * size.max()
     ratio = -np.sum(forces[0] * forces[1], axis=0)[strong] / size[strong] ** 2  # 1 but for the losses
-    # of a shaft that swings losses count as if it drove throughout, also where it brakes
+    # of a shaft that swings the inertia is in the torque, and losses count as if it drove throughout, also where it brakes
     most = 1.035 if shaft == "crank" else 1.2
-    assert ratio.min() > 0.95 and ratio.max() < most
+    assert ratio.min() > 0.93 and ratio.max() < most
     across = np.abs(forces[0][0] * forces[1][1] - forces[0][1] * forces[1][0])[strong]
     np.testing.assert_allclose(across / size[strong] ** 2, 0, atol=1e-9)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from diecut_report.config.loader import Config, examined, load_config
@@ -154,6 +155,37 @@ def test_a_part_that_nothing_joins_to_its_shaft_fails() -> None:
 def test_a_reference_to_a_part_stands_for_what_is_calculated_of_it(reference: str, stands_for: str) -> None:
     config, _ = changed("allowable_torque: {value: 800 N*m, basis: assumed}", f"allowable_torque: {reference!r}")
     assert config.tree.data["mechanisms"]["drive"]["allowable_torque"] == stands_for
+
+
+def test_what_swings_or_steps_counts_with_its_inertia() -> None:
+    """The drive gets the inertias of both shafts; each shaft's own takes its torque, and what is before it carries what is behind."""
+    data = whole().tree.data["mechanisms"]
+    assert data["drive"]["pinion_inertia"] == "${shafts_pinion_body.inertia}"
+    assert data["drive"]["rocker_inertia"] == "${shafts_rocker_body.inertia}"
+    torques = {
+        shaft: {each["name"]: each["curve"] for each in data[f"shafts_{shaft}_loads"]["torques"]}
+        for shaft in ("pinion", "rocker", "geneva")
+    }
+    assert torques["pinion"] == {
+        "left": "cylinder_moment",
+        "right": "cylinder_moment",
+        "inertia": "rocker_acceleration",
+    }
+    assert torques["rocker"] == {"sector": "rocker_torque"}  # with the inertias and losses behind it
+    assert torques["geneva"]["inertia"] == "wheel_acceleration"
+
+
+@pytest.mark.nightly
+def test_what_balances_the_rocker_is_the_torque_of_the_drive() -> None:
+    """Summed up from the chain over both shafts, without losses, against the drive's own torque at the rocker."""
+    config = whole()
+    run = Run(config, lambda _: None)
+    loads, drive = run.calculations["shafts_rocker_loads"], run.calculations["drive"]
+    angles = np.radians([[40.0, 130.0, 222.0, 301.0, 512.0, 655.0]])
+    found = loads.sample("balance", angles, loads.domains["main_angle"].middle_of(angles))[0]
+    crank = angles / 2 % (2 * np.pi)
+    expected = drive.sample("lossless_rocker_torque", crank, drive.domains["crank_angle"].middle_of(crank))[0]
+    assert np.abs(found) == pytest.approx(np.abs(expected), rel=1e-6)
 
 
 def cases(name: str) -> list[str]:
