@@ -9,10 +9,13 @@ from typing import Any
 from diecut_report.config.parts.demands import Ratio, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import LOOSE
 from diecut_report.config.parts.masses import Masses
-from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
+from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, catalogue_size
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.mechanism import Port
 
+OF_SHAFT = frozenset({"rotation", "speed", "turns_per_cycle"})
+OF_BEARING = frozenset({"radial_force", "tilt", "speed", "relative_angle", "cycle_speed", "on", "series", "bore_min"})
+"""Keys of calculations that follow from the parts also where they are not filled in."""
 ROLLER_SERIES = ("N", "2")  # how designations of roller bearings begin, spherical ones by 2
 NOTHING = 1e-9  # share of a force that has no part in a direction; offset (m) that is rounding
 
@@ -95,7 +98,8 @@ class ShaftElements(Masses):
                     "seat": "none",
                 }
             )
-        if notches := [notch for part in shaft.parts for notch in self._notches(part)]:
+        derived = [notch for part in shaft.parts for notch in self._notches(part)]
+        if notches := [*derived, *self._typed_notches(shaft)]:
             inputs["notches"] = notches
         if self.parts.keys.shaft_material and not {"material", "tensile_strength"} & set(shaft.more):
             inputs["material"] = TypedValue(("machine", "shaft_material"))
@@ -106,7 +110,8 @@ class ShaftElements(Masses):
             inputs |= {"speed": self.speed(shaft.name), "turns_per_cycle": int(turns)}
         else:
             inputs["rotation"] = f"${{{home}_loads.shaft_angle}}"
-        inputs |= {key: TypedValue((*shaft.path, key)) for key in shaft.more}
+        more = (key for key in shaft.more if key != "notches")
+        inputs |= self._beside(inputs, more, shaft.path, (*shaft.path, "parts"), OF_SHAFT)
         self._add(home, "shaft", inputs, shaft.path)
 
     def _seat(self, part: ShaftPart) -> str:
@@ -118,6 +123,12 @@ class ShaftElements(Masses):
             for end in (-1, 1):
                 place = TypedNumber(millimetres(part.keys.at + end * part.keys.key / 2), (*part.path, "at"))
                 yield {"position": place, "type": kind}
+
+    def _typed_notches(self, shaft: MachineShaft) -> Iterator[TypedValue]:
+        """The notches that are typed beside those of the keys."""
+        given = self._raw(shaft.path).get("notches")
+        path = (*shaft.path, "notches")
+        yield from (TypedValue((*path, index)) for index in range(len(given) if isinstance(given, list) else 0))
 
     def _load(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         loads = f"shafts_{part.shaft.name}_loads"
@@ -146,10 +157,19 @@ class ShaftElements(Masses):
                 if self._disc(part)
                 else self._given_mass(part)
             )
-        found |= {key: TypedValue((*part.path, key)) for key in part.more if key not in ("mass", "inertia")}
+        found |= self._typed_load(part, found)
         yield found
         if across:
             yield place | {"name": f"{part.name}_across", "seat": "none"} | across
+
+    def _typed_load(self, part: ShaftPart, found: dict[str, Any]) -> dict[str, TypedValue]:
+        """The keys of a load that are typed at its part; a mass is one of its body."""
+        join = next(self.parts.joins_of(part), None)
+        source = join.path if join else (*part.path, "of" if part.port else part.kind)
+        follows = {"offset", "gear", "seat"} if part.kind != "load" else set()
+        follows |= {"force_y", "force_z"} if join or part.port else set()
+        more = (key for key in part.more if key not in ("mass", "inertia"))
+        return self._beside(found, more, part.path, source, follows)
 
     def _balances(self, part: ShaftPart) -> bool:
         """Whether the torque on a part balances all others on its shaft: it is driven there."""
@@ -208,13 +228,10 @@ class ShaftElements(Masses):
             self._add(f"{home}_bearings", "rolling_bearing", inputs, shaft.path)
 
     def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
-        home = f"shafts_{part.shaft.name}"
-        found = self._catalogued(
-            part.name,
-            str(part.keys.designation),
-            {key: TypedValue((*part.path, key)) for key in part.more},
-            (*part.path, "designation"),
-        )
+        home, designation = f"shafts_{part.shaft.name}", str(part.keys.designation)
+        follows = OF_BEARING if catalogue_size(designation, "d") is None else OF_BEARING | {"type"}
+        more = self._beside({}, part.more, part.path, (*part.shaft.path, "parts"), follows)
+        found = self._catalogued(part.name, designation, more, (*part.path, "designation"))
         return (
             found
             | {"radial_force": f"${{{home}.reaction_{end}}}", "tilt": f"${{{home}.slope_{end}}}"}
