@@ -61,6 +61,7 @@ PAIRS: Mapping[type[Block], _Pair] = {
         "diameters", ("diameter_1", "diameter_2"), phrase("two diameters with a stroke between them, such as 125/375")
     ),
 }
+TAKEN_APART = tuple(dict.fromkeys(pair.key for pair in PAIRS.values()))
 
 
 class _Apart(NamedTuple):
@@ -152,8 +153,7 @@ class PartsReader:
         numbers = self._numbers(model, read.data, read.place, ())
         block, faults = validate(model, numbers, read.place, apart.missing)
         self.problems += [*apart.problems, *problems, *read.problems, *faults]
-        taken = {pair.key for pair in PAIRS.values()}
-        more = tuple(key for key in given if key not in model.model_fields and key not in taken)
+        more = tuple(key for key in given if key not in model.model_fields and key not in TAKEN_APART)
         return None if block is None or apart.problems else ReadBlock(path, block, more)
 
     def _pins(self, own: dict[str, Any], place: ConfigPlace, problems: list[Problem]) -> ConfigPlace:
