@@ -6,6 +6,8 @@ import difflib
 import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from pathlib import PurePath
+from traceback import extract_tb
 
 from diecut_report.text.phrases import Phrase, joined, message
 
@@ -94,6 +96,15 @@ class PluginError(Exception):
         plugin = Phrase("plugin {kind}", kind=repr(self.kind)) if self.kind else ""
         whose = joined(filter(None, (where, plugin)), " of ")
         return joined(filter(None, (whose, self.message)), ": ")
+
+
+def own_fault(fault: Exception) -> Phrase:
+    """Return what is told of a fault of the program where it may not end what else is done: what it was, and where in the code."""
+    *_, last = extract_tb(fault.__traceback__)
+    template = "This is a fault of diecut-report itself ({file}, line {line}: {name}: {text}). Please report it with this configuration."
+    return Phrase(
+        template, file=PurePath(last.filename).name, line=last.lineno, name=type(fault).__name__, text=str(fault)
+    )
 
 
 def nearest(given: str, known: Iterable[str]) -> str:

@@ -68,6 +68,12 @@ WITHOUT = """
 ## Keys without a row
 
 Every other number has none, for one of these reasons; the bounds of the key and the sizes of its dimension hold.
+Of keys with ● no other value is known to be usual: typed without a basis that can be looked up they are open, whatever the checks say.
+"""
+CHOICES = """
+## Choices that ask where they come from
+
+A text that takes something out of a calculation is open unless it stands as `{value: …, basis: drawing}` or rests on what can be looked up.
 """
 
 
@@ -95,7 +101,14 @@ def _bounded(key: str, of: str) -> str:
 def _without() -> Iterator[str]:
     for group in range_table().without:
         kinds = (f"{'all' if kind == EVERY else f'`{kind}`'}: {', '.join(keys)}" for kind, keys in group.keys.items())
-        yield f"- {group.reason[:1].upper()}{group.reason[1:]}. {'; '.join(kinds)}."
+        yield f"- {group.reason[:1].upper()}{group.reason[1:]}{' ●' if group.needs_basis else ''}. {'; '.join(kinds)}."
+    yield CHOICES
+    for row in range_table().choices:
+        keys = (
+            f"`{kind}`: {', '.join(f'`{key}: {text}`' for key, texts in own.items() for text in texts)}"
+            for kind, own in row.keys.items()
+        )
+        yield f"- {row.reason[:1].upper()}{row.reason[1:]}. {'; '.join(keys)}."
     yield ""
 
 

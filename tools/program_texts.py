@@ -24,6 +24,7 @@ from diecut_report.quantities.units import _table
 from diecut_report.report.text import COUNTED, ENGLISH, one
 from diecut_report.results import checks, document, mechanism, origins
 from diecut_report.standards import standard_ids, standard_series, standard_series_by
+from diecut_report.standards.ranges import range_table
 from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.translation import CITATION, EQUATIONS, PAPER
 
@@ -38,7 +39,7 @@ CONSTANTS = (root.METHOD, reduction.SEARCHED, reduction.INTEGRATED, Accumulated.
 """Texts that the program holds outside of the calls that make phrases."""
 MAKING = dict.fromkeys(("Phrase", "phrase", "say", "refusal", "UnitError", "ConditionError", "Unresolved", "PictureFault", "StandardFault",
                         "Undrawable"),
-                       0) | {".problem": 1, ".absent": 1, ".fault": 1, "._fault": 1, "_finding": 4}  # fmt: skip
+                       0) | {".problem": 1, ".absent": 1, ".fault": 1, "._fault": 1, "finding": 4}  # fmt: skip
 """What takes the template of a message, with the place of that argument."""
 JOINING = ("joined", "named")
 COUNTING = ("Counted", "say_counted")
@@ -84,6 +85,7 @@ def program_texts() -> Iterator[ProgramText]:
             ),
         ),
         *_standards(),
+        *_open_without_basis(),
         *_counted(),
         *_templates(),
         *_sources(),
@@ -109,6 +111,13 @@ def _standards() -> Iterator[ProgramText]:
         yield from (text for id in standard_ids(form) for text in _series(standard_series(id)))
     for id in standard_ids("by"):
         yield from (text for each in standard_series_by(id).values() for text in _series(each))
+
+
+def _open_without_basis() -> Iterator[ProgramText]:
+    """The reasons for which inputs are open, of the table of plausible values."""
+    table = range_table()
+    groups = (*(group for group in table.without if group.needs_basis), *table.choices)
+    yield from (ProgramText(group.reason, note="plausible values") for group in groups)
 
 
 def _series(series: StandardSeries) -> Iterator[ProgramText]:

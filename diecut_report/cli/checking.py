@@ -27,6 +27,7 @@ from diecut_report.cli.options import (
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
+    FAULT,
     PASSED,
     PLUGIN_BROKE,
     HelpfulCommand,
@@ -48,7 +49,7 @@ from diecut_report.config import yaml
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, refusal
+from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, own_fault, refusal
 from diecut_report.results.conclusion import summary_of
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import ResultsRecord
@@ -64,7 +65,7 @@ if TYPE_CHECKING:
     from diecut_report.study.shown_results import AskedResults
 
 
-STATES = {PASSED: "valid", BAD_INPUT: "bad", PLUGIN_BROKE: "broken"}
+STATES = {PASSED: "valid", BAD_INPUT: "bad", PLUGIN_BROKE: "broken", FAULT: "fault"}
 
 
 @dataclass
@@ -73,6 +74,7 @@ class JudgedFile:
 
     shown: str
     problems: tuple[Problem, ...] = ()
+    is_fault: bool = False  # of the program, which its problem says
     broken: tuple[PluginError, ...] = ()
     tried: DryRun | None = None
     data: dict[str, Any] = field(default_factory=dict)
@@ -80,6 +82,8 @@ class JudgedFile:
     @property
     def code(self) -> int:
         """Return the exit code of this file alone."""
+        if self.is_fault:
+            return FAULT
         return BAD_INPUT if self.problems else PLUGIN_BROKE if self.broken else PASSED
 
 
@@ -96,14 +100,24 @@ def validate(files: tuple[Path, ...], tries: bool, form: str, discovery: Discove
     """Validate configurations and studies without calculating; all problems of all files are reported."""
     judged = []
     for file in files:
-        found = _judged(file, discovery, tries)
+        found = _judged(file, discovery, tries) if len(files) == 1 else _beside_others(file, discovery, tries)
         judged.append(found)
         if form == "text":
             _tell(found, alone=len(files) == 1)
     if form == "json":
         emit_json([_data(each) for each in judged])
     codes = [each.code for each in judged]
-    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+    return next((code for code in (FAULT, BAD_INPUT) if code in codes), max(codes))
+
+
+def _beside_others(file: Path, discovery: Discovery, tries: bool) -> JudgedFile:
+    """Judge one of several files: a fault of the program hides none of the others."""
+    try:
+        return _judged(file, discovery, tries)
+    except PluginError:
+        raise
+    except Exception as fault:
+        return JudgedFile(str(file), (Problem(own_fault(fault), str(file)),), is_fault=True)
 
 
 def _judged(file: Path, discovery: Discovery, tries: bool) -> JudgedFile:
@@ -156,8 +170,13 @@ def _data(found: JudgedFile) -> dict[str, Any]:
     return told | {"broken": [str(error) for error in found.broken]} | ({"study": found.data} if found.data else {})
 
 
-WITHOUT_RESULTS = ("bad", "impossible")
-COLOURED = {"bad": "error", "impossible": "error", "conditional": "warn"}  # states with the colour of another one
+WITHOUT_RESULTS = ("bad", "impossible", "fault")
+COLOURED = {
+    "bad": "error",
+    "impossible": "error",
+    "fault": "error",
+    "conditional": "warn",
+}  # states with the colour of another one
 WORDS = {
     "pass": phrase("pass"),
     "conditional": phrase("conditional"),
@@ -168,6 +187,7 @@ WORDS = {
     "not_checked": phrase("not checked"),
     "bad": phrase("bad file"),
     "impossible": phrase("impossible machine"),
+    "fault": phrase("fault of the program"),
 }
 
 
@@ -404,7 +424,7 @@ def _row(verdict: Verdict) -> tuple[str, ...]:
 
 
 def _counts(verdicts: Sequence[Verdict]) -> Line:
-    states = ("pass", "conditional", "fail", "error", "impossible", "bad")
+    states = ("pass", "conditional", "fail", "error", "impossible", "bad", "fault")
     found = counted({status: sum(verdict.verdict == status for verdict in verdicts) for status in states})
     return (Counted(len(verdicts), "{n} machine: ", "{n} machines: "), *found, ".")
 
@@ -425,6 +445,8 @@ def _passed_over(files: Mapping[Path, str]) -> Iterator[str]:
 
 def _code(verdicts: Sequence[Verdict], strict: bool) -> int:
     states = {verdict.status for verdict in verdicts}
+    if "fault" in states:
+        return FAULT
     if not states.isdisjoint(WITHOUT_RESULTS):
         return BAD_INPUT
     return PLUGIN_BROKE if "error" in states else _exit_code([verdict.verdict for verdict in verdicts], strict)

@@ -165,6 +165,7 @@ class Config:
     report: ReportSettings = field(default_factory=ReportSettings)
     logo: Logo | None = None
     parts: MachineParts | None = None
+    lacks_parts: bool = False  # they are not all right, so that the mechanisms lack what they give
 
     @property
     def files(self) -> dict[str, str]:
@@ -225,13 +226,25 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     broken = reader.broken if problems else {}
     problems += [reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in broken.items()]
     if found and found.problems:  # without their parts the mechanisms lack what these give them
-        problems = list(found.problems)
+        problems = [*found.problems, *(each for each in problems if _stands_alone(tree, each))]
     problems = beside(tree, problems)
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
                     dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings(), logo,
-                    found.parts if found else None)  # fmt: skip
+                    found.parts if found else None, bool(found and found.problems))  # fmt: skip
     return config, problems
+
+
+def _stands_alone(tree: Tree, problem: Problem) -> bool:
+    """Whether a problem is of a typed value that refers to nothing, so that it has nothing to do with the parts."""
+    given: Any = tree.data
+    for name in problem.path.split("."):
+        known = dict(enumerate(given)) if isinstance(given, list) else given
+        key = int(name) if isinstance(given, list) and name.isdecimal() else name
+        if not isinstance(known, dict) or key not in known:
+            return False
+        given = known[key]
+    return not isinstance(given, dict | list) and "${" not in str(given)
 
 
 def _declared(discovery: Discovery, kind: str) -> Mechanism | None:

@@ -19,6 +19,7 @@ from diecut_report.errors import PluginError
 from diecut_report.formulas import Array
 from diecut_report.results.conclusion import VALUES
 from diecut_report.results.model import OpenRecord, ResultsRecord
+from diecut_report.results.open_items import UNPROVED
 from diecut_report.standards.ranges import UsualRange, range_of
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
@@ -40,10 +41,12 @@ UNTRIED = phrase(
 def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]:
     """Return what is open of a machine without the assumed and default values that are proved harmless; those left say which check changes.
 
-    Values that are not a single number of the configuration, or of mechanisms that cannot be calculated on arrays, stay open.
+    Values that are not a single number of the configuration, or of mechanisms that cannot be calculated on arrays, stay open; so do
+    those of which nobody knows what would be usual.
     """
     numbers = standing_numbers(config)
-    named = [each for each in results.summary.open if each.what in VALUES and each.path in numbers]
+    tried = [each for each in results.summary.open if each.what in VALUES and each.why == UNPROVED]
+    named = [each for each in tried if each.path in numbers]
     homes = {numbers[each.path].asked.instance for each in named}
     reached = {home: frozenset(downstream(config, home)) for home in homes}
     trials = [Trial.of(config, each, numbers[each.path], reached) for each in named]
@@ -53,7 +56,7 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
     harmless |= {each.item.path for each in machines.trials if each.item.path not in changes}
     harmless -= {each.item.path for each in trials if machines.left_out & each.reached}
     left = [each for each in results.summary.open if each.what not in VALUES or each.path not in harmless]
-    return [each.with_(why=changes.get(each.path, UNTRIED)) if each.what in VALUES else each for each in left]
+    return [each.with_(why=changes.get(each.path, UNTRIED)) if each in tried else each for each in left]
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 from diecut_report.config.instances import Instance, Slot
 from diecut_report.config.model import PRESS
 from diecut_report.config.source_hashes import plugin_code
-from diecut_report.config.validation import ASSUMED
+from diecut_report.config.validation import ASSUMED, names_something
 from diecut_report.machine.calculation import Calculation
 from diecut_report.mechanism.inputs import POINTS, Quantity
+from diecut_report.mechanism.names import Text
 from diecut_report.quantities.units import unit
 from diecut_report.results.carrying_parts import counted, unrated
 from diecut_report.results.conclusion import LEFT, CalculatedCount, judged, summary, unsettled
@@ -18,7 +20,7 @@ from diecut_report.results.model import OpenRecord, SummaryRecord
 from diecut_report.results.origins import assumed, input_path, is_default
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
-from diecut_report.standards.ranges import UsualRange, range_of
+from diecut_report.standards.ranges import open_choices, range_of, unranged
 from diecut_report.text.phrases import Phrase, phrase
 
 FORCES = ("N", "N*m")  # SI units of what a part carries
@@ -49,7 +51,7 @@ def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[Op
     for name, ports in free_ports(run).items() if run.config.parts is None else ():
         why = Phrase("no part takes {ports}", ports=", ".join(ports))
         found.append(OpenRecord(what="not_rated", path=f"mechanisms.{name}", owner=owner, why=why))
-    found += [OpenRecord(what=what, path=path, owner=owner, why=UNPROVED) for path, what in open_values(run)]
+    found += [OpenRecord(what=each.what, path=each.path, owner=owner, why=each.why) for each in open_values(run)]
     order = list(LEFT)
     return sorted(found, key=lambda each: order.index(each.what))
 
@@ -80,17 +82,29 @@ def _forces(calc: Calculation) -> list[str]:
     return [name for name, step in calc.curves.items() if step.output and unit(step.unit).si in FORCES]
 
 
-def open_values(run: Run) -> Iterator[tuple[str, OpenKind]]:
-    """Yield the paths of inputs that are assumed, or have the value that they would have if nobody typed them.
+class OpenValue(NamedTuple):
+    """Hold an open value: its path, what it rests on, and why it is open."""
+
+    path: str
+    what: OpenKind
+    why: str
+
+
+def open_values(run: Run) -> Iterator[OpenValue]:
+    """Yield the inputs that are assumed, have the value that they would have if nobody typed them, or ask for a basis and have none.
 
     A default of zero has nothing below or above it that would be usual, unless the table of ranges says so.
     """
     for name, instance in run.config.instances.items():
         if instance is None or name not in run.blocks:
             continue
+        unranged_keys = unranged(run.config.kinds.get(name, PRESS))
         for slot in instance.slots:
+            path = input_path(name, slot.key)
             if what := _rests_on(run, instance, slot):
-                yield input_path(name, slot.key), what
+                yield OpenValue(path, what, unranged_keys.get(slot.name, UNPROVED) if slot.is_given else UNPROVED)
+            elif why := _open_choice(run, instance, slot):
+                yield OpenValue(path, "assumed", why)
 
 
 def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
@@ -102,16 +116,22 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     )
     if (instance.name, *slot.key) in run.config.links or not is_number:
         return "assumed" if is_assumed else None
-    value = instance.value(slot.key)
-    usual = range_of(run.config.kinds.get(instance.name, PRESS), slot.name)
+    value, kind = instance.value(slot.key), run.config.kinds.get(instance.name, PRESS)
+    usual = range_of(kind, slot.name)
     if not slot.is_given or is_default(run.blocks[instance.name], slot.key):
         return "default" if value or usual else None
-    founded = run.bases.is_founded((instance.name, *slot.key)) and not _is_beyond(slot, value, usual)
-    asks = usual is not None and (usual.needs_basis or _is_beyond(slot, value, usual))
+    is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
+    beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]
+    unsaid = is_unranged and is_limit and not names_something(said.note if said else "")
+    asks = is_unranged or beyond or (usual is not None and usual.needs_basis)
+    founded = run.bases.is_founded((instance.name, *slot.key)) and not (beyond or unsaid)
     return "assumed" if is_assumed or (asks and not founded) else None
 
 
-def _is_beyond(slot: Slot, value: float, usual: UsualRange | None) -> bool:
-    """Whether an input allows more, or less, than is usual."""
-    is_limit = usual is not None and not usual.of and str(slot.key[-1]).startswith(LIMIT)
-    return is_limit and usual is not None and not usual.usual[0] <= value <= usual.usual[1]
+def _open_choice(run: Run, instance: Instance, slot: Slot) -> str:
+    """Why a text of an input is open; nothing where it is not, or is made of the parts of the machine."""
+    parts = run.config.parts
+    if not isinstance(slot.meta, Text) or (parts is not None and instance.name in parts.calculations):
+        return ""
+    why = open_choices(run.config.kinds.get(instance.name, PRESS)).get((slot.name, str(slot.value)), "")
+    return "" if run.bases.is_founded((instance.name, *slot.key)) else why

@@ -444,8 +444,10 @@ class Run:
 def impossible(config: Config, known: Sequence[Problem]) -> tuple[list[Problem], list[PluginError]]:
     """Return what cannot be in a config, beside the ``known`` problems of it, and the plugins that break on it.
 
-    Mechanisms with a known problem are left out, with those that refer to them.
+    Mechanisms with a known problem are left out, with those that refer to them; all are where they lack their parts.
     """
+    if config.lacks_parts:
+        return [], []
     run = _FeasibilityRun(config, known)
     return run.problems, [error for name, error in run.errors.items() if name not in config.broken]
 

@@ -117,10 +117,12 @@ def _values(
     for path, rows in ranges_of(_kind(instance)).items():
         for key, index, given in _placed(path, homes.get(path, ""), inputs):
 
-            def known(name: str, home: str = homes.get(path, ""), index: int | None = index) -> Any:
+            def known(name: str, path: str = path, home: str = homes.get(path, ""), index: int | None = index) -> Any:
                 found = press.get(name) if name in NUMBERS else results.get(name, inputs.get(name))
                 if isinstance(found, tuple) and index is not None and homes.get(name) == home:
                     return numbers_of(found[index])
+                if index is not None and name in results and np.shape(found)[1:] == (len(inputs[path]),):
+                    return numbers_of(found[:, index])  # a result of each part of the list
                 return numbers_of(found)
 
             for row in rows:

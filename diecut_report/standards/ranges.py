@@ -67,6 +67,15 @@ class _Without(BaseModel):
     model_config = ConfigDict(extra="forbid")
     reason: str
     keys: dict[str, list[str]]
+    needs_basis: bool = False
+
+
+class _Choices(BaseModel):
+    """Hold texts of keys that take something out of a calculation, and why they are open without a basis."""
+
+    model_config = ConfigDict(extra="forbid")
+    reason: str
+    keys: dict[str, dict[str, list[str]]]
 
 
 class RangeTable(BaseModel):
@@ -75,6 +84,7 @@ class RangeTable(BaseModel):
     model_config = ConfigDict(extra="forbid")
     ranges: list[_Row]
     without: list[_Without]
+    choices: list[_Choices]
 
 
 def _with_expressions(given: dict[str, list[str] | dict[str, str]]) -> dict[str, dict[str, str]]:
@@ -111,3 +121,17 @@ def reasons_without(kind: str) -> Iterator[tuple[str, str]]:
     for group in range_table().without:
         for key in (*group.keys.get(EVERY, ()), *group.keys.get(kind, ())):
             yield key, group.reason
+
+
+@cache
+def unranged(kind: str) -> Mapping[str, str]:
+    """Return the keys of a kind that have no row, and ask for a basis all the same, each with the reason."""
+    groups = (group for group in range_table().without if group.needs_basis)
+    return {key: phrase(group.reason) for group in groups for key in group.keys.get(kind, ())}
+
+
+@cache
+def open_choices(kind: str) -> Mapping[tuple[str, str], str]:
+    """Return the texts of keys of a kind that ask for a basis, each with the reason."""
+    rows = ((group.reason, group.keys.get(kind, {})) for group in range_table().choices)
+    return {(key, text): phrase(reason) for reason, own in rows for key, texts in own.items() for text in texts}

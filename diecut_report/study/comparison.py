@@ -19,7 +19,7 @@ from diecut_report.results.changes import differing_kinds, own_changes
 from diecut_report.results.conclusion import RANK, SELF_TEST, doubtful_kinds, summary_of
 from diecut_report.results.mechanism_record import CheckRecord, QuantityRecord
 from diecut_report.study.analysis.variants import side_by_side
-from diecut_report.study.machines import BAD, ENDINGS, IMPOSSIBLE, CheckedMachine
+from diecut_report.study.machines import BAD, ENDINGS, FAULTY, IMPOSSIBLE, WITHOUT_RESULTS, CheckedMachine
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import decimal_sign, localised, said, say
 
@@ -31,6 +31,7 @@ WORDS = {
     "error": phrase("error"),
     BAD: phrase("bad file"),
     IMPOSSIBLE: phrase("impossible machine"),
+    FAULTY: phrase("fault of the program"),
     "warn": phrase("warn"),
     "skipped": phrase("skipped"),
     NOT_CHECKED: phrase("not checked"),
@@ -70,7 +71,7 @@ class Verdict:
         None  # that carry load, and of these those that are rated, where the parts are modelled
     )
     verdict: str = BAD
-    """``pass``, ``conditional`` or ``fail``; ``error`` where a plugin broke, ``bad`` where the file is bad."""
+    """``pass``, ``conditional`` or ``fail``; ``error`` where a plugin broke, ``bad`` where the file is bad, ``fault`` where the program has one."""
 
 
 @dataclass(frozen=True)
@@ -157,7 +158,7 @@ def _rated(of: Verdict) -> ComparedCell | None:
 
 def _count(key: str, of: Verdict) -> ComparedCell | None:
     count = getattr(of, key)
-    return None if of.status in (BAD, IMPOSSIBLE) else ComparedCell(count, str(count))
+    return None if of.status in WITHOUT_RESULTS else ComparedCell(count, str(count))
 
 
 def share_cell(share: float | None, status: str, note: str = "") -> ComparedCell:

@@ -15,7 +15,7 @@ from diecut_report.config import yaml
 from diecut_report.config.loader import is_study
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
-from diecut_report.errors import Problem, UserError, refusal
+from diecut_report.errors import PluginError, Problem, UserError, own_fault, refusal
 from diecut_report.report.text import translated
 from diecut_report.results.mechanism_record import MechanismRecord
 from diecut_report.results.model import ResultsRecord
@@ -37,8 +37,9 @@ MAX_VARIANTS = 100  # of a study that is named as a whole: each is calculated an
 UNUSED: dict[str, Any] = {"curves": {}, "values": {}, "lists": {}} | {
     key: [] for key in ("sections", "figures", "exports", "assumptions", "sources", "errata", "absent")
 }
-BAD, IMPOSSIBLE, BROKEN = "bad", "impossible", "error"
-"""States beside pass, warn and fail: the file is bad, it describes a machine that cannot exist, a plugin broke."""
+BAD, IMPOSSIBLE, BROKEN, FAULTY = "bad", "impossible", "error", "fault"
+"""States beside pass, warn and fail: the file is bad, it describes a machine that cannot exist, a plugin broke, the program itself did."""
+WITHOUT_RESULTS = (BAD, IMPOSSIBLE, FAULTY)
 
 
 @dataclass
@@ -152,11 +153,21 @@ def _loaded(folders: tuple[str, ...]) -> Discovery:
 
 
 def calculated(discovery: Discovery, chunk: tuple[int, str | Tree], finish: Finish) -> CheckedMachine:
-    """Return what comes out of a file or a variant ``DIR#N``, or of what was read of it."""
+    """Return what comes out of a file or a variant ``DIR#N``, or of what was read of it; a fault of the program hides no other file."""
+    given = chunk[1]
+    file = given.file if isinstance(given, Tree) else given
+    try:
+        return _calculated(discovery, given, file, finish)
+    except PluginError:
+        raise
+    except Exception as fault:
+        return CheckedMachine(file, FAULTY, None, [str(Problem(own_fault(fault), file))])
+
+
+def _calculated(discovery: Discovery, given: str | Tree, file: str, finish: Finish) -> CheckedMachine:
     from diecut_report.press import Press
 
-    given = chunk[1]
-    file, notes = given.file if isinstance(given, Tree) else given, list[str]()
+    notes = list[str]()
     source: Path | Tree | None = None
     status = BAD
     try:

@@ -45,6 +45,7 @@ class Bearings:
     elements: tuple[Array, ...]
     knows_factors: tuple[bool, ...]
     permitted_tilt: tuple[Array, ...]
+    type_tilt: tuple[Array, ...]
     variants: int
 
     @property
@@ -168,7 +169,7 @@ def bearings(given: Known) -> Bearings:
         tuple(names), tuple(types or ()), duties, tuple(part.taken(duty) for part, duty in zip(parts, duties, strict=True)),
         tuple(each.number("cycle_speed", 0.0) for each in parts), tuple(each.number("rolling_elements", USUAL_ELEMENTS) for each in parts),
         tuple(each.knows_factors() for each in parts),
-        tuple(each.permitted_tilt() for each in parts), variants,
+        tuple(each.permitted_tilt() for each in parts), tuple(each.type_tilt() for each in parts), variants,
     )  # fmt: skip
 
 

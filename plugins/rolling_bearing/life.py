@@ -107,5 +107,7 @@ value(limits, "static_needed", "C_0,req", "kN", "Static load rating required for
     lambda static_required, static_load: static_required * static_load, source="ISO 76", output=False)
 row(limits, "tilt_limit", "ψ_zul", "mrad", "Permissible misalignment", lambda known: known.row(lambda i: known.permitted_tilt[i]),
     "as given, otherwise 0.58 for ball bearings, 0.87 for roller bearings N, NJ and NU, and 0.29 for others", output=False)
+row(limits, "type_tilt", "ψ_t", "mrad", "Most misalignment that any bearing of the type takes", lambda known: known.row(lambda i: known.type_tilt[i]),
+    "as makers state it for the type and designation", needs=("bearings.permitted_tilt",), output=False)
 limits.part_table("limits_table", "Limits and requirements of all bearings", "bearings",
     ("static_required", "least_load", "valid_load", "rating_needed", "static_needed"))

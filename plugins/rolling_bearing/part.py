@@ -28,6 +28,16 @@ PERMITTED_TILTS = {
     ROLLER: 0.29e-3,
 }  # rad, 2′ and 1′: the least of the makers, of needles
 CYLINDRICAL, CYLINDRICAL_TILT = re.compile(r"(N|NJ|NU)[0-9]"), 0.87e-3  # rad, 3′; with ribs on both rings (NUP) less
+TYPE_TILTS = (
+    (DEEP_GROOVE, "", 2.91e-3),  # 10′
+    ("ball", "7", 0.58e-3),  # angular contact, 2′
+    ("ball", "", 35e-3),  # self-aligning
+    (ROLLER, "R?N[JU]?2[23]", 0.87e-3),  # 3′
+    (ROLLER, "R?N[JU]?[0-9]", 1.16e-3),  # 4′
+    (ROLLER, "R?NUP", 0.58e-3),
+    (ROLLER, "R?NA|NK|NQ|HK|BK|K[0-9]", 0.29e-3),  # needles, 1′
+    (ROLLER, "", 26e-3),  # spherical
+)  # rad, by makers: the most that any bearing of a type and designation takes; of several the first that fits
 ONE_SPEED = 1e-3  # relative difference of two speeds that are one
 MARGIN = 1e-6  # by which a bearing must hold that is chosen with fewer places of the cycle
 
@@ -116,6 +126,12 @@ class GivenBearing:
         kind, name = str(self.text("type")), written(self.text("designation") or self.text("series") or "")
         cylindrical = kind == ROLLER and CYLINDRICAL.match(name)
         return self.number("permitted_tilt", CYLINDRICAL_TILT if cylindrical else PERMITTED_TILTS[kind])
+
+    def type_tilt(self) -> Array:
+        """Return the most that any bearing of its type takes."""
+        kind, name = str(self.text("type")), written(self.text("designation") or self.text("series") or "")
+        tilt = next(tilt for own, pattern, tilt in TYPE_TILTS if own == kind and re.match(pattern, name))
+        return np.full((self.variants, 1), tilt)
 
     # --- ratings ------------------------------------------------------------------------------------------------------------
 

@@ -5,14 +5,18 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 import diecut_report as dr
 from diecut_report.cli.main import main, program
+from diecut_report.cli.output import FAULT
+from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.live.session import LiveSession
+from diecut_report.study import machines
 from tests.configs import MECHANISMS, problems, saved
 from tests.examples import few
 
@@ -172,6 +176,50 @@ def test_a_slip_is_reported_with_its_place_by_the_commands_that_read_most(
     assert re.match(r"press\.yaml:\d+:\d+: ", line) and re.search(words, told)
 
 
+PARTS = Path(import_module("diecut_report.configs").__path__[0]) / "machines" / "flat_cylinder.yaml"
+OF_PARTS = PARTS.read_text("utf-8")
+SECTIONS, DRIVE, CONVEYED = "45x70 r1, 50x40 r1, 60x320", "module: 4, width: 50}", "to: [far.left, far.right]"
+FORM = r"section 1 .*write diameter x length in mm.*60x320 r1"
+SLIPS_OF_PARTS = [
+    ("  surface:", "  surfce:", "surfce: is an unknown key .did you mean 'surface'"), ("  stop:", "  stopp:", "did you mean 'stop'"),
+    ("  shaft_material:", "  shaft_materiall:", "did you mean 'shaft_material'"), ("  basis:", "  kind: x\n  basis:", "kind: is an unknown key"),
+    (SECTIONS, "45.0.0x70 r1", FORM), (SECTIONS, "45..x70", FORM), (SECTIONS, ".x70", FORM), (SECTIONS, "45x70 r..", FORM),
+    (SECTIONS, "45х70", r"section 1 .*“х” \(cyrillic small letter ha\) only looks Latin"), (SECTIONS, "٤٥x70", FORM),
+    (SECTIONS, "45x70, 50*40", "section 2 “50.40 r1"), ("parts: [{pulley: small, at: 25}]", "parts: 5", "parts: is 5; a list is needed"),
+    ("parts: [{pulley: small, at: 25}]", "parts: true", "parts: is true; a list"), ("sections: 35x70",
+     "left: '${shafts.main.parts.²}'\n    sections: 35x70", "²"),
+    ("  cylinder:\n    kind", "  shafts_main:\n    kind", "is the name of a calculation"),
+    ("teeth: 18/87", "teeth: 18/87/3", "two numbers of teeth"), ("teeth: 30/30", "teeth: 30/", "one number of teeth, or two"),
+    ("diameters: 125/375", "diameters: 125/375/500", "two diameters"), ("teeth: 18/87", "teeth: 18/87, teeth_1: 19", "stands beside teeth_1"),
+    ("teeth: 52", "teeth: 52, teeth_1: 9", "stands beside teeth_1"), ("  main_drive:", "  ../x:", "is not a name"),
+    ("belts: {motor:", "belts: {mo tor:", "“mo tor”, which is not a name"),
+    (DRIVE, "module: 4, width: 50, foo: 1}", "foo: is an unknown key"), ("at: 100, designation", "at: 100 kg, designation", "is a mass; a length"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("typed", "instead", "words"),
+    SLIPS_OF_PARTS,
+    ids=[f"{number}: {each[1].strip()[:30]}" for number, each in enumerate(SLIPS_OF_PARTS)],
+)
+def test_a_slip_in_the_parts_of_a_machine_is_reported_with_its_place(
+    typed: str, instead: str, words: str, folder: Path, capfd: Capture
+) -> None:
+    text = OF_PARTS.replace("  stop:", "  surface: ground\n  stop:", 1)
+    assert typed in text
+    saved(folder, text.replace(typed, instead, 1))
+    told = reported("validate", ["press.yaml"], capfd)
+    lines = told.splitlines()
+    assert all(re.match(r"press\.yaml:\d+:\d+: ", each) for each in lines) and re.search(words, told)
+    assert len(lines) <= 2 and "sheet_step" not in told and "there is no such" not in told
+
+
+def test_a_slip_in_the_parts_hides_none_in_a_mechanism(tmp_path: Path) -> None:
+    text = OF_PARTS.replace(SECTIONS, "45..x70", 1).replace("    segment_height: 40 mm", "    segment_hight: 40 mm", 1)
+    told = problems(tmp_path, text)
+    assert len(told) == 2 and "which cannot be read" in told[0] and "did you mean 'segment_height'" in told[1]
+
+
 SECOND = "  other: {kind: clutch, wedge_angel: 10 deg}\n"
 
 
@@ -195,6 +243,41 @@ def test_one_bad_file_hides_no_other(folder: Path, capfd: Capture) -> None:
     assert all(re.search(rf"bad{number}\.yaml:\d+:\d+: ", told) for number in range(7)) and re.search(
         r"(?m)^good +conditional", told
     )
+
+
+def test_a_fault_of_the_program_in_one_file_hides_no_other(
+    folder: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read = machines._source
+
+    def broken(given: object, *others: object) -> object:
+        if "bad" in str(given):
+            raise ZeroDivisionError("of nothing")
+        return read(given, *others)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(machines, "_source", broken)
+    saved(folder, PRESS, "good.yaml")
+    saved(folder, PRESS, "bad.yaml")
+    assert main(["check", ".", "--jobs", "1"]) == FAULT
+    out, err = capfd.readouterr()
+    assert re.search(r"(?m)^good +conditional", out) and re.search(r"(?m)^bad +fault of the program$", out)
+    assert re.search(
+        r"(?m)^bad\.yaml: This is a fault of .*test_slips\.py, line \d+: ZeroDivisionError: of nothing", err
+    )
+
+
+def test_a_fault_of_the_program_in_one_of_several_files_hides_no_problem_of_another(
+    folder: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read = yaml.read
+    monkeypatch.setattr(yaml, "read", lambda file: read(file) if "bad" not in str(file) else 1 / 0)
+    saved(folder, PRESS, "bad.yaml")
+    saved(folder, slipped(HEIGHT, "40 kg"))
+    assert main(["validate", "bad.yaml", "press.yaml"]) == FAULT
+    err = capfd.readouterr().err
+    assert "ZeroDivisionError" in err and "is a mass; a length is needed" in err
+    assert main(["validate", "bad.yaml"]) == FAULT
+    assert "Traceback" in capfd.readouterr().err  # of one file alone all is told
 
 
 @pytest.mark.parametrize(("command", "arguments"), few(list(commands()), lambda each: each[0] in ("batch", "where")))

@@ -64,6 +64,119 @@ def test_what_is_allowed_beyond_its_usual_range_is_never_founded(
     assert values(tmp_path, text).get("mechanisms.c.allowable_pressure") == what
 
 
+BEARING = """\
+  b:
+    kind: rolling_bearing
+    bearings:
+      - {name: one, type: %s, designation: "%s",%s radial_force: 2 kN, speed: 50 rpm, %s}
+      - {name: two, type: roller, designation: NU210E, radial_force: 2 kN, speed: 50 rpm}
+"""
+
+
+def of_bearing(folder: Path, keys: str, type_: str = "deep_groove", designation: str = "6209") -> list[OpenRecord]:
+    ratings = (
+        "" if designation.startswith("NU") else " dynamic_rating: 35 kN, static_rating: 21 kN,"
+    )  # of others there is no table
+    return left(folder, HEAD + BEARING % (type_, designation, ratings, keys))
+
+
+@pytest.mark.parametrize(
+    ("type_", "designation", "mrad", "is_usual"),
+    [
+        ("deep_groove", "6209", 2.9, True), ("deep_groove", "6209", 3.0, False), ("deep_groove", "6209", 50, False),
+        ("ball", "7208", 1.0, False), ("ball", "1208", 35, True), ("ball", "1208", 40, False),
+        ("roller", "NU208E", 1.1, True), ("roller", "NU208E", 1.2, False), ("roller", "NU2208E", 0.87, True), ("roller", "NU2208E", 1.0, False),
+        ("roller", "NA4909", 0.5, False), ("roller", "22212", 26, True), ("roller", "22212", 30, False),
+    ],
+)  # fmt: skip
+def test_a_permitted_tilt_is_held_against_what_bearings_of_its_type_take(
+    type_: str, designation: str, mrad: float, is_usual: bool, tmp_path: Path
+) -> None:
+    typed = f"tilt: {{value: 0.5 mrad, basis: measured}}, permitted_tilt: {{value: {mrad} mrad, basis: catalogue, note: the maker's}}"
+    warned = [each for each in of_bearing(tmp_path, typed, type_, designation) if each.what == "warning"]
+    assert ([each.path for each in warned] == []) == is_usual
+    if not is_usual:
+        assert warned[0].path == "mechanisms.b.checks.usual_values"
+        assert "bearings.permitted_tilt / type_tilt = " in str(warned[0].why)
+
+
+@pytest.mark.parametrize(
+    ("tilt", "what"),
+    [
+        ("0 mrad", "assumed"),
+        ("{value: 0.1 mrad, basis: given}", "assumed"),
+        ("{value: 0.1 mrad, basis: measured}", None),
+    ],
+)
+def test_a_tilt_that_is_only_typed_is_open(tilt: str, what: str | None, tmp_path: Path) -> None:
+    (found,) = [
+        each for each in of_bearing(tmp_path, f"tilt: {tilt}") if each.path == "mechanisms.b.bearings.0.tilt"
+    ] or [None]
+    assert (found and found.what) == what
+    assert found is None or "nothing says where it comes from" in str(found.why)
+
+
+SHAFT = """\
+  s:
+    kind: shaft
+    sections: [{length: 300 mm, diameter: 50 mm}]
+    bearing_a: 20 mm
+    bearing_b: 280 mm
+    material: C45E+QT
+    loads: [{name: gear, position: 150 mm, force_y: 3 kN, torque: 100 N*m, seat: %s}, {name: end, position: 290 mm, torque: -100 N*m, seat: none}]
+    notches: [{position: 150 mm, type: custom, k_f: %s, k_fs: 1.3}]
+    seat_a: %s
+"""
+DRAWN = "{value: %s, basis: drawing}"
+
+
+def of_shaft(folder: Path, load: str = "tight", k_f: str = DRAWN % "1.5", seat: str = "tight") -> dict[str, str]:
+    found = left(folder, HEAD + SHAFT % (load, k_f, seat))
+    return {each.path.removeprefix("mechanisms.s."): str(each.why) for each in found if each.what == "assumed"}
+
+
+def test_a_loose_seat_is_a_choice_that_is_open_until_somebody_draws_it(tmp_path: Path) -> None:
+    kept = of_shaft(tmp_path)
+    loose = of_shaft(tmp_path, load="loose", seat="loose")
+    assert loose.keys() - kept.keys() == {"seat_a", "loads.0.seat"}
+    assert "loose seat" in loose["seat_a"]
+    assert of_shaft(tmp_path, load=DRAWN % "loose", seat=DRAWN % "loose").keys() == kept.keys()
+    named = "{value: loose, basis: standard, note: h6 of ISO 286-2}"
+    assert of_shaft(tmp_path, seat=named).keys() == kept.keys()
+
+
+def test_the_factor_of_a_custom_notch_asks_for_its_basis(tmp_path: Path) -> None:
+    assert "notches.0.k_f" in of_shaft(tmp_path, k_f="1")
+    assert "notches.0.k_f" not in of_shaft(tmp_path)
+    assert "in place of that of the method" in of_shaft(tmp_path)["notches.0.k_fs"]
+
+
+@pytest.mark.parametrize(
+    ("limit", "is_open"),
+    [
+        ("1e9 N*m", True), ("{value: 1e9 N*m, basis: measured}", True), ("{value: 50 N*m, basis: drawing}", True),
+        ("{value: 50 N*m, basis: catalogue, note: gearbox K 47}", False), ("{value: 50 N*m, basis: measured, note: test 7 of the gearbox}", False),
+    ],
+)  # fmt: skip
+def test_a_limit_without_a_usual_range_is_open_unless_a_note_says_who_sets_it(
+    limit: str, is_open: bool, tmp_path: Path
+) -> None:
+    own = Discovery().mechanism("circular_knife").example.inputs | {
+        "kind": "circular_knife",
+        "allowable_torque": "LIMIT",
+    }
+    own |= {"thickness": "0.5 mm", "speed": "60 rpm"}
+    found = values(tmp_path, HEAD + f"  k: {own!r}\n".replace("'LIMIT'", limit))
+    assert ("mechanisms.k.allowable_torque" in found) == is_open
+
+
+@pytest.mark.parametrize(("rate", "is_open"), [("1000 1/h", True), ("{value: 1000 1/h, basis: drawing}", False)])
+def test_a_required_rate_that_is_only_typed_is_open(rate: str, is_open: bool, tmp_path: Path) -> None:
+    kind = "    kind: press_consistency\n"
+    found = values(tmp_path, EXAMPLE.read_text("utf-8").replace(kind, f"{kind}    required_rate: {rate}\n"))
+    assert ("mechanisms.consistency.required_rate" in found) == is_open
+
+
 def test_a_reference_rests_on_what_it_refers_to(tmp_path: Path) -> None:
     text = (
         HEAD

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import atan2, cos, lcm, sin
@@ -84,6 +84,25 @@ def millimetres(value: float) -> str:
     return f"{value * 1e3:.12g} mm"
 
 
+def typed_paths(value: Any) -> Iterator[KeyPath]:
+    """Yield where the numbers that a value is made of are typed; of references nothing."""
+    match value:
+        case TypedValue(path=path) | TypedNumber(path=path):
+            yield path
+        case dict() | list():
+            for part in value.values() if isinstance(value, dict) else value:
+                yield from typed_paths(part)
+
+
+def first_place(value: Any) -> KeyPath | None:
+    """Return where the first number that a value is made of is typed; None where it is made of references alone."""
+    return next(typed_paths(value), None)
+
+
+def _is_of_machine(value: Any) -> bool:
+    return isinstance(value, TypedValue) and value.path[0] == "machine"
+
+
 @dataclass(eq=False)
 class Demands:
     """Know what the parts take from their shafts; ``blocks`` are the mechanisms as the file has them, ``of_kind`` the declarations of their kinds."""
@@ -93,6 +112,29 @@ class Demands:
     of_kind: Mapping[str, Mechanism]
     made: list[Element] = field(default_factory=list)
     fills: dict[str, dict[str, Any]] = field(default_factory=dict)
+    twice: list[tuple[KeyPath, KeyPath]] = field(default_factory=list)  # typed keys that follow, each with from where
+
+    def _beside(
+        self,
+        inputs: Mapping[str, Any],
+        more: Iterable[str],
+        path: KeyPath,
+        source: KeyPath,
+        follows: Container[str] = (),
+    ) -> dict[str, TypedValue]:
+        """The keys of a part that go on to its calculation, which has ``inputs`` already.
+
+        What follows from the parts (of itself, or from ``source``) is not typed again, which is noted; what ``machine`` gives
+        all of them may be.
+        """
+        found = {}
+        for key in more:
+            derived = inputs.get(key)
+            if key in follows or (key in inputs and not _is_of_machine(derived)):
+                self.twice.append(((*path, key), first_place(derived) or source))
+            else:
+                found[key] = TypedValue((*path, key))
+        return found
 
     def _add(self, name: str, kind: str, inputs: dict[str, Any], path: KeyPath) -> None:
         self.made.append(Element(name, kind, inputs, path))

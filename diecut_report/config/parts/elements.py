@@ -11,6 +11,11 @@ from diecut_report.config.parts.shafts import ShaftElements
 from diecut_report.standards import standard_table
 
 GEAR_LIMITS = ("sigma_h_lim", "sigma_f_lim")
+OF_MESH = frozenset({"center_distance", "torque", "torque_curve", "torque_on", "sector", "slope", "load_cases"})
+OF_CHAIN = frozenset({
+    "pitch", "mass_per_length", "center_distance", "speed", "torque", "torque_curve", "power", "acceleration_curve", "velocity_curve",
+})  # fmt: skip
+"""Keys of calculations that follow from the parts also where they are not filled in: by the places of the axes, the chain, what moves it."""
 
 
 class Elements(ShaftElements):
@@ -188,7 +193,7 @@ class Elements(ShaftElements):
         first = 1 if pinion in join.drivers else 2
         inputs: dict[str, Any] = {
             "module": f"${{{join.home}.module}}", "teeth_1": f"${{{join.home}.teeth_{first}}}", "teeth_2": f"${{{join.home}.teeth_{3 - first}}}",
-            "face_width": TypedValue((*path, "width")), "application_factor": 1,
+            "face_width": TypedValue((*path, "width")),
         }  # fmt: skip
         if keys.helix_angle:
             inputs["helix_angle"] = TypedValue((*path, "helix_angle"))
@@ -208,7 +213,7 @@ class Elements(ShaftElements):
                 "swing": f"${{{moving.port[0]}.swing_angle}}",
                 "teeth_present": TypedValue((*path, "teeth_present")),
             }
-        inputs |= {key: TypedValue((*path, key)) for key in join.more}
+        inputs |= {"application_factor": 1} | self._beside(inputs, join.more, path, join.drivers[0].path, OF_MESH)
         self._add(join.calculation, "gear_pair", inputs, path)
 
     def _accuracy(self, pinion: ShaftPart, wheel: ShaftPart) -> dict[str, Any]:
@@ -260,8 +265,8 @@ class Elements(ShaftElements):
                 inputs["driven_inertia"] = f"${{{join.driven[0].shaft.body}.inertia}}"
         else:
             return
-        inputs |= {key: TypedValue((*join.path, key)) for key in join.more}
-        inputs |= {key: f"${{{join.home}.{key}}}" for key in ("moving_mass", "pretension") if key in join.more}
+        typed = self._beside(inputs, join.more, join.path, (*join.path, "moves"), OF_CHAIN)
+        inputs |= typed | {key: f"${{{join.home}.{key}}}" for key in ("moving_mass", "pretension") if key in typed}
         self._add(join.calculation, "roller_chain", inputs, join.path)
 
     def _belt(self, join: Join) -> None:
@@ -277,7 +282,8 @@ class Elements(ShaftElements):
         if distance is not None:
             vbelt["center_distance"] = TypedNumber(millimetres(distance), ("machine", "frame"))
         vbelt |= {key: TypedValue((*path, key)) for key in ("count", "tension") if getattr(keys, key) is not None}
-        vbelt |= {key: TypedValue((*path, key)) for key in join.more if key not in ("power_per_belt",)}
+        more = (key for key in join.more if key != "power_per_belt")
+        vbelt |= self._beside(vbelt, more, path, ("machine",), {"center_distance"})
         fills: dict[str, Any] = {"vbelt": vbelt, "gears": self._train_gears(join.driven[0].shaft.name)}
         if "power_per_belt" in join.more:
             fills["power_per_belt"] = TypedValue((*path, "power_per_belt"))

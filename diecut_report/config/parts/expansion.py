@@ -6,7 +6,7 @@ Each value of a calculation stands where the part's own is typed, so that whatev
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -60,10 +60,24 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
     taken = [each.name for each in made if each.name in given]
     for name in taken:
         parts.fault(("mechanisms", name), "is the name of a calculation that the parts make; choose another one")
+    for name, paths in _homes(made).items():
+        if len(paths) > 1:
+            template = (
+                "makes the calculation {name}, as another part does by its name; choose another name (against {place})"
+            )
+            parts.fault(paths[1], template, name=name, place=parts.where(paths[0]))
     problems = [*reader.problems, *coherence(parts, elements)]
     if problems:  # which would be told again of what is made of them
         return Expanded(_without(tree), parts, None, tuple(problems))
     return Expanded(_Writer(tree, parts, elements).written(made), parts, elements, ())
+
+
+def _homes(made: Sequence[Element]) -> dict[str, list[KeyPath]]:
+    """Where the parts stand that a calculation of each name is made of."""
+    found: dict[str, list[KeyPath]] = {}
+    for each in made:
+        found.setdefault(each.name, []).append(each.path)
+    return found
 
 
 def _without(tree: Tree) -> Tree:

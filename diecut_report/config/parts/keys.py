@@ -59,6 +59,7 @@ class MachineKeys(Block):
     service: Annotated[Literal["light", "medium", "heavy"], Text("Service of the belts")] = "heavy"
     hours_per_day: Annotated[float, Quantity("", "1", "Hours of service a day", gt=0, le=24)] = 16
     anchor: Annotated[str, Text("Shaft that turns once a sheet")]
+    frame: Annotated[Any, Text("Axes of the shafts, NAME: [x, y]")] = None
 
 
 class SectionKeys(Block):

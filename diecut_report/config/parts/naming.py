@@ -2,42 +2,137 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from diecut_report.config.model import NAME
 from diecut_report.config.parts.elements import GEAR_LIMITS, Elements
 from diecut_report.config.parts.findings import Finding, finding, hubs, mm
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
-from diecut_report.config.parts.model import MachineParts, catalogue_size
+from diecut_report.config.parts.model import MachineParts, ShaftPart, catalogue_size
+from diecut_report.config.validation import quoted
+from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import nearest
 from diecut_report.text.phrases import phrase
 
+PART_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+ON_MOTORS = ("pulley", "gear", "sprocket", "coupling", "flywheel")
+"""Kinds of parts that a motor's shaft carries."""
+OF_BEARINGS = ("designation", "floating")
+OF_HUBS = (
+    "hub",
+    "key",
+    "key_count",
+    "key_form",
+    "integral",
+    "bolted",
+    "interference",
+    "rides_on",
+    "of",
+    "pin",
+    "plane",
+    "fill",
+)
+
 
 def names(parts: MachineParts) -> Iterator[Finding]:
-    """Parts of a shaft have names of their own, and what they ride on, stand for or move is there."""
+    """Shafts, joins and parts have names that can be referred to, those of a shaft each its own."""
+    homes = [(each.name, each.path) for each in (*parts.shafts.values(), *parts.joins)]
+    homes += [(part.name, (*part.path, part.kind)) for shaft in parts.shafts.values() for part in shaft.parts]
+    for name, path in homes:
+        if not PART_NAME.fullmatch(name):
+            template = "is {name}, which is not a name: a letter, then letters, digits and _ are allowed"
+            yield finding(parts, "names", "error", path, template, name=quoted(name))
     for shaft in parts.shafts.values():
         known = [part.name for part in shaft.parts]
         for part in shaft.parts:
-            if not NAME.fullmatch(part.name):
-                template = "is {name}, which is not a name: a letter, then letters, digits, _ and - are allowed"
-                yield finding(parts, "names", "error", (*part.path, part.kind), template, name=repr(part.name))
             if known.count(part.name) > 1:
                 template = "is {name}, the name of another part of this shaft; give each its own"
                 yield finding(parts, "names", "error", (*part.path, part.kind), template, name=part.name)
-            if part.keys.rides_on is not None and part.keys.rides_on not in known:
-                template = "is {name}, which is not a part of this shaft; they are {known}"
-                yield finding(
-                    parts,
-                    "names",
-                    "error",
-                    (*part.path, "rides_on"),
-                    template,
-                    name=part.keys.rides_on,
-                    known=", ".join(known),
-                )
             if part.keys.pin is not None and part.port is None:
                 template = "stands for no port, such as drive.crank, whose force acts on the pin; give of"
                 yield finding(parts, "names", "error", part.path, template)
+
+
+def riding(parts: MachineParts) -> Iterator[Finding]:
+    """What a part rides on is another one of its shaft, which the shaft carries in the end."""
+    for shaft in parts.shafts.values():
+        carried_by = {part.name: part.keys.rides_on for part in shaft.parts}
+        for part in (each for each in shaft.parts if each.keys.rides_on is not None):
+            passed, below = {part.name}, part.keys.rides_on
+            while below in carried_by and below not in passed:
+                passed.add(below)
+                below = carried_by[below]
+            template = "is {name}, which is not a part of this shaft; they are {known}"
+            if below in passed:
+                template = "is {name}, so that it is carried by itself; name a part that is fixed to the shaft"
+            if below is not None:
+                known = ", ".join(name for name in carried_by if name != part.name)
+                yield finding(
+                    parts, "names", "error", (*part.path, "rides_on"), template, name=part.keys.rides_on, known=known
+                )
+
+
+def described(parts: MachineParts) -> Iterator[Finding]:
+    """A shaft has sections, or it is a motor's, which drives others and carries what its maker's radial force covers."""
+    for shaft in parts.shafts.values():
+        if shaft.is_rated:
+            if not shaft.sections:
+                template = (
+                    "has no sections, so that nothing on it can be calculated; give at least one, such as 60x320 r1"
+                )
+                yield finding(parts, "sections", "error", shaft.path, template)
+            elif shaft.name not in parts.ratios and parts.motion_port(shaft) is None:
+                template = "is turned by nothing, so that it is not calculated; join it to a shaft by a mesh, a chain (to) or a belt"
+                yield finding(parts, "joins", "warning", shaft.path, template)
+            continue
+        path = (*shaft.path, "motor")
+        if shaft.sections:
+            template = "says that shaft and bearings are a maker's, but the shaft has sections; remove one of them"
+            yield finding(parts, "sections", "error", path, template, (*shaft.path, "sections"))
+        for part in (each for each in shaft.parts if each.kind not in ON_MOTORS):
+            template = "says that shaft and bearings are a maker's, whose shaft carries no {kind}; give sections in its place, or remove the part"
+            yield finding(parts, "sections", "error", path, template, part.path, kind=part.kind)
+        if driving := parts.driving_join(shaft):
+            template = "stands on a shaft that {join} drives; a motor drives others"
+            yield finding(parts, "sections", "error", path, template, driving.path, join=driving.name)
+
+
+def joined(parts: MachineParts) -> Iterator[Finding]:
+    """Each part takes part in one join, once; sprockets side by side stand on one shaft, each with one on the other side."""
+    homes: dict[ShaftPart, KeyPath] = {}
+    for join in parts.joins:
+        for part in (*join.drivers, *join.driven):
+            if part in homes:
+                template = (
+                    "joins {part}, which is joined already; a part takes part in one mesh, chain or belt, and once"
+                )
+                yield finding(parts, "joins", "error", join.path, template, homes[part], part=part.called)
+            homes[part] = join.path
+        for side in (join.drivers, join.driven):
+            shafts = list(dict.fromkeys(part.shaft.name for part in side))
+            if len(shafts) > 1:
+                template = "has sprockets side by side on {shafts}; those of a side stand on one shaft"
+                yield finding(parts, "joins", "error", join.path, template, shafts=" and ".join(shafts))
+        if join.driven and len(join.driven) != len(join.drivers):
+            template = "leads from {count} sprockets to {others}; each strand has one on either side"
+            yield finding(
+                parts, "joins", "error", (*join.path, "to"), template, count=len(join.drivers), others=len(join.driven)
+            )
+        if isinstance(join.keys, ChainKeys) and not join.driven and join.keys.moves is None:
+            template = "drives no shaft and moves nothing; give to, or moves: MECHANISM.cylinder or MECHANISM.conveyor"
+            yield finding(parts, "joins", "error", join.path, template)
+
+
+def misplaced(parts: MachineParts) -> Iterator[Finding]:
+    """A part has the keys of its kind alone, as no other counts."""
+    for part in (each for shaft in parts.shafts.values() for each in shaft.parts):
+        if part.kind == "bearing":
+            lost, why = OF_HUBS, phrase("which a bearing does not have")
+        else:
+            lost, why = OF_BEARINGS, phrase("which only a bearing has")
+            lost += () if part.port else ("plane",)
+        for key in (each for each in lost if each in part.keys.model_fields_set):
+            yield finding(parts, "names", "error", (*part.path, key), "is a key {why}; remove it", why=why)
 
 
 def designations(parts: MachineParts) -> Iterator[Finding]:

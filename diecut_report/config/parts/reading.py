@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 from diecut_report.config.instances import BlockData
 from diecut_report.config.model import PressBlock
@@ -23,19 +24,52 @@ from diecut_report.config.parts.keys import (
 )
 from diecut_report.config.validation import ConfigPlace, copied, declared, quoted, spread_out, validate
 from diecut_report.config.yaml import KeyPath, Tree, resolved
-from diecut_report.errors import Problem
+from diecut_report.errors import Problem, lookalikes
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.mechanism.inputs import Block, Quantity
 from diecut_report.quantities.units import unit
-from diecut_report.text.phrases import Phrase
+from diecut_report.text.phrases import Phrase, phrase
 
-SECTION = re.compile(r"(?P<diameter>[\d.]+)(?:/(?P<bore>[\d.]+))?x(?P<length>[\d.]+)(?: +r(?P<fillet_radius>[\d.]+))?")
+_NUMBER = r"\d+(?:\.\d*)?|\.\d+"
+SECTION = re.compile(
+    rf"(?P<diameter>{_NUMBER})(?:/(?P<bore>{_NUMBER}))?x(?P<length>{_NUMBER})(?: +r(?P<fillet_radius>{_NUMBER}))?",
+    re.ASCII,
+)
 """A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
+INDEX = re.compile(r"[0-9]{1,6}")
 COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
 MODELS: Mapping[str, type[Block]] = {"shafts": ShaftKeys, "meshes": MeshKeys, "chains": ChainKeys, "belts": BeltKeys}
-TAKEN_APART = ("teeth", "diameters")
-"""Keys whose text holds two numbers."""
+
+
+class _Pair(NamedTuple):
+    """Hold a key whose text holds two numbers, the keys of these, how it is written, and how many of the numbers are needed."""
+
+    key: str
+    single: tuple[str, str]
+    form: str
+    least: int = 2
+
+
+_TEETH = ("teeth_1", "teeth_2")
+PAIRS: Mapping[type[Block], _Pair] = {
+    MeshKeys: _Pair("teeth", _TEETH, phrase("two numbers of teeth with a stroke between them, such as 18/87")),
+    ChainKeys: _Pair(
+        "teeth", _TEETH, phrase("one number of teeth, or two with a stroke between them, such as 17/34"), least=1
+    ),
+    BeltKeys: _Pair(
+        "diameters", ("diameter_1", "diameter_2"), phrase("two diameters with a stroke between them, such as 125/375")
+    ),
+}
+TAKEN_APART = tuple(dict.fromkeys(pair.key for pair in PAIRS.values()))
+
+
+class _Apart(NamedTuple):
+    """Hold where the pieces of texts stand, the keys that are missing as a text cannot be taken apart, and why that is so."""
+
+    listed: Mapping[KeyPath, KeyPath] = MappingProxyType({})
+    missing: frozenset[KeyPath] = frozenset()
+    problems: tuple[Problem, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -59,9 +93,8 @@ class PartsReader:
     _sought: list[str] = field(default_factory=list)  # references that are followed just now
 
     def machine(self) -> ReadBlock | None:
-        """Return the block ``machine`` without its frame."""
-        given = {key: value for key, value in self.data["machine"].items() if key != "frame"}
-        return self._block(MachineKeys, given, ("machine",))
+        """Return the block ``machine``, whose keys go on to no calculation: an unknown one is refused."""
+        return self._block(MachineKeys, self.data["machine"], ("machine",))
 
     def frame(self) -> dict[str, tuple[float, float]]:
         """Return the axes of the frame by their names, m."""
@@ -104,8 +137,13 @@ class PartsReader:
 
     def _block(self, model: type[Block], given: Mapping[str, Any], path: KeyPath) -> ReadBlock | None:
         place = ConfigPlace(self.tree, path)
-        data, place = _taken_apart(model, copied(dict(given)), place)
-        own = {key: value for key, value in data.items() if key in model.model_fields or key in model.spread}
+        data = copied(dict(given))
+        apart = _taken_apart(model, data, place)
+        place = replace(place, listed={**place.listed, **apart.listed})
+        goes_on = model is not MachineKeys
+        own = {
+            key: value for key, value in data.items() if not goes_on or key in model.model_fields or key in model.spread
+        }
         if model is ShaftKeys and isinstance(own.get("parts"), list):
             own["parts"] = [_part(part) for part in own["parts"]]
         own, place, problems = spread_out(model, own, place)
@@ -113,15 +151,16 @@ class PartsReader:
             place = self._pins(own, place, problems)
         read = BlockData.read(model, own, place, self.tables)
         numbers = self._numbers(model, read.data, read.place, ())
-        block, faults = validate(model, numbers, read.place)
-        self.problems += [*problems, *read.problems, *faults]
+        block, faults = validate(model, numbers, read.place, apart.missing)
+        self.problems += [*apart.problems, *problems, *read.problems, *faults]
         more = tuple(key for key in given if key not in model.model_fields and key not in TAKEN_APART)
-        return None if block is None else ReadBlock(path, block, more)
+        return None if block is None or apart.problems else ReadBlock(path, block, more)
 
     def _pins(self, own: dict[str, Any], place: ConfigPlace, problems: list[Problem]) -> ConfigPlace:
         """Take the lists in the pins of the parts apart."""
         listed = dict(place.listed)
-        for index, part in enumerate(own.get("parts") or ()):
+        parts = own.get("parts")
+        for index, part in enumerate(parts if isinstance(parts, list) else ()):
             if isinstance(part, dict) and isinstance(part.get("pin"), dict):
                 home: KeyPath = ("parts", index, "pin")
                 inner, moved, faults = spread_out(PinKeys, part["pin"], ConfigPlace(self.tree, (*place.root, *home)))
@@ -164,7 +203,8 @@ class PartsReader:
     def _typed(self, path: str) -> tuple[float, str]:
         """The number that is typed at a path, in SI, and its SI unit; ConditionError where none is."""
         key: KeyPath = tuple(
-            int(part) if part.isdigit() else part for part in path.removeprefix("${").removesuffix("}").split(".")
+            int(part) if INDEX.fullmatch(part) else part
+            for part in path.removeprefix("${").removesuffix("}").split(".")
         )
         given = _at(self.data.get("mechanisms"), key) if key[0] not in self.data else _at(self.data, key)
         known: dict[str, type[Block]] = {"press": PressBlock, **self.models}
@@ -217,38 +257,51 @@ def _part(given: Any) -> Any:
     return {key: value for key, value in named.items() if key in PartKeys.model_fields}
 
 
-def _taken_apart(model: type[Block], data: dict[str, Any], place: ConfigPlace) -> tuple[dict[str, Any], ConfigPlace]:
-    """The data with its texts taken apart, and where the pieces stand."""
-    apart: Mapping[type[Block], Callable[[dict[str, Any]], dict[KeyPath, KeyPath]]] = {
-        ShaftKeys: _sections, MeshKeys: _teeth, ChainKeys: _teeth, BeltKeys: _diameters,
-    }  # fmt: skip
-    listed = apart[model](data) if model in apart else {}
-    return data, ConfigPlace(place.tree, place.root, {**place.listed, **listed})
+def _taken_apart(model: type[Block], data: dict[str, Any], place: ConfigPlace) -> _Apart:
+    """Take the texts of the data apart."""
+    if model is ShaftKeys:
+        return _sections(data, place)
+    return _pair(data, place, PAIRS[model]) if model in PAIRS else _Apart()
 
 
-def _sections(data: dict[str, Any]) -> dict[KeyPath, KeyPath]:
+def _sections(data: dict[str, Any], place: ConfigPlace) -> _Apart:
     given = data.get("sections")
     if not isinstance(given, str):
-        return {}
-    found: list[Any] = []
-    for text in given.split(","):
-        matched = SECTION.fullmatch(text.strip())
-        found.append({key: float(value) for key, value in matched.groupdict().items() if value} if matched else text)
+        return _Apart()
+    found, problems, offset = list[dict[str, float]](), list[Problem](), 0
+    for index, text in enumerate(given.split(",")):
+        if matched := SECTION.fullmatch(text.strip()):
+            found.append({key: float(value) for key, value in matched.groupdict().items() if value})
+        else:
+            problems.append(_unreadable_section(place, index + 1, text.strip(), offset))
+        offset += len(text) + 1
     data["sections"] = found
-    return {("sections", index): ("sections",) for index in range(len(found))}
+    listed: dict[KeyPath, KeyPath] = {("sections", index): ("sections",) for index in range(len(found))}
+    return _Apart(listed, frozenset([("sections",)]) if problems else frozenset(), tuple(problems))
 
 
-def _teeth(data: dict[str, Any]) -> dict[KeyPath, KeyPath]:
-    return _pair(data, "teeth", ("teeth_1", "teeth_2"))
+def _unreadable_section(place: ConfigPlace, number: int, text: str, offset: int) -> Problem:
+    template = (
+        "has as section {number} {text}, which cannot be read; write diameter x length in mm, and r with the fillet at its right end: "
+        "60x320 r1, or 60/30x320 where it is bored{seeming}"
+    )
+    letters = lookalikes(text)
+    seeming = Phrase(" ({letters} only looks Latin)", letters=letters) if letters else ""
+    return place.problem(("sections",), template, within=offset, number=number, text=quoted(text), seeming=seeming)
 
 
-def _diameters(data: dict[str, Any]) -> dict[KeyPath, KeyPath]:
-    return _pair(data, "diameters", ("diameter_1", "diameter_2"))
-
-
-def _pair(data: dict[str, Any], key: str, names: tuple[str, str]) -> dict[KeyPath, KeyPath]:
+def _pair(data: dict[str, Any], place: ConfigPlace, pair: _Pair) -> _Apart:
     """Put two numbers with a stroke between them, or a single one, under keys of their own."""
-    given = data.pop(key, None)
-    for name, text in zip(names, str(given).split("/"), strict=False) if given is not None else ():
-        data[name] = resolved(text.strip())
-    return {(name,): (key,) for name in names}
+    given = data.pop(pair.key, None)
+    if given is None:
+        return _Apart()
+    texts = [text.strip() for text in str(given).split("/")]
+    again = [name for name in pair.single if name in data]
+    if again:
+        problem = place.problem((pair.key,), "stands beside {again}; give one of them", again=" and ".join(again))
+    elif not pair.least <= len(texts) <= len(pair.single) or not all(texts):
+        problem = place.problem((pair.key,), "is {given}; write {form}", given=quoted(given), form=phrase(pair.form))
+    else:
+        data |= {name: resolved(text) for name, text in zip(pair.single, texts, strict=False)}
+        return _Apart({(name,): (pair.key,) for name in pair.single})
+    return _Apart({}, frozenset((name,) for name in pair.single), (problem,))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 from math import pi
 
+from diecut_report.config.parts.demands import first_place, typed_paths
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
@@ -19,7 +20,17 @@ from diecut_report.config.parts.model import (
     catalogue_size,
     chain_pitch,
 )
-from diecut_report.config.parts.naming import bores, designations, names, ports, strengths
+from diecut_report.config.parts.naming import (
+    bores,
+    described,
+    designations,
+    joined,
+    misplaced,
+    names,
+    ports,
+    riding,
+    strengths,
+)
 from diecut_report.config.validation import ConfigPlace
 from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
@@ -35,7 +46,7 @@ WIDTH_TO_DIAMETER = 1.2  # of the pinion
 
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
-    of_mechanisms = (rule(parts, elements) for rule in (ports, _ratios, _typed_twice))
+    of_mechanisms = (rule(parts, elements) for rule in (ports, _ratios, _typed_twice, _unused))
     found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
     place = ConfigPlace(parts.reader.tree)
@@ -454,15 +465,30 @@ def _ratios(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """What follows from the parts is not typed otherwise in the block of a mechanism."""
+    """What follows from the parts is typed neither in the block of a mechanism nor at a part."""
+    template = "is given here, but follows from the parts; remove the key"
     for name, fills in elements.fills.items():
         block = elements.blocks.get(name, {})
         for given in fills.keys() & block.keys():
-            template = "is given here, but follows from the parts; remove the key"
-            yield finding(parts, "typed_twice", "error", ("mechanisms", name, given), template)
+            against = first_place(fills[given]) or ("shafts",)
+            yield finding(parts, "typed_twice", "error", ("mechanisms", name, given), template, against)
+    for path, against in elements.twice:
+        yield finding(parts, "typed_twice", "error", path, template, against)
+
+
+def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """What is typed at a part beside its own keys goes into its calculation."""
+    used = set(typed_paths([*(each.inputs for each in elements.made), *elements.fills.values()]))
+    homes = [(shaft.path, shaft.more, f"shafts_{shaft.name}") for shaft in parts.shafts.values()]
+    homes += [(part.path, part.more, f"shafts_{name}") for name, shaft in parts.shafts.items() for part in shaft.parts]
+    for path, more, calculation in homes:
+        for key in more if elements.is_made(calculation) else ():
+            own = (*path, key)
+            if own not in {each[: len(own)] for each in used} | {given for given, _ in elements.twice}:
+                yield finding(parts, "names", "error", own, "goes into no calculation of this part; remove the key")
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
-    names, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall, torque_carried, axes, center, frame,
-    mesh_pair, sector, chain,
+    names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
+    torque_carried, axes, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

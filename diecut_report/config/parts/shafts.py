@@ -10,10 +10,13 @@ from diecut_report.config.parts.demands import Ratio, TypedNumber, TypedValue, m
 from diecut_report.config.parts.keys import LOOSE
 from diecut_report.config.parts.load_cases import LoadCases
 from diecut_report.config.parts.masses import Masses
-from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
+from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, catalogue_size
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.mechanism import Port
 
+OF_SHAFT = frozenset({"rotation", "speed", "turns_per_cycle", "load_cases", "downwards"})
+OF_BEARING = frozenset({"radial_force", "tilt", "speed", "relative_angle", "cycle_speed", "on", "series", "bore_min"})
+"""Keys of calculations that follow from the parts also where they are not filled in."""
 ROLLER_SERIES = ("N", "2")  # how designations of roller bearings begin, spherical ones by 2
 NOTHING = 1e-9  # share of a force that has no part in a direction; offset (m) that is rounding
 
@@ -101,7 +104,8 @@ class ShaftElements(Masses, LoadCases):
                     "seat": "none",
                 }
             )
-        if notches := [notch for part in shaft.parts for notch in self._notches(part)]:
+        derived = [notch for part in shaft.parts for notch in self._notches(part)]
+        if notches := [*derived, *self._typed_notches(shaft)]:
             inputs["notches"] = notches
         if cases := self.cases_of_shaft(shaft):
             inputs["load_cases"] = cases
@@ -114,7 +118,8 @@ class ShaftElements(Masses, LoadCases):
             inputs |= {"speed": self.speed(shaft.name), "turns_per_cycle": int(turns)}
         else:
             inputs["rotation"] = f"${{{shaft.loads}.shaft_angle}}"
-        inputs |= {key: TypedValue((*shaft.path, key)) for key in shaft.more}
+        more = (key for key in shaft.more if key != "notches")
+        inputs |= self._beside(inputs, more, shaft.path, (*shaft.path, "parts"), OF_SHAFT)
         self._add(home, "shaft", inputs, shaft.path)
 
     def _seat(self, part: ShaftPart) -> str:
@@ -126,6 +131,12 @@ class ShaftElements(Masses, LoadCases):
             for end in (-1, 1):
                 place = TypedNumber(millimetres(part.keys.at + end * part.keys.key / 2), (*part.path, "at"))
                 yield {"position": place, "type": kind}
+
+    def _typed_notches(self, shaft: MachineShaft) -> Iterator[TypedValue]:
+        """The notches that are typed beside those of the keys."""
+        given = self._raw(shaft.path).get("notches")
+        path = (*shaft.path, "notches")
+        yield from (TypedValue((*path, index)) for index in range(len(given) if isinstance(given, list) else 0))
 
     def _load(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         loads = part.shaft.loads
@@ -152,10 +163,19 @@ class ShaftElements(Masses, LoadCases):
             found["mass"] = (
                 f"${{{part.shaft.body}.{part.name}_disc_mass}}" if self._disc(part) else self._given_mass(part)
             )
-        found |= {key: TypedValue((*part.path, key)) for key in part.more if key not in ("mass", "inertia")}
+        found |= self._typed_load(part, found)
         yield found
         if across:
             yield place | {"name": f"{part.name}_across", "seat": "none"} | across
+
+    def _typed_load(self, part: ShaftPart, found: dict[str, Any]) -> dict[str, TypedValue]:
+        """The keys of a load that are typed at its part; a mass is one of its body."""
+        join = next(self.parts.joins_of(part), None)
+        source = join.path if join else (*part.path, "of" if part.port else part.kind)
+        follows = {"offset", "gear", "seat"} if part.kind != "load" else set()
+        follows |= {"force_y", "force_z"} if join or part.port else set()
+        more = (key for key in part.more if key not in ("mass", "inertia"))
+        return self._beside(found, more, part.path, source, follows)
 
     def _balances(self, part: ShaftPart) -> bool:
         """Whether the torque on a part balances all others on its shaft: it is driven there, or by a flywheel."""
@@ -215,13 +235,10 @@ class ShaftElements(Masses, LoadCases):
             self._add(shaft.bearing_calculation, "rolling_bearing", inputs, shaft.path)
 
     def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
-        home = part.shaft.calculation
-        found = self._catalogued(
-            part.name,
-            str(part.keys.designation),
-            {key: TypedValue((*part.path, key)) for key in part.more},
-            (*part.path, "designation"),
-        )
+        home, designation = part.shaft.calculation, str(part.keys.designation)
+        follows = OF_BEARING if catalogue_size(designation, "d") is None else OF_BEARING | {"type"}
+        more = self._beside({}, part.more, part.path, (*part.shaft.path, "parts"), follows)
+        found = self._catalogued(part.name, designation, more, (*part.path, "designation"))
         return (
             found
             | {"radial_force": f"${{{home}.reaction_{end}}}", "tilt": f"${{{home}.slope_{end}}}"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
@@ -116,10 +117,41 @@ BROKEN = [
     ("teeth_present: 39}", "teeth_present: 150}", "more than two thirds of the 212 teeth"),
     ("pair: [main.pinion, crank.wheel]", "pair: [main.pinion, crank.whel]", "there is no such gear (did you mean"),
     ("anchor: main ", "anchor: mian ", "is mian, which is not one of the shafts"),
-    ("sections: 45x70 r1, 50x40 r1, 60x320 r1, 50x40", "sections: 45*70 r1, 50x40", "a block of keys is needed"),
+    ("sections: 45x70 r1, 50x40 r1, 60x320 r1, 50x40", "sections: 45*70 r1, 50x40", "section 1 “45*70 r1”, which cannot be read"),
     ("at: 100, designation", "at: 100 kg, designation", "at: "),
     ("frame: {crank: [0, 0]", "frame: {crank: [0]", "two numbers in mm are needed"),
     ("  drive:\n    kind: cylinder_drive\n", "  drive:\n    kind: cylinder_drive\n    sector_ratio: 6\n", "follows from the parts; remove the key"),
+    # what would make a shaft, or a part, vanish
+    ("sections: 45x70 r1, 50x40 r1, 60x320 r1, 50x40", "sections: []", "shafts.main: has no sections"),
+    ("  far:\n", "  far:\n    motor: {speed: 3 rpm}\n", "but the shaft has sections; remove one of them"),
+    ("  far:\n    sections: 40x30 r1, 50x640 r1, 40x30\n", "  far:\n    motor: {speed: 3 rpm}\n", "stands on a shaft that grippers drives"),
+    ("  far:\n    sections: 40x30 r1, 50x640 r1, 40x30\n", "  far:\n    motor: {speed: 3 rpm}\n", "whose shaft carries no bearing"),
+    ("{gear: wheel, at: 130, rides_on: clutch}", "{gear: wheel, at: 130, rides_on: wheel}", "is wheel, so that it is carried by itself"),
+    ("{gear: wheel, at: 130, rides_on: clutch}", "{gear: wheel, at: 130, rides_on: clutsch}", "is clutsch, which is not a part of this shaft"),
+    (", moves: drive.cylinder}", "}", "drives no shaft and moves nothing"),
+    ("{bearing: a, at: 100,", "{bearing: a, at: 100, hub: 20,", "is a key which a bearing does not have"),
+    ("{gear: wheel, at: 155,", "{gear: wheel, designation: \"6210\", at: 155,", "is a key which only a bearing has"),
+    # joins that do not match
+    ("to: [far.left, far.right]", "to: [far.left, far.left]", "joins far.left, which is joined already"),
+    ("to: [far.left, far.right]", "to: [far.left]", "leads from 2 sprockets to 1"),
+    ("sprockets: [pinion.left, pinion.right]", "sprockets: [pinion.left, conveyor.left]", "side by side on pinion and conveyor"),
+    ("pair: [main.pinion, crank.wheel]", "pair: [main.wheel, crank.wheel]", "joins main.wheel, which is joined already"),
+    # what follows from the parts
+    ("teeth: 18/87, module: 4, width: 50}", "teeth: 18/87, module: 4, width: 50, torque: 3 N*m}", "main_drive.torque: is given here, but follows"),
+    ("teeth: 18/87, module: 4, width: 50}", "teeth: 18/87, module: 4, width: 50, torque_on: wheel}", "torque_on: is given here, but follows"),
+    ("teeth: 18/87, module: 4, width: 50}", "teeth: 18/87, module: 4, width: 50, center_distance: 250 mm}", "center_distance: is given here"),
+    ("moves: drive.cylinder}", "moves: drive.cylinder, pitch: 9 mm}", "chains.cylinder.pitch: is given here, but follows"),
+    ("moves: drive.cylinder}", "moves: drive.cylinder, moving_mass: 9 kg}", "chains.cylinder.moving_mass: is given here, but follows"),
+    ("count: 1}", "count: 1, center_distance: 300 mm}", "belts.motor.center_distance: is given here, but follows"),
+    ("  far:\n", "  far:\n    loads: []\n", "shafts.far.loads: is given here, but follows"),
+    ("  far:\n", "  far:\n    bearing_a: 50 mm\n", "shafts.far.bearing_a: is given here, but follows"),
+    ("  far:\n", "  far:\n    rotation: none\n", "shafts.far.rotation: is given here, but follows"),
+    ("{gear: wheel, at: 155,", "{gear: wheel, torque: 1 N*m, at: 155,", "parts.2.torque: is given here, but follows"),
+    ("{gear: wheel, at: 155,", "{gear: wheel, force_y: 1 N, at: 155,", "parts.2.force_y: is given here, but follows"),
+    ("{gear: wheel, at: 155,", "{gear: wheel, seat: loose, at: 155,", "parts.2.seat: is given here, but follows"),
+    ("{gear: wheel, at: 155,", "{gear: wheel, inertia: 1 kg*m**2, at: 155,", "parts.2.inertia: goes into no calculation"),
+    ("{bearing: a, at: 100,", "{bearing: a, at: 100, tilt: 0 mrad,", "parts.1.tilt: is given here, but follows"),
+    ("{bearing: a, at: 100,", "{bearing: a, at: 100, type: roller,", "parts.1.type: is given here, but follows"),
     ("  cylinder:\n    kind: cylinder_sizing", "  shafts:\n    kind: cylinder_sizing", "the name 'shafts' is reserved"),
 ]  # fmt: skip
 
@@ -129,6 +161,46 @@ def test_what_contradicts_itself_is_refused_at_its_place(old: str, new: str, tol
     _, problems = changed(old, new)
     assert [problem for problem in problems if told in problem], problems
     assert all(str(FILE) in problem for problem in problems)
+
+
+def test_a_derived_key_is_refused_with_the_place_that_it_follows_from() -> None:
+    for old, new, there in (
+        ("count: 1}", "count: 1, driver_diameter: 90 mm}", "diameters: 125/375"),
+        ("{gear: wheel, at: 155,", "{gear: wheel, torque: 1 N*m, at: 155,", "main_drive:"),
+        ("    kind: cylinder_drive\n", "    kind: cylinder_drive\n    pinion_radius: 70 mm\n", "motor: {motor:"),  # the first of the shafts
+    ):  # fmt: skip
+        _, problems = changed(old, new)
+        (place,) = re.findall(rf"against {re.escape(str(FILE))}:(\d+):", "\n".join(problems))
+        assert there in TEXT.replace(old, new, 1).splitlines()[int(place) - 1], new
+
+
+def test_what_the_machine_gives_all_parts_a_part_may_have_for_itself() -> None:
+    text = "width: 50, application_factor: 1.3, sigma_h_lim_1: 800 MPa}"
+    config, problems = changed("width: 50}", text)
+    own = config.tree.data["mechanisms"]["meshes_main_drive"]
+    assert not problems and own["application_factor"]["value"] == 1.3 and own["sigma_h_lim_1"]["value"] == "800 MPa"
+
+
+def test_typed_notches_stand_beside_those_of_the_keys() -> None:
+    config, problems = changed(
+        "  far:\n", "  far:\n    notches: [{position: 300 mm, type: groove_ring, radius: 1 mm}]\n"
+    )
+    notches = config.tree.data["mechanisms"]["shafts_far"]["notches"]
+    assert not problems and [each["type"] for each in notches] == 4 * ["keyseat_end_mill"] + ["groove_ring"]
+
+
+def test_a_shaft_that_nothing_turns_is_doubtful() -> None:
+    config, problems = changed("to: [far.left, far.right], ", "")
+    assert not problems and config.parts is not None
+    (found,) = (each for each in config.parts.findings if each.rule == "joins")
+    assert found.level == "warning" and found.path == ("shafts", "far") and "is turned by nothing" in found.message
+
+
+def test_two_parts_whose_calculations_would_have_one_name_are_refused() -> None:
+    text = re.sub(r"\bfar\b", "main_body", TEXT)
+    _, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    (found,) = map(str, problems)
+    assert "shafts.main_body: makes the calculation shafts_main_body, as another part does by its name" in found
 
 
 def test_a_part_that_nothing_joins_to_its_shaft_fails() -> None:
