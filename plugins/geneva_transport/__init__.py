@@ -25,8 +25,9 @@ MECHANISM = Mechanism(
     key_results=("crank_radius", "wheel_radius", "step_angle", "dwell_fraction", "time_dwell", "sheet_step", "sheet_velocity_max",
                  "sheet_acceleration_max", "sheet_force", "torque_peak", "roller_force_peak", "contact_pressure", "arm_tip", "sheet_play"),
     ports=(
-        Port(name="crank", torque="torque", forces=("roller_force",), speed="crank_speed"),
+        Port(name="crank", torque="torque", forces=("roller_force",), speed="crank_speed", radius=("crank_radius",)),
         Port(name="wheel", torque="wheel_acceleration", forces=("roller_force",), opposite=True, angle="wheel_angle", advance="slots",
+             radius=("wheel_radius",),
              fills={"gear_ratio": "ratio", "sprocket_teeth": "teeth", "chain_pitch": "pitch", "driven_inertia": "inertia"}),
     ),
     checks=CHECKS,
