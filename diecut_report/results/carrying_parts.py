@@ -79,8 +79,16 @@ def is_rated(calculation: str, checks: Mapping[str, Sequence[CheckRecord]]) -> b
 
 
 def rating(own: Sequence[CarryingPart], checks: Mapping[str, Sequence[CheckRecord]]) -> RatingRecord:
-    """Return what rates a part, and the check that governs it; ``own`` are its calculations, of a wheel in two meshes both."""
-    made = {each.calculation: [*filter(each.is_own, checks.get(each.calculation, ()))] for each in own}
+    """Return what rates a part, and the check that governs it: none of practice, which does not say whether it holds.
+
+    ``own`` are its calculations, of a wheel in two meshes both.
+    """
+    made = {
+        each.calculation: [
+            one for one in checks.get(each.calculation, ()) if each.is_own(one) and one.check_class != "practice"
+        ]
+        for each in own
+    }
     found, known = governing(made), [name for name in made if name in checks]
     left = [each for each in own if not is_rated(each.calculation, checks)]
     state = "rated" if not left else "accepted" if all(each.accepted for each in left) else "not_rated"

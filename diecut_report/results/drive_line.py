@@ -140,7 +140,8 @@ class _DriveLine:
     def _width(self, part: ShaftPart) -> float:
         join = next(self.parts.joins_of(part), None)
         is_toothed = join is not None and isinstance(join.keys, ChainKeys) and part.keys.width is None
-        return tooth_width(join.keys) if join is not None and is_toothed else self.parts.body_width(part)
+        found = tooth_width(join.keys) if join is not None and is_toothed else self.parts.body_width(part)
+        return 0.0 if found == part.hub else found
 
     def _toothed(self, part: ShaftPart) -> float:
         """The share of the circumference that has teeth: of the greater one of a pair whose teeth are not all there."""
