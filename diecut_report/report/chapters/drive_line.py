@@ -76,8 +76,8 @@ class DriveLineFigure:
 
 def _tone(check: CheckRecord) -> str:
     ratio = check.utilisation or 0.0
-    if check.status == "fail":
-        return "fail"
+    if check.status != "pass":
+        return "fail" if check.status == "fail" else "high"
     return "low" if ratio <= LOW else "middle" if ratio <= MIDDLE else "high"
 
 

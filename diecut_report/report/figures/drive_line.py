@@ -12,13 +12,14 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from diecut_report.report.chapters.drive_line import LOW, MIDDLE, TONES, DriveLineFigure, Key
 from diecut_report.report.figures import labels
-from diecut_report.report.figures.drawing import DASH_DOT, circular, hatching, scale_bar, strokes
+from diecut_report.report.figures.drawing import DASH_DOT, hatching, scale_bar, strokes
 from diecut_report.report.figures.style import INK, MM, SOFT, Box, Labels, SizesSize, Svg, canvas, plain, sampled, text_size  # fmt: skip
 from diecut_report.report.text import Catalogue, displayed, joined
 from diecut_report.results.drive_line_record import JoinRecord, MachineShaftRecord, PlacedPartRecord
@@ -52,12 +53,13 @@ class Sheet:
         closed = [np.vstack([loop, loop[:1]]) for loop in loops]
         outline = Path.make_compound_path(*(Path(loop, closed=True) for loop in closed))
         face = FILLS.get(look.tone, "#ffffff")
-        self.axes.add_patch(PathPatch(outline, facecolor=face, edgecolor="none", linewidth=0, zorder=zorder))
+        self.axes.add_artist(PathPatch(outline, facecolor=face, edgecolor="none", linewidth=0, zorder=zorder))
         if look.state in ("not_rated", "accepted"):
             lines = hatching(closed, HATCH, falling=look.state == "accepted")
-            self.axes.plot(*strokes(*lines).T, color=INK, linewidth=0.35, zorder=zorder + 0.01)
+            self._stroke(strokes(*lines), color=INK, linewidth=0.35, zorder=zorder + 0.01)
+        # an artist, not a patch of the axes, whose limits are set at last
         drawn = {"facecolor": "none", "edgecolor": INK, "linewidth": 0.55, "zorder": zorder + 0.02}
-        self.axes.add_patch(PathPatch(outline, url=self._address(key), **drawn))
+        self.axes.add_artist(PathPatch(outline, url=self._address(key), **drawn))
         self.lines += closed
         self.boxes += [(*loop.min(axis=0), *loop.max(axis=0)) for loop in loops]
 
@@ -65,10 +67,10 @@ class Sheet:
         """Draw a belt or a chain as a band in its tone between dark edges; one that nothing rates in pieces."""
         look = self.figure.looks[key]
         is_rated = look.state == "rated"
-        self.axes.plot(*points.T, color=INK, linewidth=3.0, zorder=zorder, solid_capstyle="butt")
+        self._stroke(points, color=INK, linewidth=3.0, zorder=zorder, solid_capstyle="butt")
         dashes = {} if is_rated else {"linestyle": (0, (2.2, 1.6)), "dash_capstyle": "butt"}
-        (top,) = self.axes.plot(*points.T, color=FILLS.get(look.tone, "#ffffff"), linewidth=1.9, zorder=zorder + 0.01, **dashes)  # fmt: skip
-        top.set_url(self._address(key))
+        face = {"color": FILLS.get(look.tone, "#ffffff"), "linewidth": 1.9}
+        self._stroke(points, url=self._address(key), zorder=zorder + 0.01, **face, **dashes)
         self.lines.append(points)
         self.boxes.append((*points.min(axis=0), *points.max(axis=0)))
 
@@ -77,13 +79,17 @@ class Sheet:
 
     def line(self, points: Iterable[Any], **look: Any) -> None:
         """Draw a thin line that no part is."""
-        self.axes.plot(*np.asarray([*points]).T, **CENTRE_LINE | look)
+        self._stroke(np.asarray([*points]), **CENTRE_LINE | look)
 
-    def write(self, x: float, y: float, text: str, size: float, ha: str = "left", **look: Any) -> None:
+    def _stroke(self, points: Array, **look: Any) -> None:
+        self.axes.add_artist(Line2D(*points.T, **look))
+
+    def write(self, x: float, y: float, text: str, size: float, ha: str = "left") -> None:
         """Write a text at its left end, middle or right end."""
         wide, high = text_size(plain(text), size)
         left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[ha] * wide
-        self.axes.text(x, y, plain(text), size=size, ha=ha, va="center_baseline", zorder=8, **look)
+        halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
+        self.axes.text(x, y, plain(text), size=size, ha=ha, va="center_baseline", zorder=8, bbox=halo)
         self.boxes.append((left, y - high / 2, left + wide, y + high / 2))
 
     def finish(self, scale: float) -> Figure:
@@ -121,7 +127,7 @@ class Sheet:
         self.axes.fill(*box.T, facecolor=FILLS.get(tone, "#ffffff"), edgecolor=INK, linewidth=0.55)
         if name in ("part_not_rated", "part_accepted"):
             lines = hatching([box], HATCH, falling=name == "part_accepted")
-            self.axes.plot(*strokes(*lines).T, color=INK, linewidth=0.35, zorder=3)
+            self._stroke(strokes(*lines), color=INK, linewidth=0.35, zorder=3)
 
 
 # The front view.
@@ -133,6 +139,7 @@ WHEELS = ("gear", "pulley", "sprocket", "clutch", "coupling", "flywheel", "cam")
 ARMS = ("crank", "rocker")
 SLOT = 0.16  # width of a Geneva wheel's slots in its radius
 ARM = 3.4  # half of the width of a crank, points
+FAR = 14.0  # points from its axis to a name, beyond which a line leads there
 
 
 def front_view(
@@ -185,10 +192,12 @@ class _Front:
         inner = max(radius - RIM, 0.0)
         if part.toothed < 1:
             half, middle = np.pi * part.toothed, self._direction(part)
-            arc = circular(middle - half, middle + half)
+            arc = _round(middle - half, middle + half)
+            for edge in (arc[0], arc[-1]):
+                self.sheet.line([center, center + inner * edge], zorder=0.8)
             return [center + np.vstack([radius * arc, inner * arc[::-1]])]
-        loops = [center + radius * circular(0, 2 * np.pi)]
-        return [*loops, center + inner * circular(2 * np.pi, 0)] if inner else loops
+        loops = [center + radius * _round(0, 2 * np.pi)]
+        return [*loops, center + inner * _round(2 * np.pi, 0)] if inner else loops
 
     def _slotted(self, part: PlacedPartRecord) -> Array:
         """The outline of a Geneva wheel of radius 1, one of its slots towards the crank, as deep as the roller comes."""
@@ -204,7 +213,7 @@ class _Front:
             along = np.array([np.cos(first + index * step), np.sin(first + index * step)])
             aside = np.array([-along[1], along[0]]) * SLOT / 2
             pieces += [[end * along - aside], [end * along + aside]]
-            pieces.append(circular(first + index * step + half, first + (index + 1) * step - half))
+            pieces.append(_round(first + index * step + half, first + (index + 1) * step - half))
         return np.vstack(pieces[1:] + pieces[:1])
 
     def _around(self, join: JoinRecord) -> Array | None:
@@ -215,7 +224,7 @@ class _Front:
         center, radius = self._center(one), one.radius * self.scale
         if not join.driven:
             far = np.array([[2.5 * radius, 0.0]])
-            half = circular(np.pi / 2, 1.5 * np.pi) * radius
+            half = _round(np.pi / 2, 1.5 * np.pi) * radius
             return center + np.vstack([half[:1] + far, half, half[-1:] + far])
         other = self.parts[join.driven[0]]
         return _loop(center, radius, self._center(other), other.radius * self.scale)
@@ -227,19 +236,19 @@ class _Front:
             if part.kind in ARMS and part.radius:
                 self._arm(part, shaft)
         own = max(_shaft_radius(shaft) * self.scale, 2.2)
-        self.sheet.part(("shaft", shaft.name), [center + own * circular(0, 2 * np.pi)], 6)
+        self.sheet.part(("shaft", shaft.name), [center + own * _round(0, 2 * np.pi)], 6)
         for way in (np.array([1.0, 0.0]), np.array([0.0, 1.0])):
             self.sheet.line([center - (own + 4) * way, center + (own + 4) * way], zorder=5.9)
 
     def _arm(self, part: PlacedPartRecord, shaft: MachineShaftRecord) -> None:
         center, radius, angle = self._center(part), part.radius * self.scale, self._direction(part)
-        self.sheet.line(center + radius * circular(0, 2 * np.pi), zorder=2)
-        near, far = circular(angle + np.pi / 2, angle + 1.5 * np.pi), circular(angle - np.pi / 2, angle + np.pi / 2)
+        self.sheet.line(center + radius * _round(0, 2 * np.pi), zorder=2)
+        near, far = _round(angle + np.pi / 2, angle + 1.5 * np.pi), _round(angle - np.pi / 2, angle + np.pi / 2)
         tip = center + radius * np.array([np.cos(angle), np.sin(angle)])
         self.sheet.part((part.kind, part.name), [np.vstack([center + ARM * near, tip + ARM * far])], 5)
         for pin in (each for each in shaft.parts if each.kind == "pin" and each.name == f"{part.name}.pin"):
             own = max(pin.seat / 2 * self.scale, 2.0)
-            self.sheet.part((pin.kind, pin.name), [tip + own * circular(0, 2 * np.pi)], 6)
+            self.sheet.part((pin.kind, pin.name), [tip + own * _round(0, 2 * np.pi)], 6)
 
     def _names(self) -> None:
         """Each shaft's name beside its axis, where it covers least."""
@@ -248,10 +257,18 @@ class _Front:
             x, y = np.array(shaft.axis) * self.scale
             free.take((x, y), (11.0, 11.0))
         for shaft in self.shafts:
-            x, y = (float(each) for each in np.array(shaft.axis) * self.scale)
-            at = free.place(text_size(plain(shaft.name), 8.0), labels.near(x, y, text_size(plain(shaft.name), 8.0)))
-            halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}
-            self.sheet.write(*at, shaft.name, 8.0, "center", bbox=halo)
+            (x, y), size = map(float, np.array(shaft.axis) * self.scale), text_size(plain(shaft.name), 8.0)
+            at = free.place(size, labels.near(x, y, size))
+            if np.hypot(at[0] - x, at[1] - y) > FAR + size[0] / 2:
+                self.sheet.line([(x, y), at], linestyle="-", zorder=7)
+            self.sheet.write(*at, shaft.name, 8.0, "center")
+
+
+def _round(start: float, end: float) -> Array:
+    """Points on the unit circle from angle to angle, as close as a sketch needs."""
+    angles = np.linspace(start, end, max(8, int(abs(end - start) * 14)))
+    points: Array = np.column_stack([np.cos(angles), np.sin(angles)])
+    return points
 
 
 def _shaft_radius(shaft: MachineShaftRecord) -> float:
@@ -263,10 +280,10 @@ def _loop(one: Array, own: float, other: Array, far: float) -> Array:
     between = other - one
     away = float(np.hypot(*between))
     if away <= abs(own - far):  # one within the other: no belt goes about both
-        return one + max(own, far) * circular(0, 2 * np.pi)
+        return one + max(own, far) * _round(0, 2 * np.pi)
     along, lean = float(np.arctan2(*between[::-1])), float(np.arccos((own - far) / away))
-    near = circular(along + lean, along + 2 * np.pi - lean)
-    beyond = circular(along - lean, along + lean)
+    near = _round(along + lean, along + 2 * np.pi - lean)
+    beyond = _round(along - lean, along + lean)
     return np.vstack([one + own * near, other + far * beyond, one + own * near[:1]])
 
 
@@ -383,7 +400,9 @@ class _Row:
         self.broken = BROKEN * max([*rings, *hubs, _shaft_radius(shaft)]) or 0.03
         reach = [min(part.radius, self.broken) for part in shaft.parts if part.kind not in ("pin", "pin_bearing")]
         self.below = max([*rings, *hubs, *reach, _shaft_radius(shaft)])
-        self.above = max([self.below, *(self.pin(part) + max(part.outside, part.seat) / 2 for part in shaft.parts if part.kind in ("pin", "pin_bearing"))])  # fmt: skip
+        pins = [part for part in shaft.parts if part.kind in ("pin", "pin_bearing")]
+        self.clear = self.broken + max([max(part.outside, part.seat) / 2 for part in pins], default=0.0)
+        self.above = max([self.below, *(self.pin(part) + max(part.outside, part.seat) / 2 for part in pins)])
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -393,7 +412,7 @@ class _Row:
 
     def pin(self, part: PlacedPartRecord) -> float:
         """How far off the axis a pin is drawn: where it is, or as near as its arm is broken off."""
-        return min(part.radius, self.broken + part.seat / 2)
+        return min(part.radius, self.clear)
 
     def outline(self, least: float) -> Array:
         """The outline of the shaft; of one without sections a piece as thick as a line."""
@@ -463,13 +482,14 @@ _PART = re.compile(r'<a xlink:href="part-(\d+)">(.*?)</a>', re.DOTALL)
 
 def linked(svg: Svg, figure: DriveLineFigure) -> Svg:
     """Return a drawing whose parts lead to their calculations, each with what is said of it."""
-    looks = [*figure.looks.values()]
+    looks = [*figure.looks.items()]
 
     def placed(found: re.Match[str]) -> str:
-        look = looks[int(found[1])]
+        (kind, _), look = looks[int(found[1])]
+        look_of = ' class="band"' if kind in ("belt", "chain") else ""
         inner = f"<title>{escape(look.text)}</title>{found[2]}"
         # the table below has the same links for a keyboard
-        return f'<a href={quoteattr(look.link)} tabindex="-1">{inner}</a>' if look.link else f"<g>{inner}</g>"
+        return f'<a href={quoteattr(look.link)} tabindex="-1"{look_of}>{inner}</a>' if look.link else f"<g{look_of}>{inner}</g>"
 
     text = _PART.sub(placed, svg.text).replace('role="img"', 'role="group" class="drive-line"', 1)
     return svg._replace(text=text)
