@@ -88,7 +88,7 @@ class Sheet:
         """Write a text at its left end, middle or right end."""
         wide, high = text_size(plain(text), size)
         left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[ha] * wide
-        halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
+        halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.2}
         self.axes.text(x, y, plain(text), size=size, ha=ha, va="center_baseline", zorder=8, bbox=halo)
         self.boxes.append((left, y - high / 2, left + wide, y + high / 2))
 
@@ -139,6 +139,7 @@ WHEELS = ("gear", "pulley", "sprocket", "clutch", "coupling", "flywheel", "cam")
 ARMS = ("crank", "rocker")
 SLOT = 0.16  # width of a Geneva wheel's slots in its radius
 ARM = 3.4  # half of the width of a crank, points
+NEARER = 0.75  # as far to its own axis as to any other a name stands at most
 FAR = 14.0  # points from its axis to a name, beyond which a line leads there
 
 
@@ -258,10 +259,22 @@ class _Front:
             free.take((x, y), (11.0, 11.0))
         for shaft in self.shafts:
             (x, y), size = map(float, np.array(shaft.axis) * self.scale), text_size(plain(shaft.name), 8.0)
-            at = free.place(size, labels.near(x, y, size))
+            at = free.place(size, self._beside(shaft, size))
             if np.hypot(at[0] - x, at[1] - y) > FAR + size[0] / 2:
                 self.sheet.line([(x, y), at], linestyle="-", zorder=7)
             self.sheet.write(*at, shaft.name, 8.0, "center")
+
+
+    def _beside(self, shaft: MachineShaftRecord, size: tuple[float, float]) -> list[tuple[float, float]]:
+        """The places for a shaft's name that are clearly nearer to its axis than to any other."""
+        own = np.array(shaft.axis) * self.scale
+        others = [np.array(each.axis) * self.scale for each in self.shafts if each.axis != shaft.axis]
+
+        def is_near(place: tuple[float, float]) -> bool:
+            return all(np.hypot(*(place - own)) < NEARER * np.hypot(*(place - other)) for other in others)
+
+        every = [*labels.near(float(own[0]), float(own[1]), size)]
+        return [place for place in every if is_near(place)] or every
 
 
 def _round(start: float, end: float) -> Array:
@@ -292,7 +305,7 @@ def _loop(one: Array, own: float, other: Array, far: float) -> Array:
 
 SIDE = {SizesSize.LARGE: 150 * MM, SizesSize.LOW: 126 * MM, SizesSize.HALF: 126 * MM, SizesSize.SKETCH: 112 * MM}  # height
 NAMES = 30 * MM  # room for the names at the left
-GAP = 13.0  # points between two rows, for the names of the parts
+GAP = 16.0  # points between two rows, for the names of the parts
 HUB = 0.8  # radius of a hub in diameters of its shaft
 KEY = 0.1  # by which a key reaches into the shaft and out of it, in diameters
 BROKEN = 1.25  # in the greatest radius of bearings and hubs: what is farther off is broken off
@@ -373,10 +386,10 @@ class _Side:
         own += [(part.name.partition(".")[2], looks[part.kind, part.name]) for part in row.shaft.parts]
         name, worst = max(own, key=lambda each: each[1].ratio)
         side = -NAMES + 4
-        self.sheet.write(side, y + (4.5 if worst.used else 0), _short(row.shaft.name, NAMES - 8, 8.0), 8.0)
+        self.sheet.write(side, y + (5 if worst.used else 0), _short(row.shaft.name, NAMES - 8, 8.0), 8.0)
         if worst.used:
             told = "" if name == row.shaft.name else f"{name} "
-            self.sheet.write(side, y - 5, _short(told, NAMES - 8 - text_size(worst.used, SMALL)[0], SMALL) + worst.used, SMALL)  # fmt: skip
+            self.sheet.write(side, y - 5.5, _short(told, NAMES - 8 - text_size(worst.used, SMALL)[0], SMALL) + worst.used, SMALL)  # fmt: skip
         reached = [-np.inf, -np.inf]  # on two lines below the row
         for part in sorted(row.shaft.parts, key=lambda each: each.start + each.end):
             if part.kind in ("bearing", "key", "pin", "pin_bearing"):
@@ -387,7 +400,7 @@ class _Side:
             level = next((k for k in (0, 1) if x - wide / 2 > reached[k] + 2), 0)
             x = max(x, reached[level] + 2 + wide / 2)
             reached[level] = x + wide / 2
-            self.sheet.write(x, y - row.below * self.scale - 4.5 - 5.5 * level, text, SMALL, "center")
+            self.sheet.write(x, y - row.below * self.scale - 4.5 - 7.6 * level, text, SMALL, "center")
 
 
 class _Row:
