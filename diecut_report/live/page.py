@@ -213,7 +213,9 @@ def _drive_line(machine: LiveMachine) -> list[DriveLineFigure]:
         name: [each.with_(title=_text(each.title, kinds.get(name, ""))) for each in own]
         for name, own in run.checks.items()
     }
-    return drive_line_figures(run.drive_line, checks, {name: f"#{name}" for name in checks}, Catalogue(spoken_language()))
+    return drive_line_figures(
+        run.drive_line, checks, {name: f"#{name}" for name in checks}, Catalogue(spoken_language())
+    )
 
 
 # The figures of a live machine: curves as numbers that the page draws itself, drawings as SVG; each made when it is looked at.

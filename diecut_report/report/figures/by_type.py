@@ -28,7 +28,11 @@ MARGIN, LARGEST = 0.9, 14.0  # share of a picture that a text may fill, points o
 
 
 def render(
-    figure: Drawn | DriveLineFigure, curves: Mapping[str, CurveRecord], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
+    figure: Drawn | DriveLineFigure,
+    curves: Mapping[str, CurveRecord],
+    words: Catalogue,
+    key: str,
+    size: SizesSize = SizesSize.LARGE,
 ) -> Svg:
     """A figure of the results, so large as its place lets it be; ``key`` keeps its ids apart from those of the report's others."""
     made = drawn(partial(DRAW[figure.type], figure, curves, words, size), figure.title, key)
@@ -44,7 +48,11 @@ class Raster(NamedTuple):
 
 
 def raster(
-    figure: Drawn | DriveLineFigure, curves: Mapping[str, CurveRecord], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
+    figure: Drawn | DriveLineFigure,
+    curves: Mapping[str, CurveRecord],
+    words: Catalogue,
+    key: str,
+    size: SizesSize = SizesSize.LARGE,
 ) -> Raster:
     """The same figure as a picture of points; the same bytes for the same figure."""
     with styled(key):

@@ -20,7 +20,19 @@ from numpy.typing import NDArray
 from diecut_report.report.chapters.drive_line import LOW, MIDDLE, TONES, DriveLineFigure, Key
 from diecut_report.report.figures import labels
 from diecut_report.report.figures.drawing import DASH_DOT, hatching, scale_bar, strokes
-from diecut_report.report.figures.style import INK, MM, SOFT, Box, Labels, SizesSize, Svg, canvas, plain, sampled, text_size  # fmt: skip
+from diecut_report.report.figures.style import (  # fmt: skip
+    INK,
+    MM,
+    SOFT,
+    Box,
+    Labels,
+    SizesSize,
+    Svg,
+    canvas,
+    plain,
+    sampled,
+    text_size,
+)
 from diecut_report.report.text import Catalogue, displayed, joined
 from diecut_report.results.drive_line_record import JoinRecord, MachineShaftRecord, PlacedPartRecord
 
@@ -32,6 +44,7 @@ CENTRE_LINE: dict[str, Any] = {"color": SOFT, "linewidth": 0.45, "linestyle": DA
 HATCH = 3.2  # points between strokes
 SMALL = 6.8  # points of the letters of parts
 WIDTH = 172 * MM
+ORDER, STROKES, EDGE = 1e-3, 1e-4, 2e-4  # from part to part, and what lies over its area
 LEGEND_ROW, PATCH = 12.0, 14.0  # points
 
 
@@ -56,9 +69,9 @@ class Sheet:
         self.axes.add_artist(PathPatch(outline, facecolor=face, edgecolor="none", linewidth=0, zorder=zorder))
         if look.state in ("not_rated", "accepted"):
             lines = hatching(closed, HATCH, falling=look.state == "accepted")
-            self._stroke(strokes(*lines), color=INK, linewidth=0.35, zorder=zorder + 0.01)
+            self._stroke(strokes(*lines), color=INK, linewidth=0.35, zorder=zorder + STROKES)
         # an artist, not a patch of the axes, whose limits are set at last
-        drawn = {"facecolor": "none", "edgecolor": INK, "linewidth": 0.55, "zorder": zorder + 0.02}
+        drawn = {"facecolor": "none", "edgecolor": INK, "linewidth": 0.55, "zorder": zorder + EDGE}
         self.axes.add_artist(PathPatch(outline, url=self._address(key), **drawn))
         self.lines += closed
         self.boxes += [(*loop.min(axis=0), *loop.max(axis=0)) for loop in loops]
@@ -70,7 +83,7 @@ class Sheet:
         self._stroke(points, color=INK, linewidth=3.0, zorder=zorder, solid_capstyle="butt")
         dashes = {} if is_rated else {"linestyle": (0, (2.2, 1.6)), "dash_capstyle": "butt"}
         face = {"color": FILLS.get(look.tone, "#ffffff"), "linewidth": 1.9}
-        self._stroke(points, url=self._address(key), zorder=zorder + 0.01, **face, **dashes)
+        self._stroke(points, url=self._address(key), zorder=zorder + EDGE, **face, **dashes)
         self.lines.append(points)
         self.boxes.append((*points.min(axis=0), *points.max(axis=0)))
 
@@ -134,10 +147,16 @@ class Sheet:
 
 
 RIM = 7.0  # points that the rim of a wheel is drawn wide
-FRONT = {SizesSize.LARGE: 112 * MM, SizesSize.LOW: 92 * MM, SizesSize.HALF: 92 * MM, SizesSize.SKETCH: 80 * MM}  # height
+FRONT = {
+    SizesSize.LARGE: 112 * MM,
+    SizesSize.LOW: 92 * MM,
+    SizesSize.HALF: 92 * MM,
+    SizesSize.SKETCH: 80 * MM,
+}  # height
 WHEELS = ("gear", "pulley", "sprocket", "clutch", "coupling", "flywheel", "cam")
 ARMS = ("crank", "rocker")
 SLOT = 0.16  # width of a Geneva wheel's slots in its radius
+SMALLEST = 0.05  # m: no drawing is made larger than for that
 ARM = 3.4  # half of the width of a crank, points
 NEARER = 0.75  # as far to its own axis as to any other a name stands at most
 FAR = 14.0  # points from its axis to a name, beyond which a line leads there
@@ -155,17 +174,20 @@ class _Front:
         self.sheet = Sheet(figure, words)
         self.shafts = [each for each in figure.line.shafts if each.axis]
         self.joins = figure.line.joins
-        self.axes = {part.name: np.array(each.axis) for each in self.shafts for part in each.parts}
-        self.parts = {part.name: part for each in self.shafts for part in each.parts if part.kind in (*WHEELS, *ARMS, "geneva_wheel")}  # fmt: skip
-        reach = [np.array(each.axis) + side * max([_shaft_radius(each), *(part.radius for part in each.parts)])
-                 for each in self.shafts for side in (np.ones(2), -np.ones(2))]  # fmt: skip
-        extent = np.maximum(np.ptp(reach, axis=0), 1e-9)
+        placed = np.array([each.axis for each in self.shafts])
+        reach = np.array([[max([_shaft_radius(each), *(part.radius for part in each.parts)])] for each in self.shafts])
+        corners = np.concatenate([placed - reach, placed + reach])
+        self.places = dict(zip((each.name for each in self.shafts), placed - corners.min(axis=0), strict=True))
+        self.axes = {part.name: self.places[each.name] for each in self.shafts for part in each.parts}
+        drawn = (*WHEELS, *ARMS, "geneva_wheel")
+        self.parts = {part.name: part for each in self.shafts for part in each.parts if part.kind in drawn}
+        extent = np.maximum(np.ptp(corners, axis=0), SMALLEST)
         self.scale = float(min(WIDTH / extent[0], height / extent[1]))
 
     def drawn(self) -> Figure:
         wheels = [each for each in self.parts.values() if each.radius and each.kind not in ARMS]
         for order, each in enumerate(sorted(wheels, key=lambda one: -one.radius)):  # the greatest behind all others
-            self.sheet.part((each.kind, each.name), self._wheel(each), 1 + 1e-3 * order)
+            self.sheet.part((each.kind, each.name), self._wheel(each), 1 + ORDER * order)
         for join in self.joins:
             if join.kind != "mesh" and (points := self._around(join)) is not None:
                 self.sheet.band((join.kind, join.name), points, 3)
@@ -232,7 +254,7 @@ class _Front:
 
     def _on_axis(self, shaft: MachineShaftRecord) -> None:
         """The cross of an axis, the arms that turn about it, and the shaft."""
-        center = np.array(shaft.axis) * self.scale
+        center = self.places[shaft.name] * self.scale
         for part in shaft.parts:
             if part.kind in ARMS and part.radius:
                 self._arm(part, shaft)
@@ -255,20 +277,19 @@ class _Front:
         """Each shaft's name beside its axis, where it covers least."""
         free = Labels(np.concatenate([sampled(line) for line in self.sheet.lines]))
         for shaft in self.shafts:
-            x, y = np.array(shaft.axis) * self.scale
+            x, y = self.places[shaft.name] * self.scale
             free.take((x, y), (11.0, 11.0))
         for shaft in self.shafts:
-            (x, y), size = map(float, np.array(shaft.axis) * self.scale), text_size(plain(shaft.name), 8.0)
+            (x, y), size = map(float, self.places[shaft.name] * self.scale), text_size(plain(shaft.name), 8.0)
             at = free.place(size, self._beside(shaft, size))
             if np.hypot(at[0] - x, at[1] - y) > FAR + size[0] / 2:
                 self.sheet.line([(x, y), at], linestyle="-", zorder=7)
             self.sheet.write(*at, shaft.name, 8.0, "center")
 
-
     def _beside(self, shaft: MachineShaftRecord, size: tuple[float, float]) -> list[tuple[float, float]]:
         """The places for a shaft's name that are clearly nearer to its axis than to any other."""
-        own = np.array(shaft.axis) * self.scale
-        others = [np.array(each.axis) * self.scale for each in self.shafts if each.axis != shaft.axis]
+        own = self.places[shaft.name] * self.scale
+        others = [place * self.scale for name, place in self.places.items() if (self.places[shaft.name] != place).any()]
 
         def is_near(place: tuple[float, float]) -> bool:
             return all(np.hypot(*(place - own)) < NEARER * np.hypot(*(place - other)) for other in others)
@@ -303,7 +324,12 @@ def _loop(one: Array, own: float, other: Array, far: float) -> Array:
 # The shafts side by side.
 
 
-SIDE = {SizesSize.LARGE: 150 * MM, SizesSize.LOW: 126 * MM, SizesSize.HALF: 126 * MM, SizesSize.SKETCH: 112 * MM}  # height
+SIDE = {
+    SizesSize.LARGE: 150 * MM,
+    SizesSize.LOW: 126 * MM,
+    SizesSize.HALF: 126 * MM,
+    SizesSize.SKETCH: 112 * MM,
+}  # height
 NAMES = 30 * MM  # room for the names at the left
 GAP = 16.0  # points between two rows, for the names of the parts
 HUB = 0.8  # radius of a hub in diameters of its shaft
@@ -325,7 +351,7 @@ class _Side:
         self.sheet, self.line = Sheet(figure, words), figure.line
         rows = [_Row(each) for each in self.line.shafts]
         ends = np.array([row.ends for row in rows])
-        across = max(float(np.ptp(ends)), 1e-9)
+        across = max(float(np.ptp(ends)), SMALLEST)
         high = max(sum(row.above + row.below for row in rows), 1e-9)
         self.scale = min((WIDTH - NAMES) / across, (height - GAP * len(rows)) / high)
         self.left = float(ends.min())
@@ -368,7 +394,7 @@ class _Side:
         for order, part in enumerate(row.shaft.parts):
             loops = [self._at(row, loop, y) for loop in row.loops(part, LEAST / self.scale, SERIFS / self.scale)]
             above = {"key": 3.0, "pin": 2.8, "pin_bearing": 2.9, "bearing": 2.6}.get(part.kind, 2.0)
-            self.sheet.part((part.kind, part.name), loops, above + 0.03 * order / len(row.shaft.parts))
+            self.sheet.part((part.kind, part.name), loops, above + ORDER * order)
             if part.kind in ("bearing", "pin_bearing"):
                 self._cross(loops)
         self._names(row, y)
@@ -490,7 +516,7 @@ def _short(text: str, width: float, size: float) -> str:
 # What the drawing holds for a reader at a screen: where a part leads, and what is said of it.
 
 
-_PART = re.compile(r'<a xlink:href="part-(\d+)">(.*?)</a>', re.DOTALL)
+_PART = re.compile(r'<a xlink:href="part-(\d+)"[^>]*>(.*?)</a>', re.DOTALL)
 
 
 def linked(svg: Svg, figure: DriveLineFigure) -> Svg:
@@ -502,8 +528,11 @@ def linked(svg: Svg, figure: DriveLineFigure) -> Svg:
         look_of = ' class="band"' if kind in ("belt", "chain") else ""
         inner = f"<title>{escape(look.text)}</title>{found[2]}"
         # the table below has the same links for a keyboard
-        return f'<a href={quoteattr(look.link)} tabindex="-1"{look_of}>{inner}</a>' if look.link else f"<g{look_of}>{inner}</g>"
+        return (
+            f'<a href={quoteattr(look.link)} tabindex="-1"{look_of}>{inner}</a>'
+            if look.link
+            else f"<g{look_of}>{inner}</g>"
+        )
 
     text = _PART.sub(placed, svg.text).replace('role="img"', 'role="group" class="drive-line"', 1)
     return svg._replace(text=text)
-
