@@ -155,6 +155,7 @@ FRONT = {
 }  # height
 WHEELS = ("gear", "pulley", "sprocket", "clutch", "coupling", "flywheel", "cam")
 ARMS = ("crank", "rocker")
+JOINED = {"mesh": "gear", "chain": "sprocket", "belt": "pulley"}
 SLOT = 0.16  # width of a Geneva wheel's slots in its radius
 SMALLEST = 0.05  # m: no drawing is made larger than for that
 ARM = 3.4  # half of the width of a crank, points
@@ -180,7 +181,7 @@ class _Front:
         self.places = dict(zip((each.name for each in self.shafts), placed - corners.min(axis=0), strict=True))
         self.axes = {part.name: self.places[each.name] for each in self.shafts for part in each.parts}
         drawn = (*WHEELS, *ARMS, "geneva_wheel")
-        self.parts = {part.name: part for each in self.shafts for part in each.parts if part.kind in drawn}
+        self.parts = {(part.kind, part.name): part for each in self.shafts for part in each.parts if part.kind in drawn}
         extent = np.maximum(np.ptp(corners, axis=0), SMALLEST)
         self.scale = float(min(WIDTH / extent[0], height / extent[1]))
 
@@ -241,15 +242,16 @@ class _Front:
 
     def _around(self, join: JoinRecord) -> Array | None:
         """The way of a belt or a chain about its wheels; of one that runs over a mechanism's own wheels its ends, along the frame's x."""
-        if any(name not in self.parts for name in (join.drivers[0], *join.driven[:1])):
+        kind = JOINED[join.kind]
+        if any((kind, name) not in self.parts for name in (join.drivers[0], *join.driven[:1])):
             return None
-        one = self.parts[join.drivers[0]]
+        one = self.parts[kind, join.drivers[0]]
         center, radius = self._center(one), one.radius * self.scale
         if not join.driven:
             far = np.array([[2.5 * radius, 0.0]])
             half = _round(np.pi / 2, 1.5 * np.pi) * radius
             return center + np.vstack([half[:1] + far, half, half[-1:] + far])
-        other = self.parts[join.driven[0]]
+        other = self.parts[kind, join.driven[0]]
         return _loop(center, radius, self._center(other), other.radius * self.scale)
 
     def _on_axis(self, shaft: MachineShaftRecord) -> None:
@@ -371,20 +373,21 @@ class _Side:
 
     def _at(self, row: _Row, points: Any, y: float) -> Array:
         """Points of a shaft, m from its left end and its axis, on the sheet."""
-        placed: Array = (np.asarray(points, dtype=float) + [row.left - self.left, 0.0]) * self.scale + [0.0, y]
-        return placed
+        placed: Array = (np.asarray(points, dtype=float) + np.array([row.left - self.left, 0.0])) * self.scale
+        return placed + np.array([0.0, y])
 
     def _plane(self, join: JoinRecord) -> None:
         """The plane in which two parts work together, from row to row."""
         for one, other in zip(join.drivers, join.driven, strict=False):
-            (row, part, y), (far, _, end) = self._found(one), self._found(other)
+            (row, part, y), (far, _, end) = (self._found(JOINED[join.kind], name) for name in (one, other))
             x = self._at(row, [(part.start + part.end) / 2, 0.0], y)[0]
             upper, lower = sorted(((y, row), (end, far)), key=lambda each: -each[0])
             top, foot = upper[0] - upper[1].below * self.scale, lower[0] + lower[1].above * self.scale
             self.sheet.line([(x, top), (x, foot)], zorder=0.5)
 
-    def _found(self, name: str) -> tuple[_Row, PlacedPartRecord, float]:
-        return next((row, part, y) for row, y in self.rows.values() for part in row.shaft.parts if part.name == name)
+    def _found(self, kind: str, name: str) -> tuple[_Row, PlacedPartRecord, float]:
+        shown = ((row, part, y) for row, y in self.rows.values() for part in row.shaft.parts)
+        return next(each for each in shown if (each[1].kind, each[1].name) == (kind, name))
 
     def _row(self, row: _Row, y: float) -> None:
         low, high = row.ends
