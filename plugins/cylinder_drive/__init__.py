@@ -29,7 +29,8 @@ MECHANISM = Mechanism(
         Port(name="crank", torque="crank_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), speed="crank_speed",
              joint=("coupler_force", ""), radius=("crank_length",)),
         Port(name="rocker", torque="rocker_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), opposite=True, angle="rocker_angle",
-             joint=("coupler_force", "transmission_angle"), radius=("rocker_ratio", "crank_length"), fills={"sector_ratio": "ratio", "pinion_radius": "pinion_radius"}),
+             joint=("coupler_force", "transmission_angle"), radius=("rocker_ratio", "crank_length"),
+             fills={"sector_ratio": "ratio", "pinion_radius": "pinion_radius"}),
     ),
     checks=(
         Check(id="grashof", check_class="function", title="Crank-rocker (Grashof)",
