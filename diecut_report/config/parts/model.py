@@ -385,7 +385,9 @@ class MachineParts:
     def body_width(self, part: ShaftPart) -> float:
         """Return the width of a part's body along its shaft, m."""
         join = next(self.joins_of(part), None)
-        return part.keys.width or (join.keys.width if join is not None and isinstance(join.keys, MeshKeys) else part.hub)
+        return part.keys.width or (
+            join.keys.width if join is not None and isinstance(join.keys, MeshKeys) else part.hub
+        )
 
     def motion_port(self, shaft: MachineShaft) -> ShaftPart | None:
         """Return the part of the port whose mechanism moves the shaft's group to and fro, or in steps; None of one that turns steadily."""

@@ -48,7 +48,7 @@ ORDER, STROKES, EDGE = 1e-3, 1e-4, 2e-4  # from part to part, and what lies over
 LEGEND_ROW, PATCH = 12.0, 14.0  # points
 
 
-class Sheet:
+class ViewSheet:
     """A view in work, in points: what is drawn, what texts keep clear of, and what all of it takes."""
 
     def __init__(self, figure: DriveLineFigure, words: Catalogue) -> None:
@@ -172,7 +172,7 @@ def front_view(
 
 class _Front:
     def __init__(self, figure: DriveLineFigure, words: Catalogue, height: float) -> None:
-        self.sheet = Sheet(figure, words)
+        self.sheet = ViewSheet(figure, words)
         self.shafts = [each for each in figure.line.shafts if each.axis]
         self.joins = figure.line.joins
         placed = np.array([each.axis for each in self.shafts])
@@ -350,14 +350,14 @@ def side_view(
 
 class _Side:
     def __init__(self, figure: DriveLineFigure, words: Catalogue, height: float) -> None:
-        self.sheet, self.line = Sheet(figure, words), figure.line
-        rows = [_Row(each) for each in self.line.shafts]
+        self.sheet, self.line = ViewSheet(figure, words), figure.line
+        rows = [_ShaftRow(each) for each in self.line.shafts]
         ends = np.array([row.ends for row in rows])
         across = max(float(np.ptp(ends)), SMALLEST)
         high = max(sum(row.above + row.below for row in rows), 1e-9)
         self.scale = min((WIDTH - NAMES) / across, (height - GAP * len(rows)) / high)
         self.left = float(ends.min())
-        self.rows: dict[str, tuple[_Row, float]] = {}
+        self.rows: dict[str, tuple[_ShaftRow, float]] = {}
         y = 0.0
         for row in rows:
             y -= row.above * self.scale
@@ -371,7 +371,7 @@ class _Side:
             self._row(row, y)
         return self.sheet.finish(self.scale)
 
-    def _at(self, row: _Row, points: Any, y: float) -> Array:
+    def _at(self, row: _ShaftRow, points: Any, y: float) -> Array:
         """Points of a shaft, m from its left end and its axis, on the sheet."""
         placed: Array = (np.asarray(points, dtype=float) + np.array([row.left - self.left, 0.0])) * self.scale
         return placed + np.array([0.0, y])
@@ -385,11 +385,11 @@ class _Side:
             top, foot = upper[0] - upper[1].below * self.scale, lower[0] + lower[1].above * self.scale
             self.sheet.line([(x, top), (x, foot)], zorder=0.5)
 
-    def _found(self, kind: str, name: str) -> tuple[_Row, PlacedPartRecord, float]:
+    def _found(self, kind: str, name: str) -> tuple[_ShaftRow, PlacedPartRecord, float]:
         shown = ((row, part, y) for row, y in self.rows.values() for part in row.shaft.parts)
         return next(each for each in shown if (each[1].kind, each[1].name) == (kind, name))
 
-    def _row(self, row: _Row, y: float) -> None:
+    def _row(self, row: _ShaftRow, y: float) -> None:
         low, high = row.ends
         self.sheet.line(self._at(row, [(low - row.left - 0.01, 0), (high - row.left + 0.01, 0)], y), zorder=4)
         shaft = ("shaft", row.shaft.name)
@@ -409,7 +409,7 @@ class _Side:
             for ends in ([(left, foot), (right, top)], [(left, top), (right, foot)]):
                 self.sheet.line(ends, color=INK, linewidth=0.4, linestyle="-", zorder=3.4)
 
-    def _names(self, row: _Row, y: float) -> None:
+    def _names(self, row: _ShaftRow, y: float) -> None:
         looks = self.sheet.figure.looks
         own = [(row.shaft.name, looks["shaft", row.shaft.name])]
         own += [(part.name.partition(".")[2], looks[part.kind, part.name]) for part in row.shaft.parts]
@@ -432,7 +432,7 @@ class _Side:
             self.sheet.write(x, y - row.below * self.scale - 4.5 - 7.6 * level, text, SMALL, "center")
 
 
-class _Row:
+class _ShaftRow:
     """A shaft as a row of the side view: how far it reaches along the axes, above and below its own axis, m."""
 
     def __init__(self, shaft: MachineShaftRecord) -> None:
