@@ -8,7 +8,7 @@ from functools import partial
 
 from diecut_report.config.parts.model import MachineParts, ShaftPart
 from diecut_report.results.conclusion import governing
-from diecut_report.results.drive_line_record import RatingRecord
+from diecut_report.results.drive_line_record import RatingRecord, State
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, PartCountRecord
 from diecut_report.text.phrases import Phrase, phrase
@@ -91,7 +91,7 @@ def rating(own: Sequence[CarryingPart], checks: Mapping[str, Sequence[CheckRecor
     }
     found, known = governing(made), [name for name in made if name in checks]
     left = [each for each in own if not is_rated(each.calculation, checks)]
-    state = "rated" if not left else "accepted" if all(each.accepted for each in left) else "not_rated"
+    state: State = "rated" if not left else "accepted" if all(each.accepted for each in left) else "not_rated"
     if found is None:
         return RatingRecord(state=state, calculation=known[0] if known else "")
     return RatingRecord(state=state, calculation=found.mechanism, check=found.check)

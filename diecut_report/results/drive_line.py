@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
+from typing import cast
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from diecut_report.results.drive_line_record import (
     DriveLineRecord,
     JoinRecord,
     MachineShaftRecord,
+    PartKind,
     PlacedPartRecord,
     RatingRecord,
     ShaftSectionRecord,
@@ -91,7 +93,8 @@ class _DriveLine:
         start, end = part.ends
         port = self._port(part)
         placed = PlacedPartRecord(
-            name=part.called, kind=part.kind, start=start, end=end, seat=part.seat, radius=self._radius(part, port), of=part.keys.of or "",
+            name=part.called, kind=cast(PartKind, part.kind), start=start, end=end, seat=part.seat,
+            radius=self._radius(part, port), of=part.keys.of or "",
             outside=(part.size("D") or 0.0) if part.kind == "bearing" else 0.0, width=self._width(part), toothed=self._toothed(part),
             slots=self._slots(part, port), rating=self._body(part),
         )  # fmt: skip

@@ -13,10 +13,13 @@ PartKind = Literal[
 ]  # fmt: skip
 
 
+State = Literal["rated", "not_rated", "accepted", "none"]
+
+
 class RatingRecord(Record):
     """What rates a part."""
 
-    state: Literal["rated", "not_rated", "accepted", "none"] = always(
+    state: State = always(
         "`none`: there is nothing to rate, as of a motor's shaft, which is its maker's, or of a flywheel's rim."
     )
     calculation: str = sometimes("The mechanism of the results that rates it.", "")

@@ -55,9 +55,9 @@ class DriveLineFigure:
     @cached_property
     def looks(self) -> dict[Key, PartLook]:
         """Return how each shaft, part and join looks, by kind and name."""
-        parts = [each for shaft in self.line.shafts for each in shaft.parts]
-        every = [*((("shaft", each.name), each.rating) for each in self.line.shafts)]
-        every += [((each.kind, each.name), each.rating) for each in (*parts, *self.line.joins)]
+        every: list[tuple[Key, RatingRecord]] = [(("shaft", each.name), each.rating) for each in self.line.shafts]
+        every += [((each.kind, each.name), each.rating) for shaft in self.line.shafts for each in shaft.parts]
+        every += [((each.kind, each.name), each.rating) for each in self.line.joins]
         return {key: self._look(key[1], rating) for key, rating in every}
 
     def _look(self, name: str, rating: RatingRecord) -> PartLook:

@@ -181,7 +181,9 @@ class _Front:
         self.places = dict(zip((each.name for each in self.shafts), placed - corners.min(axis=0), strict=True))
         self.axes = {part.name: self.places[each.name] for each in self.shafts for part in each.parts}
         drawn = (*WHEELS, *ARMS, "geneva_wheel")
-        self.parts = {(part.kind, part.name): part for each in self.shafts for part in each.parts if part.kind in drawn}
+        self.parts: dict[Key, PlacedPartRecord] = {
+            (part.kind, part.name): part for each in self.shafts for part in each.parts if part.kind in drawn
+        }
         extent = np.maximum(np.ptp(corners, axis=0), SMALLEST)
         self.scale = float(min(WIDTH / extent[0], height / extent[1]))
 
@@ -198,7 +200,8 @@ class _Front:
         return self.sheet.finish(self.scale)
 
     def _center(self, part: PlacedPartRecord) -> Array:
-        return self.axes[part.name] * self.scale
+        center: Array = self.axes[part.name] * self.scale
+        return center
 
     def _direction(self, part: PlacedPartRecord) -> float:
         """Where the axis lies with which a part works: of its mesh, or of the other ports of its mechanism; upwards where there is none."""
@@ -232,7 +235,7 @@ class _Front:
             away = float(np.hypot(*(self.axes[crank.name] - self.axes[part.name]))) - crank.radius
             end = float(np.clip(away / part.radius, 0.15, 0.9))
         half, step = np.arcsin(SLOT / 2), 2 * np.pi / part.slots
-        pieces = []
+        pieces: list[Any] = []
         for index in range(part.slots):
             along = np.array([np.cos(first + index * step), np.sin(first + index * step)])
             aside = np.array([-along[1], along[0]]) * SLOT / 2
@@ -250,7 +253,8 @@ class _Front:
         if not join.driven:
             far = np.array([[2.5 * radius, 0.0]])
             half = _round(np.pi / 2, 1.5 * np.pi) * radius
-            return center + np.vstack([half[:1] + far, half, half[-1:] + far])
+            way: Array = center + np.vstack([half[:1] + far, half, half[-1:] + far])
+            return way
         other = self.parts[kind, join.driven[0]]
         return _loop(center, radius, self._center(other), other.radius * self.scale)
 
@@ -373,21 +377,26 @@ class _Side:
 
     def _at(self, row: _ShaftRow, points: Any, y: float) -> Array:
         """Points of a shaft, m from its left end and its axis, on the sheet."""
-        placed: Array = (np.asarray(points, dtype=float) + np.array([row.left - self.left, 0.0])) * self.scale
-        return placed + np.array([0.0, y])
+        placed: Array = (
+            np.asarray(points, dtype=float) + np.array([row.left - self.left, 0.0])
+        ) * self.scale + np.array([0.0, y])
+        return placed
 
     def _plane(self, join: JoinRecord) -> None:
         """The plane in which two parts work together, from row to row."""
         for one, other in zip(join.drivers, join.driven, strict=False):
-            (row, part, y), (far, _, end) = (self._found(JOINED[join.kind], name) for name in (one, other))
+            near, opposite = (self._found(JOINED[join.kind], name) for name in (one, other))
+            if near is None or opposite is None:
+                continue
+            (row, part, y), (far, _, end) = near, opposite
             x = self._at(row, [(part.start + part.end) / 2, 0.0], y)[0]
             upper, lower = sorted(((y, row), (end, far)), key=lambda each: -each[0])
             top, foot = upper[0] - upper[1].below * self.scale, lower[0] + lower[1].above * self.scale
             self.sheet.line([(x, top), (x, foot)], zorder=0.5)
 
-    def _found(self, kind: str, name: str) -> tuple[_ShaftRow, PlacedPartRecord, float]:
+    def _found(self, kind: str, name: str) -> tuple[_ShaftRow, PlacedPartRecord, float] | None:
         shown = ((row, part, y) for row, y in self.rows.values() for part in row.shaft.parts)
-        return next(each for each in shown if (each[1].kind, each[1].name) == (kind, name))
+        return next((each for each in shown if (each[1].kind, each[1].name) == (kind, name)), None)
 
     def _row(self, row: _ShaftRow, y: float) -> None:
         low, high = row.ends
@@ -449,7 +458,9 @@ class _ShaftRow:
     @property
     def ends(self) -> tuple[float, float]:
         """From where to where it reaches along the axes."""
-        own = [(each.start, each.end) for each in (*self.shaft.sections, *self.shaft.parts)] or [(0.0, 0.0)]
+        own = [(each.start, each.end) for each in self.shaft.sections]
+        own += [(each.start, each.end) for each in self.shaft.parts]
+        own = own or [(0.0, 0.0)]
         return self.left + min(start for start, _ in own), self.left + max(end for _, end in own)
 
     def pin(self, part: PlacedPartRecord) -> float:
@@ -489,8 +500,8 @@ class _ShaftRow:
             reach = part.radius if side == 1 or part.kind not in ARMS else 0.0
             outer = min(reach, self.broken) or hub
             own = min(hub, outer) if part.radius and part.kind not in ARMS else hub
-            top = [(middle - wide, outer), (middle + wide, outer)]
-            top = _torn(*top, teeth) if is_far else top
+            ends = (middle - wide, outer), (middle + wide, outer)
+            top = _torn(*ends, teeth) if is_far else [*ends]
             shoulder = [(part.start, inner), (part.start, own), (middle - wide, own)] if own > inner else [(middle - wide, inner)]  # fmt: skip
             back = [(middle + wide, own), (part.end, own), (part.end, inner)] if own > inner else [(middle + wide, inner)]  # fmt: skip
             found.append(np.array([*shoulder, *top, *back]) * [1, side])
