@@ -25,8 +25,15 @@ from diecut_report.report.pages import html
 from diecut_report.report.pages.pdf_figures import FigurePicture
 from diecut_report.report.scope import scope
 from diecut_report.report.text import Catalogue
+from diecut_report.results.carrying_parts import unrated
 from diecut_report.results.drive_line import drive_line
-from diecut_report.results.drive_line_record import DriveLineRecord, MachineShaftRecord, PlacedPartRecord, RatingRecord
+from diecut_report.results.drive_line_record import (
+    DriveLineRecord,
+    JoinRecord,
+    MachineShaftRecord,
+    PlacedPartRecord,
+    RatingRecord,
+)
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run
@@ -226,6 +233,16 @@ def test_a_part_has_the_tone_of_its_own_governing_check() -> None:
     )
 
 
+def test_what_is_hatched_is_what_the_results_leave_open() -> None:
+    parts = whole().parts
+    assert parts is not None
+    left = {cast(Phrase, each.why).values["part"] for each in unrated(parts, "train", {}, "")}
+    looks = views(whole_line())[1].looks
+    joined = ("gear", "pulley", "sprocket")  # whose mesh, belt or chain is what is open
+    hatched_ones = {name for (kind, name), look in looks.items() if look.state == "not_rated" and kind not in joined}
+    assert hatched_ones == left
+
+
 def phrase_of(name: str) -> Phrase:
     return Phrase("{title}: {name}", title="Life", name=name)
 
@@ -273,6 +290,26 @@ def test_odd_places_are_drawn_too(axis: list[float] | None) -> None:
     found = views(DriveLineRecord(shafts=shafts, joins=[]))
     assert [each.type for each in found] == [*VIEWS[axis is None :]]
     assert all(render(each, {}, each.words, "1").width > 0 for each in found)
+
+
+@pytest.mark.parametrize(
+    "odd",
+    [{}, {"end": -1e6, "seat": -1.0}, {"start": 0.1, "radius": 1e6, "width": -2.0}, {"slots": -3}, {"toothed": -1.0}],
+)
+def test_what_nobody_could_build_is_drawn_too(odd: dict[str, Any]) -> None:
+    none, numbers = RatingRecord(state="not_rated"), {"start": 0.0, "end": 0.0, "seat": 0.0} | odd
+    parts = [
+        PlacedPartRecord.model_validate({"name": "a.b", "kind": kind, "rating": none} | numbers)
+        for kind in ("gear", "crank", "pin", "bearing", "key", "geneva_wheel")
+    ]
+    shaft = MachineShaftRecord(name="a", axis=[0.0, 0.0], left=None, sections=[], parts=parts, rating=none)
+    joins = [
+        JoinRecord(name="c", kind=kind, drivers=["a.b"], driven=["gone.b"], rating=none)
+        for kind in ("mesh", "chain", "belt")
+    ]
+    assert all(
+        render(each, {}, each.words, "1").width > 0 for each in views(DriveLineRecord(shafts=[shaft], joins=joins))
+    )
 
 
 # A small machine, calculated: the report of its results.
