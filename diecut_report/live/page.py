@@ -18,6 +18,7 @@ from diecut_report.errors import Problem, refusal
 from diecut_report.live.session import LiveMachine, LiveSession
 from diecut_report.quantities.plausible import plausible
 from diecut_report.quantities.units import unit
+from diecut_report.report.chapters.drive_line import DriveLineFigure, drive_line_figures
 from diecut_report.report.pages.html import filled_page, folder
 from diecut_report.report.reader_data import figure_readings
 from diecut_report.report.text import Catalogue, figure_translated, quantity, tidy
@@ -65,6 +66,7 @@ def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str])
         "summary": run.summary.data(),
         "conclusion": said(run.summary.conclusion),
         "start": {"status": start.run.status, "summary": start.run.summary.data()},
+        "views": [each.title for each in _drive_line(machine)],
         "mechanisms": [
             _mechanism(name, machine, start, edits)
             for name in (PRESS, *(each for each in machine.config.instances if each != PRESS))
@@ -204,6 +206,18 @@ def _change(value: Any, first: Any) -> float | None:
     return (value - first) / abs(first) if numbers and first and value != first and value * first >= 0 else None
 
 
+def _drive_line(machine: LiveMachine) -> list[DriveLineFigure]:
+    """The views of the drive line; a part leads to its calculation on the page."""
+    run, kinds = machine.run, machine.config.kinds
+    checks = {
+        name: [each.with_(title=_text(each.title, kinds.get(name, ""))) for each in own]
+        for name, own in run.checks.items()
+    }
+    return drive_line_figures(
+        run.drive_line, checks, {name: f"#{name}" for name in checks}, Catalogue(spoken_language())
+    )
+
+
 # The figures of a live machine: curves as numbers that the page draws itself, drawings as SVG; each made when it is looked at.
 
 
@@ -212,6 +226,16 @@ class Pictures:
 
     def __init__(self) -> None:
         self._drawn: dict[tuple[str, int], tuple[Any, Data]] = {}
+
+    @staticmethod
+    def view(machine: LiveMachine, index: int) -> Data:
+        """Return a view of the drive line as ``svg``; UserError where there is none."""
+        from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
+
+        views = _drive_line(machine)
+        if not 0 <= index < len(views):
+            raise refusal("There is no figure {n} of {name}.", n=index, name=repr("drive line"))
+        return {"svg": render(views[index], {}, views[index].words, f"view-{index}").text}
 
     def figure(self, machine: LiveMachine, mechanism: str, index: int) -> Data:
         """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""

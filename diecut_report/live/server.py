@@ -64,6 +64,7 @@ class LiveApplication:
         routes = [
             Route("/", self._page), Route("/assets/{name}", self._asset), Route("/events", self._events),
             Route("/figure/{mechanism}/{index}", self._figure), Route("/effect", self._effect),
+            Route("/view/{index}", self._view),
             Route("/report/{form}", self._report),
             Route("/change", self._change, methods=["POST"]), Route("/back", self._back, methods=["POST"]),
             Route("/write", self._write, methods=["POST"]),
@@ -171,6 +172,12 @@ class LiveApplication:
     async def _asset(self, request: Request) -> Response:
         found = assets().get(request.path_params["name"])
         return Response(status_code=404) if found is None else Response(found.content, media_type=found.media_type)
+
+    async def _view(self, request: Request) -> Response:
+        index = request.path_params["index"]
+        if not re.fullmatch("[0-9]{1,9}", index):
+            return Response(status_code=404)
+        return await self._of_machine(lambda machine: self.pictures.view(machine, int(index)))
 
     async def _figure(self, request: Request) -> Response:
         mechanism, index = request.path_params["mechanism"], request.path_params["index"]

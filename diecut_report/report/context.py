@@ -104,8 +104,9 @@ class Material:
                 made: dict[str, Any] = self._made(draw, chapter, pair, Size.HALF)
                 is_wide = any(each.width > WIDEST_HALF for each in made.values())
                 found |= self._made(draw, chapter, list(made), whole) if is_wide else made
-        for number, tornado in self.document.influence.figures if self.document.influence else ():
-            found[number] = draw(tornado, {}, self.words, number, whole)
+        influence = self.document.influence.figures if self.document.influence else []
+        for number, figure in (*self.document.drive_line, *influence):
+            found[number] = draw(figure, {}, self.words, number, whole)
         return found
 
     def _made(

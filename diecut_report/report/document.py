@@ -12,7 +12,9 @@ from pathlib import PurePath
 from typing import Any
 
 from diecut_report.report.chapters.chapters import chapter
+from diecut_report.report.chapters.drive_line import DriveLineFigure, drive_line_figures
 from diecut_report.report.chapters.front import (
+    NUMBER,
     NotCovered,
     OpenGroup,
     PrintedInfluence,
@@ -124,6 +126,7 @@ class ReportDocument:
     notes: list[str]
     press_rows: list[QuantityRow]
     facts: list[tuple[str, str]]
+    drive_line: list[tuple[str, DriveLineFigure]]
     not_covered: list[NotCovered]
     open_groups: list[OpenGroup]
     contents: list[tuple[str, str, str, int]]
@@ -239,6 +242,7 @@ def document(results: ResultsRecord, equations: Equations, words: Catalogue) -> 
     results, is_brief = whole.results, whole.detail == BRIEF
     chapters = _chapters(whole, equations, words)
     rows = [rested(quantity_row(row, words["decimal"]), row, words) for row in results.press.fields]
+    drawn = _drive_line(results, chapters, words)
     with speaking(words.language):
         verdict = said(results.summary.conclusion)
     return ReportDocument(
@@ -247,11 +251,22 @@ def document(results: ResultsRecord, equations: Equations, words: Catalogue) -> 
         notes=[*_notes(whole, chapters, words)],
         press_rows=rows,
         facts=machine_facts(results, words),
+        drive_line=drawn,
         not_covered=not_covered(results, words),
         open_groups=open_groups(results, words),
         contents=list(_contents(chapters, words, whole.detail, results)),
-        influence=None if is_brief else printed_influence(results, words),
+        influence=None if is_brief else printed_influence(results, words, len(drawn)),
     )  # fmt: skip
+
+
+def _drive_line(
+    results: ResultsRecord, chapters: list[PrintedChapter], words: Catalogue
+) -> list[tuple[str, DriveLineFigure]]:
+    """The views of the drive line with their numbers, their parts leading to the chapters."""
+    checks = {name: data.checks for name, data in results.mechanisms.items()}
+    links = {part.name: f"#{part.anchor}" for part in chapters}
+    found = drive_line_figures(results.drive_line, checks, links, words)
+    return [(NUMBER.format(n=index), each) for index, each in enumerate(found, 1)]
 
 
 def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[PrintedChapter]:

@@ -72,6 +72,7 @@ def _only(results: ResultsRecord, names: list[str]) -> ResultsRecord:
         mechanisms=mechanisms,
         comparisons=comparisons,
         comparisons_left_out=None,
+        drive_line=None,
         governing=governing(checks),
         status=max((data.status for data in mechanisms.values()), key=RANK.__getitem__),
         summary=summary(checks, [*assumed, *taken]).with_(open=left, verdict=whole.verdict),

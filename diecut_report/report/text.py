@@ -89,6 +89,15 @@ ENGLISH: dict[str, str] = {
     "advice_passes": "Applying the advice of all failing checks together gives a pass: {changes}.",
     "advice_leaves": "Applying the advice of all failing checks together ({changes}) leaves other checks failing: {checks}.",
     "advice_impossible": "Applying the advice of all failing checks together ({changes}) gives a machine that cannot be built.",
+    # the drive line
+    "front_view": "Drive line, front view", "side_view": "Shafts of the drive line, side by side",
+    "front_view_caption": "Axes, pitch circles, belts and chains are to scale. Cranks and rockers are drawn as they point at the axis that they work "
+                          "with. A part has the colour of its governing check of strength, safety or function.",
+    "side_view_caption": "Places, lengths and diameters of shafts, bearings and pins are to scale. Hubs are drawn 1.6 times as thick as their "
+                         "shaft; what is farther from its axis than the row is high is broken off. Beside each shaft stands the part of it that is "
+                         "used most.",
+    "tone_low": "up to {low}", "tone_middle": "up to {middle}", "tone_high": "above {middle}, or a warning", "tone_fail": "fails",
+    "part_rated": "rated", "part_not_rated": "not rated", "part_accepted": "accepted without a rating", "part_none": "nothing to rate",
     "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "repeated_parts": "{n} repeated parts", "curves_over": "Curves over: {axis}",
     "file": "File", "content": "Content",
     "phases": "Phases", "phase": "Phase", "role": "Role", "from": "From", "to": "To", "length": "Length", "time": "Time",

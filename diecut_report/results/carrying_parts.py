@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from diecut_report.config.parts.model import MachineParts, ShaftPart
+from diecut_report.results.conclusion import governing
+from diecut_report.results.drive_line_record import RatingRecord, State
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, PartCountRecord
 from diecut_report.text.phrases import Phrase, phrase
@@ -16,38 +19,55 @@ BODIES = ("crank", "rocker", "geneva_wheel", "clutch", "coupling", "cam")
 
 @dataclass(frozen=True)
 class CarryingPart:
-    """Hold a part: what it is called, where it stands in the file, the calculation that would rate it, and who accepts it without."""
+    """Hold a part: what it is called, where it stands in the file, the calculation that would rate it, and who accepts it without.
+
+    ``is_own`` tells which checks of that calculation are the part's own, where it rates several parts.
+    """
 
     name: str
     path: str
     calculation: str
     accepted: str = ""
+    is_own: Callable[[CheckRecord], bool] = lambda check: True
 
 
 def carrying_parts(parts: MachineParts, train: str | None) -> Iterator[CarryingPart]:
     """Yield the parts that carry load and have a method: shafts, pins, bearings, keys, meshes, chains, belts."""
     for shaft in (each for each in parts.shafts.values() if each.is_rated and each.sections):
-        yield CarryingPart(shaft.name, _dotted(shaft.path), shaft.calculation)
+        yield CarryingPart(shaft.name, dotted(shaft.path), shaft.calculation)
         for part in shaft.parts:
             yield from _of_part(part)
     for join in parts.joins:
-        calculation = (train or "") if join.word == "belts" else join.calculation
-        yield CarryingPart(join.name, _dotted(join.path), calculation)
+        if join.word == "belts":
+            yield CarryingPart(join.name, dotted(join.path), train or "", is_own=_is_of_belt)
+        else:
+            yield CarryingPart(join.name, dotted(join.path), join.calculation)
 
 
 def _of_part(part: ShaftPart) -> Iterator[CarryingPart]:
-    path, accepted = _dotted(part.path), part.keys.accepted.by if part.keys.accepted else ""
+    path, accepted = dotted(part.path), part.keys.accepted.by if part.keys.accepted else ""
     if part.kind == "bearing":
-        yield CarryingPart(part.called, path, part.shaft.bearing_calculation, accepted)
+        yield CarryingPart(part.called, path, part.shaft.bearing_calculation, accepted, partial(_is_of, part.name))
     if part.keys.key:
         yield CarryingPart(f"{part.called}.key", path, part.calculation("key"), accepted)
     if part.keys.pin is not None:
         yield CarryingPart(f"{part.called}.pin", path, part.calculation("pin"), accepted)
         if part.keys.pin.bearing:
-            yield CarryingPart(f"{part.called}.pin.bearing", path, part.shaft.bearing_calculation, accepted)
+            own = partial(_is_of, f"{part.name}_pin")
+            yield CarryingPart(f"{part.called}.pin.bearing", path, part.shaft.bearing_calculation, accepted, own)
 
 
-def _dotted(path: Sequence[str | int]) -> str:
+def _is_of(bearing: str, check: CheckRecord) -> bool:
+    """Whether a check of several bearings is of this one."""
+    return getattr(check.title, "values", {}).get("name") == bearing
+
+
+def _is_of_belt(check: CheckRecord) -> bool:
+    return check.id.startswith("vbelt")
+
+
+def dotted(path: Sequence[str | int]) -> str:
+    """Return where a part stands in the file, as results name the place."""
     return ".".join(map(str, path))
 
 
@@ -55,6 +75,25 @@ def is_rated(calculation: str, checks: Mapping[str, Sequence[CheckRecord]]) -> b
     """Return whether a calculation rates its parts: it has checks of strength, and each of them was made."""
     strength = [check for check in checks.get(calculation, ()) if check.check_class == "strength"]
     return bool(strength) and all(check.status != "not_checked" for check in strength)
+
+
+def rating(own: Sequence[CarryingPart], checks: Mapping[str, Sequence[CheckRecord]]) -> RatingRecord:
+    """Return what rates a part, and the check that governs it: none of practice, which does not say whether it holds.
+
+    ``own`` are its calculations, of a wheel in two meshes both.
+    """
+    made = {
+        each.calculation: [
+            one for one in checks.get(each.calculation, ()) if each.is_own(one) and one.check_class != "practice"
+        ]
+        for each in own
+    }
+    found, known = governing(made), [name for name in made if name in checks]
+    left = [each for each in own if not is_rated(each.calculation, checks)]
+    state: State = "rated" if not left else "accepted" if all(each.accepted for each in left) else "not_rated"
+    if found is None:
+        return RatingRecord(state=state, calculation=known[0] if known else "")
+    return RatingRecord(state=state, calculation=found.mechanism, check=found.check)
 
 
 def counted(parts: MachineParts, train: str | None, checks: Mapping[str, Sequence[CheckRecord]]) -> PartCountRecord:
@@ -82,7 +121,7 @@ def unrated(
         for part in (each for each in shaft.parts if each.keys.accepted is None):
             for template in _without_method(part):
                 why = Phrase(template, part=part.called)
-                yield OpenRecord(what="not_rated", path=_dotted(part.path), owner=own, why=why)
+                yield OpenRecord(what="not_rated", path=dotted(part.path), owner=own, why=why)
 
 
 def _without_method(part: ShaftPart) -> Iterator[str]:

@@ -27,6 +27,7 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.conclusion import counts, governing, shown_alike
+from diecut_report.results.drive_line import drive_line
 from diecut_report.results.mechanism import worst
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
@@ -90,6 +91,7 @@ def document(run: Run) -> ResultsRecord:
         mechanisms=mechanisms,
         comparisons=comparisons,
         comparisons_left_out=left_out,
+        drive_line=drive_line(run, checks),
     )
 
 

@@ -12,6 +12,7 @@ from pydantic import WithJsonSchema
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
 
+from diecut_report.results.drive_line_record import DriveLineRecord
 from diecut_report.results.mechanism_record import CountRecord, MechanismRecord, QuantityRecord, ShownRecord
 from diecut_report.results.record import (
     DRAFT,
@@ -378,6 +379,7 @@ class ResultsRecord(Record):
     mechanisms: dict[Name, MechanismRecord] = always("The mechanisms by name, in the order of the configuration.")
     comparisons: dict[Name, MechanismRecord] = sometimes("Comparisons between mechanisms, by kind and mechanisms.", {})
     comparisons_left_out: LeftOutRecord | None = sometimes("Comparisons that are not made.")
+    drive_line: DriveLineRecord | None = sometimes("Where the parts of the machine are modelled: how they stand.")
     influence: Annotated[InfluenceRecord, OPEN_BLOCK] | None = sometimes(
         "Of a report with `report: {influence: …}`: what moves what, as its chapter reports it."
     )

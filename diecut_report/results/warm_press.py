@@ -35,6 +35,8 @@ from diecut_report.mechanism.names import SI
 from diecut_report.results.checks import check_results
 from diecut_report.results.conclusion import governing
 from diecut_report.results.document import document, verdict
+from diecut_report.results.drive_line import drive_line
+from diecut_report.results.drive_line_record import DriveLineRecord
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures, shown_figures
 from diecut_report.results.mechanism import (
@@ -201,6 +203,11 @@ class WarmRun(Run):
     def summary(self) -> SummaryRecord:
         """Return the counts of the checks, the governing one, what is open, the verdict and the first line."""
         return run_summary(self, self.checks)
+
+    @property
+    def drive_line(self) -> DriveLineRecord | None:
+        """Return the parts of the machine as they stand; None where they are not modelled."""
+        return drive_line(self, self.checks)
 
     def outputs(self, name: str) -> Quantities:
         """Return the outputs of a mechanism; KeyError where it is broken or skipped (``errors``, ``skipped``), as below."""

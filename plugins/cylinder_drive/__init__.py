@@ -27,9 +27,9 @@ MECHANISM = Mechanism(
                  "tooth_force_max", "joint_force_max"),
     ports=(
         Port(name="crank", torque="crank_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), speed="crank_speed",
-             joint=("coupler_force", "")),
+             joint=("coupler_force", ""), radius=("crank_length",)),
         Port(name="rocker", torque="rocker_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), opposite=True, angle="rocker_angle",
-             acceleration="rocker_acceleration", joint=("coupler_force", "transmission_angle"),
+             acceleration="rocker_acceleration", joint=("coupler_force", "transmission_angle"), radius=("rocker_ratio", "crank_length"),
              fills={"sector_ratio": "ratio", "pinion_radius": "pinion_radius", "pinion_inertia": "driven_inertia", "rocker_inertia": "own_inertia"}),
     ),
     checks=(

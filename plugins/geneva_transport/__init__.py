@@ -25,9 +25,9 @@ MECHANISM = Mechanism(
     key_results=("crank_radius", "wheel_radius", "step_angle", "dwell_fraction", "time_dwell", "sheet_step", "sheet_velocity_max",
                  "sheet_acceleration_max", "sheet_force", "torque_peak", "roller_force_peak", "contact_pressure", "arm_tip", "sheet_play"),
     ports=(
-        Port(name="crank", torque="torque", forces=("crank_force_x", "crank_force_y"), speed="crank_speed"),
+        Port(name="crank", torque="torque", forces=("crank_force_x", "crank_force_y"), speed="crank_speed", radius=("crank_radius",)),
         Port(name="wheel", torque="wheel_acceleration", forces=("crank_force_x", "crank_force_y"), opposite=True, angle="wheel_angle",
-             backwards=True, acceleration="wheel_acceleration", advance="slots",
+             backwards=True, acceleration="wheel_acceleration", advance="slots", radius=("wheel_radius",),
              fills={"gear_ratio": "ratio", "sprocket_teeth": "teeth", "chain_pitch": "pitch", "driven_inertia": "inertia"}),
     ),
     checks=CHECKS,

@@ -373,13 +373,13 @@
     entries.forEach(function (entry) { entry.target.isSeen = entry.isIntersecting; if (entry.isIntersecting) { fetchFigure(entry.target); } });
   }, { rootMargin: "200px" });
 
-  function figures() {
-    var box = byId("figures"), wanted = current().figures.map(function (title, index) { return open + "/" + index; });
+  function figures(box, place, titles) {
+    var wanted = titles.map(function (title, index) { return place + "/" + index; });
     var there = Array.from(box.children).map(function (figure) { return figure.dataset.figure; });
     if (there.join() !== wanted.join()) {
       Array.from(box.children).forEach(function (figure) { sight.unobserve(figure); clear(figure); });
-      box.replaceChildren.apply(box, current().figures.map(function (title, index) {
-        var figure = make("figure", { "data-figure": open + "/" + index }, [make("figcaption", {}, title), make("div", { "class": "picture" }, make("span", { "class": "waiting" }, t("drawing")))]);
+      box.replaceChildren.apply(box, titles.map(function (title, index) {
+        var figure = make("figure", { "data-figure": wanted[index] }, [make("figcaption", {}, title), make("div", { "class": "picture" }, make("span", { "class": "waiting" }, t("drawing")))]);
         sight.observe(figure);
         return figure;
       }));
@@ -394,7 +394,7 @@
     var serial = state.serial;
     figure.isAsking = true;
     figure.isOld = false;
-    fetch("figure/" + figure.dataset.figure.split("/").map(encodeURIComponent).join("/")).then(function (answer) { return answer.json(); }).then(function (found) {
+    fetch(figure.dataset.figure.split("/").map(encodeURIComponent).join("/")).then(function (answer) { return answer.json(); }).then(function (found) {
       figure.serial = serial;
       put(figure, found);
     }, failed).then(function () { figure.isAsking = false; if (figure.isOld) { fetchFigure(figure); } });
@@ -412,7 +412,7 @@
       box.replaceChildren(drawing);
     } else if (found.plot) {
       box.replaceChildren();
-      figure.charts = found.plot.panels.map(function (panel) { return chart(box, panel, found.plot.rows, figure.dataset.figure); });
+      figure.charts = found.plot.panels.map(function (panel) { return chart(box, panel, found.plot.rows, figure.dataset.figure.split("/")[1]); });
     } else {
       box.textContent = found.refused || "";
     }
@@ -434,7 +434,7 @@
     var axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, values: function (u, places) { return places.map(function (place) { return place === null ? "" : FIGURES.format(place); }); }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelSize: 18 };
     box.append(make("p", { "class": "panel" }, panel.title + (panel.unit ? ", " + panel.unit : "")));
     var made = new uPlot({
-      width: Math.max(280, box.clientWidth), height: 240, cursor: { sync: { key: group.split("/")[0] + panel.across.title + panel.across.unit } },
+      width: Math.max(280, box.clientWidth), height: 240, cursor: { sync: { key: group + panel.across.title + panel.across.unit } },
       scales: { x: { time: false, range: panel.across.range }, y: { range: panel.range } },
       axes: [Object.assign({ label: panel.across.title + (panel.across.unit ? ", " + panel.across.unit : "") }, axis),
         Object.assign({ size: 64 }, axis)],
@@ -461,13 +461,15 @@
   function show() {
     verdict();
     faults();
-    byId("results").hidden = byId("inputs").hidden = byId("mechanisms").hidden = !state.machine;
+    byId("results").hidden = byId("inputs").hidden = byId("mechanisms").hidden = byId("views").hidden = !state.machine;
     if (!state.machine) { return; }
     mechanisms();
     inputs();
     checks();
     outputs();
-    figures();
+    figures(byId("figures"), "figure/" + open, current().figures);
+    byId("views").hidden = !state.machine.views.length;
+    figures(byId("views"), "view", state.machine.views);
   }
 
   var source = new EventSource("events");
@@ -485,6 +487,11 @@
   byId("write").addEventListener("click", function () { act("write").then(function (isDone) { if (isDone) { say(t("written", { file: state.file }), true); } }); });
   byId("back").addEventListener("click", function () { waiting = {}; takeBack(Object.keys(state.edits)); });
   document.querySelectorAll("a.button").forEach(function (link) { link.addEventListener("click", function () { say(t("making"), true); }); });
+  /* A part of the drive line leads to its calculation, and the search gives way to it. */
+  byId("views").addEventListener("click", function (event) {
+    var link = event.target.closest("a");
+    if (link) { event.preventDefault(); visit(link.getAttribute("href").slice(1)); byId("results").scrollIntoView(); }
+  });
   byId("all-checks").addEventListener("change", checks);
   byId("search").addEventListener("input", function () { if (state && state.machine) { byId("inputs").querySelector(".rows").replaceChildren(); inputs(); } });
 })();

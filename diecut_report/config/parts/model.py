@@ -405,6 +405,22 @@ class MachineParts:
         """Yield the joins that a part takes part in."""
         yield from (each for each in self.joins if part in (*each.drivers, *each.driven))
 
+    def body_radius(self, part: ShaftPart) -> float | None:
+        """Return the radius of a part's body, m: its pitch radius, or its outer one; None where it is not known."""
+        join = next(self.joins_of(part), None)
+        if join is not None:
+            return join.radius(part)
+        if part.kind == "clutch" and self.mechanisms.get(part.name) == "clutch":
+            return self.reader.typed_block(part.name).get("shoe_radius")
+        return None if part.keys.outside is None else part.keys.outside / 2
+
+    def body_width(self, part: ShaftPart) -> float:
+        """Return the width of a part's body along its shaft, m."""
+        join = next(self.joins_of(part), None)
+        return part.keys.width or (
+            join.keys.width if join is not None and isinstance(join.keys, MeshKeys) else part.hub
+        )
+
     def motion_port(self, shaft: MachineShaft) -> ShaftPart | None:
         """Return the part of the port whose mechanism moves the shaft's group to and fro, or in steps; None of one that turns steadily."""
         if shaft.name in self.ratios:

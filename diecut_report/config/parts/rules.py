@@ -136,27 +136,13 @@ def _cylinders(parts: MachineParts) -> Iterator[_Cylinder]:
         if left is None:
             continue
         for part in shaft.parts:
-            radius = _radius(parts, part)
-            width = _body_width(parts, part)
+            radius = parts.body_radius(part)
+            width = parts.body_width(part)
             if radius is not None:
                 yield _Cylinder(part, radius, left + part.keys.at - width / 2, left + part.keys.at + width / 2)
         if shaft.sections:
             thickest = max(shaft.sections, key=lambda each: each.diameter)
             yield _Cylinder(shaft.parts[0], thickest.diameter / 2, left + thickest.start, left + thickest.end)
-
-
-def _radius(parts: MachineParts, part: ShaftPart) -> float | None:
-    join = next(parts.joins_of(part), None)
-    if join is not None:
-        return join.radius(part)
-    if part.kind == "clutch" and parts.mechanisms.get(part.name) == "clutch":
-        return parts.reader.typed_block(part.name).get("shoe_radius")
-    return None if part.keys.outside is None else part.keys.outside / 2
-
-
-def _body_width(parts: MachineParts, part: ShaftPart) -> float:
-    join = next(parts.joins_of(part), None)
-    return part.keys.width or (join.keys.width if join is not None and isinstance(join.keys, MeshKeys) else part.hub)
 
 
 def planes(parts: MachineParts) -> Iterator[Finding]:

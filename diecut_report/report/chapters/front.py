@@ -75,13 +75,13 @@ class PrintedInfluence:
         return [(each.number, each.figure) for each in self.tornados if each.rows]
 
 
-def printed_influence(results: ResultsRecord, words: Catalogue) -> PrintedInfluence | None:
-    """Return the chapter as it is printed; None where the results hold none."""
+def printed_influence(results: ResultsRecord, words: Catalogue, before: int = 0) -> PrintedInfluence | None:
+    """Return the chapter as it is printed; None where the results hold none. So many figures stand ``before`` its own."""
     found = results.influence
     if not found:
         return None
     lead, drawn = words.say("influence_lead", by=_told(100 * found.by, "%", words)), found.tolerances
-    tornados = [_tornado(results, each, index, words) for index, each in enumerate(found.tornados, 1)]
+    tornados = [_tornado(results, each, index, words) for index, each in enumerate(found.tornados, before + 1)]
     if not drawn:
         return PrintedInfluence(lead, tornados)
     unsure = [drawn.whole, *(each for each in drawn.checks if each.held < each.count)]

@@ -10,8 +10,10 @@ from typing import NamedTuple
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from diecut_report.report.chapters.drive_line import DriveLineFigure
 from diecut_report.report.figures.charts import bars, chart, polar, tornado_of
 from diecut_report.report.figures.drawing import drawing
+from diecut_report.report.figures.drive_line import front_view, linked, side_view
 from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, plain, styled, text_size
 from diecut_report.report.model import Drawn
 from diecut_report.report.text import Catalogue
@@ -19,16 +21,22 @@ from diecut_report.results.mechanism_record import CurveRecord
 
 DRAW: dict[str, Callable[..., Figure]] = {
     "plot": chart, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing, "tornado": tornado_of,
+    "front_view": front_view, "side_view": side_view,
 }  # fmt: skip
 DENSITY = 200  # points an inch
 MARGIN, LARGEST = 0.9, 14.0  # share of a picture that a text may fill, points of its letters
 
 
 def render(
-    figure: Drawn, curves: Mapping[str, CurveRecord], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
+    figure: Drawn | DriveLineFigure,
+    curves: Mapping[str, CurveRecord],
+    words: Catalogue,
+    key: str,
+    size: SizesSize = SizesSize.LARGE,
 ) -> Svg:
     """A figure of the results, so large as its place lets it be; ``key`` keeps its ids apart from those of the report's others."""
-    return drawn(partial(DRAW[figure.type], figure, curves, words, size), figure.title, key)
+    made = drawn(partial(DRAW[figure.type], figure, curves, words, size), figure.title, key)
+    return linked(made, figure) if isinstance(figure, DriveLineFigure) else made
 
 
 class Raster(NamedTuple):
@@ -40,7 +48,11 @@ class Raster(NamedTuple):
 
 
 def raster(
-    figure: Drawn, curves: Mapping[str, CurveRecord], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
+    figure: Drawn | DriveLineFigure,
+    curves: Mapping[str, CurveRecord],
+    words: Catalogue,
+    key: str,
+    size: SizesSize = SizesSize.LARGE,
 ) -> Raster:
     """The same figure as a picture of points; the same bytes for the same figure."""
     with styled(key):

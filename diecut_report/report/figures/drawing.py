@@ -305,6 +305,22 @@ def _look(shape: PolylineRecord | CircleRecord | ArcRecord | ArrowRecord | BoxRe
     return ROLES[shape.role]
 
 
+def scale_bar(axes: Axes, corner: Place, scale: float, unit_shown: str, words: Catalogue) -> Box:
+    """Draw a bar of a round length from its lower left corner, at so many points a metre; return what it takes."""
+    factor, (left, bottom) = unit(unit_shown).factor, corner
+    target = 30 * MM / scale / factor
+    power = 10.0 ** np.floor(np.log10(target))
+    length = max(step * power for step in (1, 2, 5) if step * power <= target)
+    right, middle, top = left + length * factor * scale, left + 0.5 * length * factor * scale, bottom + 3
+    axes.fill([left, middle, middle, left], [bottom, bottom, top, top], color=INK, linewidth=0)
+    axes.plot([left, right, right, left, left], [bottom, bottom, top, top, bottom], color=INK, linewidth=0.5)
+    shown = significant(length, 1) if length < 1 else f"{length:.0f}"
+    text = joined(number(shown, words["decimal"]), pretty(unit_shown))
+    axes.text(right + 5, bottom + 1.5, text, va="center", ha="left", size=8)
+    axes.text(left, bottom + 6, "0", va="bottom", ha="center", size=0.1, alpha=0)
+    return left, bottom - 3, right + 5 + text_size(text, 8)[0], bottom + 8
+
+
 class Shapes:
     """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
 
@@ -334,7 +350,8 @@ class Shapes:
             write(labels)
         self.boxes += labels.taken
         if not self.schematic and pretty(self.unit):
-            self._scale_bar()
+            corner = min(box[0] for box in self.boxes), min(box[1] for box in self.boxes) - 16
+            self.boxes.append(scale_bar(self.axes, corner, self.scale.round, self.unit, self.words))
         left, bottom, right, top = (pick(box[i] for box in self.boxes) for i, pick in enumerate((min, min, max, max)))
         left, bottom, right, top = left - 4, bottom - 4, right + 4, top + 4
         self.axes.set_xlim(left, right)
@@ -387,23 +404,6 @@ class Shapes:
             self.axes.text(x, y, said, ha="center", va="center", zorder=7, bbox=halo)
 
         self.texts.append(write)
-
-    def _scale_bar(self) -> None:
-        """A bar of a round length below the drawing, at the left."""
-        factor = unit(self.unit).factor
-        scale = self.scale.round
-        target = 30 * MM / scale / factor
-        power = 10.0 ** np.floor(np.log10(target))
-        length = max(step * power for step in (1, 2, 5) if step * power <= target)
-        left, bottom = min(box[0] for box in self.boxes), min(box[1] for box in self.boxes) - 16
-        right, middle, top = left + length * factor * scale, left + 0.5 * length * factor * scale, bottom + 3
-        self.axes.fill([left, middle, middle, left], [bottom, bottom, top, top], color=INK, linewidth=0)
-        self.axes.plot([left, right, right, left, left], [bottom, bottom, top, top, bottom], color=INK, linewidth=0.5)
-        shown = significant(length, 1) if length < 1 else f"{length:.0f}"
-        text = joined(number(shown, self.words["decimal"]), pretty(self.unit))
-        self.axes.text(right + 5, bottom + 1.5, text, va="center", ha="left", size=8)
-        self.axes.text(left, bottom + 6, "0", va="bottom", ha="center", size=0.1, alpha=0)
-        self.boxes.append((left, bottom - 3, right + 5 + text_size(text, 8)[0], bottom + 8))
 
     def _polyline(self, shape: PolylineRecord) -> None:
         points = self._points(shape.points)

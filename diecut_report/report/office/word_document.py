@@ -78,6 +78,8 @@ def summary(body: WordBody, document: ReportDocument) -> None:
     is_judged = document.checks or document.unchecked or document.status != "pass"
     body.say((body.status(document.face) + run("  ") if is_judged else "") + bold(document.verdict) + run(counts))
     body.listed(_verdict_lines(body, document))
+    for number, each in document.drive_line:
+        body.figure(number, each.title, each.caption)
     _not_covered(body, document)
     if document.checks or document.unchecked:
         _worst(body, document)

@@ -130,7 +130,15 @@ class _SvgOperators:
         """Draw nothing: it is named, and used elsewhere."""
 
 
-_NAMED = {"g": "group", "path": "path", "use": "use", "text": "text", "title": "nothing", "defs": "nothing"}
+_NAMED = {
+    "g": "group",
+    "a": "group",
+    "path": "path",
+    "use": "use",
+    "text": "text",
+    "title": "nothing",
+    "defs": "nothing",
+}
 _WAYS = {f"{SVG}{tag}": getattr(_SvgOperators, way) for tag, way in _NAMED.items()}
 
 

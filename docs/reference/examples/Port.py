@@ -28,7 +28,7 @@ turn.reduction("mean_torque", "T_m", "N*m", "Mean torque", operation="mean", of=
 
 MECHANISM = Mechanism(
     kind="stamp", version="1.0", title="Stamp", summary="A stamp on a crank.", inputs=Stamp, chapters=(turn,),
-    ports=(Port(name="crank", torque="torque", forces=("pin_force",), speed="crank_speed"),),
+    ports=(Port(name="crank", torque="torque", forces=("pin_force",), speed="crank_speed", radius=("radius",)),),
 )  # fmt: skip
 
 PRESS = """
