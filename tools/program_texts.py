@@ -116,8 +116,8 @@ def _standards() -> Iterator[ProgramText]:
 def _open_without_basis() -> Iterator[ProgramText]:
     """The reasons for which inputs are open, of the table of plausible values."""
     table = range_table()
-    groups = (*(group for group in table.without if group.needs_basis), *table.choices)
-    yield from (ProgramText(group.reason, note="plausible values") for group in groups)
+    reasons = [group.reason for group in table.without if group.needs_basis] + [group.reason for group in table.choices]
+    yield from (ProgramText(reason, note="plausible values") for reason in reasons)
 
 
 def _series(series: StandardSeries) -> Iterator[ProgramText]:

@@ -118,10 +118,10 @@ def unrated(
                 what="not_rated", path=part.path, owner=own, why=Phrase("{part}: {why}", part=part.name, why=why)
             )
     for shaft in parts.shafts.values():
-        for part in (each for each in shaft.parts if each.keys.accepted is None):
-            for template in _without_method(part):
-                why = Phrase(template, part=part.called)
-                yield OpenRecord(what="not_rated", path=dotted(part.path), owner=own, why=why)
+        for each in (part for part in shaft.parts if part.keys.accepted is None):
+            for template in _without_method(each):
+                why = Phrase(template, part=each.called)
+                yield OpenRecord(what="not_rated", path=dotted(each.path), owner=own, why=why)
 
 
 def _without_method(part: ShaftPart) -> Iterator[str]:

@@ -121,7 +121,12 @@ def _values(
                 found = press.get(name) if name in NUMBERS else results.get(name, inputs.get(name))
                 if isinstance(found, tuple) and index is not None and homes.get(name) == home:
                     return numbers_of(found[index])
-                if index is not None and name in results and np.shape(found)[1:] == (len(inputs[path]),):
+                if (
+                    index is not None
+                    and isinstance(found, np.ndarray)
+                    and name in results
+                    and np.shape(found)[1:] == (len(inputs[path]),)
+                ):
                     return numbers_of(found[:, index])  # a result of each part of the list
                 return numbers_of(found)
 

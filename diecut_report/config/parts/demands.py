@@ -183,7 +183,8 @@ class Demands:
             return 1
         joins = self.chain_from(moving.part.shaft.name, shaft)
         turned = sum(isinstance(join.keys, MeshKeys) for join in joins) + moving.port.backwards
-        return self.line_of_axes(moving.mechanism).sense * (-1) ** turned
+        sense = self.line_of_axes(moving.mechanism).sense
+        return -sense if turned % 2 else sense
 
     def line_of_axes(self, mechanism: str) -> LineOfAxes:
         """Return how the line between the axes of a mechanism's two shafts lies in the frame."""

@@ -36,7 +36,8 @@ OF_HUBS = (
 
 def names(parts: MachineParts) -> Iterator[Finding]:
     """Shafts, joins and parts have names that can be referred to, those of a shaft each its own."""
-    homes = [(each.name, each.path) for each in (*parts.shafts.values(), *parts.joins)]
+    homes: list[tuple[str, KeyPath]] = [(shaft.name, shaft.path) for shaft in parts.shafts.values()]
+    homes += [(join.name, join.path) for join in parts.joins]
     homes += [(part.name, (*part.path, part.kind)) for shaft in parts.shafts.values() for part in shaft.parts]
     for name, path in homes:
         if not PART_NAME.fullmatch(name):
@@ -126,11 +127,11 @@ def joined(parts: MachineParts) -> Iterator[Finding]:
 def misplaced(parts: MachineParts) -> Iterator[Finding]:
     """A part has the keys of its kind alone, as no other counts."""
     for part in (each for shaft in parts.shafts.values() for each in shaft.parts):
-        if part.kind == "bearing":
-            lost, why = OF_HUBS, phrase("which a bearing does not have")
-        else:
-            lost, why = OF_BEARINGS, phrase("which only a bearing has")
-            lost += () if part.port else ("plane",)
+        lost: tuple[str, ...] = OF_HUBS
+        why = phrase("which a bearing does not have")
+        if part.kind != "bearing":
+            lost = OF_BEARINGS if part.port else (*OF_BEARINGS, "plane")
+            why = phrase("which only a bearing has")
         for key in (each for each in lost if each in part.keys.model_fields_set):
             yield finding(parts, "names", "error", (*part.path, key), "is a key {why}; remove it", why=why)
 
