@@ -61,6 +61,17 @@ def test_what_is_not_one_number_of_the_file_stays_open(tmp_path: Path) -> None:
     assert left(press(tmp_path, "900 N*m", width)) == {"mechanisms.a.width": str(UNTRIED)}
 
 
+def test_a_limit_of_which_nobody_knows_what_is_usual_is_not_proved_harmless(tmp_path: Path) -> None:
+    """A tenth more or less of a limit a million times the load changes no check, and says nothing."""
+    own = Discovery().mechanism("circular_knife").example.inputs | {
+        "kind": "circular_knife",
+        "allowable_torque": "1e9 N*m",
+    }
+    text = HEAD + f"  k: {own | {'thickness': '0.5 mm', 'speed': '60 rpm'}!r}\n"
+    known = left(Press.read(saved(tmp_path, text), Discovery()))
+    assert "nothing but its note says who sets it" in known["mechanisms.k.allowable_torque"]
+
+
 def test_the_verdict_is_proved_where_nothing_else_is_open(tmp_path: Path) -> None:
     for allowed, verdict, line in (
         ("250 N*m", "pass", "All checks pass."),

@@ -42,7 +42,7 @@ COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
 MODELS: Mapping[str, type[Block]] = {"shafts": ShaftKeys, "meshes": MeshKeys, "chains": ChainKeys, "belts": BeltKeys}
 
 
-class _Pair(NamedTuple):
+class _TwoNumbers(NamedTuple):
     """Hold a key whose text holds two numbers, the keys of these, how it is written, and how many of the numbers are needed."""
 
     key: str
@@ -52,12 +52,12 @@ class _Pair(NamedTuple):
 
 
 _TEETH = ("teeth_1", "teeth_2")
-PAIRS: Mapping[type[Block], _Pair] = {
-    MeshKeys: _Pair("teeth", _TEETH, phrase("two numbers of teeth with a stroke between them, such as 18/87")),
-    ChainKeys: _Pair(
+PAIRS: Mapping[type[Block], _TwoNumbers] = {
+    MeshKeys: _TwoNumbers("teeth", _TEETH, phrase("two numbers of teeth with a stroke between them, such as 18/87")),
+    ChainKeys: _TwoNumbers(
         "teeth", _TEETH, phrase("one number of teeth, or two with a stroke between them, such as 17/34"), least=1
     ),
-    BeltKeys: _Pair(
+    BeltKeys: _TwoNumbers(
         "diameters", ("diameter_1", "diameter_2"), phrase("two diameters with a stroke between them, such as 125/375")
     ),
 }
@@ -290,7 +290,7 @@ def _unreadable_section(place: ConfigPlace, number: int, text: str, offset: int)
     return place.problem(("sections",), template, within=offset, number=number, text=quoted(text), seeming=seeming)
 
 
-def _pair(data: dict[str, Any], place: ConfigPlace, pair: _Pair) -> _Apart:
+def _pair(data: dict[str, Any], place: ConfigPlace, pair: _TwoNumbers) -> _Apart:
     """Put two numbers with a stroke between them, or a single one, under keys of their own."""
     given = data.pop(pair.key, None)
     if given is None:
