@@ -231,9 +231,9 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
         template = "compares {number}, which is not a finite number, so that nothing would be checked; write the limit, or its id"
         yield Phrase(template, number=repr(endless[0]))
         return
-    for key in dict.fromkeys(key for key in check.only_with if key in check.named):
+    for key in (each for each in check.only_with if each in (check.limit, check.at_least)):
         template = (
-            "compares {key} and names it in only_with, so that the check vanishes where it is not given; take it out of "
+            "has the limit {key} and names it in only_with, so that the check vanishes where it is not given; take it out of "
             "only_with: the check is then reported as not checked"
         )
         yield Phrase(template, key=key)

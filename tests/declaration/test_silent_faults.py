@@ -140,7 +140,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(checks=(check(severity="warn", fails_beyond=float("nan")),)), "check strong: compares nan, which is not a finite number"),
     "a check that vanishes with its limit": (
         made(checks=(check(demand="arm", unit="mm", limit="width", only_with=("width",)),)),
-        "check strong: compares width and names it in only_with, so that the check vanishes where it is not given"),
+        "check strong: has the limit width and names it in only_with, so that the check vanishes where it is not given"),
     "a self-test of what cancels": (
         made(value("x", unit="1", formula=bind(difference, one="moment", other="moment")),
              checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
