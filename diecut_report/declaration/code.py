@@ -105,7 +105,7 @@ OF_SYSTEM = {
 }
 SYSTEM = ("os", "posix", "nt", "posixpath", "ntpath", "genericpath")
 FUNCTIONS = ("function", "joints", "lines")
-METHODS = FunctionType | staticmethod | classmethod | property
+METHODS = (FunctionType, staticmethod, classmethod, property)
 Scope = ChainMap[str, Any]
 Used = tuple[ast.expr, str]  # where something is asked for, and what it is
 
