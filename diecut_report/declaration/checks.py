@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 import re
 from collections.abc import Collection, Iterator
 from functools import lru_cache
@@ -32,6 +33,7 @@ from diecut_report.text.phrases import Phrase, named, phrase
 
 
 NEUTRAL = {"+": 0.0, "*": 1.0}
+ZERO, ONE = Node("num", ("0.0",)), Node("num", ("1.0",))
 DEEP = 40  # formulas within formulas, of which a declaration may have a circle that is reported elsewhere
 
 
@@ -50,7 +52,8 @@ def empty(names: DeclaredNames, check: Check) -> Iterator[str]:
 
 def _empty(demand: Node, limit: Node) -> str:
     """Return why two expressions are no check; nothing where they are one."""
-    if _ordered(demand) == _ordered(limit):
+    demand, limit = _ordered(demand), _ordered(limit)
+    if demand == limit:
         return phrase("compares {one} with {other}, which is the same expression: it can never fail")
     if not symbols(demand) and not symbols(limit):
         template = "compares {one} with {other}, neither of which depends on an input: its verdict is always the same"
@@ -61,7 +64,7 @@ def _empty(demand: Node, limit: Node) -> str:
 
 
 def _ordered(part: Any) -> Any:
-    """An expression with the parts of its sums and products in one order, without those that change nothing."""
+    """An expression with the parts of its sums and products in one order, without those that change nothing or cancel."""
     if not isinstance(part, tuple):
         return part
     if not isinstance(part, Node):
@@ -69,10 +72,24 @@ def _ordered(part: Any) -> Any:
     parts = [_ordered(each) for each in part.args]
     neutral = NEUTRAL.get(part.op)
     if neutral is None:
-        return Node(part.op, tuple(parts))
+        return _cancelled(Node(part.op, tuple(parts)))
+    if part.op == "*" and ZERO in parts:
+        return ZERO
     flat = [each for own in parts for each in (own.args if own.op == part.op else (own,))]
     kept = sorted((each for each in flat if each.op != "num" or float(each.args[0]) != neutral), key=repr)
     return kept[0] if len(kept) == 1 else Node(part.op, tuple(kept))
+
+
+def _cancelled(node: Node) -> Node:
+    """A difference or quotient of equal expressions as the number that it is, and what is zero of such a difference."""
+    match node:
+        case Node("-" | "/" as sign, (one, other)) if one == other:
+            return ZERO if sign == "-" else ONE
+        case Node("/", (first, *_)) | Node("neg", (first,)) if first == ZERO:
+            return ZERO
+        case Node("call", ("abs" | "sqrt", argument)) if argument == ZERO:
+            return ZERO
+    return node
 
 
 def _ways(names: DeclaredNames, side: str | float) -> list[Node]:
@@ -209,6 +226,17 @@ def _when(names: DeclaredNames, check: Check) -> list[When]:
 
 def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
     sides = {name: names.givers(name) for name in check.named}
+    numbers = [each for pair in check.pairs for each in pair if not isinstance(each, str)]
+    if endless := [each for each in (*numbers, check.fails_beyond or 0) if not math.isfinite(each)]:
+        template = "compares {number}, which is not a finite number, so that nothing would be checked; write the limit, or its id"
+        yield Phrase(template, number=repr(endless[0]))
+        return
+    for key in (each for each in check.only_with if each in (check.limit, check.at_least)):
+        template = (
+            "has the limit {key} and names it in only_with, so that the check vanishes where it is not given; take it out of "
+            "only_with: the check is then reported as not checked"
+        )
+        yield Phrase(template, key=key)
     if not sides:
         yield phrase("compares plain numbers only; one side at least must be the id of a quantity")
         return
@@ -238,10 +266,14 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
 
 
 def _names_of_parts(names: DeclaredNames, check: Check) -> Iterator[str]:
-    """What is wrong with the names of parts, each of which is to have a check of its own."""
+    """What is wrong with the part that is judged alone, and with the names of parts, each of which is to have a check of its own."""
+    is_row = any(giver.kind == "row" for name in check.named for giver in names.givers(name))
+    if check.index is not None and not is_row:
+        template = "is of part index={index} alone, but compares no row over repeated parts; leave index out"
+        yield Phrase(template, index=repr(check.index))
     if not check.named_by:
         return
-    if not any(giver.kind == "row" for name in check.named for giver in names.givers(name)):
+    if not is_row:
         template = "is one check for each of {named_by}, but compares no row over repeated parts; leave named_by out"
         yield Phrase(template, named_by=check.named_by)
     elif check.named_by not in names.world.keys or names.kinds(check.named_by) - {"text"}:

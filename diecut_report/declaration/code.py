@@ -14,8 +14,11 @@ from contextlib import suppress
 from functools import partial
 from inspect import getclosurevars
 from pathlib import Path
-from types import FunctionType, ModuleType
+from threading import get_ident
+from types import FunctionType, MethodType, ModuleType
 from typing import Any
+
+import numpy as np
 
 from diecut_report import __version__, api
 from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, world
@@ -68,13 +71,16 @@ FILE, AROUND = phrase("a file"), phrase("what is around the program")
 END, ENDS = "end", {"_exit", "abort", "execv", "execve", "kill"}  # what ends the program, of the module os
 LEAVE, LEAVES = "leave", {"chdir", "fchdir", "chroot"}  # what leaves the working folder
 OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE, "numpy.random": CHANCE,
-             "io": FILE, "_io": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
+             "io": FILE, "_io": FILE, "linecache": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
              "platform": AROUND, "socket": AROUND,
              "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
 NOW = {"now", "today", "utcnow"}  # of a date
 # Of a path, known by their names alone.
-READERS = {"read_text", "read_bytes", "exists", "is_file", "is_dir", "iterdir", "rglob"}
-OF_RUN = (hash, id)  # other numbers in each run
+READERS = {"read_text", "read_bytes", "open", "exists", "is_file", "is_dir", "iterdir", "rglob"}
+DRAWN = "rvs"  # what a distribution of SciPy calls its numbers by chance
+SEARCHES = {"differential_evolution", "dual_annealing", "basinhopping"}  # of SciPy, by chance, without one of
+BEGINNINGS = {"seed", "rng", "random_state"}
+OF_RUN = (hash, id, get_ident)  # other numbers in each run
 TABLES = {"load", "loadtxt", "genfromtxt", "fromfile", "memmap"}  # of NumPy
 SEEDED = {"default_rng", "Random", "RandomState"}  # with a number to begin with they give the same each time
 OF_SYSTEM = {
@@ -90,9 +96,16 @@ OF_SYSTEM = {
     "cpu_count",
     "getlogin",
     "uname",
+    "getmtime",
+    "getatime",
+    "getctime",
+    "getsize",
+    "isfile",
+    "isdir",
 }
-SYSTEM = ("os", "posix", "nt")
+SYSTEM = ("os", "posix", "nt", "posixpath", "ntpath", "genericpath")
 FUNCTIONS = ("function", "joints", "lines")
+METHODS = (FunctionType, staticmethod, classmethod, property)
 Scope = ChainMap[str, Any]
 Used = tuple[ast.expr, str]  # where something is asked for, and what it is
 
@@ -142,19 +155,38 @@ def _fault(file: Path, where: ast.expr, what: str, name: str) -> Fault:
 
 
 def _functions(mechanism: Mechanism, files: set[str]) -> Iterator[FunctionType]:
-    """The plugin's own functions that steps and drawings call, and those that these name."""
+    """The plugin's own functions and methods that steps and drawings call, and those that these name."""
     given = [getattr(step, name, None) for _, step in mechanism.steps for name in FUNCTIONS]
-    given += [figure.build for figure in mechanism.figures if isinstance(figure, Drawing | Chart)]
-    given = [each.func if isinstance(each, partial) else each for each in given]
-    waiting, known = [each for each in given if isinstance(each, FunctionType)], set()
+    drawn = [figure for figure in mechanism.figures if isinstance(figure, Drawing | Chart)]
+    given += [getattr(figure, name, None) for figure in drawn for name in ("build", "moving")]
+    waiting, known = [own for each in given for own in _behind(each)], set()
     while waiting:
         function = waiting.pop()
         if function in known or function.__code__.co_filename not in files:
             continue
         known.add(function)
         yield function
-        named = (_scope(function).get(name) for name in function.__code__.co_names)
-        waiting += [each for each in named if isinstance(each, FunctionType)]
+        named = [_scope(function).get(name) for name in function.__code__.co_names]
+        waiting += [own for each in named for own in _behind(each)]
+
+
+def _behind(value: Any) -> Iterator[FunctionType]:
+    """The functions that are run where something is called or asked: itself, what it wraps, and the methods of its class."""
+    match value:
+        case FunctionType():
+            yield value
+            yield from _behind(getattr(value, "__wrapped__", None))
+        case partial(func=inner) | np.vectorize(pyfunc=inner) | MethodType(__func__=inner):
+            yield from _behind(inner)
+        case staticmethod(__func__=inner) | classmethod(__func__=inner) | property(fget=inner):
+            yield from _behind(inner)
+        case ModuleType() | None:
+            return
+        case _:
+            own = value if isinstance(value, type) else type(value)
+            bases = [vars(base) for base in own.__mro__ if base.__module__ != "builtins"]
+            methods = (method for base in bases for name, method in base.items() if name != "__hash__")
+            yield from (found for each in methods if isinstance(each, METHODS) for found in _behind(each))
 
 
 def _definitions(tree: ast.Module, line: int) -> Iterator[ast.AST]:
@@ -205,6 +237,10 @@ def _asked(node: ast.AST, scope: Scope) -> Iterator[Used]:
             pass
         case ast.Call(func=ast.Attribute(attr=attr)) if attr in READERS:
             yield node.func, FILE
+        case ast.Call(func=ast.Attribute(attr=attr), keywords=given) if attr == DRAWN and not _begins(given):
+            yield node.func, CHANCE
+        case ast.Call(func=func, keywords=given) if _is_search(_value(func, scope)) and not _begins(given):
+            yield func, CHANCE
         case ast.Call(func=func, args=[_, *_]) if getattr(_value(func, scope), "__name__", "") in SEEDED:
             return
         case ast.Attribute() | ast.Name() if found := _of(_value(node, scope)):
@@ -212,6 +248,15 @@ def _asked(node: ast.AST, scope: Scope) -> Iterator[Used]:
             return
     for child in ast.iter_child_nodes(node):
         yield from _asked(child, scope)
+
+
+def _begins(given: list[ast.keyword]) -> bool:
+    """Whether chance begins with a number that is given, so that it is the same each time."""
+    return any(each.arg in BEGINNINGS and getattr(each.value, "value", "") is not None for each in given)
+
+
+def _is_search(value: Any) -> bool:
+    return getattr(value, "__name__", "") in SEARCHES and str(getattr(value, "__module__", "")).startswith("scipy.")
 
 
 def _value(node: ast.expr, scope: Scope) -> Any:

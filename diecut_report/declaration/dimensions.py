@@ -253,9 +253,9 @@ def _given(link: Bound, units: dict[str, str]) -> Found:
 # Where a mechanism declares what a fault is told of.
 
 
-def at_place(mechanism: Mechanism, name: str, text: str) -> str:
-    """Return a text with the file and the line that declare a quantity, check or figure, and its name."""
-    place = next((each.at for each in declared_in(mechanism) if getattr(each, "id", "") == name), "")
+def at_place(mechanism: Mechanism, name: str, text: str, place: str = "") -> str:
+    """Return a text with the file and the line (or the ``place``) that declare a quantity, check or figure, and its name."""
+    place = place or next((each.at for each in declared_in(mechanism) if getattr(each, "id", "") == name), "")
     if not place:
         with suppress(KeyError, AttributeError, TypeError):  # it is not an input
             place = of_input(mechanism.inputs, name, mechanism.at)

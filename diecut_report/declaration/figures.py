@@ -148,11 +148,13 @@ def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> I
         )
         yield Phrase(template, place=f"{bare:g}")
     axis = {giver.unit for giver in names.givers(step.abscissa) if giver.unit}
-    for place in (end for span in step.spans for end in span if isinstance(end, str)):
+    end = phrase("goes to {place}, in {units}; its abscissa {abscissa} is in {axis}")
+    places = [(end, each) for span in step.spans for each in span if isinstance(each, str)]
+    period = phrase("has the period {place}, in {units}; its abscissa {abscissa} is in {axis}")
+    for template, place in (*places, (period, step.period)):
         units = {each for giver in names.givers(place) for each in giver.units_when(step.needs)}
         if units and not any(kind_of(one) == kind_of(other) for one in units for other in axis):
             filling = {"units": named(sorted(units), " or "), "axis": named(sorted(axis), " or ")}
-            template = "goes to {place}, in {units}; its abscissa {abscissa} is in {axis}"
             yield Phrase(template, filling, place=place, abscissa=step.abscissa)
 
 

@@ -25,7 +25,7 @@ from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import BOUNDS, Block, Key, Meta, Quantity, Referred, allowed, meta_of, nested
 from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Mechanism, Wired, kinds_named
 from diecut_report.mechanism.names import Bound, ByText, Text, bound
-from diecut_report.mechanism.steps import Step
+from diecut_report.mechanism.steps import Root, Step
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
@@ -34,6 +34,7 @@ from diecut_report.text.phrases import Phrase, phrase
 
 
 MOST_TOLERANCE = 0.01  # of a check: more than rounding and measuring leave open is a limit of its own
+MOST_OF_PROOF = 1e-6  # of the relation that proves a root: more than the rounding of differences is another number
 NOT_READ = {"StandardSeries": object, "StandardTable": object, "Chapter": object}  # imported for type checkers alone
 ALLOWED_PLAIN = ("needs", "lacks", "only_with", "asks_for")  # which are told of where tokens are judged
 
@@ -49,6 +50,13 @@ def allowed_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault
                 "put what is allowed into the limit"
             )
             yield fault(check, Phrase(template, tolerance=repr(check.tolerance), most=MOST_TOLERANCE))
+    for _, step in mechanism.steps:
+        if isinstance(step, Root) and not 0 < step.tolerance <= MOST_OF_PROOF:
+            template = (
+                "has the tolerance {tolerance}, the share by which its left and right may differ; allowed: above 0, to {most}, "
+                "for rounding alone; let the relation hold at the root"
+            )
+            yield fault(step, Phrase(template, tolerance=repr(step.tolerance), most=f"{MOST_OF_PROOF:g}"))
 
 
 def allowed_wrong(declared: Any) -> Iterator[str]:

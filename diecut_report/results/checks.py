@@ -16,7 +16,7 @@ from diecut_report.machine.printing.substitution import filled
 from diecut_report.machine.steps.soundness import is_made
 from diecut_report.mechanism.checks import Check, by_part
 from diecut_report.mechanism.mechanism import missing_keys
-from diecut_report.mechanism.names import listed
+from diecut_report.mechanism.names import Misdeclared, listed
 from diecut_report.quantities.formatting import place_shown, shown, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.results.advice import Advisor, Way, advice_text
@@ -248,7 +248,12 @@ def _compared(calc: Calculation, check: Check) -> Array:
     if any(side.shape != (calc.count, 1) for side in sides):
         sides = list(np.broadcast_arrays(*sides, np.empty((calc.count, 1)))[:-1])
     found = np.array(sides).reshape(len(pairs), 2, calc.count, -1).transpose(1, 2, 0, 3)
-    return found if check.index is None else found[..., [check.index]]
+    if check.index is None:
+        return found
+    if not -found.shape[-1] <= check.index < found.shape[-1]:
+        template = "check {id} is of part index={index} alone, counted from 0, but there are {count} parts"
+        raise Misdeclared(Phrase(template, id=check.id, index=str(check.index), count=str(found.shape[-1])), check.at)
+    return found[..., [check.index]]
 
 
 def _sides(calc: Calculation, check: Check, pair: tuple[str | float, ...]) -> tuple[Array, ...]:

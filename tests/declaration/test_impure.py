@@ -66,6 +66,13 @@ ASKED = {
     "arm = arm * os.getpid()": "what is around the program (os.getpid)",
     "arm = arm * len(sys.argv)": "what is around the program (sys.argv)",
     "arm = arm * Path('n').exists()": "a file (Path('n').exists)",
+    "arm = arm * float(Path('n').open().read())": "a file (Path('n').open)",
+    "arm = arm * os.path.getmtime('n')": "what is around the program (os.path.getmtime)",
+    "import linecache; arm = arm * len(linecache.getline('n', 1))": "a file (linecache.getline)",
+    "import threading; arm = arm * threading.get_ident()": "chance (threading.get_ident)",
+    "from scipy.stats import norm; arm = arm * norm.rvs()": "chance (norm.rvs)",
+    "from scipy.optimize import differential_evolution as seek; arm = seek(abs, [(0, 1)]).fun": "chance (seek)",
+    "from scipy.optimize import dual_annealing; arm = dual_annealing(abs, [(0, 1)], seed=None).fun": "chance (dual_annealing)",
     "arm = arm * hash('a')": "chance (hash)",
     "arm = arm * id(arm)": "chance (id)",
     "arm = (lambda: arm * time.time())()": "the clock (time.time)",
@@ -88,6 +95,8 @@ SOUND = (
     "arm = arm * random.Random(3).random()",
     "arm = arm + 0 * np.random.default_rng(3).normal()",
     "time = arm; arm = time.real",
+    "from scipy.optimize import differential_evolution; arm = differential_evolution(abs, [(0, 1)], seed=3).fun",
+    "from scipy.stats import norm; arm = arm * norm.rvs(random_state=3)",
     "arm = arm * len(os.path.join('a', 'b'))",
     "arm = arm * len(TABLE)",
     "arm = arm * date(2026, 1, 1).year",
@@ -115,6 +124,72 @@ def test_what_is_asked_beside_the_inputs_is_told(place: str, code: str, tmp_path
         f"function {name}: uses {ASKED[code]}, so that equal inputs give different results; take it as an input" in line
     )
     assert "asking.py:2" in line
+
+
+HIDDEN = """class Finder:
+    def __call__(self, arm):
+        return arm * time.time()
+
+    def method(self, arm):
+        return arm * time.time()
+
+    @staticmethod
+    def static(arm):
+        return arm * time.time()
+
+    @property
+    def now(self):
+        return time.time()
+
+    def __hash__(self):
+        return hash("finder")
+
+
+def wrapped(function):
+    @functools.wraps(function)
+    def inner(arm):
+        return function(arm)
+    return inner
+
+
+def plain(arm):
+    return arm * time.time()
+
+
+FINDER = Finder()
+"""
+CALLED = {
+    "an object": ("arm = FINDER(arm)", "FINDER", "__call__"),
+    "a method": ("arm = FINDER.method(arm)", "FINDER.method", "method"),
+    "a static method": ("arm = Finder.static(arm)", "Finder.static", "static"),
+    "a property": ("arm = arm * FINDER.now", "FINDER", "now"),
+    "a vectorized function": ("arm = np.vectorize(plain)(arm)", "np.vectorize(plain)", "plain"),
+    "a wrapped function": ("arm = wrapped(plain)(arm)", "wrapped(plain)", "plain"),
+    "a part of a method": ("arm = FINDER.method(arm)", "functools.partial(FINDER.method)", "method"),
+}
+
+
+@pytest.mark.parametrize("name", CALLED)
+def test_code_is_followed_however_it_is_called(name: str, tmp_path: Path) -> None:
+    body, function, called = CALLED[name]
+    step = f'chapter.computed("x", "X", "mm", "X", {function}, takes=("arm",), method="m")'
+    for place, parts in {"named": {"body": body}, "given": {"loop": step}}.items():
+        (tmp_path / place).mkdir()
+        lines = judged(tmp_path / place, module=f"import functools\n{HIDDEN}", **parts)
+        assert any(f"function {called}: uses the clock (time.time)" in line for line in lines), lines
+        assert not any("__hash__" in line for line in lines)
+
+
+def test_what_moves_a_drawing_is_followed(tmp_path: Path) -> None:
+    module = "def moved(view, place):\n    return [polyline([(0, time.time())])]\n"
+    figure = 'Drawing(id="d", title="D", caption="", build=lambda view: [], moving=moved, over="angle")'
+    loop = f"from diecut_report.api import Drawing, polyline\nFIGURES = ({figure},)"
+    text = PLUGIN.format(module=module, loop=loop, helper="pass", body="pass").replace(
+        "(chapter,))", "(chapter,), figures=FIGURES)"
+    )
+    (tmp_path / "asking.py").write_text(text, "utf-8")
+    with pytest.raises(PluginError, match=r"function moved: uses the clock \(time\.time\)"):
+        Discovery([tmp_path]).mechanism("asking")
 
 
 @pytest.mark.parametrize("code", ENDING)

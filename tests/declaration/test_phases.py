@@ -59,6 +59,8 @@ MISTAKES: dict[str, tuple[Declare, str]] = {
         lambda c: c.phase("x", "rest", "X", "angle", (0, "ends"), period=360),  # type: ignore[arg-type]
         "has period=360; name the input or the step that gives it, by its id",
     ),
+    "a period in mm": (
+        lambda c: c.phase("x", "rest", "X", "angle", (0, "ends"), period="blade"), "has the period blade, in mm; its abscissa angle is in deg"),
     "a period in degrees": (lambda c: c.abscissa("turn", "ψ", "deg", "Turn", 360), "has the period 360, a number of radians that is not a part of"),
     "a bare period": (lambda c: c.abscissa("way", "x", "mm", "Way", 400), "has the period 400, a number without a unit; name the input"),
     "a bare place of print": (

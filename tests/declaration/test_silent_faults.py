@@ -25,6 +25,7 @@ from diecut_report.api import (
     Part,
     Pick,
     Quantity,
+    Root,
     Running,
     Source,
     Text,
@@ -63,6 +64,16 @@ def doubled(arm: Any) -> Any:
 
 
 @formula
+def difference(one: Any, other: Any) -> Any:
+    return abs(one - other) / one
+
+
+@formula
+def quotient(one: Any, other: Any) -> Any:
+    return one / other
+
+
+@formula
 def nested_flag(arm: Any) -> Any:
     return np.where(arm > 1, arm > 2, arm > 3)
 
@@ -88,6 +99,16 @@ def pick(**changes: Any) -> Pick:
     return Pick(**{**sound, **changes})
 
 
+def root(**changes: Any) -> Root:
+    ends = {"low": bind(same, value=0.0), "high": bind(same, value="moment")}
+    sides = {
+        "equation": bind(quotient, one="x", other="moment"),
+        "left": bind(same, value="x"),
+        "right": bind(same, value="moment"),
+    }
+    return Root(**{"id": "x", "symbol": "x", "unit": "N*m", "description": "x", **ends, **sides, **changes})
+
+
 TWO = bind(doubled)
 LONG = bind(is_long)
 
@@ -98,6 +119,9 @@ SOUND = {
     "a quantity that exists": made(value("x", exists=LONG)),
     "a neighbour in other millimetres": made(of_bars(Neighbour, "m")),
     "a pick": made(pick()),
+    "a root": made(root()),
+    "a self-test of two ways": made(value("x", unit="1", formula=bind(difference, one="moment", other="peak")),
+                                    checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
     "a tolerance of rounding": made(checks=(check(tolerance=1e-6),)),
 }  # fmt: skip
 
@@ -110,6 +134,29 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     # checks
     "a tolerance in per cent": (made(checks=(check(tolerance=5),)), "check strong: has the tolerance 5, a share of the limit; allowed: 0 to 0.01"),
     "a tolerance below zero": (made(checks=(check(tolerance=-0.001),)), "has the tolerance -0.001"),
+    "a limit that is not a number": (made(checks=(check(limit=float("nan")),)), "check strong: compares nan, which is not a finite number"),
+    "a lower bound without end": (made(checks=(check(at_least=float("-inf")),)), "check strong: compares -inf, which is not a finite number"),
+    "a failure beyond what is not a number": (
+        made(checks=(check(severity="warn", fails_beyond=float("nan")),)), "check strong: compares nan, which is not a finite number"),
+    "a check that vanishes with its limit": (
+        made(checks=(check(demand="arm", unit="mm", limit="width", only_with=("width",)),)),
+        "check strong: has the limit width and names it in only_with, so that the check vanishes where it is not given"),
+    "a self-test of what cancels": (
+        made(value("x", unit="1", formula=bind(difference, one="moment", other="moment")),
+             checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
+        "check strong: compares x with 1e-06, neither of which depends on an input: its verdict is always the same"),
+    "a self-test of what cancels by another name": (
+        made(value("copy", "Q", formula=bind(same, value="moment")), value("x", unit="1", formula=bind(difference, one="moment", other="copy")),
+             checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
+        "check strong: compares x with 1e-06, neither of which depends on an input"),
+    "a quotient of what is the same": (
+        made(value("x", unit="1", formula=bind(quotient, one="moment", other="moment")), checks=(check(demand="x", unit="1", limit=1.001),)),
+        "check strong: compares x with 1.001, neither of which depends on an input"),
+    "a check of one part of what has none": (
+        made(checks=(check(index=3),)), "check strong: is of part index=3 alone, but compares no row over repeated parts"),
+    "a proof that leaves a third": (
+        made(root(tolerance=0.3)), "step x: has the tolerance 0.3, the share by which its left and right may differ; allowed: above 0, to 1e-06"),
+    "a proof that is not a number": (made(root(tolerance=float("nan"))), "step x: has the tolerance nan"),
     "an unknown severity": (made(checks=(check(severity="warning"),)), "has severity='warning' (did you mean 'warn'?); allowed: 'fail', 'warn'"),
     "an unknown operator": (made(checks=(check(operator=">="),)), "has operator='>='"),
     # words

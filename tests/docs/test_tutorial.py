@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
+from diecut_report.testing.contract import TITLES
 from tests.docs.pages import ROOT, PageRun, alike
 
 PAGE = ROOT / "docs" / "tutorial.md"
@@ -20,6 +22,15 @@ def test_the_tutorial_is_true(tmp_path: Path) -> None:
 def test_the_tutorial_is_true_to_its_report_and_its_study(tmp_path: Path) -> None:
     PageRun(PAGE, tmp_path).execute()
     assert (tmp_path / "build" / "pusher.pdf").stat().st_size > 50_000
+
+
+def test_the_pages_name_the_rules_of_check_plugin() -> None:
+    """The command itself is run at night."""
+    titles, text = list(map(str, TITLES.values())), PAGE.read_text("utf-8")
+    shown = re.findall(r"^  (?:holds|note)  ([A-Z][^:\n]*)", text, re.MULTILINE)
+    assert shown and shown == titles[: len(shown)]
+    table = (ROOT / "docs" / "plugins.md").read_text("utf-8").partition("| rule |")[2].partition("\n\n")[0]
+    assert [name for row in table.splitlines()[2:] for name in row.split(" | ")[0].strip("| ").split(", ")] == titles
 
 
 @pytest.mark.parametrize(

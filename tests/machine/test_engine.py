@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Annotated, Chapter, CurveInput, Inputs, Mechanism, Require, Value, bind, formula
+from diecut_report.api import Annotated, Chapter, CurveInput, Inputs, Mechanism, Require, Value, as_angle, bind, formula
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible, Unproven
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
@@ -247,6 +247,45 @@ def test_a_root_without_a_change_of_sign_names_its_bracket() -> None:
     template = r"Cube root \(x, toy\.py:\d+\): the equation does not change its sign between low = 2000 and high = 2001"
     with pytest.raises(Unproven, match=template):
         calculate(shifted, {"target": 2000.0})
+
+
+def rooted(**changes: Any) -> Mechanism:
+    step = ROOTED.chapters[0].steps[0]
+    return replace(ROOTED, chapters=(Chapter("Root", steps=(replace(step, **changes),)),))
+
+
+NO_PROOF = {
+    "a relation that always holds": (
+        {"left": lambda x: np.sin(as_angle(x)) ** 2, "right": lambda x: 1 - np.cos(as_angle(x)) ** 2},
+        "left and right are equal everywhere between low = 0 and high = 2001, not at the root alone, so that they prove nothing",
+    ),
+    "one side twice": ({"left": cubed, "right": cubed}, "left and right are equal everywhere"),
+    "a pole, which the relation proves": (
+        {"equation": lambda x, target: 1 / (x - target / 3), "left": lambda x: 3 * x, "right": bind(same, quantity="target")},
+        "the equation has a pole between low = 0 and high = 2001, where it changes its sign without a root",
+    ),
+    "a pole of the tangent": (
+        {"equation": lambda x: np.tan(as_angle(x)), "low": lambda: 1.0, "high": lambda: 2.5, "left": lambda x: x, "right": lambda: np.pi / 2},
+        "the equation has a pole between low = 1 and high = 2.5",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NO_PROOF)
+def test_a_root_that_is_not_proved_is_refused_alone_and_among_others(name: str) -> None:
+    changes, words = NO_PROOF[name]
+    with pytest.raises(Unproven, match=r"Cube root \(x, .*: " + words) as alone:
+        calculate(rooted(**changes), {"target": 2000.0})
+    many = calculate(rooted(**changes), {"target": np.full(3, 2000.0)}, 3)
+    assert many.flaws == dict.fromkeys(range(3), ("x", str(alone.value)))
+
+
+@pytest.mark.parametrize(
+    ("low", "high"), [(8.0, 8.0), (8 - 1e-12, 8 + 1e-12), (7.9, 8.0), (8.0, 1e6), (-1e3, 1e6)], ids=str
+)
+def test_a_root_in_any_bracket_is_proved(low: float, high: float) -> None:
+    found = rooted(low=lambda target: 0 * target + low, high=lambda target: 0 * target + high)
+    assert number(calculate(found, {"target": 512.0}), "x") == pytest.approx(8, rel=1e-12)
 
 
 def test_a_number_may_have_the_name_of_a_place_that_no_extreme_gives() -> None:

@@ -25,6 +25,7 @@ from diecut_report.api import (
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
+from diecut_report.mechanism.names import Misdeclared
 from diecut_report.report.chapters.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
@@ -109,6 +110,14 @@ def test_a_check_on_a_row_judges_every_part_and_the_worst_governs() -> None:
     assert [(p.status, p.utilisation) for p in found.parts] == [("pass", 0.2), ("fail", 1.2), ("pass", 0.8)]
     assert (found.status, found.part, found.demand, found.limit, found.utilisation) == ("fail", 2, 12, 10, 1.2)  # fmt: skip
     assert found.message == "Force 12 N, allowed 10 N at part 2 of 3: relieve bar 2, that of 6 N"
+
+
+@pytest.mark.parametrize("index", [3, -4])
+def test_a_part_that_there_is_not_is_told_at_its_check(index: int) -> None:
+    template = r"test_checks\.py:\d+: check c is of part index={} alone, counted from 0, but there are 3 parts"
+    with pytest.raises(Misdeclared, match=template.format(index)):
+        judged(check("bars.load", 5.0, index=index))
+    assert judged(check("bars.load", 5.0, index=2)).demand == 4
 
 
 def test_a_margin_that_is_the_rounding_of_equal_sides_is_none() -> None:

@@ -123,6 +123,69 @@ def test_a_machine_that_is_another_one_among_others_is_told(tmp_path: Path) -> N
     assert re.search(r"odd: is \S+ in a batch, \S+ on its own", tried.faults[0])
 
 
+KEPT = """if "travel" not in KNOWN:
+        KNOWN["travel"] = travel.max()
+    return KNOWN["travel"] * 1e5 * np.ones_like(travel)
+
+
+KNOWN = {}"""
+UNLIKE = {
+    "kept between two calls": odd(KEPT),
+    "an order of texts": odd(
+        'return travel * 1e5 * (1 + 1e-9 * list({"right", "left", "middle", "upper"}).index("left"))'
+    ),
+}
+
+
+@pytest.mark.parametrize("name", UNLIKE)
+def test_what_differs_between_new_processes_is_told(tmp_path: Path, name: str) -> None:
+    test = contract(tmp_path, *UNLIKE[name])
+    assert test.tried_alone("example").status == "pass"
+    tried = test.tried_alone("again")
+    assert tried.status == "fail"
+    words = r"toggle.py:\d+: odd: differs between two new processes, one of which calculates another machine first \(\[.*\], \[.*\]\): equal inputs"
+    assert re.match(words, tried.faults[0]), tried.faults
+
+
+def test_a_figure_that_differs_between_new_processes_is_told(tmp_path: Path) -> None:
+    change = ('view["travel"], 25', 'view["travel"] * (1 + 1e-9 * getattr(np.random, "ra" + "nd")()), 25')
+    tried = contract(tmp_path, change).tried_alone("again")
+    assert tried.status == "fail" and re.match(r"toggle.py:\d+: characteristic: differs", tried.faults[0]), tried.faults
+
+
+def test_a_plugin_that_breaks_in_a_new_process_is_told(tmp_path: Path) -> None:
+    gone = contract(tmp_path)
+    (tmp_path / "toggle" / "plugins" / "toggle.py").write_text("1 / 0", "utf-8")
+    (fault,) = gone.tried_alone("again").faults
+    assert "cannot be calculated in a new process: " in fault and "ZeroDivisionError" in fault
+
+
+def test_notes_of_a_check_stand_at_its_own_line(tmp_path: Path) -> None:
+    """A step has the same id here; it stands elsewhere."""
+    test = contract(tmp_path, ('limit="allowable_stress"', "limit=1e9"))
+    lines = (tmp_path / "toggle" / "plugins" / "toggle.py").read_text("utf-8").splitlines()
+    line = lines.index("        Check(") + 1
+    (note,) = test.tried_alone("verdicts").faults
+    assert note.startswith(f"toggle.py:{line}: stress: passes in all 400 machines")
+
+
+def test_a_demand_below_zero_that_is_great_in_size_is_noted(tmp_path: Path) -> None:
+    tried = contract(tmp_path, *odd("return -travel * 1e5"), SIGNED).tried_alone("verdicts")
+    _, note = [fault for fault in tried.faults if ": far: " in fault]  # it passes in all machines, too
+    assert tried.status == "note"
+    assert (
+        "passes with -1000 N, in size beyond the limit 40 N: if the direction does not count, compare the absolute value"
+        in note
+    )
+
+
+SIGNED = (
+    "    checks=(\n",
+    '    checks=(\n        Check(id="far", check_class="strength", title="Far", demand="odd", limit=40, unit="N", '
+    'demand_label="d", limit_label="l", consequence="c"),\n',
+)
+
+
 CANCELLED = "return (np.sin(1e6 * travel) ** 2 + np.cos(1e6 * travel) ** 2) * 1e9 - 1e9"
 
 

@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Chapter, Check, Inputs, Mechanism, Quantity
+from diecut_report.api import POINTS, Chapter, Check, Computed, Inputs, Mechanism, Quantity
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.checks import CheckClass
 from diecut_report.testing.contract import constant
@@ -75,13 +75,24 @@ def test_a_curve_that_is_rounding_beside_its_quantities_may_be_another_one(size:
 
 def test_a_check_that_no_machine_fails_is_noted_and_one_that_some_fail_is_not() -> None:
     sound = made(
+        Computed(
+            id="nothing",
+            symbol="n",
+            unit="N*m",
+            description="Nothing",
+            function=lambda arm: arm - arm,
+            takes=("arm",),
+            method="m",
+        ),
         checks=(
             check(limit=0.06),
             check(id="never", limit=1e9),
             check(id="always", limit=0.0),
             check(id="assumed", limit=1e9, presumed=True),
-        )
+            check(id="two_ways", check_class="numerical", limit=1e9),
+            check(id="zero", check_class="numerical", demand="nothing", limit=1e9),
+        ),
     )
     found = dict(constant(MachineCase(sound, {"force": 5.0, "arm": 0.01, "mode": "near", "n_points": 36}), 80, 1))
-    assert set(found) == {"never", "always"}
+    assert set(found) == {"never", "always", "zero"}
     assert "passes in all 80" in found["never"] and "fails in all 80" in found["always"]

@@ -20,12 +20,24 @@ SAMPLE_TOLERANCE = 1e-8
 NEGLIGIBLE = 1e-17  # share of the greatest Chebyshev coefficient below which the last ones are left out
 ROUNDING = 1e-14  # share of a difference's terms that may be rounding
 DIP_LOOKS = 9  # closer and closer at a dip: to 1e-8 of its bracket
+POLE = 1e3  # times the size of an equation at the ends of its bracket: what changes its sign with more is a pole
+BESIDE = (
+    0.0,
+    0.31,
+    0.5,
+    0.77,
+    1.0,
+)  # shares of a bracket at which the relation is not to hold, but for one that is the root
+NARROW = 1e-3  # of its ends: a bracket in which a relation may hold to rounding everywhere
 SEARCHES = 5  # for crossings, each on a finer grid
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
 
 def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
-    """Return the root in the bracket, shape (variants, 1), and how far left and right of its relation differ there, relative."""
+    """Return the root in the bracket, shape (variants, 1), and how far left and right of its relation differ there, relative.
+
+    The difference is infinite where the equation has a pole there, and no root.
+    """
     equation = bound(step.equation)
 
     def residual(x: Array, rows: Array) -> Array:
@@ -34,9 +46,34 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
         return result
 
     low, high = (calc.apply(end)[:, 0] for end in (step.low, step.high))
-    calc.values[step.id] = numerics.root(residual, low, high)[:, None]
+    found, every = numerics.root(residual, low, high), np.arange(calc.count)
+    ends = np.maximum(np.abs(residual(low, every)), np.abs(residual(high, every)))
+    is_pole = np.abs(residual(found, every)) > POLE * ends
+    difference, _ = _unequal(calc, step, found)
+    return found[:, None], np.where(is_pole[:, None], np.inf, difference)
+
+
+def proves_nothing(calc: Calculation, step: Root) -> Array:
+    """Return where the relation of a root holds in the whole of its bracket, not at the root alone, shape (variants,).
+
+    Sides that are zero throughout, as of a machine without the gap that they are about, are as they may be.
+    """
+    low, high = (calc.apply(end)[:, 0] for end in (step.low, step.high))
+    found = calc.values[step.id]
+    is_wide = high - low > NARROW * np.maximum(np.abs(low), np.abs(high))
+    beside = [_unequal(calc, step, low + share * (high - low)) for share in BESIDE]
+    calc.values[step.id] = found
+    differences, sizes = (np.concatenate(each, axis=1) for each in zip(*beside, strict=True))
+    holds: Array = np.all(differences <= step.tolerance, axis=1) & np.any(sizes > 0, axis=1)
+    return holds & is_wide
+
+
+def _unequal(calc: Calculation, step: Root, places: Array) -> tuple[Array, Array]:
+    """How far left and right differ, relative, with the unknown at these places (variants,), and their size; the places are the root then."""
+    calc.values[step.id] = places[:, None]
     left, right = calc.apply(step.left), calc.apply(step.right)
-    return calc.values[step.id], np.abs(left - right) / np.maximum(np.maximum(np.abs(left), np.abs(right)), SMALLEST)
+    size = np.maximum(np.abs(left), np.abs(right))
+    return np.abs(left - right) / np.maximum(size, SMALLEST), np.broadcast_to(size, (calc.count, 1))
 
 
 def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:

@@ -36,6 +36,7 @@ class MachineRun(Calculation):
 
     SAME_HEIGHT = extremes.SAME_HEIGHT
     root = roots_integrals.root
+    proves_nothing = roots_integrals.proves_nothing
     extreme = extremes.extreme
     beyond = extremes.outruns
     crossings = roots_integrals.all_crossings

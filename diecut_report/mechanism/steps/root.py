@@ -14,9 +14,22 @@ from diecut_report.mechanism.names import Written, bound
 from diecut_report.mechanism.steps.base import QuantityStep
 from diecut_report.mechanism.steps.protocols import ANY, NUMBER, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.quantities.formatting import told
-from diecut_report.text.phrases import Phrase
+from diecut_report.text.phrases import Phrase, phrase
 
 METHOD = "bracketed root search, verified by the relation shown, which is independent of the search"
+
+LOST = phrase(
+    "{where}: the equation does not change its sign between low = {low} and high = {high}; let the bracket hold the root, or require "
+    "what it needs to exist"
+)
+POLE = phrase(
+    "{where}: the equation has a pole between low = {low} and high = {high}, where it changes its sign without a root; let the bracket "
+    "leave the pole out"
+)
+EMPTY = phrase(
+    "{where}: left and right are equal everywhere between low = {low} and high = {high}, not at the root alone, so that they prove "
+    "nothing; write as left and right another form of the equation"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,14 +67,17 @@ class Root(QuantityStep):
     def run(self, calc: StepEngine) -> None:
         found, residual = calc.root(self)
         lost = np.isnan(found)[:, 0] & calc.possible
-        if lost.any():
-            first = np.flatnonzero(lost)[0]
-            low, high = (told(float(calc.apply(end)[first, 0]), self.unit) for end in (self.low, self.high))
-            where = f"{self.description} ({self.id}, {Path(self.at).name})"
-            template = "{where}: the equation does not change its sign between low = {low} and high = {high}; let the bracket hold the root, or require what it needs to exist"  # noqa: E501
-            calc.mark(self, lost, Phrase(template, where=where, low=low, high=high))
-            residual = np.where(lost[:, None], 0.0, residual)
+        pole = np.isinf(residual)[:, 0] & calc.possible
+        for bad, template in ((lost, LOST), (pole, POLE), (calc.proves_nothing(self) & calc.possible, EMPTY)):
+            if bad.any():
+                calc.mark(self, bad, self._words(calc, template, int(np.flatnonzero(bad)[0])))
+                residual = np.where(bad[:, None], 0.0, residual)
         calc.prove(self, residual, self.tolerance)
+
+    def _words(self, calc: StepEngine, template: str, variant: int) -> str:
+        low, high = (told(float(calc.apply(end)[variant, 0]), self.unit) for end in (self.low, self.high))
+        where = f"{self.description} ({self.id}, {Path(self.at).name})"
+        return Phrase(template, where=where, low=low, high=high)
 
     def items(self, page: StepPrinter) -> list[Item]:
         sides = (page.symbolic(bound(side)) for side in (self.left, self.right))
