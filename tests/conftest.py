@@ -56,6 +56,9 @@ def pytest_collection_finish() -> None:
     """Leave what collection has made out of all later collections of garbage."""
     gc.collect()
     gc.freeze()
+    gc.set_threshold(
+        100_000
+    )  # to look through what few tests leave costs a tenth of them; the program looks less often still
     gc.enable()
 
 
