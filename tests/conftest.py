@@ -104,6 +104,12 @@ def without_summary(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
+def without_advice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Failing checks are left without advice, which takes longer than all the rest; tests/results/test_advice.py follows it."""
+    monkeypatch.setattr("diecut_report.results.advice.Advisor.ways", lambda *_: [])
+
+
+@pytest.fixture
 def with_html_summary(monkeypatch: pytest.MonkeyPatch) -> None:
     """Studies get their summary as HTML alone."""
     from diecut_report.study import command
