@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import signal
@@ -56,15 +57,12 @@ def pytest_collection_finish() -> None:
     """Leave what collection has made out of all later collections of garbage."""
     gc.collect()
     gc.freeze()
-    gc.set_threshold(
-        100_000
-    )  # to look through what few tests leave costs a tenth of them; the program looks less often still
+    atexit.register(
+        gc.unfreeze
+    )  # and not before pytest's last five collections, or libraries that count their objects tell of leaks
+    # to look through what few tests leave costs a tenth of them; the program looks less often still
+    gc.set_threshold(100_000)
     gc.enable()
-
-
-def pytest_unconfigure() -> None:
-    """Let all be collected at the end, or libraries that count their objects tell of leaks."""
-    gc.unfreeze()
 
 
 @pytest.fixture(scope="session", autouse=True)
