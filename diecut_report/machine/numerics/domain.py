@@ -49,7 +49,7 @@ def nodes_of(order: int) -> tuple[Array, Array]:
 SMALLEST = float(np.finfo(float).tiny / np.finfo(float).eps)  # a number below it is not known to full precision
 
 FEW_EDGES = 40  # up to which edges are compared with all places at once
-FEW_PLACES = 64  # of a row, up to which all rows are halved together: a search for each row would cost more than what it finds
+FEW_PLACES = 64  # of a row, up to which all rows are halved together: a search for each one costs more than it finds
 
 
 Inside = tuple[Array, Array]  # the middles of all pieces (rows, pieces), and which of them each place lies in
