@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import signal
@@ -56,12 +57,12 @@ def pytest_collection_finish() -> None:
     """Leave what collection has made out of all later collections of garbage."""
     gc.collect()
     gc.freeze()
+    atexit.register(
+        gc.unfreeze
+    )  # and not before pytest's last five collections, or libraries that count their objects tell of leaks
+    # to look through what few tests leave costs a tenth of them; the program looks less often still
+    gc.set_threshold(100_000)
     gc.enable()
-
-
-def pytest_unconfigure() -> None:
-    """Let all be collected at the end, or libraries that count their objects tell of leaks."""
-    gc.unfreeze()
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -98,6 +99,12 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Example:
 def without_summary(monkeypatch: pytest.MonkeyPatch) -> None:
     """Studies are left without their summary, which takes seconds."""
     monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
+
+
+@pytest.fixture
+def without_advice(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Failing checks are left without advice, which takes longer than all the rest; tests/results/test_advice.py follows it."""
+    monkeypatch.setattr("diecut_report.results.advice.Advisor.ways", lambda *_: [])
 
 
 @pytest.fixture

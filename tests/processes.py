@@ -15,7 +15,8 @@ from pathlib import Path
 from typing import Any, Self
 
 COMMAND = """
-import sys
+import gc, sys
+gc.set_threshold(1_000_000)  # as diecut_report.__main__
 from diecut_report.cli.main import main
 code = main(sys.argv[1:])
 print(*sys.modules, file=sys.stderr)

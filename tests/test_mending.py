@@ -12,10 +12,12 @@ import numpy as np
 import pytest
 import yaml
 
+from diecut_report.config.loader import load_config
 from diecut_report.errors import UserError
-from diecut_report.press import Press
+from diecut_report.results.warm_press import WarmPress, WarmRun
 from tests.configs import DISCOVERY, EXAMPLES, saved
 from tests.examples import few
+from tests.machines import number
 
 PUBLISHED, MENDED = (
     next(path for path in EXAMPLES if path.stem == stem)
@@ -71,33 +73,40 @@ def taken_over(press: dict[str, Any], mended: dict[str, Any], path: str) -> None
         press.pop(key, None)
 
 
-def calculated(folder: Path, data: dict[str, Any]) -> dict[str, Any]:
-    """The results of a press."""
-    return Press.read(saved(folder, yaml.safe_dump(data, sort_keys=False)), DISCOVERY).calculate().results.data()
+PRESS = WarmPress(is_advised=False)
 
 
-def verdicts(results: dict[str, Any]) -> dict[str, set[str]]:
+def calculated(folder: Path, data: dict[str, Any]) -> WarmRun:
+    """A press, calculated."""
+    run = PRESS.calculate(load_config(saved(folder, yaml.safe_dump(data, sort_keys=False)), DISCOVERY))
+    assert not run.errors and not run.skipped
+    return run
+
+
+def verdicts(run: WarmRun) -> dict[str, set[str]]:
     """The checks of a press by their status."""
     found: dict[str, set[str]] = {}
-    for name, mechanism in results["mechanisms"].items():
-        for check in mechanism["checks"]:
-            found.setdefault(check["status"], set()).add(f"{name}.{check['id']}")
+    for name, checks in run.checks.items():
+        for check in checks:
+            found.setdefault(check.status, set()).add(f"{name}.{check.id}")
     return found
 
 
-def utilisation(results: dict[str, Any], name: str) -> float:
+def utilisation(run: WarmRun, name: str) -> float:
     """The utilisation of a check, percent."""
     home, _, own = name.partition(".")
-    return 100 * next(check["utilisation"] for check in results["mechanisms"][home]["checks"] if check["id"] == own)
+    used = next(check.utilisation for check in run.checks[home] if check.id == own)
+    assert used is not None
+    return 100 * used
 
 
-def output(results: dict[str, Any], name: str, scale: float = 1.0) -> float:
+def output(run: WarmRun, name: str, scale: float = 1.0) -> float:
     """A number of the results."""
     home, _, own = name.partition(".")
-    return float(results["mechanisms"][home]["outputs"][own]["value"]) * scale
+    return number(run.calculations[home], own) * scale
 
 
-SAID: dict[str, tuple[tuple[str, Callable[[dict[str, Any]], float | str]], ...]] = {
+SAID: dict[str, tuple[tuple[str, Callable[[WarmRun], float | str]], ...]] = {
     "transport": (("6.96° beyond", lambda found: output(found, "timing.best_margin", 180 / np.pi)),),
     "cylinder": (("(105.5 mm)", lambda found: output(found, "cylinder.radius", 1e3)), ("104 kg", lambda found: output(found, "cylinder.mass"))),
     "station": (("24.2 mm", lambda found: output(found, "timing.clearance_least", 1e3)),),
@@ -110,7 +119,7 @@ SAID: dict[str, tuple[tuple[str, Callable[[dict[str, Any]], float | str]], ...]]
     "rate": (
         ("takes 986 N·m", lambda found: output(found, "cross.torque_peak")),
         ("(98.6 %", lambda found: utilisation(found, "cross.torque")),
-        ("governing check is then `cross.sheet_play`", lambda found: str(found["summary"]["governing"])),
+        ("governing check is then `cross.sheet_play`", lambda found: str(found.governing)),
     ),
 }  # fmt: skip
 """What the guide says of a step, and what the press of that step has there."""
@@ -135,8 +144,8 @@ def test_the_last_step_is_the_mended_press() -> None:
 
 @pytest.mark.parametrize("step", few(STEPS, keep=lambda step: step in ("transport", "rate")))
 def test_each_step_leaves_what_the_guide_says(tmp_path: Path, step: str) -> None:
-    results = calculated(tmp_path, stepped()[step])
-    found, guide = verdicts(results), GUIDE.read_text(encoding="utf-8")
+    run = calculated(tmp_path, stepped()[step])
+    found, guide = verdicts(run), GUIDE.read_text(encoding="utf-8")
     left = found.get("fail", set()) | found.get("warn", set())
     assert left == STEPS[step][1]
     if step == "rate":
@@ -145,7 +154,7 @@ def test_each_step_leaves_what_the_guide_says(tmp_path: Path, step: str) -> None
     if step == "published":
         assert f"; {len(found['not_checked'])} are not made" in guide
     for text, value in SAID.get(step, ()):
-        assert text in guide and agrees(text, value(results))
+        assert text in guide and agrees(text, value(run))
 
 
 def agrees(text: str, value: float | str) -> bool:

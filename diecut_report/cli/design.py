@@ -259,7 +259,7 @@ def where(name: str, config: Path, form: str, discovery: Discovery) -> int:
     with Progress() as progress, without_output():
         loaded = _read(config, discovery, progress).config
         progress(phrase("calculating"))
-        found = place_of(WarmPress().calculate(loaded), name)
+        found = place_of(WarmPress(is_advised=False).calculate(loaded), name)
     emit(as_json(data(found)) if form == "json" else _text(lines(found)))
     return PASSED
 

@@ -7,7 +7,6 @@ program itself. Messages that standard error does not take are lost; that change
 
 from __future__ import annotations
 
-import gc
 import io
 import os
 import re
@@ -128,10 +127,6 @@ def worded(sentence: str) -> str:
     return sentence
 
 
-# objects made before garbage is looked for: starting makes many lasting ones, among which to look costs a tenth of a run
-COLLECTED = 1_000_000
-
-
 def run() -> NoReturn:
     """The program: ``main``, and then out at once, for to tear the interpreter down costs a fifth of a short run.
 
@@ -150,7 +145,6 @@ def run() -> NoReturn:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; its exit code. What a user can fix is reported on standard error."""
-    gc.set_threshold(COLLECTED)
     with speaking(SOURCE_LANGUAGE):  # what a command chooses holds for it alone
         return _run(arguments)
 

@@ -194,7 +194,7 @@ def mended(press: Press, *, free: Iterable[str] = (), keep: Iterable[str] = (), 
 
     ``most`` machines are calculated at most to find it. UserError where nothing is free to be changed, or the machine cannot be as it is.
     """
-    before, config = proved(press), press.config
+    before, config = proved(press, is_advised=True), press.config
     named = [named_input(config, name) for name in free]
     kept = {named_input(config, name).asked.path for name in keep}
     failing = before.failing

@@ -188,7 +188,7 @@ def _beside(
 def _governing(config: Config) -> list[str]:
     """The check that governs each mechanism today, by the rules of the results; the one that governs the machine first."""
     known = []
-    for name, own in WarmPress().calculate(config).checks.items():
+    for name, own in WarmPress(is_advised=False).calculate(config).checks.items():
         used = max(
             (each for each in own if each.utilisation is not None and may_govern(each)), key=weight, default=None
         )

@@ -296,9 +296,12 @@ class ProvedMachine:
         return str(found) if found else None
 
 
-def proved(press: Press) -> ProvedMachine:
-    """Return a machine calculated alone; UserError where it cannot exist, PluginError where a plugin breaks."""
-    run = WarmPress().calculate(press.config)
+def proved(press: Press, *, is_advised: bool = False) -> ProvedMachine:
+    """Return a machine calculated alone; UserError where it cannot exist, PluginError where a plugin breaks.
+
+    ``is_advised`` says whether its failing checks come with advice, which takes longer than all the rest.
+    """
+    run = WarmPress(is_advised=is_advised).calculate(press.config)
     for error in run.errors.values():
         raise error
     return ProvedMachine(press, run)

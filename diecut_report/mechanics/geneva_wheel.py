@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from math import acos, asin, cos, hypot, pi, sin
 
-from scipy.integrate import quad
-
 
 def area_and_polar(
     slots: int, center_distance: float, roller_radius: float, locking_radius: float | None, bore: float
@@ -15,6 +13,8 @@ def area_and_polar(
     Lengths in m. Without a ``locking_radius`` the arm between arc and slot is as thick as the roller. The rim is where both flanks of a slot
     guide the roller from its entry on.
     """
+    from scipy.integrate import quad  # a third of the program's start, which only a machine with such a wheel needs
+
     crank = center_distance * sin(pi / slots)
     arc = crank - 3 * roller_radius if locking_radius is None else locking_radius
     rim, end = hypot(center_distance * cos(pi / slots), roller_radius), center_distance - crank

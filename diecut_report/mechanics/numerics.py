@@ -35,7 +35,7 @@ def narrowed(function: Function, low: Array, high: Array, heights: Array, within
     best, value = np.full_like(low, np.nan), np.full_like(low, np.nan)
     row = np.arange(len(low))
     state = np.stack([high, low, low, heights[1], heights[0], heights[0], np.full_like(low, 0.5)])
-    for _ in range(MOST):
+    for _ in range(MOST if len(low) else 0):
         a, b, _, fa, fb, _, share = state
         place = a + share * (b - a)
         found = function(place, row)

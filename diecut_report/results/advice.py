@@ -399,12 +399,12 @@ def _together(trials: Trials, keys: Sequence[str]) -> Way | None:
     parameter = _nearest(trials, ray)
     if parameter is None:
         return None
-    ray = _needed(trials, ray, parameter)
-    if len(ray.places) == 1:
-        rises = bool(ray.at(np.array([parameter]))[0, 0] > (ray.places[0].present or 0.0))
-        return _number(trials, Vary(ray.places[0].key, "up" if rises else "down"), ray.places[0])
-    parameter = _nearest(trials, ray)
-    return None if parameter is None else _way_to(trials, ray, parameter)
+    needed = _needed(trials, ray, parameter)
+    if len(needed.places) == 1:
+        rises = bool(needed.at(np.array([parameter]))[0, 0] > (needed.places[0].present or 0.0))
+        return _number(trials, Vary(needed.places[0].key, "up" if rises else "down"), needed.places[0])
+    nearest = parameter if needed is ray else _nearest(trials, needed)
+    return None if nearest is None else _way_to(trials, needed, nearest)
 
 
 def _common_ray(places: Sequence[VariedNumber]) -> Ray:

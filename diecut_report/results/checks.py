@@ -169,12 +169,21 @@ class JudgedCheck(NamedTuple):
 
 def check_results(calc: Calculation) -> list[CheckRecord]:
     """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
+    return _results(calc, is_advised=True)
+
+
+def verdicts(calc: Calculation) -> list[CheckRecord]:
+    """Return each check as ``check_results``, but without advice: to find that takes longer than all the rest."""
+    return _results(calc, is_advised=False)
+
+
+def _results(calc: Calculation, *, is_advised: bool) -> list[CheckRecord]:
     sides = [(check, _there(calc, check)) for check in checks_of(calc)]
     checks = [(check, None if pair is None else _judged(check, *pair)) for check, pair in sides]
     ids = {check.id for check, found in checks if found is not None}
     held = [check for check, found in checks if found is not None and found.all_hold and is_of_machine(check)]
     failing = [check for check, found in checks if found is not None and not found.all_hold]
-    advisor = Advisor(calc, held, failing, holds)
+    advisor = Advisor(calc, held, failing, holds) if is_advised else None
     made = []
     for check, found in checks:
         if found is not None:
@@ -278,7 +287,7 @@ def holds(calc: Calculation, check: Check) -> tuple[Array, Array]:
     return found.governing(found.there), found.governing(found.held)
 
 
-def _check(calc: Calculation, check: Check, found: JudgedCheck, advisor: Advisor) -> CheckRecord:
+def _check(calc: Calculation, check: Check, found: JudgedCheck, advisor: Advisor | None) -> CheckRecord:
     if np.isinf([found.demand[0], found.limit[0]]).any():
         raise ValueError(f"check {check.id} compares {found.demand[0].ravel()} with {found.limit[0].ravel()}")
     pair, part = divmod(int(found.worst[0]), found.demand.shape[2])
@@ -291,7 +300,7 @@ def _check(calc: Calculation, check: Check, found: JudgedCheck, advisor: Advisor
     if told["status"] != "pass":
         consequence = filled(calc, check.consequence, places=places)
         message = Phrase("{bounds:capital}: {consequence}", {"bounds:capital": sentence, "consequence": consequence})
-        ways = advisor.ways(check)
+        ways = advisor.ways(check) if advisor else []
     return CheckRecord(
         **_head(check),
         **told,

@@ -32,7 +32,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI
-from diecut_report.results.checks import check_results
+from diecut_report.results.checks import check_results, verdicts
 from diecut_report.results.conclusion import governing
 from diecut_report.results.document import document, verdict
 from diecut_report.results.drive_line import drive_line
@@ -106,9 +106,13 @@ def _same(one: Any, other: Any) -> bool:
 
 
 class WarmPress:
-    """Remember the calculations of a press from one run to the next; see above."""
+    """Remember the calculations of a press from one run to the next; see above.
 
-    def __init__(self) -> None:
+    With ``is_advised=False`` failing checks come without advice, which takes longer than all the rest; ``document`` has it all the same.
+    """
+
+    def __init__(self, *, is_advised: bool = True) -> None:
+        self.judge = check_results if is_advised else verdicts
         self._known: dict[str, list[Remembered]] = {}
         self.judged: dict[str, tuple[type[Block], Data, Block]] = {}  # for each instance what was found valid last
 
@@ -164,7 +168,7 @@ class WarmRun(Run):
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
         """Only what tells whether the mechanism may be used at all."""
-        require_self_tests(self.remembered[instance.name].of(check_results))
+        require_self_tests(self.remembered[instance.name].of(self.press.judge))
 
     def _comparisons(self) -> None:
         """A comparison has no checks, and nothing depends on it."""
@@ -176,7 +180,9 @@ class WarmRun(Run):
         return checks_with_origins({name: self._checks(name) for name in names}, cache(self._paths))
 
     def _checks(self, name: str) -> list[CheckRecord]:
-        return self.remembered[name].of(check_results) if name in self.calculations else self.self_tests.get(name, [])
+        return (
+            self.remembered[name].of(self.press.judge) if name in self.calculations else self.self_tests.get(name, [])
+        )
 
     def _paths(self, name: str) -> dict[str, str]:
         """What the inputs of a mechanism refer to."""

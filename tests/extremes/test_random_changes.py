@@ -37,7 +37,7 @@ def changed(example: str, *keys: str, to: str) -> WarmRun:
     for key in keys[:-1]:
         home = home[int(key) if isinstance(home, list) else key]
     home[keys[-1]] = to
-    return WarmPress().calculate(load_config(tree, DISCOVERY))
+    return WarmPress(is_advised=False).calculate(load_config(tree, DISCOVERY))
 
 
 def test_an_extreme_between_the_first_two_points_of_a_piece_is_found() -> None:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from diecut_report.mechanics.numerics import root
+from diecut_report.mechanics.numerics import narrowed, root
 
 
 def test_each_bracket_has_its_root() -> None:
@@ -29,6 +29,12 @@ def test_nothing_is_found_where_the_sign_does_not_change_or_there_is_no_value() 
     with np.errstate(invalid="ignore"):
         found = root(lambda x, _: np.sqrt(x) - 1, np.array([2.0, -1.0, 0.0]), np.array([3.0, 4.0, 3.0]))
     assert np.isnan(found[:2]).all() and abs(found[2] - 1) < 4e-16
+
+
+def test_where_there_is_no_bracket_nothing_is_evaluated() -> None:
+    looks: list[int] = []
+    place, left = narrowed(lambda x, _: looks.append(len(x)) or x, np.empty(0), np.empty(0), np.empty((2, 0)))
+    assert len(place) == len(left) == len(looks) == 0
 
 
 def test_a_root_is_known_as_near_as_is_asked() -> None:

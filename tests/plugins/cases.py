@@ -13,7 +13,8 @@ from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.mechanism.names import SI
 from diecut_report.quantities.units import unit
-from diecut_report.results.press_run import Found, Run, compute
+from diecut_report.results.press_run import Found, found
+from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.testing.machines import MachineCase as Case
 from diecut_report.testing.machines import Ranges
 from tests.configs import EXAMPLES
@@ -149,9 +150,9 @@ WIDELY: dict[str, Ranges] = {
 
 
 @cache
-def example(stem: str) -> Run:
-    """An example, calculated."""
-    return compute(CONFIGS[stem], lambda _: None)
+def example(stem: str) -> WarmRun:
+    """An example, calculated; nothing of it is printed."""
+    return WarmPress(is_advised=False).calculate(CONFIGS[stem])
 
 
 def names(kind: str) -> list[str]:
@@ -175,7 +176,9 @@ def case(kind: str, name: str) -> Case:
     run = example(stem)
     if kind in COMPARISONS:
         return Case(
-            MECHANISMS[kind], _taken(next(c for c in run.cases if c.comparison.mechanism.kind == kind), run), {}
+            MECHANISMS[kind],
+            _taken(next(each for each in found(run.calculations) if each.comparison.mechanism.kind == kind), run),
+            {},
         )
     return Case(MECHANISMS[kind], _given(run.calculations[instance]), {})
 
@@ -187,11 +190,11 @@ def _given(calc: Calculation) -> dict[str, Any]:
     return values | ({"n_points": 72} if "n_points" in values else {})
 
 
-def _taken(found: Found, run: Run) -> dict[str, Any]:
+def _taken(case: Found, run: WarmRun) -> dict[str, Any]:
     """What a comparison takes from the results of others, as the engine takes it."""
     values: dict[str, Any] = {}
-    for key, (kind, name) in found.comparison.takes.items():
-        calc = run.calculations[found.between[kind]]
+    for key, (kind, name) in case.comparison.takes.items():
+        calc = run.calculations[case.between[kind]]
         known = calc.values.get(name, calc.inputs.get(name))
         if name in calc.curves:
             values[key] = CurveHandle(calc, name)
@@ -199,4 +202,4 @@ def _taken(found: Found, run: Run) -> dict[str, Any]:
             values[key] = known
         elif known is not None and not np.isnan(known[0, 0]):
             values[key] = SI(float(known[0, 0]), unit(calc.step_or_input(name).unit).si, name)
-    return inputs(found.comparison.mechanism, values)
+    return inputs(case.comparison.mechanism, values)

@@ -13,7 +13,7 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM
-from diecut_report.results.checks import check_results
+from diecut_report.results.checks import check_results, verdicts
 from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
@@ -85,7 +85,7 @@ def check(calc: Calculation, name: str) -> CheckRecord:
 
 def checked(calc: Calculation) -> set[str]:
     """The checks that take part."""
-    return {c.id for c in check_results(calc)}
+    return {c.id for c in verdicts(calc)}
 
 
 def over_a_turn(values: Sequence[float], points: int) -> tuple[Array, Array]:

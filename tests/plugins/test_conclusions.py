@@ -31,6 +31,7 @@ def recommendation(results: dict[str, Any]) -> tuple[str, str]:
     return named.value, named.description
 
 
+@pytest.mark.usefixtures("without_advice")
 def test_the_law_that_a_curve_is_told_is_said_to_be_that_of_a_single_rise() -> None:
     """For the gear of the cam-gear stepper it is not the gentlest: the law that makes the curve loads the link less."""
     peaks = {

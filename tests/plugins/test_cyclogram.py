@@ -23,7 +23,8 @@ from diecut_report.plugins.cyclogram import MECHANISM
 from diecut_report.plugins.cyclogram.timing import Timing
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
-from diecut_report.results.press_run import Run, compute
+from diecut_report.results.press_run import Run
+from diecut_report.results.warm_press import WarmPress
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows, columns_of
 from tests.configs import EXAMPLE
@@ -54,15 +55,17 @@ def base() -> Run:
     return linked({})
 
 
-def linked(more: Data) -> Run:
+LINKED = WarmPress(is_advised=False)
+
+
+def linked(more: Data, *, printed: bool = False) -> Run:
     """The same with more mechanisms, by a configuration."""
     data = yaml.safe_load(TEXT)
     kept = {name: data["mechanisms"][name] for name in ("cylinder", "drive", "feeder", "cross")}
     kept["cross"]["driven_inertia"], kept["feeder"]["conveyor_mass"] = "3.57 kg*m**2", "12 kg"  # as the method has them
     data["mechanisms"] = kept | more
-    return compute(
-        load_config(parse(yaml.safe_dump(data, allow_unicode=True), "press.yaml"), DISCOVERY), lambda _: None
-    )
+    config = load_config(parse(yaml.safe_dump(data, allow_unicode=True), "press.yaml"), DISCOVERY)
+    return LINKED.printed(config) if printed else LINKED.calculate(config)
 
 
 def taken_whole(value: Any) -> Any:
@@ -386,7 +389,7 @@ def test_what_cannot_be_is_told_in_words(what: str) -> None:
 
 def test_a_configuration_takes_mechanisms_by_their_names_and_tells_what_is_wrong_where_it_stands() -> None:
     keys = {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross", cutting="5 ms"))
-    run = linked({"timing": keys})
+    run = linked({"timing": keys}, printed=True)
     assert not run.errors
     assert degrees(number(run.calculations["timing"], "best_margin")) == pytest.approx(16.1691 - 3, abs=6e-5)
     found = run.results["timing"].inputs
@@ -473,7 +476,7 @@ def clutched(**changes: Any) -> Data:
     keys = {"kind": "cyclogram"} | keys_of("cross", locks("cutting passing", "cross"))
     block = {"kind": "press_consistency", "transport": "cross", "clutch_torque": "741 N*m", "productivity": "6000 1/h",
              "output_speed": f"{100 * 5918.367 / 6000} rpm", "output_turns_per_sheet": 1} | changes  # fmt: skip
-    run = linked({"timing": keys, "consistency": block})
+    run = linked({"timing": keys, "consistency": block}, printed=True)
     assert not run.errors
     return run.results["consistency"]
 

@@ -93,7 +93,7 @@ TRAIN = {
 def unlike(**more: Any) -> Any:
     """A press whose transport makes as many steps as before, while the press makes fewer sheets."""
     timing = {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross")) | {"productivity": "5000 1/h"}
-    return linked({"timing": timing, "train": TRAIN} | more)
+    return linked({"timing": timing, "train": TRAIN} | more, printed=True)
 
 
 def test_where_a_line_runs_at_another_rate_the_sum_of_the_torques_is_not_given() -> None:
@@ -131,9 +131,8 @@ def test_without_any_torque_there_is_no_sum(monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_the_curves_over_the_main_shaft_are_written_as_a_table() -> None:
-    files, _ = written(
-        document(linked({"timing": {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross"))}))
-    )
+    timing = {"kind": "cyclogram"} | keys_of("cross", locks("cutting", "cross"))
+    files, _ = written(document(linked({"timing": timing}, printed=True)))
     heads, *rows = files["timing.main_shaft.csv"].decode().splitlines()
     assert heads.split(",")[0] == '"main_angle [deg]"'
     assert '"line_torque_2 [N*m]"' in heads.split(",")

@@ -135,6 +135,7 @@ AT_NIGHT: list[tuple[dict[str, Any], dict[str, Any]]] = [  # other tests calcula
 ]  # fmt: skip
 
 
+@pytest.mark.usefixtures("without_advice")
 @pytest.mark.parametrize(
     "keys, changes",
     few([*POSSIBLE, *AT_NIGHT], keep=lambda machine: machine in POSSIBLE),

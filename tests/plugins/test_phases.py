@@ -304,6 +304,7 @@ def test_the_driven_link_rests_once_its_deflection_stays_within_the_tolerance() 
     assert np.ravel(intervals(calc, "rest")) == pytest.approx([edges[-1], 2.0])
 
 
+@pytest.mark.usefixtures("without_advice")
 def test_a_link_that_is_not_followed_until_it_rests_tells_no_rest() -> None:
     found = mechanism_results(
         follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.001 deg", dwell_cycles=2), {}

@@ -22,8 +22,9 @@ from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
 from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.plugins.press_consistency.on_main_shaft import listed
 from diecut_report.press import Press
+from diecut_report.results import checks
 from diecut_report.results.checks import check_results
-from diecut_report.results.press_run import compute
+from diecut_report.results.warm_press import WarmPress
 from diecut_report.text.phrases import Phrase
 from tests.configs import DISCOVERY, EXAMPLE
 from tests.machines import inputs, number
@@ -96,7 +97,7 @@ def consistency(keys: dict[str, Any], **changes: Any) -> Calculation:
 
 def verdicts(calculation: Calculation) -> dict[str, str]:
     """The status of each check that is made."""
-    return {check.id: check.status for check in check_results(calculation) if check.status != "not_checked"}
+    return {check.id: check.status for check in checks.verdicts(calculation) if check.status != "not_checked"}
 
 
 PRINTED = {  # SI, of the derivation
@@ -180,8 +181,9 @@ def mended(**changes: dict[str, Any]) -> dict[str, str]:
         for name, block in tree.data["mechanisms"].items()
         if name not in BESIDE
     }
-    run = compute(load_config(tree, DISCOVERY), lambda _: None)
-    return {f"{name}.{each.id}": each.status for name, calc in run.calculations.items() for each in check_results(calc)}
+    run = WarmPress(is_advised=False).calculate(load_config(tree, DISCOVERY))
+    assert not run.errors
+    return {f"{name}.{each.id}": each.status for name, made in run.checks.items() for each in made}
 
 
 @pytest.mark.parametrize(
@@ -306,7 +308,7 @@ HOT = {
 @pytest.mark.parametrize("check", HOT)
 def test_a_flywheel_as_heavy_as_is_advised_is_enough_and_a_lighter_one_is_not(check: str) -> None:
     keys = example_keys() | HOT[check]
-    needed = advised(check, keys, r"flywheel_inertia to at least ([\d.]+) kg")
+    needed = advised(message_of(check, keys), r"flywheel_inertia to at least ([\d.]+) kg")
     assert verdicts(consistency(keys, flywheel_inertia=f"{needed} kg*m**2"))[check] == "pass"
     assert verdicts(consistency(keys, flywheel_inertia=f"{0.99 * needed} kg*m**2"))[check] != "pass"
 
@@ -314,9 +316,10 @@ def test_a_flywheel_as_heavy_as_is_advised_is_enough_and_a_lighter_one_is_not(ch
 @pytest.mark.parametrize("check", ["motor_thermal", "motor_peak"])
 def test_a_motor_of_the_slip_or_of_the_power_that_is_advised_is_enough(check: str) -> None:
     keys = example_keys() | HOT[check]
-    speed = advised(check, keys, r"motor_speed to at most ([\d.]+) r/min")
+    message = message_of(check, keys)
+    speed = advised(message, r"motor_speed to at most ([\d.]+) r/min")
     assert verdicts(consistency(keys, motor_speed=f"{speed} rpm"))[check] == "pass"
-    torque = advised(check, keys, r"motor_rated_torque to at least ([\d.]+) N")
+    torque = advised(message, r"motor_rated_torque to at least ([\d.]+) N")
     assert verdicts(consistency(keys, motor_rated_torque=f"{torque} N*m"))[check] == "pass"
     assert verdicts(consistency(keys, motor_rated_torque=f"{0.99 * torque} N*m"))[check] != "pass"
 
@@ -327,10 +330,10 @@ def test_a_motor_below_the_mean_torque_is_helped_by_power_alone() -> None:
     assert "flywheel_inertia" not in message
 
 
-def advised(check: str, keys: dict[str, Any], pattern: str) -> float:
+def advised(message: str, pattern: str) -> float:
     """The number that a check's message advises."""
-    found = re.search(pattern, message_of(check, keys))
-    assert found, message_of(check, keys)
+    found = re.search(pattern, message)
+    assert found, message
     return float(found[1])
 
 

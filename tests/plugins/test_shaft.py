@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.plugins.shaft import MECHANISM
-from diecut_report.results.checks import check_results
+from diecut_report.results.checks import check_results, verdicts
 from tests.examples import few
 from tests.machines import inputs, number
 from tests.plugins.shafts import CRANK, CRANKSHAFT, GEAR, LAYSHAFT, SECTIONS, STANDING, crankshaft, row, shaft
@@ -22,7 +22,7 @@ GEAR_KEY, CRANK_KEY = "notch 1 (keyseat end mill)", "notch 2 (keyseat end mill)"
 
 def checks(calculation: Calculation) -> dict[str, str]:
     """The verdicts of a shaft by their ids."""
-    return {check.id: check.status for check in check_results(calculation)}
+    return {check.id: check.status for check in verdicts(calculation)}
 
 
 # --- the worked example of the method ----------------------------------------------------------------------------------

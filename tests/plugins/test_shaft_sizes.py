@@ -14,7 +14,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.shaft import MECHANISM
 from diecut_report.plugins.shaft.sizing import SERIES
 from diecut_report.press import Press
-from diecut_report.results.checks import check_results
+from diecut_report.results.checks import verdicts
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.variant_rows import columns_of
 from diecut_report.study.execution.worker import Chunk
@@ -45,7 +45,7 @@ def diameters(calculation: Calculation) -> list[float]:
 def holds(**changes: Any) -> bool:
     """Whether a crankshaft with all diameters given keeps the checks that diameters settle; one that cannot exist does not."""
     try:
-        found = check_results(shaft(CRANKSHAFT, **changes))
+        found = verdicts(shaft(CRANKSHAFT, **changes))
     except Impossible:
         return False
     return all(check.status in ("pass", "not_checked") for check in found if check.id in SETTLED)

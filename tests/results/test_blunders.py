@@ -46,7 +46,7 @@ BLUNDERS = [  # what is typed in place of what, and words of the refusal
 @pytest.fixture(scope="module")
 def warm() -> WarmPress:
     """The press without a blunder, which is calculated."""
-    press = WarmPress()
+    press = WarmPress(is_advised=False)
     press.calculate(load_config(PRESS, Discovery()))
     return press
 

@@ -13,6 +13,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import load
 from diecut_report.errors import UserError
 from diecut_report.press import Press
+from diecut_report.results.warm_press import WarmPress
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.press_batch import calculated
 from diecut_report.study.execution.variant_rows import verdicts
@@ -99,6 +100,9 @@ def test_a_factor_that_varies_is_typed_in_all_machines(tmp_path: Path) -> None:
     made.release()
 
 
+MENDED = WarmPress(is_advised=False)
+
+
 def mended(**changes: dict[str, Any]) -> dict[str, Any]:
     """The statuses of the mended press's checks by typing, with other inputs of its mechanisms."""
     file = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press_mended")
@@ -106,9 +110,8 @@ def mended(**changes: dict[str, Any]) -> dict[str, Any]:
     for name, own in changes.items():
         block = tree.data["mechanisms"][name]
         tree.data["mechanisms"][name] = {key: value for key, value in (block | own).items() if value is not None}
-    results = Press.read(tree, Discovery()).calculate().results
-    found = results.mechanisms
-    return {f"{name}.{each.id}": each.status for name in found for each in found[name].checks}
+    found = MENDED.calculate(load_config(tree, Discovery())).checks
+    return {f"{name}.{each.id}": each.status for name in found for each in found[name]}
 
 
 def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
@@ -178,7 +181,7 @@ def test_a_key_of_a_block_and_of_one_part_of_a_list_is_asked_for_its_basis(typed
         name for name, block in mechanisms.items() if block["kind"] == "rolling_bearing" and len(block["bearings"]) > 1
     )
     mechanisms[name]["bearings"][0]["a_iso"] = {"value": 1.5, **typed}
-    found = Press.read(tree, Discovery()).calculate().results.mechanisms
-    (slip,) = (each.status for each in found["train"].checks if each.id == "vbelt_slip")
-    first, second, *_ = (each.status for each in found[name].checks if each.id.endswith("_life"))
+    found = MENDED.calculate(load_config(tree, Discovery())).checks
+    (slip,) = (each.status for each in found["train"] if each.id == "vbelt_slip")
+    first, second, *_ = (each.status for each in found[name] if each.id.endswith("_life"))
     assert (slip, first, second) == (status, status, "pass")

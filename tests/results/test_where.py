@@ -23,7 +23,7 @@ KNIFE = EXAMPLE.with_name("circular_knife.yaml")
 
 @cache
 def calculated(file: Path) -> WarmRun:
-    return WarmPress().calculate(load_config(file, DISCOVERY))
+    return WarmPress(is_advised=False).calculate(load_config(file, DISCOVERY))
 
 
 def line_at(place: str) -> str:

@@ -43,6 +43,8 @@ VARIED: dict[str, dict[str, tuple[float, float] | list[str]]] = {
     "elastic_transport.yaml": {"mechanisms.conveyor.stiffness": (330.0, 6e3), "mechanisms.transport.motion_law": ["cycloidal", "polynomial_345"]},
 }  # fmt: skip
 
+pytestmark = pytest.mark.usefixtures("without_advice")  # rows have none
+
 
 def config(name: str) -> Config:
     return load_config(next(path for path in EXAMPLES if path.name == name), Discovery([]))

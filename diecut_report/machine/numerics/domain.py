@@ -49,6 +49,7 @@ def nodes_of(order: int) -> tuple[Array, Array]:
 SMALLEST = float(np.finfo(float).tiny / np.finfo(float).eps)  # a number below it is not known to full precision
 
 FEW_EDGES = 40  # up to which edges are compared with all places at once
+FEW_PLACES = 64  # of a row, up to which all rows are halved together: a search for each one costs more than it finds
 
 
 Inside = tuple[Array, Array]  # the middles of all pieces (rows, pieces), and which of them each place lies in
@@ -61,7 +62,20 @@ def piece_of(edges: Array, x: Array) -> Array:
         return np.searchsorted(inner[0], x, side="right")
     if inner.shape[1] <= FEW_EDGES:
         return np.asarray((x[:, :, None] >= inner[:, None, :]).sum(axis=2))
+    if x.shape[1] <= FEW_PLACES:
+        return _halved(inner, x)
     return np.stack([np.searchsorted(row, places, side="right") for row, places in zip(inner, x, strict=True)])
+
+
+def _halved(ascending: Array, x: Array) -> Array:
+    """As ``searchsorted`` from the right, for each row of places (rows, points) in its own row of numbers."""
+    count, rows = ascending.shape[1], np.arange(len(x))[:, None]
+    found = np.zeros(x.shape, dtype=np.intp)
+    for step in (1 << bit for bit in reversed(range(count.bit_length()))):
+        next_ = found + step
+        is_beyond = x < ascending[rows, np.minimum(next_, count) - 1]  # a NaN is beyond nothing, and comes last
+        found = np.where((next_ <= count) & ~is_beyond, next_, found)
+    return found
 
 
 def _of(table: Array, rows: Array | None) -> Array:

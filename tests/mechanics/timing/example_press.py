@@ -16,7 +16,7 @@ from diecut_report.mechanics import four_bar
 from diecut_report.mechanics.timing.clearance import Station
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
 from diecut_report.mechanics.timing.intervals import DrivenLine, Intervals, complement
-from diecut_report.results.press_run import compute
+from diecut_report.results.warm_press import WarmPress
 from tests.configs import MECHANISMS
 from tests.machines import number
 
@@ -59,7 +59,7 @@ def calculations() -> dict[str, Calculation]:
     """All mechanisms of the example press, the wheel of the Geneva drive with the inertia that the printed numbers were calculated with."""
     made = yaml.load(MECHANISMS)
     made.data["mechanisms"]["cross"]["driven_inertia"] = "3.57 kg*m**2"
-    return compute(load_config(made, Discovery([])), lambda _: None).calculations
+    return WarmPress(is_advised=False).calculate(load_config(made, Discovery([]))).calculations
 
 
 def of(mechanism: str, name: str) -> float:
