@@ -17,7 +17,14 @@ FOLDER = Path(import_module("diecut_report.configs").__path__[0]) / "machines"
 GUIDE = (Path(__file__).parents[1] / "docs" / "correcting-a-drive-line.md").read_text(encoding="utf-8")
 
 TEETH = {"meshes_crank_drive", "meshes_main_drive", "meshes_sector", "meshes_step_up"}
-SHAFTS = {"shafts_conveyor_bearings", "shafts_crank", "shafts_geneva", "shafts_main", "shafts_main_bearings"}
+SHAFTS = {
+    "shafts_conveyor_bearings",
+    "shafts_crank",
+    "shafts_crank_bearings",
+    "shafts_geneva",
+    "shafts_main",
+    "shafts_main_bearings",
+}
 KEYS = {
     "shafts_crank_disc_key",
     "shafts_flywheel_pinion_key",
@@ -35,7 +42,7 @@ STEPS: dict[str, tuple[tuple[str, ...], set[str]]] = {
     "published": ((), TEETH | SHAFTS | KEYS),
     "gears": (("machine.gears", "machine.frame", "meshes"), SHAFTS | KEYS),
     "shafts": (("shafts", "machine.surface"), {"cross"}),
-    "chains": (("chains", "mechanisms.cylinder.radius"), {"cross", "consistency", "timing"}),
+    "chains": (("chains", "mechanisms.cylinder.radius"), {"cross", "consistency", "drive", "timing"}),
     "mechanisms": (
         ("mechanisms.clutch", "mechanisms.drive", "mechanisms.cross", "mechanisms.consistency", "belts"),
         set(),
