@@ -97,9 +97,10 @@ def needed_again(
     while more := {id for id, asked in known.asks.items() if id not in moved and not asked.isdisjoint(moved)}:
         moved |= more
     givers = {name: giver_of(name, known.own) for name in numbers}
+    # a part of a row has a name of its own, and a count of crossings cuts an abscissa
     stays = {
-        name: id for name, id in givers.items() if id and id not in moved and not known.own[id].is_counted
-    }  # these cut an abscissa
+        name: id for name, id in givers.items() if id in numbers and id not in moved and not known.own[id].is_counted
+    }
     whole = _reached(known, (giver_of(name, known.own) for name in names))
     silent = {id: asked for id, asked in known.silent if asked <= whole and id in moved}
     found = _reached(

@@ -338,7 +338,8 @@ def _asked_again(
         return None, ()
     if calc.count > 1 or calc.is_partial or given | calc.mechanism.facts != calc.given:
         return needed(calc.mechanism, given, names), ()
-    numbers = frozenset(name for name, value in calc.values.items() if value.shape == (1, 1) and value.dtype != object)
+    single = (name for name, value in calc.values.items() if value.shape == (1, 1) and value.dtype != object)
+    numbers = frozenset(name for name in single if name not in calc.axis)
     return needed_again(calc.mechanism, given, tuple(names), frozenset(changed), numbers)
 
 
