@@ -21,13 +21,10 @@ moments.value("greatest_unbalance", "me_max", "kg*m", "Unbalance if the centre o
 moments.value("inertia_moment", "M_in", "N*m", "Moment of inertia forces and unbalance", loads.inertia_moment,
     source="000 eq. 12, with the unbalance")
 moments.add(TECHNOLOGICAL)
-for id, symbol, words, needs, lacks in (
-    ("total_moment", "M_Σ", "Moment on the cylinder's axis", (), SHAFTS),
-    ("cylinder_moment", "M_c", "Moment on the cylinder's axis, of the cylinder alone", SHAFTS, ()),
-):
-    moments.value(id, symbol, "N*m", words,
-        lambda inertia_moment, technological_moment, direction: inertia_moment + technological_moment * direction,
-        source="000 eq. 11, 20, corrected", needs=needs, lacks=lacks)
+MOMENT = bind(lambda inertia_moment, technological_moment, direction: inertia_moment + technological_moment * direction)
+moments.value("total_moment", "M_Σ", "N*m", "Moment on the cylinder's axis", MOMENT, lacks=SHAFTS, source="000 eq. 11, 20, corrected")
+moments.value("cylinder_moment", "M_c", "N*m", "Moment on the cylinder's axis, of the cylinder alone", MOMENT, needs=SHAFTS,
+    source="000 eq. 11, 20, corrected")
 moments.value("pinion_moment", "M_p", "N*m", "Moment on the pinion, with the inertia of its shaft",
     lambda cylinder_moment, pinion_inertia, cylinder_acceleration: cylinder_moment + pinion_inertia * cylinder_acceleration, needs=SHAFTS,
     source="this method")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from functools import cache, lru_cache, partial
-from itertools import takewhile
+from itertools import chain, takewhile
 from typing import NamedTuple
 
 from diecut_report.machine.calculation import Calculation
@@ -69,14 +69,44 @@ def _known_early(calc: Calculation, step: Step, known: set[str]) -> bool:
 def needed(mechanism: Mechanism, given: frozenset[str], names: Iterable[str]) -> set[str]:
     """Return the ids of the steps that quantities need, and of what must hold for them."""
     known = _asking(mechanism, given)
+    found = _reached(known, (giver_of(name, known.own) for name in names))
+    return found | {id for id, asked in known.silent if asked <= found}
+
+
+def _reached(known: _Asking, givers: Iterable[str], made: Container[str] = ()) -> set[str]:
+    """The steps that others need, up to those that are made already."""
     found: set[str] = set()
-    pending = [giver_of(name, known.own) for name in names]
+    pending = [*givers]
     while pending:
         giver = pending.pop()
-        if giver and giver not in found:
+        if giver and giver not in found and giver not in made:
             found.add(giver)
             pending += known.asks[giver]
-    return found | {id for id, asked in known.silent if asked <= found}
+    return found
+
+
+@lru_cache(maxsize=1024)
+def needed_again(
+    mechanism: Mechanism, given: frozenset[str], names: tuple[str, ...], changed: frozenset[str], numbers: frozenset[str]
+) -> tuple[frozenset[str], frozenset[str]]:  # fmt: skip
+    """Return what is ``needed`` where some inputs have changed, and which of the ``numbers`` that are known already stay as they are."""
+    known = _asking(mechanism, given)
+    moved = {
+        id for id, step in known.own.items() if any(name.removeprefix("inputs.") in changed for name in _asked(step))
+    }
+    while more := {id for id, asked in known.asks.items() if id not in moved and not asked.isdisjoint(moved)}:
+        moved |= more
+    givers = {name: giver_of(name, known.own) for name in numbers}
+    # a part of a row has a name of its own, and a count of crossings cuts an abscissa
+    stays = {
+        name: id for name, id in givers.items() if id in numbers and id not in moved and not known.own[id].is_counted
+    }
+    whole = _reached(known, (giver_of(name, known.own) for name in names))
+    silent = {id: asked for id, asked in known.silent if asked <= whole and id in moved}
+    found = _reached(
+        known, [*(giver_of(name, known.own) for name in names), *chain(*silent.values())], set(stays.values())
+    )
+    return frozenset(found | silent.keys()), frozenset(stays)
 
 
 class _Asking(NamedTuple):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -19,7 +19,7 @@ from diecut_report.machine.printing.substitution import filled
 from diecut_report.machine.steps import needed as needs
 from diecut_report.machine.steps import soundness
 from diecut_report.machine.steps.again import Again, of_rows
-from diecut_report.machine.steps.needed import needed
+from diecut_report.machine.steps.needed import needed, needed_again
 from diecut_report.mechanism.checks import Refusal, by_part
 from diecut_report.mechanism.inputs import list_inputs, texts_given
 from diecut_report.mechanism.mechanism import Machines, Mechanism, of_machine
@@ -235,9 +235,10 @@ def with_sampled_curves(mechanism: Mechanism, values: Mapping[str, Any]) -> dict
 
 
 def calculate(
-    mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1, only: Container[str] | None = None
-) -> Calculation:
-    """Calculate a mechanism, or only those of its steps that are named.
+    mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1, only: Container[str] | None = None,
+    known: Mapping[str, Array] | None = None,
+) -> Calculation:  # fmt: skip
+    """Calculate a mechanism, or only those of its steps that are named, with what is ``known`` already.
 
     ``values`` holds the inputs by id in SI: numbers, or arrays of shape (variants,); tuples for the parts of a list;
     texts, flags, ``CurveHandle``. Optional inputs that are not given are left out.
@@ -246,6 +247,7 @@ def calculate(
     """
     calc = MachineRun(mechanism, with_sampled_curves(mechanism, values), variants)
     calc.is_partial = only is not None
+    calc.values.update(known or {})
     calc.require_distinct()
     with np.errstate(all="ignore"):
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
@@ -319,11 +321,27 @@ def recalculated(
     first = np.zeros(count, dtype=int)
     inputs = {name: of_rows(value, first, calc.count) for name, value in calc.inputs.items() if name in calc.given}
     inputs |= changed
-    only = None if names is None else needed(calc.mechanism, frozenset(inputs) | texts_given(inputs), names)
+    only, known = _asked_again(calc, inputs, changed, names)
     try:
-        return calculate(calc.mechanism, inputs, count, only)
+        return calculate(
+            calc.mechanism, inputs, count, only, {name: np.full((count, 1), calc.values[name][0, 0]) for name in known}
+        )
     except (Impossible, Unproven):
         return None
+
+
+def _asked_again(
+    calc: Calculation, inputs: Mapping[str, Any], changed: Mapping[str, Any], names: Sequence[str] | None
+) -> tuple[Container[str] | None, Iterable[str]]:
+    """The steps that must run again, all where it is None, and the numbers that stay, where the changed inputs switch no step."""
+    given = frozenset(inputs) | texts_given(inputs)
+    if names is None:
+        return None, ()
+    if calc.count > 1 or calc.is_partial or given | calc.mechanism.facts != calc.given:
+        return needed(calc.mechanism, given, names), ()
+    single = (name for name, value in calc.values.items() if value.shape == (1, 1) and value.dtype != object)
+    numbers = frozenset(name for name in single if name not in calc.axis)
+    return needed_again(calc.mechanism, given, tuple(names), frozenset(changed), numbers)
 
 
 __all__ = ["needed", "recalculated", "varied", "varied_curves", "with_sampled_curves"]
