@@ -22,9 +22,10 @@ torque = Chapter("Torque at the crank and roller force",
 torque.value("torque", "M", "N*m", "Torque at the crank to move the wheel's inertia", loads.driving_torque, source="energy")
 torque.value("roller_distance", "d", "mm", "Distance of the roller from the wheel's axis", loads.roller_distance, source="geometry", output=False)
 torque.value("roller_force", "F", "N", "Force of the roller on the flank of the slot (positive: it drives)", loads.roller_force, source="statics")
-torque.value("crank_force_x", "F_x", "N", "Force on the crank along the line of centres, towards the wheel", loads.force_along, source="statics")
+torque.value("crank_force_x", "F_x", "N", "Force on the crank along the line of centres, towards the wheel", loads.force_along, source="statics",
+    output=False)
 torque.value("crank_force_y", "F_y", "N", "Force on the crank across the line of centres, in the direction in which its roller passes the line",
-    loads.force_across, source="statics")
+    loads.force_across, source="statics", output=False)
 torque.reduction("torque_peak", "M_peak", "N*m", "Maximum torque at the crank, driving and driven", "max", of="torque", source="energy")
 torque.reduction("roller_force_peak", "F_peak", "N", "Maximum roller force", "max", of="roller_force", source="statics")
 torque.value("kinetic_energy_max", "E_k", "J", "Energy exchanged with the wheel at each step",

@@ -65,7 +65,8 @@ class Load(Block):
         Text(
             "Seat of the hub or ring that carries the load: tight, with the notch effect of a press fit, loose (g6, h6), or none: cut on "
                 "the shaft, or a force alone")] = "tight"
-    mass: Annotated[float, Quantity("m_i", "kg", "Mass that turns there, for the critical speed, and for its weight with downwards", ge=0)] = 0
+    mass: Annotated[float,
+        Quantity("m_i", "kg", "Mass that turns there, for the critical speed, and for its weight where the direction of gravity is given", ge=0)] = 0
 
 
 class ShaftLoadCase(Block):

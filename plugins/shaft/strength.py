@@ -49,8 +49,8 @@ critical = Chapter("Critical speed",
         "is hardly longer than thick the value only means that the critical speed is far above any running speed: shear, which is neglected, lowers "
         "it.")
 loads = Chapter("Loads and reactions",
-    text="Reactions are forces on the shaft. The weights of the loads' masses act with downwards alone, that of the shaft "
-        "itself is left out. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x M = "
+    text="Reactions are forces on the shaft. The weights of the loads' masses act where the direction of gravity is given; "
+        "that of the shaft itself is left out. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x M = "
         "Σ F_i (x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an interval.")
 loads.prepared("cycle", lambda given: cycle(*map(given.get, CYCLE)), CYCLE, for_many=True)
 loads.prepared("under_load", lambda given: _under_load(*map(given.get, LOADED)), LOADED, for_many=True)
