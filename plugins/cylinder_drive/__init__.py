@@ -100,7 +100,7 @@ MECHANISM = Mechanism(
         Erratum("000", "The conditions M_in > 0 and M_Σ > 0 choose the side of the efficiency rightly only on the forward stroke; power "
                 "decides. θ₃ holds η_z and η_v, which θ₂ and θ₁ apply again; η_v is not defined, η_zp not used.", ("crank_torque",)),
         Erratum("000", "M_m is added without the sign of the motion (eq. 11, 20), so on the return stroke it helps instead of "
-                "resisting. Its moment also acts over the flat.", ("total_moment", "crank_torque")),
+                "resisting. Its moment also acts over the flat.", ("total_moment", "cylinder_moment", "crank_torque")),
         Erratum("000", "The abstract's “6000 cycles per minute” are per hour (100 rpm if a cycle is a turn of the crank, 50 rpm if it is "
                 "a sheet).", ("crank_torque_peak",)),
         Erratum("000", "The printed peak of 3.4 kN·m at the main shaft cannot be reproduced, as the paper prints neither efficiencies nor the "

@@ -65,7 +65,7 @@ flywheel.value("slip_stiffness", "k", "N*m*s/rad", "Torque of the motor per unit
     bind(motor_slip.slip_stiffness, rated_torque="motor_rated_torque", rated_speed="shaft_1_speed"), source="this method", output=False, exists=SLIPS)
 flywheel.value("flywheel_stiffness", "k_f", "N*m*s/rad", "The same at the flywheel's shaft",
     bind(motor_slip.stiffness_at_flywheel, ratio="vbelt_ratio_actual", efficiency="vbelt.efficiency"), source="energy", output=False, exists=SLIPS)
-flywheel.value("motor_time_constant", "τ", "ms", "Time constant with which the motor's torque follows the load's",
+flywheel.value("motor_time_constant", "τ_M", "ms", "Time constant with which the motor's torque follows the load's",
     bind(motor_slip.time_constant, inertia="flywheel_inertia", stiffness_at_flywheel="flywheel_stiffness"), source="this method", exists=SLIPS)
 flywheel.lookup("flywheel_density", "ρ", "kg/m**3", "Density of the flywheel", DENSITIES, by="flywheel_material", source="material", output=False)
 flywheel.lookup("flywheel_rim_limit", "[v]", "m/s", "Allowable rim speed of the flywheel", RIM_SPEEDS, by="flywheel_material", source="material",
