@@ -15,6 +15,7 @@ THROUGH = {  # what has no test file of its own, or one that tests a part: what 
     "mechanics.circular_segment": ("cylinder_sizing", "cylinder_drive", "circular_knife"),
     "mechanics.common": ("cylinder_sizing", "damper", "drive_train", "cylinder_drive", "circular_knife"),
     "mechanics.gripping": ("geneva_transport",),
+    "mechanics.load_cases": ("parallel_key", "gear_pair"),
     "mechanics.modified_laws": ("mechanics.motion_laws",),
     "mechanics.polynomial_laws": ("mechanics.motion_laws",),
     "mechanics.shaft_curves": ("cyclogram",),
