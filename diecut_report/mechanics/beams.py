@@ -19,10 +19,6 @@ from diecut_report.formulas.tree import GRAVITY, as_number
 Array = NDArray[Any]
 SAME_PLACE = 1e-9  # m, within which two places are one
 LUMPS = 8  # of each piece's mass
-MOST_STEPS, SETTLED = (
-    20,
-    1e-13,
-)  # of the search for the greatest eigenvalue: steps, and the relative change in one at which it has settled
 
 
 @formula
@@ -221,28 +217,6 @@ def _signs(at: Array, supports: Supports) -> Array:
     return np.where((at < supports.first) | (at > supports.second), -1.0, 1.0)
 
 
-def greatest_eigenvalues(matrices: Array, start: Array) -> Array:
-    """Return the greatest eigenvalue of each symmetric matrix (variants, i, i) without negative ones, from vectors near its form (variants, i).
-
-    Two forms are followed together, so that a second eigenvalue near the first one does not slow it; what has not settled is solved as a whole.
-    """
-    size = np.trace(matrices, axis1=1, axis2=2)
-    scale = np.where(size > 0, size, 1.0)
-    matrices = matrices / scale[:, None, None]
-    across = np.linspace(-1, 1, start.shape[1])
-    forms = np.nan_to_num(np.stack([start, start * across], axis=2))
-    found, settled = np.zeros(len(matrices)), np.zeros(len(matrices), dtype=bool)
-    for _ in range(MOST_STEPS):
-        forms = np.linalg.qr(matrices @ (matrices @ forms))[0]
-        values = np.linalg.eigvalsh(np.swapaxes(forms, 1, 2) @ matrices @ forms)[:, -1]
-        settled = np.abs(values - found) <= SETTLED * values
-        found = values
-        if settled.all():
-            return found * scale
-    found[~settled] = np.linalg.eigvalsh(matrices[~settled])[:, -1]
-    return found * scale
-
-
 def _critical(influences: Array, mass: Array, sign: Array) -> Critical:
     """Of influences (variants, i, j), and of masses and the signs of their forces (variants, i)."""
     root = np.sqrt(mass)
@@ -250,7 +224,7 @@ def _critical(influences: Array, mass: Array, sign: Array) -> Critical:
     force = sign * mass * GRAVITY
     bent_by = np.einsum("vij,vj->vi", influences, force)
     return Critical(
-        1 / np.sqrt(greatest_eigenvalues((matrix + np.swapaxes(matrix, 1, 2)) / 2, root * bent_by)),
+        1 / np.sqrt(np.linalg.eigvalsh((matrix + np.swapaxes(matrix, 1, 2)) / 2)[:, -1]),
         np.sqrt(np.sum(force * bent_by, axis=1) / np.sum(mass * bent_by**2, axis=1)),
         1 / np.sqrt(np.einsum("vi,vii->v", mass, influences)),
     )

@@ -174,16 +174,3 @@ def test_the_nearest_point_is_the_one_that_a_search_of_all_finds() -> None:
         least = np.abs(x[None] - places[:, None]).min(axis=1)
         found = np.take_along_axis(x, beams.nearest(x, places), axis=0)
         assert np.allclose(np.abs(found - places), least, atol=1e-15)
-
-
-@pytest.mark.parametrize(
-    "values", [(5.0, 1.0, 0.2), (5.0, 5.0, 1.0), (5.0, 4.999999, 4.9), (1e-9, 1e-9, 1e-9), (0.0, 0.0, 0.0)]
-)
-def test_the_greatest_eigenvalue_is_that_of_the_whole_spectrum(values: tuple[float, ...]) -> None:
-    """Also where several are alike, and where the vector to begin with has nothing of the form that is sought."""
-    turned = np.linalg.qr(np.random.default_rng(7).normal(size=(30, 30)))[0]
-    spectrum = np.concatenate([values, np.linspace(0, min(values), 27)])
-    matrix = (turned * spectrum) @ turned.T
-    for start in (turned[:, 0], turned[:, 5], np.ones(30), np.zeros(30)):
-        found = beams.greatest_eigenvalues(np.stack([matrix, 2 * matrix]), np.stack([start, start]))
-        assert found == pytest.approx([values[0], 2 * values[0]], rel=1e-9, abs=1e-20)
