@@ -10,7 +10,6 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from diecut_report.config.loader import Config, examined, load_config
@@ -245,19 +244,6 @@ def test_what_swings_or_steps_counts_with_its_inertia() -> None:
     }
     assert torques["rocker"] == {"sector": "rocker_torque"}  # with the inertias and losses behind it
     assert torques["geneva"]["inertia"] == "wheel_acceleration"
-
-
-@pytest.mark.nightly
-def test_what_balances_the_rocker_is_the_torque_of_the_drive() -> None:
-    """Summed up from the chain over both shafts, without losses, against the drive's own torque at the rocker."""
-    config = whole()
-    run = Run(config, lambda _: None)
-    loads, drive = run.calculations["shafts_rocker_loads"], run.calculations["drive"]
-    angles = np.radians([[40.0, 130.0, 222.0, 301.0, 512.0, 655.0]])
-    found = loads.sample("balance", angles, loads.domains["main_angle"].middle_of(angles))[0]
-    crank = angles / 2 % (2 * np.pi)
-    expected = drive.sample("lossless_rocker_torque", crank, drive.domains["crank_angle"].middle_of(crank))[0]
-    assert np.abs(found) == pytest.approx(np.abs(expected), rel=1e-6)
 
 
 def cases(name: str) -> list[str]:
