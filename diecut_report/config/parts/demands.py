@@ -327,8 +327,6 @@ class Demands:
                 "turns_per_sheet": "main",
                 "ratio": Ratio(-1),
             }
-        elif (mechanism := self._rolled_by(driven)) is not None:
-            demand = self._source("", mechanism, "pinion_moment", -1)
         else:
             demand = self._added([each for each in self.torques_of(driven) if "lag" not in each])
         if demand is None:
@@ -339,17 +337,6 @@ class Demands:
                 TypedValue((*join.path, "efficiency")) if "efficiency" in self._raw(join.path) else join.keys.efficiency
             )
         return found
-
-    def _rolled_by(self, shaft: MachineShaft) -> str | None:
-        """The mechanism whose cylinder the chains of a shaft roll; None of other shafts."""
-        moves = (
-            join.keys.moves or ""
-            for part in shaft.parts
-            for join in self.parts.joins_of(part)
-            if isinstance(join.keys, ChainKeys)
-        )
-        names = (mechanism for mechanism, _, what in (each.partition(".") for each in moves) if what == "cylinder")
-        return next((name for name in names if self.parts.mechanisms.get(name) == "cylinder_drive"), None)
 
     def _added(self, every: list[dict[str, Any]]) -> dict[str, Any] | None:
         """The demands of several parts of one curve as one, such as of two chains side by side; None where they are unlike."""
