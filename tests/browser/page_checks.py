@@ -187,7 +187,7 @@ def test_a_number_is_copied_with_its_unit_by_mouse_and_by_keyboard(browser: Brow
     )
     button = cell.locator(".copy")
     assert button.get_attribute("aria-label").startswith("Copy ")
-    for press in (lambda: button.click(force=True), lambda: (button.focus(), page.keyboard.press("Enter"))):
+    for press in (lambda: (cell.hover(), button.click()), lambda: (button.focus(), page.keyboard.press("Enter"))):
         page.evaluate(
             "navigator.clipboard.writeText('').then(() => document.getElementById('reader-told').textContent = '')"
         )
