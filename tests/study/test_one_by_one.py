@@ -86,3 +86,42 @@ def test_a_machine_that_array_code_refuses_costs_no_other(tmp_path: Path) -> Non
     assert "is too great for the wheels" in rows.errors[2] and list(rows.errors[:2]) == [None, None]
     assert list(rows.columns["gears.driven_teeth"][:2]) == [24, 34]
     assert "it refuses some of many" in rows.slow["gears"]
+
+
+REACH = """\
+import numpy as np
+
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+
+
+class Speeds(Inputs):
+    speed: Annotated[float, Quantity("n", "1", "Speed", gt=0)] = 1.0
+
+
+def share(speed):
+    return speed / OVER
+
+
+shares = Chapter("Shares")
+shares.computed("share", "s", "1", "Share", share, ("speed",), "the speed by the greatest")
+MECHANISM = Mechanism(kind="reach", version="1.0", title="Reach", summary="A share.", inputs=Speeds, chapters=(shares,))
+"""
+REACHED = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P, productivity: 6000 1/h, sheet: {length: 700 mm, thickness: 0.6 mm}}
+mechanisms:
+  a: {kind: reach}
+"""
+
+
+@pytest.mark.parametrize("over", ["speed.max()", "speed.mean()", "np.maximum.accumulate(speed)"])
+def test_a_function_that_reaches_over_the_variants_gives_each_its_own_number(tmp_path: Path, over: str) -> None:
+    folder = tmp_path / "plugins"
+    folder.mkdir()
+    (folder / "reach.py").write_text(REACH.replace("OVER", over), "utf-8")
+    known = study(tmp_path, varied("[1, 4, 2, 3]", path="mechanisms.a.speed"), REACHED, Discovery([folder]))
+    path = "mechanisms.a.speed"
+    rows = calculate_rows(known.base, {known.inputs[path]: known.sample.rows(0, 4)[path]}, 4)
+    assert list(rows.columns["a.share"]) == [1, 1, 1, 1]
+    assert "other results than each alone" in rows.slow["reach"]

@@ -13,6 +13,7 @@ from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import said
+from diecut_report.config.source_hashes import plugin_code
 from diecut_report.errors import PluginError
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
@@ -54,6 +55,7 @@ from diecut_report.study.execution.press_batch import (
     untold,
 )
 from diecut_report.study.storage.description import Kind, ResultColumn
+from diecut_report.text.phrases import phrase
 from diecut_report.time_limit import contained
 
 # Columns of results: what is known of each before anything is calculated, and its values for many variants.
@@ -261,6 +263,7 @@ def governing(found: Verdicts) -> Array:
 
 
 TOGETHER = 1024  # variants that are calculated at a time: fewer cost more per variant, more take more memory
+ALIKE = 1e-6  # of a number, and of the greatest of its column: rounding moves places of extremes by less
 Given = Mapping[Input, Array | list[str]]
 Further = Callable[
     [CalculatedVariants], dict[str, Array]
@@ -331,6 +334,7 @@ def _groups(given: Given, count: int) -> Iterator[tuple[Array, dict[Input, Any]]
 def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, Any], rows: Rows, chosen: Array) -> None:
     try:
         variants = calculated(base, {**numbers, **texts}, len(chosen), rows.tell)
+        _require_as_alone(base, numbers, texts, variants)
         _kept(variants, rows, chosen)
         variants.release()
     except Mixed as mixed:
@@ -345,6 +349,42 @@ def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, A
         rows.slow[cause.kind] = cause.message
         for index, row in enumerate(chosen):
             _group(base, {asked: values[[index]] for asked, values in numbers.items()}, texts, rows, np.array([row]))
+
+
+def _require_as_alone(
+    base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, Any], variants: CalculatedVariants
+) -> None:
+    """Raise NotOnArrays where a plugin's code reaches over the variants: the first or the last has other numbers alone.
+
+    Plugins of the program itself are tried so by its tests.
+    """
+    foreign = {
+        name: calc for name, calc in variants.calculations.items() if "plugin_file" in plugin_code(calc.mechanism)
+    }
+    possible = [row for row in range(variants.count) if row not in variants.reasons]
+    for row in {possible[0], possible[-1]} if foreign and len(possible) > 1 else ():
+        alone = calculated(base, {asked: values[[row]] for asked, values in numbers.items()} | dict(texts), 1)
+        for name, calc in foreign.items():
+            single = alone.calculations.get(name)
+            if single is None or not all(
+                _is_as_alone(calc, single, row, of) for of in calc.values.keys() | single.values
+            ):
+                message = phrase(
+                    "calculated together, its variants have other results than each alone: a function mixes them"
+                )
+                raise NotOnArrays(calc.mechanism.kind, message)
+        alone.release()
+
+
+def _is_as_alone(together: Calculation, alone: Calculation, row: int, name: str) -> bool:
+    if name not in together.values or name not in alone.values:
+        return False
+    found, own = together.values[name][row], alone.values[name][0]
+    if found.dtype == object:
+        return list(found) == list(own)
+    length = min(len(found), len(own))  # a list of crossings is as long as that of the variant that has most
+    scale = np.abs(together.values[name][np.isfinite(together.values[name])]).max(initial=0.0)
+    return bool(np.allclose(found[:length], own[:length], rtol=ALIKE, atol=ALIKE * scale, equal_nan=True))
 
 
 def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
