@@ -47,7 +47,23 @@ def module_of_file(file: Path) -> ModuleType:
     """Return the module of a local file; it stands in sys.modules while it runs, or postponed annotations would not resolve."""
     digest = hashlib.sha256(str(file.resolve()).encode()).hexdigest()[:16]
     name = f"diecut_report_local_{digest}_{re.sub(r'[^A-Za-z0-9]', '_', file.stem)}"
-    return sys.modules[name] if name in sys.modules else _local_modules_loaded(name, file)
+    if name in sys.modules:
+        return sys.modules[name]
+    before = set(sys.modules)
+    module = _local_modules_loaded(name, file)
+    _refuse_strays({other for other in sys.modules.keys() - before if not other.startswith(name)}, file)
+    return module
+
+
+def _refuse_strays(names: Iterable[str], file: Path) -> None:
+    """Raise ImportError where a module beside a plugin was imported by way of sys.path: another plugin would take it for its own."""
+    found = {other: getattr(sys.modules[other], "__file__", None) for other in names}
+    strays = [other for other, path in found.items() if path and Path(path).is_relative_to(file.parent.resolve())]
+    for other in strays:
+        del sys.modules[other]
+    if strays:
+        message = Phrase("it imports {name} by way of sys.path, where other plugins would find it too", name=strays[0])
+        raise ImportError(message + _made_a_folder(file))
 
 
 def module_of_project(file: Path, source: Path) -> ModuleType:
@@ -66,18 +82,28 @@ def module_of_project(file: Path, source: Path) -> ModuleType:
 
 
 def _begin(package: str, file: Path) -> None:
-    """Load a package, in the place of one of the same name that another project gave."""
+    """Load a package, in the place of one of the same name that another project gave; ImportError where a library has this name."""
     if OF_PROJECTS.pop(package, None):
         _forget(package)
-    if package in sys.modules:
-        template = "another package {name} is loaded already, {place}; uninstall it, or give this one another name"
-        raise ImportError(Phrase(template, name=package, place=getattr(sys.modules[package], "__file__", None)))
+    if place := _elsewhere(package, file):
+        template = "there is another package {name}, {place}; uninstall it, or give this one another name"
+        raise ImportError(Phrase(template, name=package, place=place))
     try:
         _local_modules_loaded(package, file)
     except BaseException:
         _forget(package)
         raise
     OF_PROJECTS[package] = file
+
+
+def _elsewhere(package: str, file: Path) -> str:
+    """Return where an import of this name finds or would find another module; empty where it finds none."""
+    if package in sys.modules:
+        return getattr(sys.modules[package], "__file__", None) or "Python"
+    found = util.find_spec(package)
+    if found is None or (found.origin and Path(found.origin).resolve() == file):
+        return ""
+    return found.origin or "Python"
 
 
 def _forget(package: str) -> None:
@@ -119,11 +145,15 @@ def beside(file: Path, cause: BaseException) -> str:
         cause.name and file.with_name(f"{cause.name.partition('.')[0]}.py").is_file()
     ):
         return ""
+    return _made_a_folder(file)
+
+
+def _made_a_folder(file: Path) -> str:
     template = (
         "; a plugin of one file cannot import what lies beside it: make a folder {name}/ of it, with {file} as its __init__.py, "
         "and import from there, as in from ._helpers import …"
     )
-    return Phrase(template, name=file.stem, file=file.name)
+    return Phrase(template, name=file.parent.name if file.name == "__init__.py" else file.stem, file=file.name)
 
 
 # The kinds that a package announces in its project file, as they lie in its sources.
@@ -234,6 +264,7 @@ class Discovery:
     @cached_property
     def origins(self) -> dict[str, list[Origin]]:
         """Each kind with all places that give it; more than one is a fault that shows when the kind is used."""
+        _require_unlike_packages(self.folders)
         found: dict[str, list[Origin]] = {}
         for origin in [*_built_in(), *_installed(), *(o for folder in self.folders for o in in_folder(folder))]:
             found.setdefault(origin.kind, []).append(origin)
@@ -409,6 +440,18 @@ def in_folder(folder: Path) -> Iterator[Origin]:
         source = folder / SOURCES if name.startswith(f"{SOURCES}/") else folder
         module = (module_of_project, file, source) if project else (module_of_file, file)
         yield Origin(kind, str(file), partial(_attribute, attribute or ATTRIBUTE, *module), partial(Path, file))
+
+
+def _require_unlike_packages(folders: Iterable[Path]) -> None:
+    """Raise UserError where two projects have a package of one name: functions of one would import the modules of the other."""
+    homes: dict[str, Path] = {}
+    for folder in folders:
+        is_project = folder.is_dir() and not (folder / LIST).is_file()
+        places = [place for place, _ in announced(folder, GROUP).values()] if is_project else []
+        for package in {place.removeprefix(f"{SOURCES}/").partition("/")[0] for place in places}:
+            if homes.setdefault(package, folder) is not folder:
+                template = "The package {name} is in {other} too; give one of them another name."
+                raise refusal(template, folder, name=package, other=str(homes[package]))
 
 
 def _names_in(folder: Path) -> list[str]:

@@ -88,9 +88,33 @@ def test_a_package_that_breaks_is_told_and_leaves_nothing(tmp_path: Path) -> Non
     assert not [name for name in sys.modules if name.startswith("bar_chain")]
 
 
-def test_a_package_with_the_name_of_one_that_is_loaded_is_told(tmp_path: Path) -> None:
-    with pytest.raises(PluginError, match=r"another package json is loaded already, .*uninstall it, or give this one"):
-        Discovery([project(tmp_path, "A", name="json")]).mechanism("bar_chain")
+@pytest.mark.parametrize("name", ["json", "colorsys", "sys", "this", "pip"])  # the last three are not imported here
+def test_a_package_with_the_name_of_another_one_is_refused(tmp_path: Path, name: str) -> None:
+    with pytest.raises(PluginError, match=rf"there is another package {name}, .*uninstall it, or give this one"):
+        Discovery([project(tmp_path, "A", name=name)]).mechanism("bar_chain")
+
+
+def test_two_projects_with_a_package_of_one_name_are_refused_together(tmp_path: Path) -> None:
+    """A function that imports while it calculates would take the module of the other."""
+    folders = [project(tmp_path / title, title) for title in ("First", "Second")]
+    with pytest.raises(UserError, match="The package bar_chain is in .*First too"):
+        Discovery(folders).mechanism("bar_chain")
+
+
+@pytest.mark.parametrize("after", ["", "sys.path.remove(str(Path(__file__).parent))\n"])
+def test_a_helper_found_by_way_of_the_path_is_refused(tmp_path: Path, after: str) -> None:
+    """Another plugin with a helper of this name would calculate with this one's."""
+    before = list(sys.path)
+    (tmp_path / "factors.py").write_text("F = 2\n")
+    (tmp_path / "gate.py").write_text(
+        "import sys\nfrom pathlib import Path\nsys.path.insert(0, str(Path(__file__).parent))\nimport factors\n" + after
+    )
+    try:
+        with pytest.raises(PluginError, match="it imports factors by way of sys.path, .* make a folder gate/ of it"):
+            Discovery([tmp_path]).mechanism("gate")
+        assert "factors" not in sys.modules
+    finally:
+        sys.path[:] = before
 
 
 def test_files_that_begin_with_an_underscore_are_no_kinds(tmp_path: Path) -> None:
