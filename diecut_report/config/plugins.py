@@ -28,7 +28,7 @@ from typing import Any
 
 from diecut_report import __version__
 from diecut_report.config import yaml
-from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
+from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin, noting_what_is_read
 from diecut_report.errors import PluginError, nearest, refusal
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.mechanism.mechanism import CONTRACT, Mechanism
@@ -119,7 +119,8 @@ def _local_modules_loaded(name: str, file: Path) -> ModuleType:
     assert spec is not None and spec.loader is not None, file
     module = sys.modules[name] = util.module_from_spec(spec)
     try:
-        spec.loader.exec_module(module)
+        with noting_what_is_read(file):
+            spec.loader.exec_module(module)
     except BaseException:
         sys.modules.pop(name, None)
         raise
@@ -245,6 +246,11 @@ class Origin:
     load: Callable[[], Any]
     file: Callable[[], Path]  # of the module, when it is loaded
     is_own: bool = False  # of the program itself, whose declarations its tests check
+    package: Path | None = None  # the first file of the package that the module is in, where that has more modules
+
+    def code(self) -> Path:
+        """Return the file whose hash is that of all code of the kind, when it is loaded."""
+        return self.package or self.file()
 
 
 class Discovery:
@@ -332,7 +338,7 @@ def _loaded(origin: Origin) -> Mechanism:
         refuse_other_contract(origin.file)
         with in_time():
             found = origin.load()
-        digest = module_hash(origin.file())
+        digest = module_hash(origin.code())
     except Exception as cause:
         message = Phrase("it cannot be loaded from {told}: {said}", told=origin.label, said=said(cause))
         raise PluginError(message + beside(origin.file(), cause), origin.kind) from cause
@@ -439,7 +445,9 @@ def in_folder(folder: Path) -> Iterator[Origin]:
         # the modules of a project import each other by its name, as where it is installed
         source = folder / SOURCES if name.startswith(f"{SOURCES}/") else folder
         module = (module_of_project, file, source) if project else (module_of_file, file)
-        yield Origin(kind, str(file), partial(_attribute, attribute or ATTRIBUTE, *module), partial(Path, file))
+        whole = source / file.relative_to(source).parts[0] / "__init__.py"
+        load = partial(_attribute, attribute or ATTRIBUTE, *module)
+        yield Origin(kind, str(file), load, partial(Path, file), package=whole if project and whole.is_file() else None)
 
 
 def _require_unlike_packages(folders: Iterable[Path]) -> None:

@@ -1,18 +1,22 @@
 """The hash of the code that calculates: of the program, of each plugin, of each extension.
 
 Results of one version may come from other code: a plugin that is being written, the program in an editable checkout. A hash
-covers the names and bytes of the files, wherever they lie; compiled files do not count.
+covers the names and bytes of the files, wherever they lie; compiled files do not count. Tables that a plugin reads while it is
+loaded belong to its code where they lie in its folder.
 """
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 from weakref import WeakKeyDictionary
 
 from diecut_report.config.yaml import printable
@@ -37,6 +41,10 @@ class PluginCode:
 
 
 _known: WeakKeyDictionary[Mechanism, PluginCode] = WeakKeyDictionary()
+_reading: list[list[str]] = []  # of each module that is being loaded, the files that were opened meanwhile
+_read: dict[
+    Path, dict[str, str]
+] = {}  # of each module that was loaded, the tables that it read, with their names in its folder
 _when_loaded: dict[Path, str] = {}  # a module that is loaded stays as it was, whatever becomes of its file
 
 
@@ -93,8 +101,35 @@ def note_same_code(made: Mechanism, of: Mechanism) -> None:
 def module_hash(file: Path) -> str:
     """Return the SHA-256 of a module's code, as it was when this was first asked."""
     if file not in _when_loaded:
-        _when_loaded[file] = _digest(code_of(file))
+        code = {os.path.abspath(path): name for name, path in code_of(file)}
+        _when_loaded[file] = _digest((name, path) for path, name in (_read.get(file, {}) | code).items())
     return _when_loaded[file]
+
+
+@contextmanager
+def noting_what_is_read(file: Path) -> Iterator[None]:
+    """Note which files of its folder a module reads while it is loaded: its numbers are from them, too."""
+    folder = os.path.join(os.path.abspath(file.parent), "")
+    opened: list[str] = []
+    _add_hook()
+    _reading.append(opened)
+    try:
+        yield
+    finally:
+        _reading.remove(opened)
+        tables = {path for path in opened if path.startswith(folder) and not path.endswith((".py", ".pyc"))}
+        _read[file] = {path: path.removeprefix(folder) for path in tables if os.path.isfile(path)}
+
+
+@cache
+def _add_hook() -> None:
+    sys.addaudithook(_note_opened)  # which stays for good
+
+
+def _note_opened(event: str, arguments: tuple[Any, ...]) -> None:
+    if event == "open" and isinstance(arguments[0], str):
+        for opened in _reading:
+            opened.append(os.path.abspath(arguments[0]))
 
 
 def file_of(module: str) -> Path:

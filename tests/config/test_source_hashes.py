@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import GROUP, Discovery
 from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_hash
 from diecut_report.errors import UserError
 from diecut_report.press import Press
@@ -209,3 +209,33 @@ def test_a_process_with_other_code_than_the_run_calculates_nothing(tmp_path: Pat
     assert worker.load(study, files, plugins, known)
     with pytest.raises(UserError, match=r"The source of the plugin lever is not the one that this run was begun with"):
         worker.load(study, files, plugins, known | {"plugin lever": "0" * 64})
+
+
+READS = """\
+from pathlib import Path
+LIMIT = float(Path(__file__).with_suffix(".txt").read_text())
+"""
+
+
+def test_a_table_that_a_plugin_reads_is_in_its_hash(tmp_path: Path) -> None:
+    found = {}
+    for place, limit in (("a", "2"), ("b", "3"), ("c", "2")):
+        folder = tmp_path / place
+        folder.mkdir()
+        (folder / "lever.py").write_text((GOOD / "lever.py").read_text("utf-8") + READS, "utf-8")
+        (folder / "lever.txt").write_text(limit)
+        found[place] = plugin_hash(Discovery([folder]).mechanism("lever"))
+    assert found["a"] == found["c"] != found["b"]
+
+
+def test_all_modules_of_a_package_are_in_the_hash_of_each_of_its_kinds(tmp_path: Path) -> None:
+    found = {}
+    for place, factor in (("a", "1"), ("b", "2"), ("c", "1")):
+        package = tmp_path / place / "src" / "levers"
+        package.mkdir(parents=True)
+        (tmp_path / place / "pyproject.toml").write_text(f"[project.entry-points.'{GROUP}']\nlever = 'levers.one'\n")
+        (package / "__init__.py").write_text("")
+        (package / "one.py").write_text((GOOD / "lever.py").read_text("utf-8"), "utf-8")
+        (package / "factors.py").write_text(f"F = {factor}\n")
+        found[place] = plugin_hash(Discovery([tmp_path / place]).mechanism("lever"))
+    assert found["a"] == found["c"] != found["b"]
