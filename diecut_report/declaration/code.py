@@ -12,6 +12,7 @@ from collections import ChainMap
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import partial
+from importlib import import_module
 from inspect import getclosurevars
 from pathlib import Path
 from threading import get_ident
@@ -214,12 +215,23 @@ def _used(node: ast.AST, scope: Scope) -> Iterator[Used]:
     for each in ast.walk(node):
         match each:
             case ast.Import(names=aliases):
-                heads = {a: a.name.partition(".")[0] for a in aliases}
-                own |= {a.asname or head: sys.modules.get(head) for a, head in heads.items()}
-            case ast.ImportFrom(module=str() as module, names=aliases):
-                home = sys.modules.get(module)
-                own |= {a.asname or a.name: getattr(home, a.name, None) for a in aliases}
+                for a in aliases:
+                    whole, head = _module(a.name), a.name.partition(".")[0]
+                    own |= {a.asname: whole} if a.asname else {head: sys.modules.get(head)}
+            case ast.ImportFrom(module=str() as module, names=aliases, level=0):
+                home = _module(module)
+                own |= {
+                    a.asname or a.name: getattr(home, a.name, None) or _module(f"{module}.{a.name}") for a in aliases
+                }
     yield from _asked(node, scope.new_child(own))
+
+
+def _module(name: str) -> ModuleType | None:
+    """Return a module as a function would import it; None where it cannot."""
+    try:
+        return import_module(name)
+    except Exception:  # what the function will tell when it runs
+        return None
 
 
 def _used_at_load(tree: ast.Module, scope: dict[str, Any]) -> Iterator[Used]:

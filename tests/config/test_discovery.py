@@ -97,7 +97,7 @@ def test_a_package_with_the_name_of_another_one_is_refused(tmp_path: Path, name:
 def test_two_projects_with_a_package_of_one_name_are_refused_together(tmp_path: Path) -> None:
     """A function that imports while it calculates would take the module of the other."""
     folders = [project(tmp_path / title, title) for title in ("First", "Second")]
-    with pytest.raises(UserError, match="The package bar_chain is in .*First too"):
+    with pytest.raises(UserError, match=r"The package bar_chain is in .*First too"):
         Discovery(folders).mechanism("bar_chain")
 
 
@@ -110,7 +110,7 @@ def test_a_helper_found_by_way_of_the_path_is_refused(tmp_path: Path, after: str
         "import sys\nfrom pathlib import Path\nsys.path.insert(0, str(Path(__file__).parent))\nimport factors\n" + after
     )
     try:
-        with pytest.raises(PluginError, match="it imports factors by way of sys.path, .* make a folder gate/ of it"):
+        with pytest.raises(PluginError, match=r"it imports factors by way of sys\.path, .* make a folder gate/ of it"):
             Discovery([tmp_path]).mechanism("gate")
         assert "factors" not in sys.modules
     finally:
