@@ -42,6 +42,7 @@ LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
 KEY_TO_FILLET = 0.1  # of the shaft's diameter
 WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
 WIDTH_TO_DIAMETER = 1.2  # of the pinion
+INTEGRAL_WARNED, INTEGRAL_MOST = 2.0, 4.0  # diameters of the seat, below the teeth
 
 
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
@@ -302,12 +303,45 @@ def wall(parts: MachineParts) -> Iterator[Finding]:
 
 
 def torque_carried(parts: MachineParts) -> Iterator[Finding]:
-    """What takes a torque from its shaft, or gives it one, is keyed, pressed on, cut on it or bolted."""
+    """What takes a torque from its shaft, or gives it one, is keyed, pressed on, cut on it or bolted, in one of these ways."""
     for part in (part for _, part in hubs(parts)):
         takes = bool(list(parts.joins_of(part))) or part.port is not None
         if takes and part.kind != "bearing" and not part.is_carried:
             template = "carries a torque, but nothing joins it to the shaft; give key, interference, integral: true or bolted: true"
             yield finding(parts, "torque_carried", "fail", part.path, template)
+        ways = [way for way in ("key", "interference", "integral", "bolted", "rides_on") if getattr(part.keys, way)]
+        if len(ways) > 1:
+            template = "is joined to its shaft by {ways}, of which one alone is calculated; give one"
+            yield finding(parts, "torque_carried", "error", part.path, template, ways=", ".join(ways))
+
+
+def integral(parts: MachineParts) -> Iterator[Finding]:
+    """What is cut on a shaft is not much thicker below its teeth than the shaft: a wheel is a part of its own."""
+    for join in parts.joins:
+        for part in (*join.drivers, *join.driven) if isinstance(join.keys, MeshKeys) else ():
+            if not part.keys.integral or part.section is None:
+                continue
+            root = 2 * join.radius(part) - 2.5 * join.keys.module
+            if root > INTEGRAL_WARNED * part.seat:
+                level: Level = "error" if root > INTEGRAL_MOST * part.seat else "warning"
+                template = "is cut on a shaft of {seat}, but is {root} thick below its teeth: no such shaft is turned; give key or interference"
+                yield finding(parts, "integral", level, (*part.path, "integral"), template, seat=mm(part.seat), root=mm(root))  # fmt: skip
+
+
+def force_plane(parts: MachineParts) -> Iterator[Finding]:
+    """The force on a crank or a rocker without a pin of the machine has a plane, no nearer to the disc than half the roller's width."""
+    for part in (part for _, part in hubs(parts)):
+        if part.kind not in ("crank", "rocker") or part.port is None or part.keys.pin is not None:
+            continue
+        if part.keys.plane is None:
+            template = "has neither a pin nor a plane, so that it is not known how far beyond the disc its force acts; give plane"
+            yield finding(parts, "pin_plane", "error", part.path, template)
+            continue
+        width = parts.reader.typed_block(part.port[0]).get("roller_width", 0.0)
+        if part.keys.plane < width / 2 - SAME_PLACE:
+            template = "is {plane} beyond the disc, but the roller is {width} wide and would stand in the disc; give at least half of it"
+            yield finding(parts, "pin_plane", "error", (*part.path, "plane"), template, ("mechanisms", part.port[0], "roller_width"),
+                plane=mm(part.keys.plane), width=mm(width))  # fmt: skip
 
 
 # Axes and what joins the shafts.
@@ -476,5 +510,5 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
     names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
-    torque_carried, axes, center, frame, mesh_pair, sector, chain,
+    torque_carried, integral, force_plane, axes, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

@@ -131,6 +131,8 @@ class ShaftElements(Masses, LoadCases):
             for end in (-1, 1):
                 place = TypedNumber(millimetres(part.keys.at + end * part.keys.key / 2), (*part.path, "at"))
                 yield {"position": place, "type": kind}
+        if part.keys.interference:
+            yield {"position": TypedValue((*part.path, "at")), "type": "press_fit"}
 
     def _typed_notches(self, shaft: MachineShaft) -> Iterator[TypedValue]:
         """The notches that are typed beside those of the keys."""
@@ -141,7 +143,7 @@ class ShaftElements(Masses, LoadCases):
     def _load(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         loads = part.shaft.loads
         found: dict[str, Any] = {"name": part.name, "position": TypedValue((*part.path, "at"))}
-        if part.keys.integral or part.keys.rides_on:
+        if part.keys.integral or part.keys.bolted or part.keys.rides_on:
             found["seat"] = "none"
         elif self._seat(part) == "loose":
             found["seat"] = "loose"

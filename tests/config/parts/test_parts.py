@@ -16,6 +16,7 @@ from diecut_report.config.loader import Config, examined, load_config
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
+from diecut_report.errors import Problem
 from diecut_report.press import Press
 from diecut_report.results.carrying_parts import carrying_parts, is_rated, unrated
 from diecut_report.results.press_run import Run
@@ -120,6 +121,12 @@ BROKEN = [
     ("at: 100, designation", "at: 100 kg, designation", "at: "),
     ("frame: {crank: [0, 0]", "frame: {crank: [0]", "two numbers in mm are needed"),
     ("  drive:\n    kind: cylinder_drive\n", "  drive:\n    kind: cylinder_drive\n    sector_ratio: 6\n", "follows from the parts; remove the key"),
+    # how a part is joined to its shaft, and where its force acts
+    ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60, key: 50, integral: true}", "by key, integral, of which one"),
+    ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60, integral: true}", "no such shaft is turned"),
+    ("key: 50, plane: 20, mass", "key: 50, mass", "has neither a pin nor a plane"),
+    ("key: 50, plane: 20, mass", "key: 50, plane: 12, mass", "is 12 mm beyond the disc, but the roller is 25 mm wide"),
+    ("key: 50, plane: 20, mass", "key: 50, plane: -20, mass", "is -20 mm beyond the disc, but the roller is 25 mm wide"),
     # what would make a shaft, or a part, vanish
     ("sections: 45x70 r1, 50x40 r1, 60x320 r1, 50x40", "sections: []", "shafts.main: has no sections"),
     ("  far:\n", "  far:\n    motor: {speed: 3 rpm}\n", "but the shaft has sections; remove one of them"),
@@ -356,12 +363,17 @@ def test_54_parts_carry_load_and_each_has_a_calculation() -> None:
     assert not [part.name for part in every if part.calculation not in whole().kinds]
 
 
-def test_what_carries_load_without_a_method_is_not_rated() -> None:
+def without_keys() -> tuple[Config, list[Problem]]:
+    """The example with a wheel that is bolted, and a clutch that is pressed on."""
     text = TEXT.replace(
         "hub: 60, key: 50}\n      - {gear: pinion, at: 330", "hub: 60, bolted: true}\n      - {gear: pinion, at: 330", 1
     )
     text = text.replace("at: 130, hub: 80, key: 70, mass: 6 kg", "at: 130, hub: 80, interference: 0.05, mass: 6 kg", 1)
-    config, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    return examined(parse(text, str(FILE)), DISCOVERY)
+
+
+def test_what_carries_load_without_a_method_is_not_rated() -> None:
+    config, problems = without_keys()
     assert not problems and config.parts is not None
     told = {
         str(each.why)
@@ -374,6 +386,11 @@ def test_what_carries_load_without_a_method_is_not_rated() -> None:
         "crank.disc: no method rates the press fit of its pin",
         "rocker.arm: no method rates its body",
     } <= told
+
+
+@pytest.mark.nightly
+def test_what_is_bolted_or_pressed_on_needs_no_keyseat_near() -> None:
+    assert not [str(problem) for problem in Run(without_keys()[0], lambda _: None).problems]
 
 
 def test_what_is_doubtful_is_told_by_path_and_line_as_results_say_the_same_wherever_the_file_stands() -> None:
