@@ -11,6 +11,7 @@ from typing import Any
 import pint
 import pytest
 
+from diecut_report.config.plugins import Discovery
 from diecut_report.quantities import units
 from diecut_report.quantities.units import (
     UnitError,
@@ -52,6 +53,13 @@ def test_every_unit_of_the_table_agrees_with_pint() -> None:
         assert found.text == text
         assert found.factor == pytest.approx(factor, rel=1e-12), text
         assert {name: power for name, power in zip(units.DIMENSIONS, found.kind, strict=True) if power} == exponents
+
+
+def test_every_unit_that_a_built_in_kind_declares_is_in_the_table() -> None:
+    """Pint is loaded for any other one, which takes a quarter of a second in each run."""
+    known = Discovery([])
+    declared = {step.unit for kind in known.origins for _, step in known.mechanism(kind).steps if hasattr(step, "unit")}
+    assert sorted({unit(text).text for text in declared} - TABLE["units"].keys()) == []
 
 
 def test_every_si_unit_of_the_table_is_coherent() -> None:
