@@ -497,7 +497,7 @@ def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """What is typed at a part beside its own keys goes into its calculation."""
+    """What is typed at a part beside its own keys goes into its calculation, and the efficiency of a mesh into a torque."""
     used = set(typed_paths([*(each.inputs for each in elements.made), *elements.fills.values()]))
     homes = [(shaft.path, shaft.more, f"shafts_{shaft.name}") for shaft in parts.shafts.values()]
     homes += [(part.path, part.more, f"shafts_{name}") for name, shaft in parts.shafts.items() for part in shaft.parts]
@@ -506,6 +506,12 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             own = (*path, key)
             if own not in {each[: len(own)] for each in used} | {given for given, _ in elements.twice}:
                 yield finding(parts, "names", "error", own, "goes into no calculation of this part; remove the key")
+    for join in (each for each in parts.joins if isinstance(each.keys, MeshKeys)):
+        own = (*join.path, "efficiency")
+        typed = parts.reader.data["meshes"][join.name]
+        if "efficiency" in typed and own not in {each[: len(own)] for each in used}:
+            template = "goes into no calculation, as no torque on this pair is known by which way the power flows; remove the key"
+            yield finding(parts, "names", "error", own, template)
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (

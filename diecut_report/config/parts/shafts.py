@@ -26,6 +26,8 @@ class ShaftElements(Masses, LoadCases):
 
     def _loads(self, shaft: MachineShaft) -> None:
         torques = [each | {"ratio": each["ratio"].text} for each in self.torques_of(shaft)]
+        for each in (every for every in torques if "efficiency" in every):
+            each["efficiency"] = self.efficiency(each["efficiency"])
         forces = [force for part in shaft.parts for force in (*self._port_forces(part), *self._chain_forces(part))]
         inputs: dict[str, Any] = {"main_turns": self.cycle(shaft.name)}
         if torques:

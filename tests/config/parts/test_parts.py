@@ -253,6 +253,42 @@ def test_what_swings_or_steps_counts_with_its_inertia() -> None:
     assert torques["geneva"]["inertia"] == "wheel_acceleration"
 
 
+BEHIND = """  behind:
+    sections: 40x30 r1, 50x260 r1, 40x30
+    parts: [{bearing: a, at: 21, designation: "6208"}, {gear: wheel, at: 190, hub: 50, key: 45},
+            {bearing: b, at: 299, designation: "6208", floating: true}]
+"""
+STEP_UP, SECTOR = "module: 4, width: 30", "teeth_present: 39"
+
+
+def test_the_losses_of_a_mesh_behind_a_wheel_that_steps_enter_its_torque_and_that_of_its_crank() -> None:
+    config, problems = changed(STEP_UP, f"{STEP_UP}, efficiency: 0.9")
+    data = config.tree.data["mechanisms"]
+    torques = {each["name"]: each.get("efficiency", {}) for each in data["shafts_geneva_loads"]["torques"]}
+    assert not problems and torques["large"]["value"] == data["cross"]["efficiency"]["value"] == 0.9
+    assert torques["inertia"] == {} and data["cross"]["own_inertia"] == "${shafts_geneva_body.inertia}"
+    assert whole().tree.data["mechanisms"]["cross"]["efficiency"] == 0.97  # that of a mesh of which none is typed
+
+
+def test_the_losses_of_the_sector_stand_at_its_mesh_alone() -> None:
+    config, problems = changed(SECTOR, f"{SECTOR}, efficiency: 0.9")
+    assert not problems and config.tree.data["mechanisms"]["drive"]["efficiency_sector"]["value"] == 0.9
+    _, twice = changed("    kind: cylinder_drive\n", "    kind: cylinder_drive\n    efficiency_sector: 0.9\n")
+    assert "efficiency_sector: is given here, but follows" in " ".join(twice)
+
+
+def test_losses_that_go_into_no_torque_are_refused() -> None:
+    """Behind a shaft that swings the sign of a torque does not tell which way the power flows."""
+    text = TEXT.replace("  geneva:\n    sections", BEHIND + "  geneva:\n    sections", 1)
+    text = text.replace("at: 120, hub: 50, key: 45}", "at: 120, hub: 50, key: 45}\n      - {gear: more, at: 190, hub: 50, key: 45}", 1)
+    text = text.replace("geneva: [180, 240],", "geneva: [180, 240], behind: [500, -694],", 1)
+    for more, refused in (("", False), (", efficiency: 0.9", True)):
+        mesh = f"meshes:\n  on: {{pair: [pinion.more, behind.wheel], teeth: 50/50, module: 4, width: 30{more}}}\n"
+        _, problems = examined(parse(text.replace("meshes:\n", mesh, 1), str(FILE)), DISCOVERY)
+        told = [str(problem) for problem in problems]
+        assert len(told) == refused and ("meshes.on.efficiency: goes into no calculation" in " ".join(told)) == refused
+
+
 def cases(name: str) -> list[str]:
     """The load cases of a calculation with their torques, as the file of mechanisms has them."""
     return [f"{case['name']} {case['torque']}" for case in whole().tree.data["mechanisms"][name].get("load_cases", [])]
