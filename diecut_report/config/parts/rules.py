@@ -11,6 +11,7 @@ from diecut_report.config.parts.demands import first_place, typed_paths
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
+from diecut_report.config.parts.masses import wheel_section
 from diecut_report.config.parts.model import (
     SAME_PLACE,
     Join,
@@ -344,6 +345,18 @@ def force_plane(parts: MachineParts) -> Iterator[Finding]:
                 plane=mm(part.keys.plane), width=mm(width))  # fmt: skip
 
 
+def weighed(parts: MachineParts) -> Iterator[Finding]:
+    """Each body has a mass that loads its shaft, and an inertia: a Geneva wheel by its width, a flywheel as it is typed."""
+    for shaft, part in hubs(parts):
+        has_inertia, has_mass = "inertia" in part.more or wheel_section(parts, part), "mass" in part.more
+        if part.kind == "geneva_wheel" and part.keys.width is None and not has_mass:
+            template = "has no mass, so that its weight and its inertia would be left out; give width or mass"
+            yield finding(parts, "mass", "error", part.path, template)
+        elif part.kind == "geneva_wheel" and not has_inertia:
+            template = "has no inertia, as slots, center_distance or roller_radius of {mechanism} is not typed; give inertia"
+            yield finding(parts, "mass", "error", part.path, template, mechanism=(part.port or ("its mechanism",))[0])
+
+
 # Axes and what joins the shafts.
 
 
@@ -516,5 +529,5 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
     names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
-    torque_carried, integral, force_plane, axes, center, frame, mesh_pair, sector, chain,
+    torque_carried, weighed, integral, force_plane, axes, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

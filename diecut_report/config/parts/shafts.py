@@ -163,10 +163,8 @@ class ShaftElements(Masses, LoadCases):
         if (gear := self._gear(part)) and "torque" in found:
             found["gear"] = gear
         found |= self._belt_force(part)
-        if self._has_mass(part):
-            found["mass"] = (
-                f"${{{part.shaft.body}.{part.name}_disc_mass}}" if self._disc(part) else self._given_mass(part)
-            )
+        if (mass := self.mass_on(part)) is not None:
+            found["mass"] = mass
         found |= self._typed_load(part, found)
         yield found
         if across:

@@ -289,6 +289,40 @@ def test_losses_that_go_into_no_torque_are_refused() -> None:
         assert len(told) == refused and ("meshes.on.efficiency: goes into no calculation" in " ".join(told)) == refused
 
 
+WHEEL = "of: cross.wheel, at: 275, hub: 60, key: 50, width: 35}"
+
+
+@pytest.mark.parametrize(
+    ("typed", "mass", "inertia"),
+    [("width: 35", "26.21", 0.4724), ("mass: 26.21 kg", "26.21", 0.4724), ("mass: 13.107 kg", "13.107", 0.2362)],
+)
+def test_a_geneva_wheel_has_the_inertia_of_its_mass_and_its_weight_loads_its_shaft(
+    typed: str, mass: str, inertia: float
+) -> None:
+    config, problems = changed(WHEEL, WHEEL.replace("width: 35", typed))
+    assert not problems
+    data = config.tree.data["mechanisms"]
+    body = next(each for each in data["shafts_geneva_body"]["bodies"] if each["name"] == "cross")
+    load = next(each for each in data["shafts_geneva"]["loads"] if each["name"] == "cross")
+    assert body["mass"]["value"].startswith(mass) and load["mass"] == body["mass"]
+    factor = re.fullmatch(r"\$\{shafts_geneva_body\.bodies\.1\.mass\} \* ([\d.]+) mm\*\*2", body["inertia"])
+    assert factor is not None
+    assert float(factor[1]) * 1e-6 * float(body["mass"]["value"].removesuffix(" kg")) == pytest.approx(inertia, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("typed", "missing"),
+    [
+        (WHEEL.replace(", width: 35", ""), "give width or mass"),
+        (WHEEL.replace("width: 35", "inertia: 0.4 kg*m**2"), "give width or mass"),
+        (WHEEL.replace("width: 35", "inertia: 0.4 kg*m**2, width: 35"), ""),
+    ],
+)
+def test_a_geneva_wheel_without_what_its_mass_follows_from_is_refused(typed: str, missing: str) -> None:
+    _, problems = changed(WHEEL, typed)
+    assert len(problems) == bool(missing) and missing in " ".join(problems)
+
+
 def cases(name: str) -> list[str]:
     """The load cases of a calculation with their torques, as the file of mechanisms has them."""
     return [f"{case['name']} {case['torque']}" for case in whole().tree.data["mechanisms"][name].get("load_cases", [])]
