@@ -26,8 +26,17 @@ class Masses(Demands):
                 discs.append({"name": part.name} | disc)
             elif "mass" in part.more or part.kind == "geneva_wheel" or "inertia" in part.more:
                 bodies.append({"name": part.name} | self._mass(part, f"{home}.bodies.{len(bodies)}.mass"))
-        inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {})
+        inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {}) | self._mounted(shaft)
         self._add(home, "shaft_body", inputs, shaft.path)
+
+    def _mounted(self, shaft: MachineShaft) -> dict[str, Any]:
+        """The flywheel's typed inertia, and that for which the drive train is calculated; nothing where it has that one."""
+        part, train = self.flywheel(shaft), self.named("drive_train") or ""
+        is_known = "torque_curve" in self.blocks.get(train, {})  # without it none is asked for
+        if part is None or not is_known or self.is_sized(part) or "inertia" not in part.more:
+            return {}
+        typed = TypedValue((*part.path, "inertia"))
+        return {"flywheel_inertia": typed, "required_inertia": f"${{{train}.flywheel_inertia}}"}
 
     def _section_disc(self, shaft: MachineShaft, index: int) -> dict[str, Any]:
         section = self._section(shaft, index)
@@ -73,15 +82,15 @@ class Masses(Demands):
             return f"${{{part.shaft.body}.{part.name}_disc_mass}}"
         if "mass" in part.more:
             return TypedValue((*part.path, "mass"))
-        if self._is_sized(part):
+        if self.is_sized(part):
             return f"${{{self.named('drive_train')}.flywheel_mass}}"
         section = wheel_section(self.parts, part)
         return None if section is None or part.keys.width is None else TypedNumber(
             f"{STEEL * part.keys.width * section[0]:.12g} kg", part.path
         )
 
-    def _is_sized(self, part: ShaftPart) -> bool:
-        """Whether a part is the flywheel that the drive train sizes."""
+    def is_sized(self, part: ShaftPart) -> bool:
+        """Return whether a part is the flywheel that the drive train sizes."""
         train = f"${{{self.named('drive_train')}.flywheel_inertia}}"
         return part.kind == "flywheel" and str(self._raw(part.path).get("inertia")) == train
 

@@ -48,7 +48,7 @@ INTEGRAL_WARNED, INTEGRAL_MOST = 2.0, 4.0  # diameters of the seat, below the te
 
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
-    of_mechanisms = (rule(parts, elements) for rule in (ports, _ratios, _typed_twice, _unused))
+    of_mechanisms = (rule(parts, elements) for rule in (ports, _ratios, _weighed, _typed_twice, _unused))
     found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
     place = ConfigPlace(parts.reader.tree)
@@ -345,16 +345,20 @@ def force_plane(parts: MachineParts) -> Iterator[Finding]:
                 plane=mm(part.keys.plane), width=mm(width))  # fmt: skip
 
 
-def weighed(parts: MachineParts) -> Iterator[Finding]:
+def _weighed(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """Each body has a mass that loads its shaft, and an inertia: a Geneva wheel by its width, a flywheel as it is typed."""
-    for shaft, part in hubs(parts):
-        has_inertia, has_mass = "inertia" in part.more or wheel_section(parts, part), "mass" in part.more
-        if part.kind == "geneva_wheel" and part.keys.width is None and not has_mass:
+    for _, part in hubs(parts):
+        has_inertia = "inertia" in part.more
+        if part.kind == "geneva_wheel" and elements.mass_on(part) is None:
             template = "has no mass, so that its weight and its inertia would be left out; give width or mass"
             yield finding(parts, "mass", "error", part.path, template)
-        elif part.kind == "geneva_wheel" and not has_inertia:
-            template = "has no inertia, as slots, center_distance or roller_radius of {mechanism} is not typed; give inertia"
-            yield finding(parts, "mass", "error", part.path, template, mechanism=(part.port or ("its mechanism",))[0])
+        elif part.kind == "geneva_wheel" and not has_inertia and wheel_section(parts, part) is None:
+            template = "has no inertia, as slots, center_distance or roller_radius of its mechanism is not typed; give inertia"
+            yield finding(parts, "mass", "error", part.path, template)
+        elif part.kind == "flywheel" and (elements.mass_on(part) is None or not has_inertia):
+            template = "has no {missing}, so that it counts for nothing; give it, or refer with inertia to flywheel_inertia of the drive train"
+            missing = "inertia" if not has_inertia else "mass"
+            yield finding(parts, "mass", "error", part.path, template, missing=missing)
 
 
 # Axes and what joins the shafts.
@@ -529,5 +533,5 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
     names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
-    torque_carried, weighed, integral, force_plane, axes, center, frame, mesh_pair, sector, chain,
+    torque_carried, integral, force_plane, axes, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

@@ -16,10 +16,11 @@ from diecut_report.config.loader import Config, examined, load_config
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
-from diecut_report.errors import Problem
+from diecut_report.errors import Problem, UserError
 from diecut_report.press import Press
 from diecut_report.results.carrying_parts import carrying_parts, is_rated, unrated
 from diecut_report.results.press_run import Run
+from diecut_report.results.warm_press import WarmPress
 from diecut_report.results.results_file import results_text
 
 FILE = Path(import_module("diecut_report.configs").__path__[0]) / "machines" / "flat_cylinder.yaml"
@@ -321,6 +322,39 @@ def test_a_geneva_wheel_has_the_inertia_of_its_mass_and_its_weight_loads_its_sha
 def test_a_geneva_wheel_without_what_its_mass_follows_from_is_refused(typed: str, missing: str) -> None:
     _, problems = changed(WHEEL, typed)
     assert len(problems) == bool(missing) and missing in " ".join(problems)
+
+
+SIZED = 'inertia: "${train.flywheel_inertia}"}'
+
+
+@pytest.mark.parametrize(("inertia", "status"), [("2.6", "fail"), ("3.5", "pass")])
+def test_the_flywheel_that_is_mounted_has_the_inertia_which_the_drive_train_asks_for(inertia: str, status: str) -> None:
+    config, problems = changed(SIZED, f"inertia: {inertia} kg*m**2, mass: 80 kg}}")
+    run = WarmPress(is_advised=False).calculate(config)
+    (check,) = run.checks["shafts_flywheel_body"]
+    needed = float(run.calculations["train"]["flywheel_inertia"][0, 0])
+    assert not problems and check.id == "flywheel" and check.status == status == ("fail" if float(inertia) < needed else "pass")
+
+
+@pytest.mark.parametrize("inertia", ["0.01", "30"])
+def test_a_flywheel_of_quite_another_inertia_is_refused(inertia: str) -> None:
+    config, problems = changed(SIZED, f"inertia: {inertia} kg*m**2, mass: 80 kg}}")
+    with pytest.raises(UserError, match="is less than half or more than twice") as refused:
+        WarmPress(is_advised=False).calculate(config)
+    assert not problems and f"{FILE}:54:" in str(refused.value)
+
+
+def test_the_flywheel_that_the_drive_train_sizes_is_compared_with_nothing() -> None:
+    assert "required_inertia" not in whole().tree.data["mechanisms"]["shafts_flywheel_body"]
+
+
+@pytest.mark.parametrize(
+    ("typed", "missing"),
+    [("mass: 80 kg}", "has no inertia"), ("inertia: 2.8 kg*m**2}", "has no mass"), ("bore: 50}", "has no inertia")],
+)
+def test_a_flywheel_without_inertia_or_mass_is_refused(typed: str, missing: str) -> None:
+    _, problems = changed(SIZED, typed)
+    assert missing in " ".join(problems)
 
 
 def cases(name: str) -> list[str]:
