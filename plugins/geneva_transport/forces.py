@@ -18,7 +18,8 @@ REACHES = bind(common.is_below, smaller="rim_distance", greater="disc_radius")
 
 torque = Chapter("Torque at the crank and roller force",
     text="In the first half of the motion the roller pushes the wheel, in the second half it holds it back with the other flank of the slot. The "
-        "crank recovers the energy that it supplies, but for the losses of the gear behind the wheel.", needs=("driven_inertia",), absent="not calculated: driven_inertia is not given")
+        "crank recovers the energy that it supplies, but for the losses of the gear behind the wheel.",
+    needs=("driven_inertia",), absent="not calculated: driven_inertia is not given")
 torque.require("own_share", lambda own_inertia, driven_inertia: own_inertia <= driven_inertia, key="own_inertia",
     message="is more than driven_inertia, of which it is a part; give less")
 torque.choice("felt_inertia", "J_w", "kg*m**2", "Inertia that the roller feels, with the losses of the gear behind the wheel",

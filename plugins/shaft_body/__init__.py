@@ -36,20 +36,19 @@ class ShaftBody(Inputs):
     discs: Annotated[list[Disc], Text("Sections of the shaft and parts on it, as discs")]
     bodies: Annotated[list[KnownMass], Text("Parts of known mass")] = []  # noqa: RUF012
     flywheel_inertia: Annotated[float | None, Quantity("J_F", "kg*m**2", "Moment of inertia of the flywheel on the shaft", gt=0)] = None
-    required_inertia: Annotated[float | None, Quantity("J_req", "kg*m**2", "Moment of inertia that the drive train asks of the flywheel", gt=0)] = None
+    required_inertia: Annotated[float | None, Quantity("J_req", "kg*m**2", "Moment of inertia for which the drive train is calculated", gt=0)] = None
 
 
 OF_DISC = {key: f"discs.{key}" for key in ("diameter", "bore", "width", "density", "fill")}
 BODIES = ("bodies",)
 FLYWHEEL = ("flywheel_inertia", "required_inertia")
-LARGEST_RATIO = 2.0  # of the flywheel's inertia to that for which the drive train is calculated, either way
 
 body = Chapter("Mass and moment of inertia")
 body.require("bored", bind(lambda bore, diameter: bore < diameter, bore="discs.bore", diameter="discs.diameter"), key="discs.{index}.bore",
     message="is not smaller than the diameter of {part}; take a smaller bore")
 body.require("flywheel",
     lambda flywheel_inertia, required_inertia:
-        (flywheel_inertia <= LARGEST_RATIO * required_inertia) & (required_inertia <= LARGEST_RATIO * flywheel_inertia),
+        (flywheel_inertia <= 2 * required_inertia) & (required_inertia <= 2 * flywheel_inertia),
     key="flywheel_inertia", needs=FLYWHEEL,
     message="is less than half or more than twice the {required_inertia} for which the drive train is calculated; mount another flywheel, or "
         "change speed_fluctuation of the drive train")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import pi, prod, sin
 from typing import Any
 
 from diecut_report.config.parts.demands import Demands, TypedNumber, TypedValue, millimetres
@@ -85,8 +86,10 @@ class Masses(Demands):
         if self.is_sized(part):
             return f"${{{self.named('drive_train')}.flywheel_mass}}"
         section = wheel_section(self.parts, part)
-        return None if section is None or part.keys.width is None else TypedNumber(
-            f"{STEEL * part.keys.width * section[0]:.12g} kg", part.path
+        return (
+            None
+            if section is None or part.keys.width is None
+            else TypedNumber(f"{STEEL * part.keys.width * section[0]:.12g} kg", part.path)
         )
 
     def is_sized(self, part: ShaftPart) -> bool:
@@ -105,6 +108,39 @@ class Masses(Demands):
         elif section := wheel_section(self.parts, part):
             found["inertia"] = f"${{{mass}}} * {section[1] / section[0] * 1e6:.12g} mm**2"
         return found
+
+    def full_mass(self, part: ShaftPart) -> float | None:
+        """Return the mass of the full steel body of a part's dimensions, kg; None where these are not known.
+
+        It is a disc, of a sector its share; of a rocker a bar from axis to pin, as wide as its hub, and twice as high as the shaft is thick.
+        """
+        width, section = self.parts.body_width(part), wheel_section(self.parts, part)
+        radius = self.parts.body_radius(part) or self._pin_radius(part)
+        if section is not None:
+            area = section[0]
+        elif radius is None:
+            return None
+        else:
+            area = 2 * part.seat * radius if part.kind == "rocker" else pi * radius**2 * self._share(part)
+        return STEEL * area * width or None
+
+    def _pin_radius(self, part: ShaftPart) -> float | None:
+        """The distance of the pin or roller of a crank or rocker from its axis, m; None where it is not typed."""
+        port = self.port(part)
+        typed = self.parts.reader.typed_block(part.port[0]) if part.port else {}
+        if port is not None and port.radius and set(port.radius) <= typed.keys():
+            return prod(typed[key] for key in port.radius)
+        is_geneva = part.kind == "crank" and {"slots", "center_distance"} <= typed.keys()
+        return typed["center_distance"] * sin(pi / typed["slots"]) if is_geneva else None
+
+    def _share(self, part: ShaftPart) -> float:
+        """What of a full disc a gear is: of a sector the teeth that are there."""
+        keys = next((join.keys for join in self.parts.joins_of(part)), None)
+        if not isinstance(keys, MeshKeys) or keys.teeth_present is None:
+            return 1.0
+        join = next(self.parts.joins_of(part))
+        own, other = (keys.teeth_1, keys.teeth_2) if part in join.drivers else (keys.teeth_2, keys.teeth_1)
+        return keys.teeth_present / own if own > other else 1.0
 
 
 def wheel_section(parts: MachineParts, part: ShaftPart) -> tuple[float, float] | None:

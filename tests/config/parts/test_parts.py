@@ -20,8 +20,8 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.press import Press
 from diecut_report.results.carrying_parts import carrying_parts, is_rated, unrated
 from diecut_report.results.press_run import Run
-from diecut_report.results.warm_press import WarmPress
 from diecut_report.results.results_file import results_text
+from diecut_report.results.warm_press import WarmPress
 
 FILE = Path(import_module("diecut_report.configs").__path__[0]) / "machines" / "flat_cylinder.yaml"
 TEXT = FILE.read_text("utf-8")
@@ -281,7 +281,9 @@ def test_the_losses_of_the_sector_stand_at_its_mesh_alone() -> None:
 def test_losses_that_go_into_no_torque_are_refused() -> None:
     """Behind a shaft that swings the sign of a torque does not tell which way the power flows."""
     text = TEXT.replace("  geneva:\n    sections", BEHIND + "  geneva:\n    sections", 1)
-    text = text.replace("at: 120, hub: 50, key: 45}", "at: 120, hub: 50, key: 45}\n      - {gear: more, at: 190, hub: 50, key: 45}", 1)
+    text = text.replace(
+        "at: 120, hub: 50, key: 45}", "at: 120, hub: 50, key: 45}\n      - {gear: more, at: 190, hub: 50, key: 45}", 1
+    )
     text = text.replace("geneva: [180, 240],", "geneva: [180, 240], behind: [500, -694],", 1)
     for more, refused in (("", False), (", efficiency: 0.9", True)):
         mesh = f"meshes:\n  on: {{pair: [pinion.more, behind.wheel], teeth: 50/50, module: 4, width: 30{more}}}\n"
@@ -308,7 +310,9 @@ def test_a_geneva_wheel_has_the_inertia_of_its_mass_and_its_weight_loads_its_sha
     assert body["mass"]["value"].startswith(mass) and load["mass"] == body["mass"]
     factor = re.fullmatch(r"\$\{shafts_geneva_body\.bodies\.1\.mass\} \* ([\d.]+) mm\*\*2", body["inertia"])
     assert factor is not None
-    assert float(factor[1]) * 1e-6 * float(body["mass"]["value"].removesuffix(" kg")) == pytest.approx(inertia, abs=1e-4)
+    assert float(factor[1]) * 1e-6 * float(body["mass"]["value"].removesuffix(" kg")) == pytest.approx(
+        inertia, abs=1e-4
+    )
 
 
 @pytest.mark.parametrize(
@@ -333,7 +337,11 @@ def test_the_flywheel_that_is_mounted_has_the_inertia_which_the_drive_train_asks
     run = WarmPress(is_advised=False).calculate(config)
     (check,) = run.checks["shafts_flywheel_body"]
     needed = float(run.calculations["train"]["flywheel_inertia"][0, 0])
-    assert not problems and check.id == "flywheel" and check.status == status == ("fail" if float(inertia) < needed else "pass")
+    assert (
+        not problems
+        and check.id == "flywheel"
+        and check.status == status == ("fail" if float(inertia) < needed else "pass")
+    )
 
 
 @pytest.mark.parametrize("inertia", ["0.01", "30"])
@@ -355,6 +363,39 @@ def test_the_flywheel_that_the_drive_train_sizes_is_compared_with_nothing() -> N
 def test_a_flywheel_without_inertia_or_mass_is_refused(typed: str, missing: str) -> None:
     _, problems = changed(SIZED, typed)
     assert missing in " ".join(problems)
+
+
+MASSES = {
+    "sector": ("mass: 14 kg", 32.62),  # 39 of 212 teeth
+    "large": ("mass: 26 kg", 42.6),
+    "crank": ("mass: 8 kg", 14.8),
+    "roller crank": ("mass: 9 kg", 21.3),
+    "arm": ("mass: 10 kg", 11.59),  # 205 mm long, 120 mm high, 60 mm wide
+    "clutch": ("mass: 6 kg", 63.9),
+}
+
+
+@pytest.mark.parametrize("part", MASSES)
+@pytest.mark.parametrize(
+    ("share", "level"), [(0.01, "error"), (0.2, "warning"), (0.6, ""), (1.2, "warning"), (1.6, "error"), (100, "error")]
+)
+def test_a_mass_is_held_against_the_full_steel_body_of_the_part(part: str, share: float, level: str) -> None:
+    typed, full = MASSES[part]
+    level = "" if (part, share) == ("clutch", 0.2) else level  # it has shoes in place of a disc
+    config, problems = changed(typed, f"mass: {full * share:.4g} kg")
+    assert config.parts is not None
+    findings = [each for each in config.parts.findings if each.rule == "mass"]
+    assert [each.level for each in findings] == (["warning"] if level == "warning" else [])
+    assert len(problems) == (level == "error") and ("the full steel body" in " ".join(problems)) == (level == "error")
+
+
+@pytest.mark.parametrize(("width", "level"), [("", "warning"), (", width: 35", ""), (", width: 1000", "error")])
+def test_the_mass_of_a_geneva_wheel_is_held_against_its_width(width: str, level: str) -> None:
+    config, problems = changed(WHEEL, WHEEL.replace("width: 35", f"mass: {13 if not width else 26.2} kg{width}"))
+    assert config.parts is not None and bool(problems) == (level == "error")
+    assert [each.level for each in config.parts.findings if each.rule == "mass"] == (
+        ["warning"] if level == "warning" else []
+    )
 
 
 def cases(name: str) -> list[str]:
