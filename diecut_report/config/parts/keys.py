@@ -48,7 +48,7 @@ class MachineKeys(Block):
     """Keys of ``machine``: what holds for all parts, and the axes of the frame."""
 
     basis: Annotated[Literal["given", "assumed", "measured", "catalogue", "standard", "drawing"] | None,
-        Text("Basis of all numbers without their own")] = None
+        Text("Basis of all numbers without their own; but for assumed only of those that ask for none")] = None
     note: Annotated[str | None, Text("Note on that basis")] = None
     owner: Annotated[str | None, Text("Who closes the open items; default: project.prepared_by")] = None
     shaft_material: Annotated[str | None, Text("Steel of the shafts")] = None

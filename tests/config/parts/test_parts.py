@@ -15,6 +15,7 @@ import pytest
 from diecut_report.config.loader import Config, examined, load_config
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.validation import Basis
 from diecut_report.config.yaml import parse
 from diecut_report.errors import Problem
 from diecut_report.press import Press
@@ -332,6 +333,48 @@ def test_a_mass_counts_in_its_unit_for_the_inertia_of_the_part() -> None:
     assert not problems
     body = grams.tree.data["mechanisms"]["shafts_geneva_body"]["bodies"][0]
     assert body["inertia"] == "${shafts_geneva_body.bodies.0.mass} * (240 mm)**2 / 2"
+
+
+FOUNDED = {
+    "meshes_main_drive": (("face_width",), ("face_load_factor", "transverse_load_factor", "dynamic_factor", "film_factor", "notch_size_factor",
+                                            "alternating_factor", "life_factor_h_1", "life_factor_f_2", "grade", "sigma_h_lim_1", "sigma_f_lim_2")),
+    "train": (("vbelt", "driver_diameter"), ("vbelt.groove_friction", "vbelt.service_factor", "power_per_belt")),
+    "shafts_main": (("sections", 0, "diameter"), ("reliability", "required_fatigue_safety")),
+    "shafts_main_bearings": ((), ("bearings.0.a_iso",)),
+    "shafts_main_wheel_key": (("hub_length",), ("yield_hub", "required_life")),
+}  # fmt: skip
+"""What a drawing founds, and what asks for a basis of its own, by the calculation that it goes to."""
+
+
+def drawn_machine() -> Config:
+    """The example with factors, strengths and dimensions that all rest on one drawing."""
+    factors = "face_load_factor: 1.05, transverse_load_factor: 1.1, dynamic_factor: 1.05, film_factor: 1.05, notch_size_factor: 1.1, "
+    factors += "alternating_factor: 0.9, life_factor_h_1: 1.1, life_factor_f_2: 2, "
+    text = TEXT
+    for old, new in (
+        ("basis: assumed  # of every", "basis: drawing\n  note: layout A  # of every"),
+        ("teeth: 18/87, ", "teeth: 18/87, " + factors),
+        ("length: 2000, ", "length: 2000, groove_friction: 0.6, service_factor: 1.1, power_per_belt: 5 kW, "),
+        ("  main:\n", "  main:\n    reliability: 90 %\n    required_fatigue_safety: 1.2\n"),
+        ('at: 100, designation: "6210"', 'at: 100, designation: "6210", a_iso: 5'),
+    ):  # fmt: skip
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    config, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    assert not problems
+    return config
+
+
+def test_a_drawing_of_the_machine_founds_its_dimensions_alone() -> None:
+    config = drawn_machine()
+    for name, (dimension, others) in FOUNDED.items():
+        instance = config.instances[name]
+        assert instance is not None
+        assert not dimension or instance.bases[dimension] == Basis("drawing", "layout A")
+        for key in others:
+            path = tuple(int(part) if part.isdigit() else part for part in key.split("."))
+            assert instance.value(path) is not None
+            assert path not in instance.bases, (name, key)
 
 
 @pytest.mark.parametrize("mass", ["heavy", "26,5 kg", "${train.flywheel_mass}", "{value: 26 kg, basis: drawing}"])
