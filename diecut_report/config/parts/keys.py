@@ -56,7 +56,7 @@ class MachineKeys(Block):
     gears: Annotated[GearDefaults, Field(default_factory=GearDefaults)]
     required_life: Annotated[float | None, Quantity("L_h", "h", "Required life", gt=0, plausible=("100 h", "1e6 h"))] = None
     stop: Annotated[Literal["ring", "sleeve", "nut", "press"] | None, Text("What holds a part where no shoulder does")] = None
-    service: Annotated[Literal["light", "medium", "heavy"], Text("Service of the belts")] = "heavy"
+    service: Annotated[Literal["light", "medium", "heavy"], Text("Service of the belts; with the hours a day it gives c_2")] = "heavy"
     hours_per_day: Annotated[float, Quantity("", "1", "Hours of service a day", gt=0, le=24)] = 16
     anchor: Annotated[str, Text("Shaft that turns once a sheet")]
     frame: Annotated[Any, Text("Axes of the shafts, NAME: [x, y]")] = None

@@ -8,7 +8,7 @@ from itertools import combinations, pairwise
 from math import pi
 
 from diecut_report.config.parts.demands import first_place, typed_paths
-from diecut_report.config.parts.elements import Elements
+from diecut_report.config.parts.elements import SERVICE_KEYS, Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
 from diecut_report.config.parts.model import (
@@ -506,6 +506,12 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             own = (*path, key)
             if own not in {each[: len(own)] for each in used} | {given for given, _ in elements.twice}:
                 yield finding(parts, "names", "error", own, "goes into no calculation of this part; remove the key")
+    service = [("machine", key) for key in SERVICE_KEYS if key in parts.reader.data["machine"]]
+    if not used.intersection(service):
+        for own in service:
+            yield finding(
+                parts, "names", "error", own, "goes into no calculation, since no V-belt is calculated; remove the key"
+            )
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (

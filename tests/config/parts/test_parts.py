@@ -377,6 +377,43 @@ def test_a_drawing_of_the_machine_founds_its_dimensions_alone() -> None:
             assert path not in instance.bases, (name, key)
 
 
+@pytest.mark.parametrize(
+    ("service", "run_up", "factor"),
+    [
+        ("service: light\n  hours_per_day: 10", "1.8", 1.1),
+        ("service: light\n  hours_per_day: 24", "1.9", 1.3),
+        ("service: medium", "1.6", 1.2),
+        ("service: medium\n  hours_per_day: 16.5", "1.6", 1.3),
+        ("service: heavy\n  hours_per_day: 24", "1.6", 1.4),
+        ("service: heavy\n  hours_per_day: 24", "{value: 1.85, basis: assumed}", 1.6),
+        ("service: heavy\n  hours_per_day: 8", "${train.breakdown_ratio}", 1.4),
+        ("hours_per_day: 24", "1.6", 1.4),
+    ],
+)
+def test_the_service_of_the_machine_gives_the_service_factor_of_its_belts(
+    service: str, run_up: str, factor: float
+) -> None:
+    text = TEXT.replace("  stop: sleeve", f"  {service}\n  stop: sleeve", 1)
+    text = text.replace("    kind: drive_train\n", f"    kind: drive_train\n    run_up_torque_ratio: {run_up}\n", 1)
+    config, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    train = config.instances["train"]
+    assert not problems and train is not None
+    assert train.value(("vbelt", "service_factor")) == factor
+
+
+def test_a_service_that_goes_into_no_belt_is_refused_at_its_place() -> None:
+    service = "  service: light\n  stop: sleeve"
+    _, problems = changed("  stop: sleeve", "  hours_per_day: 25\n  stop: sleeve")
+    assert len(problems) == 1 and "hours_per_day" in problems[0]
+    text = TEXT.replace("  stop: sleeve", service, 1)
+    both = text.replace("length: 2000, ", "length: 2000, service_factor: 1.2, ")
+    (found,) = map(str, examined(parse(both, str(FILE)), DISCOVERY)[1])
+    assert "belts.motor.service_factor" in found and "follows from the parts" in found
+    (belt,) = re.findall(r"^belts: .*\n", text, re.MULTILINE)
+    found = "\n".join(map(str, examined(parse(text.replace(belt, ""), str(FILE)), DISCOVERY)[1]))
+    assert "machine.service: goes into no calculation, since no V-belt is calculated" in found
+
+
 @pytest.mark.parametrize("mass", ["heavy", "26,5 kg", "${train.flywheel_mass}", "{value: 26 kg, basis: drawing}"])
 def test_any_mass_is_read_or_refused_in_words(mass: str) -> None:
     _, problems = changed("key: 63, mass: 26 kg}", f"key: 63, mass: {mass if mass.startswith('{') else repr(mass)}}}")
