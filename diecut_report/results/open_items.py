@@ -20,7 +20,7 @@ from diecut_report.results.model import OpenRecord, SummaryRecord
 from diecut_report.results.origins import assumed, input_path, is_default
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
-from diecut_report.standards.ranges import open_choices, range_of, unranged
+from diecut_report.standards.ranges import asks_basis, open_choices, range_of, unranged
 from diecut_report.text.phrases import Phrase, phrase
 
 FORCES = ("N", "N*m")  # SI units of what a part carries
@@ -123,7 +123,7 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
     beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]
     unsaid = is_unranged and is_limit and not names_something(said.note if said else "")
-    asks = is_unranged or beyond or (usual is not None and usual.needs_basis)
+    asks = beyond or asks_basis(kind, slot.name)
     founded = run.bases.is_founded((instance.name, *slot.key)) and not (beyond or unsaid)
     return "assumed" if is_assumed or (asks and not founded) else None
 

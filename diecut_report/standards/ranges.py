@@ -130,6 +130,12 @@ def unranged(kind: str) -> Mapping[str, str]:
     return {key: phrase(group.reason) for group in groups for key in group.keys.get(kind, ())}
 
 
+def asks_basis(kind: str, path: str) -> bool:
+    """Return whether a value of a key counts as assumed unless it rests on what can be looked up."""
+    usual = range_of(kind, path)
+    return path in unranged(kind) or (usual is not None and usual.needs_basis)
+
+
 @cache
 def open_choices(kind: str) -> Mapping[tuple[str, str], str]:
     """Return the texts of keys of a kind that ask for a basis, each with the reason."""

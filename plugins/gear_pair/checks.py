@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Check, Vary
-from diecut_report.plugins.gear_pair.load_factors import CALCULATED, ISO, KEYS
+from diecut_report.plugins.gear_pair.load_factors import CALCULATED, DYNAMIC_KNOWN, ISO, KEYS, METHOD_C
 from diecut_report.plugins.gear_pair.sizing import MODULES
 
 ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
@@ -22,12 +22,12 @@ def _strength(gear: int) -> tuple[Check, Check]:
     return (
         Check(id=f"pitting_{gear}", check_class="strength", title=f"Pitting of the {name}", demand="required_pitting_safety",
               limit=f"pitting_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING,
-              source="ISO 6336-2:2006", founded=(f"life_factor_h_{gear}",),
+              source="ISO 6336-2:2006", needs=(DYNAMIC_KNOWN,), founded=(f"life_factor_h_{gear}",),
               consequence=f"the flanks of the {name} wear out by pitting; governing load case: {{pitting_case}}.",
               advise=(Vary(f"sigma_h_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
         Check(id=f"root_{gear}", check_class="strength", title=f"Tooth root of the {name}", demand="required_root_safety",
               limit=f"root_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING,
-              source="ISO 6336-3:2006", founded=(f"life_factor_f_{gear}",),
+              source="ISO 6336-3:2006", needs=(DYNAMIC_KNOWN,), founded=(f"life_factor_f_{gear}",),
               consequence=f"teeth of the {name} break at the root; governing load case: {{root_case}}.",
               advise=(Vary(f"sigma_f_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
     )
@@ -66,7 +66,7 @@ CHECKS = (STRENGTH[0][0], STRENGTH[1][0], STRENGTH[0][1], STRENGTH[1][1],
         founded=KEYS, demand_label="number of assumed factors", limit_label="accepted", source=ISO,
         consequence="{assumed_told} are assumed, not calculated; give the grade of accuracy, the speed and the slope of the shafts, with "
                     "which they are calculated, or their values."),
-    Check(id="dynamic_range", check_class="practice", title="Range of the dynamic factor", demand="speed_parameter", limit=3.0, unit="m/s",
+    Check(id="dynamic_range", check_class="practice", title="Range of the dynamic factor", demand="speed_parameter", limit=METHOD_C, unit="m/s",
         severity="warn", only_with=CALCULATED, presumed=True, demand_label="speed", limit_label="end of method C", source="IACS UR M56",
         consequence="method C does not hold near the resonance; give dynamic_factor.", advise=(Vary("speed", "down"),)),
     Check(id="grade_confirmed", check_class="practice", title="Sources of the dynamic factor", demand="grade", limit="grade_confirmed", unit="1",

@@ -21,6 +21,7 @@ from diecut_report.api import (
 )
 from diecut_report.plugins.gear_pair import drawing
 from diecut_report.plugins.gear_pair.checks import GEARS
+from diecut_report.plugins.gear_pair.load_factors import DYNAMIC_KNOWN
 from diecut_report.plugins.gear_pair.sizing import MODULES, SAFETIES, SERIES
 
 TOLD = {"pitting_safety": "flank, ", "root_safety": "root, "}
@@ -89,6 +90,7 @@ FIGURES = (
                 ),
             ),
         ),
+        needs=(DYNAMIC_KNOWN,),
     ),
     Chart(
         id="reserves",
@@ -96,6 +98,7 @@ FIGURES = (
         caption="Ratio of the safety factors of flank and root to the required ones, with other modules of the preferred series and all else "
                 "unchanged; where the centre distance is given, with other face widths.",
         build=reserves,
+        needs=(DYNAMIC_KNOWN,),
     ),
     Plot(
         id="force_over_cycle",
@@ -107,6 +110,6 @@ FIGURES = (
             Panel(title="Tangential force", unit="N", series=(Series(curve="tangential_force_curve", label="F_t"),)),
             Panel(title="Contact stress of the pinion", unit="MPa", series=(Series(curve="contact_stress_curve", label="σ_H1"),)),
         ),
-        needs=("torque_curve",),
+        needs=("torque_curve", DYNAMIC_KNOWN),
     ),
 )  # fmt: skip

@@ -14,6 +14,9 @@ from diecut_report.plugins.gear_pair.mesh import TEETH
 KEYS = ("application_factor", "dynamic_factor", "face_load_factor", "transverse_load_factor")
 CALCULATED = ("grade", "speed")
 """The inputs with which the factors are calculated; the face load factor also with the slope of the shafts."""
+METHOD_C = 3.0  # m/s
+"""The end of method C by the parameter of speed: beyond it the dynamic factor is known only where it is given."""
+DYNAMIC_KNOWN = "dynamic_known"
 BY: dict[str, tuple[str, ...]] = {
     "dynamic_factor": CALCULATED,
     "face_load_factor": (*CALCULATED, "slope"),
@@ -112,14 +115,16 @@ dynamic.value("line_load", "w_A", "N/mm", "Line load with the application factor
     lambda application_factor, tangential_force, face_width: application_factor * tangential_force / face_width, source=ISO)
 dynamic.value("speed_parameter", "X", "m/s", "Speed that the dynamic factor depends on", bind(f.speed_parameter, velocity="pitch_velocity"),
     source=f"{ISO}, 6", lacks=KEYS[1:2])
+dynamic.fact(DYNAMIC_KNOWN, bind(lambda speed_parameter, end: speed_parameter / f.METRE_PER_SECOND <= end, end=METHOD_C),
+    "not calculated: so fast teeth come near their resonance, where method C does not hold; give dynamic_factor", lacks=KEYS[1:2])
 dynamic.value("k_1", "K_1", "N/mm", "Coefficient of the dynamic factor, of the grade", bind(f.of_overlap, spur="k_1_spur", helical="k_1_helical"),
     source=f"{ISO}, 6", output=False, lacks=KEYS[1:2])
 dynamic.value("k_2", "K_2", "1", "Coefficient of the dynamic factor, of the speed", bind(f.of_overlap, spur=0.0193, helical=0.0087),
     source=f"{ISO}, 6", output=False, lacks=KEYS[1:2])
-dynamic.value("dynamic_factor", "K_V", "1", "Dynamic factor", f.dynamic_factor, source=f"{ISO}, 6", lacks=KEYS[1:2])
+dynamic.value("dynamic_factor", "K_V", "1", "Dynamic factor", f.dynamic_factor, source=f"{ISO}, 6", needs=(DYNAMIC_KNOWN,), lacks=KEYS[1:2])
 dynamic.value("mesh_stiffness", "c_γα", "N/(mm*um)", "Mesh stiffness", bind(f.mesh_stiffness, stiffness="tooth_stiffness"), source=f"{ISO}, 9")
 
-face = Chapter("Distribution of the load over the face width", needs=BY["face_load_factor"],
+face = Chapter("Distribution of the load over the face width", needs=(*BY["face_load_factor"], DYNAMIC_KNOWN),
     text="The misalignment under load is that of the shafts, which bend and thereby stand askew in the plane of action; the twist and bending of the "
         "pinion's own body, which ISO adds, are left out.")
 GIVEN: dict[str, Any] = {"lacks": ("face_load_factor",)}
@@ -149,7 +154,7 @@ face.value("opening", "ρ_β", "1", "Half the ratio of the load that the misalig
     source=f"{ISO}, 7", output=False, **GIVEN)
 face.value("face_load_factor", "K_Hβ", "1", "Face load factor for contact stress", f.face_load_factor, source=f"{ISO}, 7", **GIVEN)
 
-transverse = Chapter("Distribution of the load over the teeth in mesh", needs=CALCULATED,
+transverse = Chapter("Distribution of the load over the teeth in mesh", needs=(*CALCULATED, DYNAMIC_KNOWN),
     text="Method B. The base pitch deviation is taken as that of the pitch of the wheel, which is on the safe side.")
 TYPED: dict[str, Any] = {"lacks": ("transverse_load_factor",)}
 transverse.value("pitch_deviation", "f_pb", "um", "Base pitch deviation", bind(f.pitch_deviation, diameter="pitch_diameter_2"),

@@ -7,6 +7,7 @@ import numpy as np
 from diecut_report.api import Chapter, as_number, bind
 from diecut_report.mechanics import drive_line
 from diecut_report.plugins.gear_pair import formulas as f
+from diecut_report.plugins.gear_pair.load_factors import DYNAMIC_KNOWN
 from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, ISO_21771, TEETH
 
 # fmt: off
@@ -15,6 +16,7 @@ PITTING, ROOT, STATICS = "ISO 6336-2:2006", "ISO 6336-3:2006", "statics"
 FACTORS = {"application": "application_factor", "dynamic": "dynamic_factor"}
 FOR_FLANK = FACTORS | {"face": "face_load_factor", "transverse": "transverse_load_factor"}
 FOR_ROOT = FACTORS | {"face": "face_load_root", "transverse": "transverse_load_root"}
+RATED = (DYNAMIC_KNOWN,)
 
 sizes = Chapter("Dimensions")
 for g, teeth in TEETH.items():
@@ -112,10 +114,10 @@ for g, teeth in TEETH.items():
         bind(f.contact_factor, single_contact=f"single_contact_{g}"), source=f"{PITTING}, 6")
     pitting.value(f"contact_stress_{g}", f"σ_H{g}", "MPa", f"Contact stress of gear {g}",
         bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", **FOR_FLANK),
-        source=f"{PITTING}, 5")
+        source=f"{PITTING}, 5", needs=RATED)
     pitting.value(f"pitting_safety_{g}", f"S_H{g}", "1", f"Safety factor of gear {g} against pitting",
         bind(f.pitting_safety, limit=f"sigma_h_lim_{g}", life=f"life_factor_h_{g}", film="film_factor", stress=f"contact_stress_{g}"),
-        source=f"{PITTING}, 5")
+        source=f"{PITTING}, 5", needs=RATED)
 
 root_stress = Chapter("Tooth root",
     text="Method B: the load acts at the outer point of single pair tooth contact, Y_ε does not occur; Y_B = Y_DT = 1.")
@@ -125,7 +127,7 @@ root_stress.value("face_to_height", "r", "1", "Ratio of face width to tooth dept
     lambda face_width, tooth_height: np.maximum(face_width / tooth_height, 3), source="ISO 6336-1", output=False)
 root_stress.value("face_load_root", "K_Fβ", "1", "Face load factor for tooth root stress",
     lambda face_load_factor, face_to_height: face_load_factor ** (face_to_height**2 / (1 + face_to_height + face_to_height**2)),
-    source="ISO 6336-1, 7")
+    source="ISO 6336-1, 7", needs=RATED)
 root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor for tooth root stress",
     lambda overlap_ratio, helix_angle: 1 - np.minimum(overlap_ratio, 1) * helix_angle / (2 * np.pi / 3), source=f"{ROOT}, 8")
 for g in TEETH:
@@ -134,10 +136,11 @@ for g in TEETH:
                 force * form_factor * stress_factor * helix_factor / (face_width * module), force="root_force", form_factor=f"form_factor_{g}",
             stress_factor=f"stress_factor_{g}", helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
     root_stress.value(f"root_stress_{g}", f"σ_F{g}", "MPa", f"Tooth root stress of gear {g}",
-        bind(f.root_stress, nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5")
+        bind(f.root_stress, nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5", needs=RATED)
     root_stress.value(f"root_safety_{g}", f"S_F{g}", "1", f"Safety factor of gear {g} against tooth breakage",
         bind(lambda limit, life, notch, alternating, stress: 2 * limit * life * notch * alternating / stress, limit=f"sigma_f_lim_{g}",
-            life=f"life_factor_f_{g}", notch="notch_size_factor", alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5")
+            life=f"life_factor_f_{g}", notch="notch_size_factor", alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5",
+        needs=RATED)
 
 over_cycle = Chapter("Forces over the cycle", needs=("torque_curve",))
 over_cycle.value("tangential_force_curve", "F_tφ", "N", "Tangential force at the reference circle, with the sign of the torque",
@@ -146,7 +149,7 @@ over_cycle.value("nominal_contact_curve", "σ_H0φ", "MPa", "Nominal contact str
     bind(f.nominal_contact_stress, force="tangential_force_curve", diameter="pitch_diameter_1"), source=f"{PITTING}, 5", output=False)
 over_cycle.value("contact_stress_curve", "σ_H1φ", "MPa", "Contact stress of the pinion",
     bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", **FOR_FLANK),
-    source=f"{PITTING}, 5")
+    source=f"{PITTING}, 5", needs=RATED)
 
 sector = Chapter("Sector", needs=("sector",), absent="sector is not given: the wheel makes full revolutions",
     text="The maximum torque is assumed to act at any position in the mesh, on every tooth of the sector.")

@@ -31,13 +31,14 @@ CHAPTERS = (
 
 def _rating() -> tuple[tuple[frozenset[str], Value], ...]:
     """The steps of the rating that the safeties follow from, in their order, each with the inputs that it needs."""
+    known = {load_factors.DYNAMIC_KNOWN}
     steps = [
         (frozenset(chapter.needs), step) for chapter in CHAPTERS for step in chapter.steps if isinstance(step, Value)
     ]
     wanted = set(SAFETIES)
     for _, step in reversed(steps):
         wanted |= {name for name in step.takes() if isinstance(name, str)} if step.id in wanted else set()
-    return tuple((needs | set(step.needs), step) for needs, step in steps if step.id in wanted)
+    return tuple((needs.union(step.needs) - known, step) for needs, step in steps if step.id in wanted)
 
 
 RATING = _rating()
@@ -62,6 +63,7 @@ def least_module(given: Mapping[str, Any]) -> Any:
         if needs <= given.keys() and not given.keys() & step.lacks:
             known[step.id] = _value(step, known)
     held = np.all([known[name] >= known[required] for name, required in SAFETIES.items()], axis=0)
+    held &= known.get("speed_parameter", 0.0) <= load_factors.METHOD_C
     first = SERIES[np.argmax(held, axis=1)]
     return np.where(held.any(axis=1), first, 0.0)[:, None]
 
@@ -82,7 +84,8 @@ module.computed("module_least", "m_min", "mm", "Smallest sufficient preferred mo
     method="the safety factors for pitting and tooth root below, with each module of ISO 54, series I, in turn; 0 where none is sufficient",
     lacks=GIVEN_DISTANCE, output=False)
 module.require("module_exists", lambda module_least: module_least > 0, key="face_width", lacks=("module",),
-    message="is {face_width}, with which no module of ISO 54 carries the torque; better steel or a smaller torque helps",
+    message="is {face_width}, with which no module of ISO 54 carries the torque at a speed for which the dynamic factor is known; better steel, a "
+        "smaller torque or a given dynamic_factor helps",
     advise=(Vary("face_width", "up"),))
 module.pick("module", "m_n", "mm", "Normal module: the smallest sufficient one", "above", of="module_least", series=MODULES, lacks=("module",),
     source="ISO 54")

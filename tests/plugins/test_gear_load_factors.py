@@ -5,12 +5,14 @@ from __future__ import annotations
 from math import cos, degrees, pi, sqrt
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import varied
 from tests.examples import examples
 from tests.machines import number
 from tests.plugins.gears import GRADED, HELICAL, SIZED_BY_GRADE, STEEL, checks, pair
@@ -204,9 +206,48 @@ def test_method_c_ends_at_a_speed() -> None:
     assert checks(pair(GRADED))["dynamic_range"].status == "pass"
     fast = pair(GRADED, speed=2500)
     assert number(fast, "speed_parameter") > 3 and checks(fast)["dynamic_range"].status == "warn"
+    assert number(pair(GRADED, speed=2200), "speed_parameter") == pytest.approx(2.97, abs=0.01)
     assert "dynamic_range" not in checks(
         pair(STEEL | {"module": 4, "teeth_1": 24, "teeth_2": 61, "face_width": 40, "torque": 200})
     )
+
+
+RATED = ("pitting_1", "pitting_2", "root_1", "root_2")
+
+
+@pytest.mark.parametrize("speed", [2500, 6000, 40_000])
+def test_beyond_method_c_the_teeth_are_not_rated_until_the_dynamic_factor_is_given(speed: float) -> None:
+    fast = pair(GRADED, speed=speed)
+    assert not {*FACTORS, "pitting_safety_1", "root_safety_1"} & fast.values.keys()
+    for check in (checks(fast)[name] for name in RATED):
+        assert check.status == "not_checked" and "dynamic_factor" in check.message
+    known = pair(GRADED, speed=speed, dynamic_factor=1.4)
+    assert number(known, "face_load_factor") > 1 and number(known, "transverse_load_factor") >= 1
+    assert all(checks(known)[name].status != "not_checked" for name in RATED)
+
+
+@given(st.floats(1, 1e5), st.integers(3, 11), st.sampled_from([0, 6, 25]), st.floats(1, 5000))
+@examples(40)
+def test_a_calculated_dynamic_factor_is_never_below_1(speed: float, grade: int, helix: float, torque: float) -> None:
+    calc = pair(GRADED, speed=speed, grade=grade, helix_angle=helix, torque=torque)
+    assert ("dynamic_factor" in calc.values) == (number(calc, "speed_parameter") <= 3)
+    assert "dynamic_factor" not in calc.values or number(calc, "dynamic_factor") >= 1
+
+
+def test_a_module_is_not_chosen_for_which_the_dynamic_factor_is_unknown() -> None:
+    keys = {key: value for key, value in GRADED.items() if key != "module"} | {"torque": 5000, "speed": 3000}
+    with pytest.raises(Impossible, match="dynamic_factor"):
+        pair(keys)
+    assert number(pair(keys, dynamic_factor=1.3), "module") > 0
+
+
+def test_other_modules_with_which_the_teeth_are_too_fast_have_no_safety() -> None:
+    slow = pair(GRADED, speed=1500)
+    module = np.array([4e-3, 5e-3, 8e-3, 20e-3])
+    found = varied(slow, {"module": module}, ["pitting_safety_1", "root_safety_2"])
+    for safeties in found.values():
+        assert list(np.isfinite(safeties)) == [True, True, False, False]
+    assert np.isnan(varied(slow, {"module": module[2:]}, ["pitting_safety_1"])["pitting_safety_1"]).all()
 
 
 def test_a_slope_to_either_side_opens_the_teeth_alike() -> None:

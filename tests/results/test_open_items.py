@@ -55,6 +55,29 @@ def test_a_given_value_that_asks_for_a_basis_counts_as_assumed(tmp_path: Path, h
     assert values(tmp_path, HEAD + KEY % hub).get("mechanisms.k.yield_hub") == what
 
 
+GEARS = """\
+  g: {kind: gear_pair, module: 4 mm, teeth_1: 24, teeth_2: 61, face_width: 40 mm, torque: 200 N*m, sigma_h_lim_1: 767 MPa, sigma_h_lim_2: 767 MPa,
+      sigma_f_lim_1: 314 MPa, sigma_f_lim_2: 314 MPa, %s: %s}
+"""
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("life_factor_h_1", 1.1),
+        ("life_factor_f_2", 2),
+        ("alternating_factor", 0.9),
+        ("film_factor", 1.05),
+        ("grade", 6),
+    ],
+)
+def test_a_factor_in_place_of_that_of_the_method_asks_for_a_basis(tmp_path: Path, key: str, value: float) -> None:
+    path = f"mechanisms.g.{key}"
+    assert values(tmp_path, HEAD + GEARS % (key, value)).get(path) == "assumed"
+    drawn = f"{{value: {value}, basis: drawing}}"
+    assert values(tmp_path, HEAD + GEARS % (key, drawn)).get(path) is None
+
+
 @pytest.mark.parametrize(("allowed", "what"), [("0.4 MPa", None), ("1.5 MPa", "assumed")])
 def test_what_is_allowed_beyond_its_usual_range_is_never_founded(
     tmp_path: Path, allowed: str, what: str | None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -234,3 +235,27 @@ def test_machines_with_unlike_numbers_of_samples_have_the_curves_that_they_ask_f
     assert [len(values) for values in rows.columns["drive.crank_torque"]] == [90, 180, 90]
     peaks = rows.columns["drive.crank_torque_peak"]
     np.testing.assert_allclose(peaks, peaks[0], rtol=1e-12)
+
+
+def test_gears_of_which_some_are_too_fast_for_their_method_are_rated_as_each_alone(tmp_path: Path) -> None:
+    file = tmp_path / "gears.yaml"
+    text = next(path for path in EXAMPLES if path.name == "circular_knife.yaml").read_text(encoding="utf-8")
+    data = yaml.safe_load(text) | {
+        "mechanisms": {
+            "pair": {
+                "kind": "gear_pair", "module": "4 mm", "teeth_1": 30, "teeth_2": 60, "face_width": "40 mm", "torque": "300 N*m", "speed": "1500 rpm",
+                "grade": 6, "slope": "0.1 mrad", "sigma_h_lim_1": "767 MPa", "sigma_h_lim_2": "767 MPa", "sigma_f_lim_1": "314 MPa",
+                "sigma_f_lim_2": "314 MPa",
+            }
+        }
+    }  # fmt: skip
+    file.write_text(yaml.safe_dump(data), encoding="utf-8")
+    base, path = load_config(file, Discovery([])), "mechanisms.pair.speed"
+    speeds = np.array([1000.0, 2500.0, 9000.0, 40_000.0]) * math.pi / 30
+    rows = together(base, {path: speeds}, len(speeds))
+    for row, speed in enumerate(speeds):
+        found = alone(base, {path: float(speed)})
+        assert not isinstance(found, str)
+        assert rows.status[row] == found["status"], rows.errors[row]
+        _same_numbers(rows, row, found)
+        assert math.isnan(rows.columns["pair.pitting_safety_1"][row]) == (row > 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Any
 
 from diecut_report.config.parts.demands import Element, Ratio, TypedNumber, TypedValue, millimetres
@@ -16,6 +17,11 @@ OF_CHAIN = frozenset({
     "pitch", "mass_per_length", "center_distance", "speed", "torque", "torque_curve", "power", "acceleration_curve", "velocity_curve",
 })  # fmt: skip
 """Keys of calculations that follow from the parts also where they are not filled in: by the places of the axes, the chain, what moves it."""
+SERVICE_KEYS = ("service", "hours_per_day")
+SERVICE_FACTORS = {"light": ((1.1, 1.1, 1.2), (1.1, 1.2, 1.3)), "medium": ((1.1, 1.2, 1.3), (1.2, 1.3, 1.4)),
+                   "heavy": ((1.2, 1.3, 1.4), (1.4, 1.5, 1.6))}  # fmt: skip
+"""Factor c₂ of V-belts (Optibelt) for up to 10, up to 16 and more hours a day; the second row for a run-up torque above HIGH_RUN_UP."""
+HIGH_RUN_UP = 1.8  # times the motor's rated torque
 
 
 class Elements(ShaftElements):
@@ -284,6 +290,8 @@ class Elements(ShaftElements):
         if distance is not None:
             vbelt["center_distance"] = TypedNumber(millimetres(distance), ("machine", "frame"))
         vbelt |= {key: TypedValue((*path, key)) for key in ("count", "tension") if getattr(keys, key) is not None}
+        if typed := [key for key in SERVICE_KEYS if key in self._raw(("machine",))]:
+            vbelt["service_factor"] = TypedNumber(f"{self._service_factor(train):g}", ("machine", typed[0]))
         more = (key for key in join.more if key != "power_per_belt")
         vbelt |= self._beside(vbelt, more, path, ("machine",), {"center_distance"})
         fills: dict[str, Any] = {"vbelt": vbelt, "gears": self._train_gears(join.driven[0].shaft.name)}
@@ -293,6 +301,14 @@ class Elements(ShaftElements):
         if motor.keys.motor is not None:
             fills["motor_speed"] = TypedValue((*motor.path, "motor", "speed"))
         self.fills.setdefault(train, {}).update(fills)
+
+    def _service_factor(self, train: str) -> float:
+        """The factor on the motor's power for the belts: the greater one where the run-up torque is not a number of the file."""
+        keys, run_up = self.parts.keys, "run_up_torque_ratio"
+        usual = self.of_kind["drive_train"].inputs.model_fields[run_up].default
+        is_typed = run_up in self._raw(("mechanisms", train))
+        ratio = self.parts.reader.typed_block(train).get(run_up, inf) if is_typed else usual
+        return SERVICE_FACTORS[keys.service][ratio > HIGH_RUN_UP][(keys.hours_per_day > 10) + (keys.hours_per_day > 16)]
 
     def _train_gears(self, shaft: str) -> list[dict[str, Any]]:
         """The gear pairs from the flywheel's shaft to the main one."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from diecut_report.config.parts.demands import Element, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.elements import Elements
@@ -16,9 +16,11 @@ from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts, MachineShaft
 from diecut_report.config.parts.reading import PartsReader
 from diecut_report.config.parts.rules import coherence
+from diecut_report.config.validation import ASSUMED
 from diecut_report.config.yaml import KeyPath, Tree, YamlNode, with_root
 from diecut_report.errors import Problem
 from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.standards.ranges import asks_basis
 
 REFERENCE = re.compile(r"\$\{\s*((?:" + "|".join(WORDS) + r")\.[^${}]*?)\s*\}")
 SINGLE = re.compile(r"\$\{[^${}]*\}")
@@ -86,6 +88,17 @@ def _without(tree: Tree) -> Tree:
     return with_root(tree, replace(tree.root, children=children))
 
 
+class _Key(NamedTuple):
+    """Hold the input that a value is given to: the kind of mechanism, and the key without places in lists."""
+
+    kind: str
+    name: str = ""
+
+    def within(self, name: str) -> _Key:
+        """Return a key of the block that stands there."""
+        return _Key(self.kind, f"{self.name}.{name}".lstrip("."))
+
+
 class _Writer:
     """Writes calculations into the tree of a file."""
 
@@ -100,46 +113,53 @@ class _Writer:
         blocks: dict[str | int, YamlNode] = dict(mechanisms.children or {})
         for name, fills in self.elements.fills.items():
             if name in blocks:
-                blocks[name] = self._filled(blocks[name], fills)
+                blocks[name] = self._filled(blocks[name], fills, _Key(self.parts.mechanisms[name]))
         for element in made:
-            blocks[element.name] = self._node({"kind": element.kind} | element.inputs, element.path)
+            blocks[element.name] = self._node({"kind": element.kind} | element.inputs, element.path, _Key(element.kind))
         positions = mechanisms.key_positions | {each.name: self.tree.key_position(each.path) for each in made}
         home = replace(mechanisms, children=blocks, key_positions=positions)
         children = {key: node for key, node in (root.children or {}).items() if key not in WORDS} | {"mechanisms": home}
         return with_root(self.tree, self._resolved(replace(root, children=children)))
 
-    def _filled(self, block: YamlNode, fills: Mapping[str, Any]) -> YamlNode:
+    def _filled(self, block: YamlNode, fills: Mapping[str, Any], home: _Key) -> YamlNode:
         """A mechanism's block with what the parts give it; what it gives itself stays."""
         children: dict[str | int, YamlNode] = dict(block.children or {})
         for key, value in fills.items():
-            children.setdefault(key, self._node(value, ("machine",)))
+            children.setdefault(key, self._node(value, ("machine",), home.within(key)))
         return replace(block, children=children)
 
-    def _node(self, value: Any, path: KeyPath) -> YamlNode:
+    def _node(self, value: Any, path: KeyPath, key: _Key) -> YamlNode:
         position = self.tree.position(path)
         match value:
             case TypedValue(path=there):
-                return self._based(self.tree.node(there), self.tree.position(there))
+                return self._based(self.tree.node(there), self.tree.position(there), key)
             case TypedNumber(text=text, path=there):
                 place = self.tree.position(there)
-                return self._based(YamlNode(place, text, text), place)
+                return self._based(YamlNode(place, text, text), place, key)
             case dict():
-                children: dict[str | int, YamlNode] = {key: self._node(part, path) for key, part in value.items()}
+                children: dict[str | int, YamlNode] = {
+                    name: self._node(part, path, key.within(name)) for name, part in value.items()
+                }
                 return YamlNode(position, children=children, key_positions=dict.fromkeys(children, position))
             case list():
                 return YamlNode(
-                    position, children={index: self._node(part, path) for index, part in enumerate(value)}, is_list=True
+                    position,
+                    children={index: self._node(part, path, key) for index, part in enumerate(value)},
+                    is_list=True,
                 )
             case bool():
                 return YamlNode(position, value, str(value).lower())
         return YamlNode(position, value, str(value))
 
-    def _based(self, node: YamlNode, place: tuple[int, int]) -> YamlNode:
-        """A typed number with the basis of all parts, where it does not say its own."""
+    def _based(self, node: YamlNode, place: tuple[int, int], key: _Key) -> YamlNode:
+        """A typed number with the basis of all parts, where it does not say its own.
+
+        A drawing of the machine founds its dimensions alone: what asks for a basis (a strength, a factor of a method) has its own or none.
+        """
         basis, note = self.parts.keys.basis, self.parts.keys.note
         number = isinstance(node.scalar, int | float) and not isinstance(node.scalar, bool)
         is_quantity = number or (isinstance(node.scalar, str) and node.scalar[:1].isdigit() and " " in node.scalar)
-        if basis is None or not is_quantity:
+        if basis is None or not is_quantity or (basis != ASSUMED and asks_basis(key.kind, key.name)):
             return node
         children: dict[str | int, YamlNode] = {"value": node, "basis": YamlNode(place, basis, basis)}
         if note:

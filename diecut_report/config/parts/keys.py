@@ -48,7 +48,7 @@ class MachineKeys(Block):
     """Keys of ``machine``: what holds for all parts, and the axes of the frame."""
 
     basis: Annotated[Literal["given", "assumed", "measured", "catalogue", "standard", "drawing"] | None,
-        Text("Basis of all numbers without their own")] = None
+        Text("Basis of all numbers without their own; but for assumed only of those that ask for none")] = None
     note: Annotated[str | None, Text("Note on that basis")] = None
     owner: Annotated[str | None, Text("Who closes the open items; default: project.prepared_by")] = None
     shaft_material: Annotated[str | None, Text("Steel of the shafts")] = None
@@ -56,7 +56,7 @@ class MachineKeys(Block):
     gears: Annotated[GearDefaults, Field(default_factory=GearDefaults)]
     required_life: Annotated[float | None, Quantity("L_h", "h", "Required life", gt=0, plausible=("100 h", "1e6 h"))] = None
     stop: Annotated[Literal["ring", "sleeve", "nut", "press"] | None, Text("What holds a part where no shoulder does")] = None
-    service: Annotated[Literal["light", "medium", "heavy"], Text("Service of the belts")] = "heavy"
+    service: Annotated[Literal["light", "medium", "heavy"], Text("Service of the belts; with the hours a day it gives c_2")] = "heavy"
     hours_per_day: Annotated[float, Quantity("", "1", "Hours of service a day", gt=0, le=24)] = 16
     anchor: Annotated[str, Text("Shaft that turns once a sheet")]
     frame: Annotated[Any, Text("Axes of the shafts, NAME: [x, y]")] = None

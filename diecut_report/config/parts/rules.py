@@ -8,7 +8,7 @@ from itertools import combinations, pairwise
 from math import pi
 
 from diecut_report.config.parts.demands import first_place, typed_paths
-from diecut_report.config.parts.elements import Elements
+from diecut_report.config.parts.elements import SERVICE_KEYS, Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
 from diecut_report.config.parts.masses import wheel_section
@@ -549,6 +549,12 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
         if "efficiency" in typed and own not in {each[: len(own)] for each in used}:
             template = "goes into no calculation, as no torque on this pair is known by which way the power flows; remove the key"
             yield finding(parts, "names", "error", own, template)
+    service = [("machine", key) for key in SERVICE_KEYS if key in parts.reader.data["machine"]]
+    if not used.intersection(service):
+        for own in service:
+            yield finding(
+                parts, "names", "error", own, "goes into no calculation, since no V-belt is calculated; remove the key"
+            )
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (

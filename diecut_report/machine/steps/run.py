@@ -280,12 +280,16 @@ def calculate(
 
 
 def varied(calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str]) -> dict[str, Array]:
-    """Return numbers for other inputs, each of shape (variants,); NaN where the machine is then impossible."""
+    """Return numbers for other inputs, each of shape (variants,); NaN where the machine is then impossible, or does not have them."""
     count = max((np.size(value) for value in inputs.values() if not isinstance(value, str)), default=1)
     again = recalculated(calc, _spread(inputs, count), count, names)
     if again is None:
         return {name: np.full(count, np.nan) for name in names}
-    return {name: np.where(again.possible, again[name][:, 0], np.nan) for name in names}
+    known = {name: again.possible & ~soundness.without(again, name)[0] for name in names}
+    return {
+        name: np.where(known[name], again[name][:, 0], np.nan) if known[name].any() else np.full(count, np.nan)
+        for name in names
+    }
 
 
 def _spread(inputs: Mapping[str, Any], count: int) -> dict[str, Any]:
@@ -334,10 +338,12 @@ def _asked_again(
     calc: Calculation, inputs: Mapping[str, Any], changed: Mapping[str, Any], names: Sequence[str] | None
 ) -> tuple[Container[str] | None, Iterable[str]]:
     """The steps that must run again, all where it is None, and the numbers that stay, where the changed inputs switch no step."""
-    given = frozenset(inputs) | texts_given(inputs)
+    given = (
+        frozenset(inputs) | texts_given(inputs) | calc.mechanism.facts
+    )  # which they may meet even if the first machine does not
     if names is None:
         return None, ()
-    if calc.count > 1 or calc.is_partial or given | calc.mechanism.facts != calc.given:
+    if calc.count > 1 or calc.is_partial or given != calc.given:
         return needed(calc.mechanism, given, names), ()
     single = (name for name, value in calc.values.items() if value.shape == (1, 1) and value.dtype != object)
     numbers = frozenset(name for name in single if name not in calc.axis)

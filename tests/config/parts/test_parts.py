@@ -15,6 +15,7 @@ import pytest
 from diecut_report.config.loader import Config, examined, load_config
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.validation import Basis
 from diecut_report.config.yaml import parse
 from diecut_report.errors import Problem, UserError
 from diecut_report.press import Press
@@ -477,6 +478,85 @@ def test_a_mass_counts_in_its_unit_for_the_inertia_of_the_part() -> None:
     assert not problems
     body = grams.tree.data["mechanisms"]["shafts_geneva_body"]["bodies"][0]
     assert body["inertia"] == "${shafts_geneva_body.bodies.0.mass} * (240 mm)**2 / 2"
+
+
+FOUNDED = {
+    "meshes_main_drive": (("face_width",), ("face_load_factor", "transverse_load_factor", "dynamic_factor", "film_factor", "notch_size_factor",
+                                            "alternating_factor", "life_factor_h_1", "life_factor_f_2", "grade", "sigma_h_lim_1", "sigma_f_lim_2")),
+    "train": (("vbelt", "driver_diameter"), ("vbelt.groove_friction", "vbelt.service_factor", "power_per_belt")),
+    "shafts_main": (("sections", 0, "diameter"), ("reliability", "required_fatigue_safety")),
+    "shafts_main_bearings": ((), ("bearings.0.a_iso",)),
+    "shafts_main_wheel_key": (("hub_length",), ("yield_hub", "required_life")),
+}  # fmt: skip
+"""What a drawing founds, and what asks for a basis of its own, by the calculation that it goes to."""
+
+
+def drawn_machine() -> Config:
+    """The example with factors, strengths and dimensions that all rest on one drawing."""
+    factors = "face_load_factor: 1.05, transverse_load_factor: 1.1, dynamic_factor: 1.05, film_factor: 1.05, notch_size_factor: 1.1, "
+    factors += "alternating_factor: 0.9, life_factor_h_1: 1.1, life_factor_f_2: 2, "
+    text = TEXT
+    for old, new in (
+        ("basis: assumed  # of every", "basis: drawing\n  note: layout A  # of every"),
+        ("teeth: 18/87, ", "teeth: 18/87, " + factors),
+        ("length: 2000, ", "length: 2000, groove_friction: 0.6, service_factor: 1.1, power_per_belt: 5 kW, "),
+        ("  main:\n", "  main:\n    reliability: 90 %\n    required_fatigue_safety: 1.2\n"),
+        ('at: 100, designation: "6210"', 'at: 100, designation: "6210", a_iso: 5'),
+    ):  # fmt: skip
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    config, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    assert not problems
+    return config
+
+
+def test_a_drawing_of_the_machine_founds_its_dimensions_alone() -> None:
+    config = drawn_machine()
+    for name, (dimension, others) in FOUNDED.items():
+        instance = config.instances[name]
+        assert instance is not None
+        assert not dimension or instance.bases[dimension] == Basis("drawing", "layout A")
+        for key in others:
+            path = tuple(int(part) if part.isdigit() else part for part in key.split("."))
+            assert instance.value(path) is not None
+            assert path not in instance.bases, (name, key)
+
+
+@pytest.mark.parametrize(
+    ("service", "run_up", "factor"),
+    [
+        ("service: light\n  hours_per_day: 10", "1.8", 1.1),
+        ("service: light\n  hours_per_day: 24", "1.9", 1.3),
+        ("service: medium", "1.6", 1.2),
+        ("service: medium\n  hours_per_day: 16.5", "1.6", 1.3),
+        ("service: heavy\n  hours_per_day: 24", "1.6", 1.4),
+        ("service: heavy\n  hours_per_day: 24", "{value: 1.85, basis: assumed}", 1.6),
+        ("service: heavy\n  hours_per_day: 8", "${train.breakdown_ratio}", 1.4),
+        ("hours_per_day: 24", "1.6", 1.4),
+    ],
+)
+def test_the_service_of_the_machine_gives_the_service_factor_of_its_belts(
+    service: str, run_up: str, factor: float
+) -> None:
+    text = TEXT.replace("  stop: sleeve", f"  {service}\n  stop: sleeve", 1)
+    text = text.replace("    kind: drive_train\n", f"    kind: drive_train\n    run_up_torque_ratio: {run_up}\n", 1)
+    config, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    train = config.instances["train"]
+    assert not problems and train is not None
+    assert train.value(("vbelt", "service_factor")) == factor
+
+
+def test_a_service_that_goes_into_no_belt_is_refused_at_its_place() -> None:
+    service = "  service: light\n  stop: sleeve"
+    _, problems = changed("  stop: sleeve", "  hours_per_day: 25\n  stop: sleeve")
+    assert len(problems) == 1 and "hours_per_day" in problems[0]
+    text = TEXT.replace("  stop: sleeve", service, 1)
+    both = text.replace("length: 2000, ", "length: 2000, service_factor: 1.2, ")
+    (found,) = map(str, examined(parse(both, str(FILE)), DISCOVERY)[1])
+    assert "belts.motor.service_factor" in found and "follows from the parts" in found
+    (belt,) = re.findall(r"^belts: .*\n", text, re.MULTILINE)
+    found = "\n".join(map(str, examined(parse(text.replace(belt, ""), str(FILE)), DISCOVERY)[1]))
+    assert "machine.service: goes into no calculation, since no V-belt is calculated" in found
 
 
 @pytest.mark.parametrize("mass", ["heavy", "26,5 kg", "${train.flywheel_mass}", "{value: 26 kg, basis: drawing}"])
