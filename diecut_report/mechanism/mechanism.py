@@ -192,8 +192,8 @@ class Port:
     ``speed`` is the input with the speed of one that turns. ``joint`` are the force in the joint of its pin and the angle that the joint's
     parts turn by, nothing where they turn with the shaft. ``advance`` is the input whose reciprocal is the part of a revolution by which a
     shaft that turns in steps has moved on after a cycle. ``radius`` are the numbers whose product is the distance of the part's pin, or of the
-    mouths of its slots, from the shaft's axis. ``fills`` gives inputs of the mechanism by what the shaft's join provides: ratio, pinion_radius,
-    teeth, pitch, inertia, and by the shafts' own: own_inertia, driven_inertia.
+    mouths of its slots, from the shaft's axis. ``fills`` gives inputs of the mechanism by what the shaft's join provides: ratio, efficiency,
+    pinion_radius, teeth, pitch, inertia, and by the shafts' own: own_inertia, driven_inertia.
     """
 
     name: str

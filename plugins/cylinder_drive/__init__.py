@@ -30,7 +30,8 @@ MECHANISM = Mechanism(
              joint=("coupler_force", ""), radius=("crank_length",)),
         Port(name="rocker", torque="rocker_torque", forces=("crank_bearing_force_x", "crank_bearing_force_y"), opposite=True, angle="rocker_angle",
              acceleration="rocker_acceleration", joint=("coupler_force", "transmission_angle"), radius=("rocker_ratio", "crank_length"),
-             fills={"sector_ratio": "ratio", "pinion_radius": "pinion_radius", "pinion_inertia": "driven_inertia", "rocker_inertia": "own_inertia"}),
+             fills={"sector_ratio": "ratio", "pinion_radius": "pinion_radius", "pinion_inertia": "driven_inertia", "rocker_inertia": "own_inertia",
+                    "efficiency_sector": "efficiency"}),
     ),
     checks=(
         Check(id="grashof", check_class="function", title="Crank-rocker (Grashof)",

@@ -28,14 +28,16 @@ MECHANISM = Mechanism(
         Port(name="crank", torque="torque", forces=("crank_force_x", "crank_force_y"), speed="crank_speed", radius=("crank_radius",)),
         Port(name="wheel", torque="wheel_acceleration", forces=("crank_force_x", "crank_force_y"), opposite=True, angle="wheel_angle",
              backwards=True, acceleration="wheel_acceleration", advance="slots", radius=("wheel_radius",),
-             fills={"gear_ratio": "ratio", "sprocket_teeth": "teeth", "chain_pitch": "pitch", "driven_inertia": "inertia"}),
+             fills={"gear_ratio": "ratio", "sprocket_teeth": "teeth", "chain_pitch": "pitch", "driven_inertia": "inertia",
+                    "own_inertia": "own_inertia", "efficiency": "efficiency"}),
     ),
     checks=CHECKS,
     figures=FIGURES,
     comparisons=(COMPARED,),
     assumptions=(
         "The crank turns at constant speed; crank, roller, slots and shafts are rigid; the slots are as wide as the roller.",
-        "Torque and roller force move only the driven inertia: friction of roller, bearings and conveyor is not included.",
+        "Torque and roller force move the driven inertia, with the losses of the gear behind the wheel: friction of roller, bearings and conveyor "
+        "is not included.",
         "The wheel's acceleration jumps at entry and exit; the vibration that the jump excites in shaft, chain and sheet is not included.",
     ),
     sources=(

@@ -78,7 +78,11 @@ def sheet(view: View) -> list[Shape]:
 
 def engagement(view: View) -> list[Shape]:
     """Torque and roller force while the roller is in the slot."""
-    curves, inertia, speed = over_engagement(view), view["driven_inertia"], view["crank_speed"]
+    curves, speed = over_engagement(view), view["crank_speed"]
+    parts = (view["driven_inertia"], view["own_inertia"], view["efficiency"])
+    inertia = np.where(
+        loads.is_driven(curves["acceleration"]), loads.driven_with_losses(*parts), loads.braked_with_losses(*parts)
+    )
     alpha = curves["alpha"]
     torque = loads.driving_torque(inertia, speed, curves["acceleration"], curves["speed"])
     distance = loads.roller_distance(alpha, view["center_distance"], view["crank_ratio"])

@@ -18,10 +18,18 @@ REACHES = bind(common.is_below, smaller="rim_distance", greater="disc_radius")
 
 torque = Chapter("Torque at the crank and roller force",
     text="In the first half of the motion the roller pushes the wheel, in the second half it holds it back with the other flank of the slot. The "
-        "crank recovers the energy that it supplies.", needs=("driven_inertia",), absent="not calculated: driven_inertia is not given")
-torque.value("torque", "M", "N*m", "Torque at the crank to move the wheel's inertia", loads.driving_torque, source="energy")
+        "crank recovers the energy that it supplies, but for the losses of the gear behind the wheel.",
+    needs=("driven_inertia",), absent="not calculated: driven_inertia is not given")
+torque.require("own_share", lambda own_inertia, driven_inertia: own_inertia <= driven_inertia, key="own_inertia",
+    message="is more than driven_inertia, of which it is a part; give less")
+torque.choice("felt_inertia", "J_w", "kg*m**2", "Inertia that the roller feels, with the losses of the gear behind the wheel",
+    case(loads.driven_with_losses, "the roller drives the wheel: the gear takes more", loads.is_driven),
+    case(loads.braked_with_losses, "the roller brakes the wheel: the gear gives less back"), source="energy", output=False)
+torque.value("torque", "M", "N*m", "Torque at the crank to move the wheel's inertia", bind(loads.driving_torque, driven_inertia="felt_inertia"),
+    source="energy")
 torque.value("roller_distance", "d", "mm", "Distance of the roller from the wheel's axis", loads.roller_distance, source="geometry", output=False)
-torque.value("roller_force", "F", "N", "Force of the roller on the flank of the slot (positive: it drives)", loads.roller_force, source="statics")
+torque.value("roller_force", "F", "N", "Force of the roller on the flank of the slot (positive: it drives)",
+    bind(loads.roller_force, driven_inertia="felt_inertia"), source="statics")
 torque.value("crank_force_x", "F_x", "N", "Force on the crank along the line of centres, towards the wheel", loads.force_along, source="statics",
     output=False)
 torque.value("crank_force_y", "F_y", "N", "Force on the crank across the line of centres, in the direction in which its roller passes the line",
@@ -31,8 +39,9 @@ torque.reduction("roller_force_peak", "F_peak", "N", "Maximum roller force", "ma
 torque.value("kinetic_energy_max", "E_k", "J", "Energy exchanged with the wheel at each step",
     lambda driven_inertia, speed_ratio_peak, crank_speed: driven_inertia * (speed_ratio_peak * crank_speed) ** 2 / 2, source="energy")
 torque.reduction("energy_turn", "E_Σ", "J", "Work of the torque over a revolution", "integral", of="torque", output=False, source="energy")
-torque.value("energy_residual", "r_E", "1", "Ratio of the work over a revolution to the energy of a step",
-    lambda energy_turn, kinetic_energy_max: abs(energy_turn) / kinetic_energy_max, source="energy", output=False)
+torque.value("energy_lost", "E_v", "J", "Energy that the gear behind the wheel takes in a step", loads.energy_lost, source="energy", output=False)
+torque.value("energy_residual", "r_E", "1", "Ratio of the work over a revolution, but for the losses, to the energy of a step",
+    lambda energy_turn, energy_lost, kinetic_energy_max: abs(energy_turn - energy_lost) / kinetic_energy_max, source="energy", output=False)
 
 hertz = Chapter("Contact of roller and slot",
     text="A cylindrical roller on the plane flank of the slot, both of the same material; the load is uniform over the roller's width.",

@@ -44,6 +44,9 @@ class GenevaTransport(Inputs):
         Quantity("J", "kg*m**2",
             "Moment of inertia of everything that the wheel moves, referred to its shaft (a conveyor of mass m adds m·(z_s·p·u/2π)²); "
                 "required for torque and roller force", gt=0)] = None
+    own_inertia: Annotated[float,
+        Quantity("J_0", "kg*m**2", "What of it turns with the wheel itself, before the losses of the gear to the conveyor", ge=0)] = 0
+    efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the gear from the wheel's shaft to the conveyor", gt=0, le=1)] = 1
     roller_width: Annotated[float | None,
         Quantity("b", "mm", "Contact width of the roller on the slot; required for the contact pressure", gt=0)] = None
     elastic_modulus: Annotated[float, Quantity("E", "GPa", "Elastic modulus of roller and wheel", gt=0)] = 210

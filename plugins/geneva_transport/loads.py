@@ -10,9 +10,33 @@ from diecut_report.api import arccos, formula
 
 
 @formula
+def is_driven(acceleration_ratio: Any) -> Any:
+    """Whether the roller drives the wheel, which always turns the same way."""
+    return acceleration_ratio >= 0
+
+
+@formula
+def driven_with_losses(driven_inertia: Any, own_inertia: Any, efficiency: Any) -> Any:
+    """Inertia that the roller feels where it drives the wheel: what is behind the gear by its efficiency more."""
+    return own_inertia + (driven_inertia - own_inertia) / efficiency
+
+
+@formula
+def braked_with_losses(driven_inertia: Any, own_inertia: Any, efficiency: Any) -> Any:
+    """Inertia that the roller feels where it brakes the wheel: what is behind the gear by its efficiency less."""
+    return own_inertia + (driven_inertia - own_inertia) * efficiency
+
+
+@formula
 def driving_torque(driven_inertia: Any, crank_speed: Any, acceleration_ratio: Any, speed_ratio: Any) -> Any:
     """Torque at the crank that moves the wheel's inertia."""
     return driven_inertia * crank_speed**2 * acceleration_ratio * speed_ratio
+
+
+@formula
+def energy_lost(kinetic_energy_max: Any, driven_inertia: Any, own_inertia: Any, efficiency: Any) -> Any:
+    """Energy that the gear takes while it drives what is behind it, and while it is driven by that."""
+    return kinetic_energy_max * (1 - own_inertia / driven_inertia) * (1 / efficiency - efficiency)
 
 
 @formula

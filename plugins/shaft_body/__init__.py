@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 
-from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, as_number, bind
+from diecut_report.api import Block, Chapter, Check, ExampleBlock, Inputs, Mechanism, Quantity, Text, as_number, bind
 
 # fmt: off
 
@@ -35,14 +35,23 @@ class ShaftBody(Inputs):
 
     discs: Annotated[list[Disc], Text("Sections of the shaft and parts on it, as discs")]
     bodies: Annotated[list[KnownMass], Text("Parts of known mass")] = []  # noqa: RUF012
+    flywheel_inertia: Annotated[float | None, Quantity("J_F", "kg*m**2", "Moment of inertia of the flywheel on the shaft", gt=0)] = None
+    required_inertia: Annotated[float | None, Quantity("J_req", "kg*m**2", "Moment of inertia for which the drive train is calculated", gt=0)] = None
 
 
 OF_DISC = {key: f"discs.{key}" for key in ("diameter", "bore", "width", "density", "fill")}
 BODIES = ("bodies",)
+FLYWHEEL = ("flywheel_inertia", "required_inertia")
 
 body = Chapter("Mass and moment of inertia")
 body.require("bored", bind(lambda bore, diameter: bore < diameter, bore="discs.bore", diameter="discs.diameter"), key="discs.{index}.bore",
     message="is not smaller than the diameter of {part}; take a smaller bore")
+body.require("flywheel",
+    lambda flywheel_inertia, required_inertia:
+        (flywheel_inertia <= 2 * required_inertia) & (required_inertia <= 2 * flywheel_inertia),
+    key="flywheel_inertia", needs=FLYWHEEL,
+    message="is less than half or more than twice the {required_inertia} for which the drive train is calculated; mount another flywheel, or "
+        "change speed_fluctuation of the drive train")
 body.value("disc_mass", "m_k", "kg", "Mass of the section or part",
     bind(lambda fill, density, diameter, bore, width: fill * density * as_number(np.pi) / 4 * (diameter ** 2 - bore ** 2) * width, **OF_DISC),
     source="geometry", output=False, named_by="discs.name")
@@ -75,5 +84,10 @@ MECHANISM = Mechanism(
     example=EXAMPLE,
     chapters=(body,),
     key_results=("mass", "inertia"),
+    checks=(
+        Check(id="flywheel", check_class="function", title="Inertia of the flywheel", demand="required_inertia", limit="flywheel_inertia",
+            unit="kg*m**2", needs=FLYWHEEL, demand_label="required by the drive train", limit_label="on the shaft", source="energy",
+            consequence="the speed swings further than the drive train is calculated for, and the motor takes more of the peak."),
+    ),
     assumptions=("Keyways, teeth and fillets are neglected; a part is a disc without hub and recesses, of which the given fraction is there.",),
 )

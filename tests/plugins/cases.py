@@ -47,7 +47,7 @@ LINKAGE: dict[str, Any] = {"crank": 20, "coupler": 110, "rocker": 80, "frame": 1
 KNIVES: dict[str, Any] = KNIFE | {"planetary": {"carrier_radius": 65.656}, "crank_slider": {"crank_radius": 35, "rod_length": 140}}  # fmt: skip
 CROSS: dict[str, Any] = {
     "slots": 6, "center_distance": "200 mm", "crank_speed": "100 rpm", "roller_radius": "10 mm", "sprocket_teeth": 24,
-    "chain_pitch": "31.75 mm", "gear_ratio": 4, "driven_inertia": 1, "roller_width": "20 mm", "n_points": 72,
+    "chain_pitch": "31.75 mm", "gear_ratio": 4, "driven_inertia": 1, "own_inertia": 0.2, "efficiency": 0.95, "roller_width": "20 mm", "n_points": 72,
     "allowable_torque": 300, "allowable_sheet_play": "0.3 mm",
 }  # fmt: skip
 BELT: dict[str, Any] = {

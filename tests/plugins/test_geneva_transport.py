@@ -56,6 +56,25 @@ def wheel_from_middle(calc: Calculation, alpha: Array) -> Array:
     return at(calc, "wheel_angle", alpha) - np.where(alpha < 0, number(calc, "step_angle"), 0)
 
 
+# --- losses behind the wheel ---
+
+
+def test_the_gear_behind_the_wheel_takes_its_losses_where_the_roller_drives_and_where_it_brakes() -> None:
+    free, lossy = geneva(driven_inertia=4), geneva(driven_inertia=4, own_inertia=1, efficiency=0.9)
+    alpha = engaged(free)
+    wanted = np.where(alpha < 0, 1 + 3 / 0.9, 1 + 3 * 0.9) / 4
+    for name in ("torque", "roller_force"):
+        assert at(lossy, name, alpha) == pytest.approx(at(free, name, alpha) * wanted, rel=1e-9)
+    assert number(lossy, "energy_residual") < 1e-6
+    energy = number(lossy, "energy_turn")
+    assert energy == pytest.approx(number(free, "kinetic_energy_max") * 3 / 4 * (1 / 0.9 - 0.9), rel=1e-6)
+
+
+def test_the_wheel_has_no_more_inertia_than_all_that_it_moves() -> None:
+    with pytest.raises(Impossible, match="is more than driven_inertia"):
+        geneva(driven_inertia=1, own_inertia=2)
+
+
 # --- motion ----------------------------------------------------------------------------------------------------------
 
 

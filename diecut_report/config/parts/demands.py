@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import atan2, cos, lcm, sin
+from math import atan2, cos, lcm, prod, sin
 from typing import Any, NamedTuple
 
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
@@ -332,15 +332,25 @@ class Demands:
         if demand is None:
             return None
         found = demand | {"ratio": demand["ratio"].times(join.ratio_text, number=1 / share)}
-        if isinstance(join.keys, MeshKeys) and driven.name in self.parts.ratios:
-            found["efficiency"] = (
-                TypedValue((*join.path, "efficiency")) if "efficiency" in self._raw(join.path) else join.keys.efficiency
-            )
+        if isinstance(join.keys, MeshKeys) and not self._swings(driven):
+            found["efficiency"] = (*demand.get("efficiency", ()), join)
         return found
+
+    def _swings(self, shaft: MachineShaft) -> bool:
+        """Whether a shaft turns to and fro, so that the sign of a torque on it does not tell which way the power flows."""
+        moving = self.moved_by(shaft)
+        return moving is not None and not moving.port.advance
+
+    def efficiency(self, meshes: Sequence[Join]) -> Any:
+        """Return the efficiency of meshes one behind the other: that of a single one as it is typed, else the number."""
+        first = meshes[0]
+        if len(meshes) == 1 and "efficiency" in self._raw(first.path):
+            return TypedValue((*first.path, "efficiency"))
+        return prod(each.keys.efficiency for each in meshes)
 
     def _added(self, every: list[dict[str, Any]]) -> dict[str, Any] | None:
         """The demands of several parts of one curve as one, such as of two chains side by side; None where they are unlike."""
-        alike = {(each["mechanism"], each["curve"], each["ratio"].factors) for each in every}
+        alike = {(each["mechanism"], each["curve"], each["ratio"].factors, each.get("efficiency")) for each in every}
         if len(alike) != 1:
             return None
         first = every[0]

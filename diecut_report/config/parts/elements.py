@@ -78,6 +78,8 @@ class Elements(ShaftElements):
             own, driven = part.shaft.body, last.body
             is_known = mesh is not None and self.is_made(own) and self.is_made(driven)
             return f"${{{own if what == 'own_inertia' else driven}.inertia}}" if is_known else None
+        if what == "efficiency":
+            return self.efficiency([mesh]) if mesh else None
         if what == "ratio":
             return mesh.ratio_text.strip("()") if mesh else None
         if what == "pinion_radius" and mesh:

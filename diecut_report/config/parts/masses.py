@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from math import pi, prod, sin
 from typing import Any
 
 from diecut_report.config.parts.demands import Demands, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
-from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, chain_pitch
+from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart, chain_pitch
 from diecut_report.mechanics.geneva_wheel import area_and_polar
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_table
@@ -26,8 +27,17 @@ class Masses(Demands):
                 discs.append({"name": part.name} | disc)
             elif "mass" in part.more or part.kind == "geneva_wheel" or "inertia" in part.more:
                 bodies.append({"name": part.name} | self._mass(part, f"{home}.bodies.{len(bodies)}.mass"))
-        inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {})
+        inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {}) | self._mounted(shaft)
         self._add(home, "shaft_body", inputs, shaft.path)
+
+    def _mounted(self, shaft: MachineShaft) -> dict[str, Any]:
+        """The flywheel's typed inertia, and that for which the drive train is calculated; nothing where it has that one."""
+        part, train = self.flywheel(shaft), self.named("drive_train") or ""
+        is_known = "torque_curve" in self.blocks.get(train, {})  # without it none is asked for
+        if part is None or not is_known or self.is_sized(part) or "inertia" not in part.more:
+            return {}
+        typed = TypedValue((*part.path, "inertia"))
+        return {"flywheel_inertia": typed, "required_inertia": f"${{{train}.flywheel_inertia}}"}
 
     def _section_disc(self, shaft: MachineShaft, index: int) -> dict[str, Any]:
         section = self._section(shaft, index)
@@ -67,46 +77,80 @@ class Masses(Demands):
             return join.keys.width
         return tooth_width(join.keys) if isinstance(join.keys, ChainKeys) else part.keys.hub
 
-    def _has_mass(self, part: ShaftPart) -> bool:
-        return "mass" in part.more or self._is_sized(part) or self._disc(part) is not None
+    def mass_on(self, part: ShaftPart) -> Any:
+        """Return the mass of a part that loads its shaft: of a disc, typed, of the flywheel that the drive train sizes, or of a Geneva wheel."""
+        if self._disc(part):
+            return f"${{{part.shaft.body}.{part.name}_disc_mass}}"
+        if "mass" in part.more:
+            return TypedValue((*part.path, "mass"))
+        if self.is_sized(part):
+            return f"${{{self.named('drive_train')}.flywheel_mass}}"
+        section = wheel_section(self.parts, part)
+        return (
+            None
+            if section is None or part.keys.width is None
+            else TypedNumber(f"{STEEL * part.keys.width * section[0]:.12g} kg", part.path)
+        )
 
-    def _is_sized(self, part: ShaftPart) -> bool:
-        """Whether a part is the flywheel that the drive train sizes."""
+    def is_sized(self, part: ShaftPart) -> bool:
+        """Return whether a part is the flywheel that the drive train sizes."""
         train = f"${{{self.named('drive_train')}.flywheel_inertia}}"
         return part.kind == "flywheel" and str(self._raw(part.path).get("inertia")) == train
 
-    def _given_mass(self, part: ShaftPart) -> Any:
-        return (
-            f"${{{self.named('drive_train')}.flywheel_mass}}"
-            if self._is_sized(part)
-            else TypedValue((*part.path, "mass"))
-        )
-
     def _mass(self, part: ShaftPart, mass: str) -> dict[str, Any]:
-        """The mass of a part as it is typed, and its inertia: typed, or of a disc of that ``mass`` without bore."""
+        """The mass of a part, and its inertia: typed, or of a Geneva wheel or a disc without bore of that ``mass``."""
         join = next(self.parts.joins_of(part), None)
-        found: dict[str, Any] = {"mass": self._given_mass(part) if "mass" in part.more or self._is_sized(part) else 0}
+        found: dict[str, Any] = {"mass": self.mass_on(part) or 0}
         if "inertia" in part.more:
-            return found | {"inertia": TypedValue((*part.path, "inertia"))}
-        if part.kind == "geneva_wheel" and "mass" not in part.more:
-            return self._geneva_wheel(part)
-        if join is not None:
+            found["inertia"] = TypedValue((*part.path, "inertia"))
+        elif join is not None:
             found["inertia"] = f"${{{mass}}} * ({millimetres(join.radius(part))})**2 / 2"
+        elif section := wheel_section(self.parts, part):
+            found["inertia"] = f"${{{mass}}} * {section[1] / section[0] * 1e6:.12g} mm**2"
         return found
 
-    def _geneva_wheel(self, part: ShaftPart) -> dict[str, Any]:
-        mechanism = str(part.port and part.port[0])
-        keys = self.parts.reader.typed_block(mechanism)
-        if part.keys.width is None or not {"slots", "center_distance", "roller_radius"} <= keys.keys():
-            return {"mass": 0}
-        area, polar = area_and_polar(
-            int(keys["slots"]), keys["center_distance"], keys["roller_radius"], keys.get("locking_radius"), part.seat
-        )
-        weight = STEEL * part.keys.width
-        return {
-            "mass": TypedNumber(f"{weight * area:.12g} kg", part.path),
-            "inertia": TypedNumber(f"{weight * polar:.12g} kg*m**2", part.path),
-        }
+    def full_mass(self, part: ShaftPart) -> float | None:
+        """Return the mass of the full steel body of a part's dimensions, kg; None where these are not known.
+
+        It is a disc, of a sector its share; of a rocker a bar from axis to pin, as wide as its hub, and twice as high as the shaft is thick.
+        """
+        width, section = self.parts.body_width(part), wheel_section(self.parts, part)
+        radius = self.parts.body_radius(part) or self._pin_radius(part)
+        if section is not None:
+            area = section[0]
+        elif radius is None:
+            return None
+        else:
+            area = 2 * part.seat * radius if part.kind == "rocker" else pi * radius**2 * self._share(part)
+        return STEEL * area * width or None
+
+    def _pin_radius(self, part: ShaftPart) -> float | None:
+        """The distance of the pin or roller of a crank or rocker from its axis, m; None where it is not typed."""
+        port = self.port(part)
+        typed = self.parts.reader.typed_block(part.port[0]) if part.port else {}
+        if port is not None and port.radius and set(port.radius) <= typed.keys():
+            return prod(typed[key] for key in port.radius)
+        is_geneva = part.kind == "crank" and {"slots", "center_distance"} <= typed.keys()
+        return typed["center_distance"] * sin(pi / typed["slots"]) if is_geneva else None
+
+    def _share(self, part: ShaftPart) -> float:
+        """What of a full disc a gear is: of a sector the teeth that are there."""
+        keys = next((join.keys for join in self.parts.joins_of(part)), None)
+        if not isinstance(keys, MeshKeys) or keys.teeth_present is None:
+            return 1.0
+        join = next(self.parts.joins_of(part))
+        own, other = (keys.teeth_1, keys.teeth_2) if part in join.drivers else (keys.teeth_2, keys.teeth_1)
+        return keys.teeth_present / own if own > other else 1.0
+
+
+def wheel_section(parts: MachineParts, part: ShaftPart) -> tuple[float, float] | None:
+    """Return area (m²) and polar second moment of area (m⁴) of a Geneva wheel; None of other parts, or where its dimensions are not typed."""
+    keys = parts.reader.typed_block(part.port[0]) if part.kind == "geneva_wheel" and part.port else {}
+    if not {"slots", "center_distance", "roller_radius"} <= keys.keys():
+        return None
+    return area_and_polar(
+        int(keys["slots"]), keys["center_distance"], keys["roller_radius"], keys.get("locking_radius"), part.seat
+    )
 
 
 def tooth_width(keys: ChainKeys) -> float:

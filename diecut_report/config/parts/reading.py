@@ -39,6 +39,7 @@ SECTION = re.compile(
 """A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
 INDEX = re.compile(r"[0-9]{1,6}")
 COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
+MASS = Quantity("m", "kg", "Mass of a part", gt=0)
 MODELS: Mapping[str, type[Block]] = {"shafts": ShaftKeys, "meshes": MeshKeys, "chains": ChainKeys, "belts": BeltKeys}
 
 
@@ -235,6 +236,15 @@ class PartsReader:
             except ConditionError:
                 continue
         return found
+
+    def typed_mass(self, path: KeyPath) -> float | None:
+        """Return the mass that is typed at a path, kg; None where none is, or where it refers to what is calculated."""
+        given = _at(self.data, path)
+        try:
+            found = MASS.validate(self._calculated(given["value"] if isinstance(given, dict) else given, path, MASS))
+        except (KeyError, ValueError, ConditionError):  # what cannot be read is told where it is used
+            return None
+        return None if found is None else float(found)
 
     def _fault(self, path: KeyPath, template: str, **values: object) -> None:
         self.problems.append(ConfigPlace(self.tree).problem(path, Phrase(template, **values)))

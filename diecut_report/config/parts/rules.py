@@ -11,6 +11,7 @@ from diecut_report.config.parts.demands import first_place, typed_paths
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
+from diecut_report.config.parts.masses import wheel_section
 from diecut_report.config.parts.model import (
     SAME_PLACE,
     Join,
@@ -43,11 +44,13 @@ KEY_TO_FILLET = 0.1  # of the shaft's diameter
 WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
 WIDTH_TO_DIAMETER = 1.2  # of the pinion
 INTEGRAL_WARNED, INTEGRAL_MOST = 2.0, 4.0  # diameters of the seat, below the teeth
+# shares of the full steel body; of a clutch, which has shoes in place of a disc, less is usual
+MASS_SHARE, MASS_POSSIBLE = (0.3, 1.05), (0.05, 1.5)
 
 
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
-    of_mechanisms = (rule(parts, elements) for rule in (ports, _ratios, _typed_twice, _unused))
+    of_mechanisms = (rule(parts, elements) for rule in (ports, _ratios, _weighed, _massive, _typed_twice, _unused))
     found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
     place = ConfigPlace(parts.reader.tree)
@@ -344,6 +347,40 @@ def force_plane(parts: MachineParts) -> Iterator[Finding]:
                 plane=mm(part.keys.plane), width=mm(width))  # fmt: skip
 
 
+def _weighed(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """Each body has a mass that loads its shaft, and an inertia: a Geneva wheel by its width, a flywheel as it is typed."""
+    for _, part in hubs(parts):
+        has_inertia = "inertia" in part.more
+        if part.kind == "geneva_wheel" and elements.mass_on(part) is None:
+            template = "has no mass, so that its weight and its inertia would be left out; give width or mass"
+            yield finding(parts, "mass", "error", part.path, template)
+        elif part.kind == "geneva_wheel" and not has_inertia and wheel_section(parts, part) is None:
+            template = (
+                "has no inertia, as slots, center_distance or roller_radius of its mechanism is not typed; give inertia"
+            )
+            yield finding(parts, "mass", "error", part.path, template)
+        elif part.kind == "flywheel" and (elements.mass_on(part) is None or not has_inertia):
+            template = "has no {missing}, so that it counts for nothing; give it, or refer with inertia to flywheel_inertia of the drive train"
+            missing = "inertia" if not has_inertia else "mass"
+            yield finding(parts, "mass", "error", part.path, template, missing=missing)
+
+
+def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """A mass is that of a steel body of the part's dimensions, as far as these are known."""
+    for _, part in hubs(parts):
+        path = (*part.path, "mass")
+        mass, full = parts.reader.typed_mass(path), elements.full_mass(part)
+        if mass is None or full is None:
+            continue
+        least, most = MASS_SHARE[0] if part.kind != "clutch" else MASS_POSSIBLE[0], MASS_SHARE[1]
+        share = mass / full
+        if not least <= share <= most:
+            is_possible = MASS_POSSIBLE[0] <= share <= MASS_POSSIBLE[1]
+            template = "is {mass} kg, but the full steel body of its dimensions has {full} kg; {least} to {most} of it are usual"
+            yield finding(parts, "mass", "warning" if is_possible else "error", path, template, mass=f"{mass:.4g}", full=f"{full:.3g}", least=least,
+                most=most)  # fmt: skip
+
+
 # Axes and what joins the shafts.
 
 
@@ -497,7 +534,7 @@ def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """What is typed at a part beside its own keys goes into its calculation."""
+    """What is typed at a part beside its own keys goes into its calculation, and the efficiency of a mesh into a torque."""
     used = set(typed_paths([*(each.inputs for each in elements.made), *elements.fills.values()]))
     homes = [(shaft.path, shaft.more, f"shafts_{shaft.name}") for shaft in parts.shafts.values()]
     homes += [(part.path, part.more, f"shafts_{name}") for name, shaft in parts.shafts.items() for part in shaft.parts]
@@ -506,6 +543,12 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             own = (*path, key)
             if own not in {each[: len(own)] for each in used} | {given for given, _ in elements.twice}:
                 yield finding(parts, "names", "error", own, "goes into no calculation of this part; remove the key")
+    for join in (each for each in parts.joins if isinstance(each.keys, MeshKeys)):
+        own = (*join.path, "efficiency")
+        typed = parts.reader.data["meshes"][join.name]
+        if "efficiency" in typed and own not in {each[: len(own)] for each in used}:
+            template = "goes into no calculation, as no torque on this pair is known by which way the power flows; remove the key"
+            yield finding(parts, "names", "error", own, template)
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (

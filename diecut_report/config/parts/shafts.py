@@ -26,6 +26,8 @@ class ShaftElements(Masses, LoadCases):
 
     def _loads(self, shaft: MachineShaft) -> None:
         torques = [each | {"ratio": each["ratio"].text} for each in self.torques_of(shaft)]
+        for each in (every for every in torques if "efficiency" in every):
+            each["efficiency"] = self.efficiency(each["efficiency"])
         forces = [force for part in shaft.parts for force in (*self._port_forces(part), *self._chain_forces(part))]
         inputs: dict[str, Any] = {"main_turns": self.cycle(shaft.name)}
         if torques:
@@ -161,10 +163,8 @@ class ShaftElements(Masses, LoadCases):
         if (gear := self._gear(part)) and "torque" in found:
             found["gear"] = gear
         found |= self._belt_force(part)
-        if self._has_mass(part):
-            found["mass"] = (
-                f"${{{part.shaft.body}.{part.name}_disc_mass}}" if self._disc(part) else self._given_mass(part)
-            )
+        if (mass := self.mass_on(part)) is not None:
+            found["mass"] = mass
         found |= self._typed_load(part, found)
         yield found
         if across:

@@ -16,11 +16,12 @@ from diecut_report.config.loader import Config, examined, load_config
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
-from diecut_report.errors import Problem
+from diecut_report.errors import Problem, UserError
 from diecut_report.press import Press
 from diecut_report.results.carrying_parts import carrying_parts, is_rated, unrated
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
+from diecut_report.results.warm_press import WarmPress
 
 FILE = Path(import_module("diecut_report.configs").__path__[0]) / "machines" / "flat_cylinder.yaml"
 TEXT = FILE.read_text("utf-8")
@@ -251,6 +252,150 @@ def test_what_swings_or_steps_counts_with_its_inertia() -> None:
     }
     assert torques["rocker"] == {"sector": "rocker_torque"}  # with the inertias and losses behind it
     assert torques["geneva"]["inertia"] == "wheel_acceleration"
+
+
+BEHIND = """  behind:
+    sections: 40x30 r1, 50x260 r1, 40x30
+    parts: [{bearing: a, at: 21, designation: "6208"}, {gear: wheel, at: 190, hub: 50, key: 45},
+            {bearing: b, at: 299, designation: "6208", floating: true}]
+"""
+STEP_UP, SECTOR = "module: 4, width: 30", "teeth_present: 39"
+
+
+def test_the_losses_of_a_mesh_behind_a_wheel_that_steps_enter_its_torque_and_that_of_its_crank() -> None:
+    config, problems = changed(STEP_UP, f"{STEP_UP}, efficiency: 0.9")
+    data = config.tree.data["mechanisms"]
+    torques = {each["name"]: each.get("efficiency", {}) for each in data["shafts_geneva_loads"]["torques"]}
+    assert not problems and torques["large"]["value"] == data["cross"]["efficiency"]["value"] == 0.9
+    assert torques["inertia"] == {} and data["cross"]["own_inertia"] == "${shafts_geneva_body.inertia}"
+    assert whole().tree.data["mechanisms"]["cross"]["efficiency"] == 0.97  # that of a mesh of which none is typed
+
+
+def test_the_losses_of_the_sector_stand_at_its_mesh_alone() -> None:
+    config, problems = changed(SECTOR, f"{SECTOR}, efficiency: 0.9")
+    assert not problems and config.tree.data["mechanisms"]["drive"]["efficiency_sector"]["value"] == 0.9
+    _, twice = changed("    kind: cylinder_drive\n", "    kind: cylinder_drive\n    efficiency_sector: 0.9\n")
+    assert "efficiency_sector: is given here, but follows" in " ".join(twice)
+
+
+def test_losses_that_go_into_no_torque_are_refused() -> None:
+    """Behind a shaft that swings the sign of a torque does not tell which way the power flows."""
+    text = TEXT.replace("  geneva:\n    sections", BEHIND + "  geneva:\n    sections", 1)
+    text = text.replace(
+        "at: 120, hub: 50, key: 45}", "at: 120, hub: 50, key: 45}\n      - {gear: more, at: 190, hub: 50, key: 45}", 1
+    )
+    text = text.replace("geneva: [180, 240],", "geneva: [180, 240], behind: [500, -694],", 1)
+    for more, refused in (("", False), (", efficiency: 0.9", True)):
+        mesh = f"meshes:\n  on: {{pair: [pinion.more, behind.wheel], teeth: 50/50, module: 4, width: 30{more}}}\n"
+        _, problems = examined(parse(text.replace("meshes:\n", mesh, 1), str(FILE)), DISCOVERY)
+        told = [str(problem) for problem in problems]
+        assert len(told) == refused and ("meshes.on.efficiency: goes into no calculation" in " ".join(told)) == refused
+
+
+WHEEL = "of: cross.wheel, at: 275, hub: 60, key: 50, width: 35}"
+
+
+@pytest.mark.parametrize(
+    ("typed", "mass", "inertia"),
+    [("width: 35", "26.21", 0.4724), ("mass: 26.21 kg", "26.21", 0.4724), ("mass: 13.107 kg", "13.107", 0.2362)],
+)
+def test_a_geneva_wheel_has_the_inertia_of_its_mass_and_its_weight_loads_its_shaft(
+    typed: str, mass: str, inertia: float
+) -> None:
+    config, problems = changed(WHEEL, WHEEL.replace("width: 35", typed))
+    assert not problems
+    data = config.tree.data["mechanisms"]
+    body = next(each for each in data["shafts_geneva_body"]["bodies"] if each["name"] == "cross")
+    load = next(each for each in data["shafts_geneva"]["loads"] if each["name"] == "cross")
+    assert body["mass"]["value"].startswith(mass) and load["mass"] == body["mass"]
+    factor = re.fullmatch(r"\$\{shafts_geneva_body\.bodies\.1\.mass\} \* ([\d.]+) mm\*\*2", body["inertia"])
+    assert factor is not None
+    assert float(factor[1]) * 1e-6 * float(body["mass"]["value"].removesuffix(" kg")) == pytest.approx(
+        inertia, abs=1e-4
+    )
+
+
+@pytest.mark.parametrize(
+    ("typed", "missing"),
+    [
+        (WHEEL.replace(", width: 35", ""), "give width or mass"),
+        (WHEEL.replace("width: 35", "inertia: 0.4 kg*m**2"), "give width or mass"),
+        (WHEEL.replace("width: 35", "inertia: 0.4 kg*m**2, width: 35"), ""),
+    ],
+)
+def test_a_geneva_wheel_without_what_its_mass_follows_from_is_refused(typed: str, missing: str) -> None:
+    _, problems = changed(WHEEL, typed)
+    assert len(problems) == bool(missing) and missing in " ".join(problems)
+
+
+SIZED = 'inertia: "${train.flywheel_inertia}"}'
+
+
+@pytest.mark.parametrize(("inertia", "status"), [("2.6", "fail"), ("3.5", "pass")])
+def test_the_flywheel_that_is_mounted_has_the_inertia_which_the_drive_train_asks_for(inertia: str, status: str) -> None:
+    config, problems = changed(SIZED, f"inertia: {inertia} kg*m**2, mass: 80 kg}}")
+    run = WarmPress(is_advised=False).calculate(config)
+    (check,) = run.checks["shafts_flywheel_body"]
+    needed = float(run.calculations["train"]["flywheel_inertia"][0, 0])
+    assert (
+        not problems
+        and check.id == "flywheel"
+        and check.status == status == ("fail" if float(inertia) < needed else "pass")
+    )
+
+
+@pytest.mark.parametrize("inertia", ["0.01", "30"])
+def test_a_flywheel_of_quite_another_inertia_is_refused(inertia: str) -> None:
+    config, problems = changed(SIZED, f"inertia: {inertia} kg*m**2, mass: 80 kg}}")
+    with pytest.raises(UserError, match="is less than half or more than twice") as refused:
+        WarmPress(is_advised=False).calculate(config)
+    assert not problems and f"{FILE}:54:" in str(refused.value)
+
+
+def test_the_flywheel_that_the_drive_train_sizes_is_compared_with_nothing() -> None:
+    assert "required_inertia" not in whole().tree.data["mechanisms"]["shafts_flywheel_body"]
+
+
+@pytest.mark.parametrize(
+    ("typed", "missing"),
+    [("mass: 80 kg}", "has no inertia"), ("inertia: 2.8 kg*m**2}", "has no mass"), ("bore: 50}", "has no inertia")],
+)
+def test_a_flywheel_without_inertia_or_mass_is_refused(typed: str, missing: str) -> None:
+    _, problems = changed(SIZED, typed)
+    assert missing in " ".join(problems)
+
+
+MASSES = {
+    "sector": ("mass: 14 kg", 32.62),  # 39 of 212 teeth
+    "large": ("mass: 26 kg", 42.6),
+    "crank": ("mass: 8 kg", 14.8),
+    "roller crank": ("mass: 9 kg", 21.3),
+    "arm": ("mass: 10 kg", 11.59),  # 205 mm long, 120 mm high, 60 mm wide
+    "clutch": ("mass: 6 kg", 63.9),
+}
+
+
+@pytest.mark.parametrize("part", MASSES)
+@pytest.mark.parametrize(
+    ("share", "level"), [(0.01, "error"), (0.2, "warning"), (0.6, ""), (1.2, "warning"), (1.6, "error"), (100, "error")]
+)
+def test_a_mass_is_held_against_the_full_steel_body_of_the_part(part: str, share: float, level: str) -> None:
+    typed, full = MASSES[part]
+    level = "" if (part, share) == ("clutch", 0.2) else level  # it has shoes in place of a disc
+    config, problems = changed(typed, f"mass: {full * share:.4g} kg")
+    assert config.parts is not None
+    findings = [each for each in config.parts.findings if each.rule == "mass"]
+    assert [each.level for each in findings] == (["warning"] if level == "warning" else [])
+    assert len(problems) == (level == "error") and ("the full steel body" in " ".join(problems)) == (level == "error")
+
+
+@pytest.mark.parametrize(("width", "level"), [("", "warning"), (", width: 35", ""), (", width: 1000", "error")])
+def test_the_mass_of_a_geneva_wheel_is_held_against_its_width(width: str, level: str) -> None:
+    config, problems = changed(WHEEL, WHEEL.replace("width: 35", f"mass: {13 if not width else 26.2} kg{width}"))
+    assert config.parts is not None and bool(problems) == (level == "error")
+    assert [each.level for each in config.parts.findings if each.rule == "mass"] == (
+        ["warning"] if level == "warning" else []
+    )
 
 
 def cases(name: str) -> list[str]:
