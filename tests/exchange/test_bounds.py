@@ -7,13 +7,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pikepdf
 import pytest
 from pyhanko.pdf_utils.generic import ArrayObject, DictionaryObject, NameObject, StreamObject
 
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.signing import Additions
 from diecut_report.time_limit import limited
+from tests.exchange.reports import run, saved_pdf
 
+Capture = pytest.CaptureFixture[str]
 SECONDS = 20.0  # what none of these takes a tenth of
 
 
@@ -55,3 +58,51 @@ def test_proofs_that_refer_to_each_other_are_judged_soon(
     writer.write(made)
     with limited(SECONDS):
         assert only_signed(whole, made.getvalue()) is is_taken
+
+
+def tree(pdf: pikepdf.Pdf, leaf: pikepdf.Object, levels: int = 30, own: int = 3) -> pikepdf.Object:
+    """A tree of so many levels, each node of which has the same child several times."""
+    node = pdf.make_indirect(leaf)
+    for _ in range(levels):
+        node = pdf.make_indirect(pikepdf.Dictionary(T=pikepdf.String("x"), Kids=pikepdf.Array([node] * own)))
+    return node
+
+
+def attached(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    return tree(pdf, pdf.Root.Names.EmbeddedFiles)
+
+
+def attached_nothing(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    return tree(pdf, pikepdf.Dictionary(Names=pikepdf.Array()))
+
+
+def attached_once(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    return tree(pdf, pdf.Root.Names.EmbeddedFiles, 2000, 1)
+
+
+def attached_wide(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    """Many nodes that share a long list of names."""
+    names = pdf.make_indirect(pikepdf.Array([pikepdf.String("x")] * 20_000))
+    return pikepdf.Dictionary(
+        Kids=pikepdf.Array([pdf.make_indirect(pikepdf.Dictionary(Names=names)) for _ in range(20_000)])
+    )
+
+
+def attached_in_itself(pdf: pikepdf.Pdf) -> pikepdf.Object:
+    """A node that is no object of its own, in a list that it refers to."""
+    kids = pdf.make_indirect(pikepdf.Array())
+    kids.append(pikepdf.Dictionary(Kids=kids))
+    return pikepdf.Dictionary(Kids=kids)
+
+
+@pytest.mark.parametrize("change", [attached, attached_nothing, attached_once, attached_wide, attached_in_itself])
+def test_a_tree_of_attachments_without_an_end_is_refused(
+    small_report: Path, tmp_path: Path, capfd: Capture, change: Callable[[pikepdf.Pdf], pikepdf.Object]
+) -> None:
+    with pikepdf.open(small_report / "small.pdf") as pdf:
+        pdf.Root.Names.EmbeddedFiles = change(pdf)
+        (tmp_path / "a.pdf").write_bytes(saved_pdf(pdf))
+    for command in (["extract"], ["verify"], ["render"], ["diff", small_report / "small.json"]):
+        with limited(SECONDS):
+            assert run(*command, tmp_path / "a.pdf") == 2
+        assert "a.pdf: The PDF lists more than 1000 attachments" in capfd.readouterr().err
