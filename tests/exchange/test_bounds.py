@@ -9,12 +9,14 @@ from typing import Any
 
 import pikepdf
 import pytest
+from cryptography.hazmat.primitives.asymmetric import ec
 from pyhanko.pdf_utils.generic import ArrayObject, DictionaryObject, NameObject, StreamObject
 
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.signing import Additions
 from diecut_report.time_limit import limited
 from tests.exchange.reports import run, saved_pdf
+from tests.exchange.test_forgeries import signed
 
 Capture = pytest.CaptureFixture[str]
 SECONDS = 20.0  # what none of these takes a tenth of
@@ -106,3 +108,41 @@ def test_a_tree_of_attachments_without_an_end_is_refused(
         with limited(SECONDS):
             assert run(*command, tmp_path / "a.pdf") == 2
         assert "a.pdf: The PDF lists more than 1000 attachments" in capfd.readouterr().err
+
+
+def fields(pdf: pikepdf.Pdf) -> list[pikepdf.Object]:
+    return [tree(pdf, pikepdf.Dictionary(FT=pikepdf.Name.Sig, T=pikepdf.String("x")))]
+
+
+def fields_once(pdf: pikepdf.Pdf) -> list[pikepdf.Object]:
+    return [tree(pdf, pikepdf.Dictionary(FT=pikepdf.Name.Sig, T=pikepdf.String("x")), 2000, 1)]
+
+
+def same_signature(pdf: pikepdf.Pdf) -> list[pikepdf.Object]:
+    """Fields that all have the same signature, each of which would be judged."""
+    value = pdf.make_indirect(pikepdf.Dictionary(Type=pikepdf.Name.Sig, ByteRange=pikepdf.Array([0, 1, 2, 3])))
+    field = pdf.make_indirect(pikepdf.Dictionary(FT=pikepdf.Name.Sig, T=pikepdf.String("x"), V=value))
+    return [field] * 50_000
+
+
+@pytest.mark.parametrize("change", [fields, fields_once, same_signature])
+def test_a_form_without_an_end_is_neither_judged_nor_signed(
+    small_report: Path,
+    tmp_path: Path,
+    capfd: Capture,
+    monkeypatch: pytest.MonkeyPatch,
+    change: Callable[[pikepdf.Pdf], list[pikepdf.Object]],
+) -> None:
+    with pikepdf.open(small_report / "small.pdf") as pdf:
+        pdf.Root.AcroForm.Fields.extend(change(pdf))
+        pdf.Root.Zz = pikepdf.Dictionary(ByteRange=pikepdf.Array([0, 1, 2, 3]))  # in clear, as in a signed report
+        whole = saved_pdf(pdf)
+    (tmp_path / "a.pdf").write_bytes(whole)
+    words = "its form has fields within fields, or more than 100"
+    with limited(SECONDS):
+        assert run("verify", tmp_path / "a.pdf", "--numbers") == 1
+    assert f"✗ signature      cannot be read: {words}" in capfd.readouterr().out
+    with limited(SECONDS):
+        assert signed(tmp_path / "a.pdf", ec.generate_private_key(ec.SECP256R1()), monkeypatch) == 2
+    assert f"a.pdf: The PDF cannot be signed: {words}. Give" in capfd.readouterr().err
+    assert (tmp_path / "a.pdf").read_bytes() == whole
