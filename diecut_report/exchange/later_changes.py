@@ -77,7 +77,7 @@ class _Changes(NamedTuple):
         of_root = OF_ROOT if fields or stamps else OF_PROOFS
         taken = {found.objgen[0] for field in (*fields, *stamps) for found in (field, field["/V"])}
         taken |= {field["/AP"]["/N"].objgen[0] for field in fields if "/AP" in field}
-        taken |= {*_reached(self.new.Root.get("/DSS"))}
+        taken |= _reached(self.new.Root.get("/DSS"))
         return (
             len(fields) <= 1
             and self.added <= taken
@@ -88,16 +88,16 @@ class _Changes(NamedTuple):
 
     def _are_proofs(self) -> bool:
         """Whether what proves certificates is of that kind, and nothing that was there for something else."""
-        proofs, before = self.new.Root.get("/DSS", _NONE), {*_reached(self.old.Root.get("/DSS"))}
+        proofs, before = self.new.Root.get("/DSS", _NONE), _reached(self.old.Root.get("/DSS"))
         lists = [each for key, each in proofs.items() if key in ("/Certs", "/CRLs", "/OCSPs")]
         for own in proofs.get("/VRI", _NONE).values():
             lists += [each for key, each in own.items() if key not in ("/Type", "/TU", "/TS")]
             if not set(own.keys()) <= OF_PROOF:
                 return False
-        data = [each for listed in lists for each in listed]
+        data = [each for listed in _once(lists) for each in listed]
         return (
             set(proofs.keys()) <= OF_DSS
-            and {*_reached(proofs)} <= self.added | before
+            and _reached(proofs) <= self.added | before
             and all(isinstance(each, pikepdf.Stream) and set(each.keys()) <= {"/Length", "/Filter"} for each in data)
         )
 
@@ -214,14 +214,22 @@ def _takes_opacity(resources: Any) -> bool:
     return set(resources.keys()) <= {"/ExtGState"} and all(set(each.keys()) <= {"/CA", "/ca"} for each in states)
 
 
-def _reached(found: Any, depth: int = 5) -> Iterator[int]:
-    """The numbers of the objects that something holds or is."""
-    if isinstance(found, pikepdf.Object) and depth:
-        if found.objgen[0]:
-            yield found.objgen[0]
-        listed = found if isinstance(found, pikepdf.Array) else ()
-        for each in found.values() if isinstance(found, pikepdf.Dictionary) else listed:
-            yield from _reached(each, depth - 1)
+def _once(found: list[Any]) -> list[Any]:
+    """The same objects, those that have a number once, however often they are referred to."""
+    numbered = {each.objgen: each for each in found if each.objgen[0]}
+    return [*numbered.values(), *(each for each in found if not each.objgen[0])]
+
+
+def _reached(found: Any, depth: int = 5) -> set[int]:
+    """The numbers of the objects that something holds or is; each is looked into once, however often it is referred to."""
+    numbers, waiting = set[int](), [(found, depth)]
+    for each, left in waiting:
+        if isinstance(each, pikepdf.Object) and left and each.objgen[0] not in numbers:
+            numbers |= {each.objgen[0]} - {0}
+            listed = each if isinstance(each, pikepdf.Array) else ()
+            inner = each.values() if isinstance(each, pikepdf.Dictionary) else listed
+            waiting += [(one, left - 1) for one in inner]
+    return numbers
 
 
 def fault(content: bytes) -> str:

@@ -18,6 +18,7 @@ from diecut_report.text.phrases import phrase
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
 DEEPEST = 100
+MOST_ATTACHED = 1000  # files, with the nodes of their tree
 MOST_REVISIONS = 100
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
 END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
@@ -70,7 +71,7 @@ def bounded(most: int) -> None:
 
 def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
     # the names only tell which attachment it is; nothing is written under them
-    found = list(_named(pdf, name))
+    found = list(_named(pdf, name, file))
     if not found:
         return None
     if len(found) > 1:
@@ -98,11 +99,10 @@ def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, fi
             raise refusal(SEVERAL, file, count=2, name=name)
 
 
-def _named(pdf: pikepdf.Pdf, name: str) -> Iterator[pikepdf.Stream]:
+def _named(pdf: pikepdf.Pdf, name: str, file: str) -> Iterator[pikepdf.Stream]:
     """The attachments of a name, wherever the PDF has them: among its attachments, at an annotation, or as an associated file."""
     names = pdf.Root.get("/Names", pikepdf.Dictionary())
-    tree = pikepdf.NameTree(names["/EmbeddedFiles"]).items() if "/EmbeddedFiles" in names else ()
-    specs = [spec for label, spec in tree if _alike(label, name)]
+    specs = [spec for label, spec in _labelled(names.get("/EmbeddedFiles"), file) if _alike(label, name)]
     told = (part for each in pdf.objects if b"/EF" in each.unparse(resolved=True) for part in _dictionaries(each, 0))
     specs += [part for part in told if "/EF" in part and any(_alike(part.get(key, ""), name) for key in NAMES)]
     seen = set[tuple[int, int]]()
@@ -111,6 +111,19 @@ def _named(pdf: pikepdf.Pdf, name: str) -> Iterator[pikepdf.Stream]:
             if isinstance(stream, pikepdf.Stream) and stream.objgen not in seen:
                 seen.add(stream.objgen)
                 yield stream
+
+
+def _labelled(tree: Any, file: str) -> list[tuple[Any, Any]]:
+    """What a tree names; UserError for more than MOST_ATTACHED, which nodes that stand in it again and again name without an end."""
+    nodes, found = [] if tree is None else [tree], list[tuple[Any, Any]]()
+    for node in nodes:
+        named = list(node.get("/Names", ()))
+        found += zip(named[::2], named[1::2], strict=True)
+        nodes.extend(node.get("/Kids", ()))
+        if len(nodes) + len(found) > MOST_ATTACHED:
+            template = "The PDF lists more than {most} attachments, or the same ones again and again. Give the file as the program wrote it."
+            raise refusal(template, file, most=MOST_ATTACHED)
+    return found
 
 
 def _alike(label: object, name: str) -> bool:

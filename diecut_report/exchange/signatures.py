@@ -29,6 +29,7 @@ from diecut_report.exchange.signing_keys import MOST, WEAK_DIGESTS, certificates
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, cell, joined, phrase
 
+MOST_FIELDS = 100
 SHORT = 16  # letters of a fingerprint
 USAGE = KeyUsageConstraints(key_usage={"non_repudiation", "digital_signature"}, match_all_key_usages=False)
 Roots = Sequence[x509.Certificate] | None
@@ -63,7 +64,9 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
         return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
     try:
         with silent():
-            found = _all_judged(PdfFileReader(io.BytesIO(whole)).embedded_signatures, whole, roots)
+            reader = PdfFileReader(io.BytesIO(whole))
+            refuse_nested_fields(reader)
+            found = _all_judged(reader.embedded_signatures, whole, roots)
     except (PdfError, ValidationInfoReadingError, SignatureValidationError, *PDF_FAULTS) as error:
         told = f"{error}" or type(error).__name__
         return [Signature(Phrase("cannot be read: {error}", error=told), False)]
@@ -73,6 +76,13 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     if all(each.holds for each in found) and not is_ended:
         found.append(Signature(phrase("something was added to the file after the last signature"), False))
     return found
+
+
+def refuse_nested_fields(reader: PdfFileReader) -> None:
+    """Raise ValueError for a form that is not a list of at most MOST_FIELDS fields, as the program's is: the library walks into any other."""
+    fields = reader.root.get("/AcroForm", {}).get("/Fields", ())
+    if len(fields) > MOST_FIELDS or any("/Kids" in each.get_object() for each in fields):
+        raise ValueError(Phrase("its form has fields within fields, or more than {most}", most=MOST_FIELDS))
 
 
 def _all_judged(embedded: Sequence[Any], whole: bytes, roots: Roots) -> list[Signature]:

@@ -27,7 +27,7 @@ from diecut_report.exchange.carried import MOST, form_of
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.pdf_attachments import PDF_FAULTS
 from diecut_report.exchange.signature_drawing import drawing
-from diecut_report.exchange.signatures import silent
+from diecut_report.exchange.signatures import refuse_nested_fields, silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all
 from diecut_report.text.phrases import Phrase, phrase
@@ -83,6 +83,7 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
 
 
 def _free_fields(writer: Additions) -> dict[str, Any]:
+    refuse_nested_fields(writer.prev)
     return {name: widget.get_object() for name, _, widget in enumerate_sig_fields(writer.prev, filled_status=False)}
 
 

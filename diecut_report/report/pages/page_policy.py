@@ -28,8 +28,11 @@ LINKS = re.compile(r"(https?:|mailto:|tel:|data:|#)", re.IGNORECASE)
 FETCHING_FUNCTIONS = {
     "url", "src", "image", "image-set", "-webkit-image-set", "cross-fade", "-webkit-cross-fade", "element", "attr",
 }  # fmt: skip
-_SELECT = re.compile(r"(?<=<)(/?)select(?![^\s/>])", re.IGNORECASE)
-"""A list of choices: the parser leaves out what it holds beside them, newer browsers do not."""
+_SELECT = re.compile(
+    r"""<select(?!(?:\s+[\w-]+="[^"<>]*")*>(?:\s*<option(?: value="[^"<>]*")?>[^<>]*</option>)*\s*</select>)[^>]{,60}>?""",
+    re.IGNORECASE,
+)
+"""A list of choices, or what begins like one, with anything but choices of plain text in it: browsers read the rest in several ways."""
 _UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # characters that no page may hold
 
 
@@ -42,13 +45,15 @@ def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
 
     tree: Any = parse(page)
     advice = phrase('a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.')
-    trees = [tree, *([parse(_SELECT.sub(r"\1div", page))] if _SELECT.search(page) else [])]
-    fetched = dict.fromkeys(each for one in trees for each in _fetched(one))
+    fetched = dict.fromkeys(_fetched(tree))
     found = [Phrase("{each} would be fetched; {advice}", each=each, advice=advice) for each in fetched]
     if policy and not _is_protected(tree, policy):
         words = Phrase("The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
                        "or keep its head.", main=main)  # fmt: skip
         found.append(words)
+    if choices := _SELECT.search(page):
+        template = "A list of choices may hold <option>text</option> alone, since browsers read anything else in it in several ways: {start}"
+        found.append(Phrase(template, start=choices[0]))
     if letter := _UNWRITTEN.search(page):
         code = format(ord(letter[0]), "04X")
         found.append(Phrase("A template writes U+{code}, which a page cannot hold. Leave it out.", code=code))
