@@ -18,7 +18,7 @@ from diecut_report.errors import MAX_SHOWN, MAX_TEXT, Problem, UserError, refusa
 from diecut_report.exchange import form_1
 from diecut_report.pictures import MAX_BYTES as MOST_OF_PICTURE
 from diecut_report.pictures import PictureFault, media_type
-from diecut_report.results.model import LogoRecord, ResultsRecord
+from diecut_report.results.model import GoverningRecord, LogoRecord, ResultsRecord
 from diecut_report.results.record import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -89,12 +89,19 @@ def results_of(content: bytes, file: str) -> ResultsRecord:
         problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults]
         why = other_form(found)
         raise UserError([*([Problem(why, file)] if why else []), *problems]) from None
+    if results.governing and not _is_there(results, results.governing):
+        raise UserError(Problem(Phrase("names no check of these results. {ask}", ask=ASK), file, path="governing"))
     config = results.config
     if len(config.materials) > MOST_TABLES or len(config.file) > MAX_TEXT:  # which a configuration could not name
         raise UserError(Problem(Phrase("is not what stands there in results. {ask}", ask=ASK), file, path="config"))
     if config.logo:
         _refuse_logo(config.logo, file)
     return results
+
+
+def _is_there(results: ResultsRecord, governing: GoverningRecord) -> bool:
+    found = results.calculated.get(governing.mechanism)
+    return found is not None and any(each.id == governing.check for each in found.checks)
 
 
 def _refuse_logo(logo: LogoRecord, file: str) -> None:
@@ -123,7 +130,11 @@ def parsed(content: bytes, file: str) -> dict[str, Any]:
         raise refusal(template, file, most_values=f"{MOST_VALUES:,}", ask=ASK)
     try:
         found = json.loads(
-            content, parse_constant=_refuse_constant, parse_float=_finite, object_pairs_hook=_without_doubles
+            content,
+            parse_constant=_refuse_constant,
+            parse_float=_finite,
+            parse_int=_whole,
+            object_pairs_hook=_without_doubles,
         )
     except (ValueError, RecursionError) as error:
         template = "This is not a JSON file that can be read: {told}. {ask}"
@@ -167,6 +178,12 @@ def _finite(text: str) -> float:
     if math.isinf(value):
         raise _Unfit(Phrase("it holds {text}, which is beyond the range of numbers", text=text[:20]))
     return value
+
+
+def _whole(text: str) -> int:
+    found = int(text)
+    _finite(text)  # it is compared with others as a float
+    return found
 
 
 def _path(place: tuple[str | int, ...]) -> str:

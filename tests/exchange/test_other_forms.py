@@ -93,3 +93,37 @@ def test_a_strange_version_is_not_repeated(results: dict[str, Any], tmp_path: Pa
     assert asked("verify", given, tmp_path) == 2
     told = capfd.readouterr().err
     assert f"form {'1' + 19 * '0'}; this program" in told and "\x1b" not in told
+
+
+def beyond_floats(data: dict[str, Any]) -> None:
+    [*next(iter(data["mechanisms"].values()))["outputs"].values()][-1]["value"] = 10**400
+
+
+def without_mechanisms(data: dict[str, Any]) -> None:
+    data["mechanisms"] = {}
+
+
+def without_checks(data: dict[str, Any]) -> None:
+    data["mechanisms"][data["governing"]["mechanism"]]["checks"] = []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (beyond_floats, "beyond the range of numbers"),
+        (without_mechanisms, "governing: names no check"),
+        (without_checks, "governing: names no check"),
+    ],
+)
+def test_results_that_contradict_themselves_are_refused(
+    command: str,
+    change: Callable[[dict[str, Any]], None],
+    words: str,
+    results: dict[str, Any],
+    tmp_path: Path,
+    capfd: Capture,
+) -> None:
+    change(results)
+    assert asked(command, results, tmp_path) == 2
+    assert words in capfd.readouterr().err
