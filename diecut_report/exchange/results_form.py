@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import re
 from base64 import b64decode
 from collections.abc import Mapping
@@ -74,6 +73,7 @@ def _is_version(told: object) -> bool:
 
 
 MOST_VALUES = 10_000_000  # of a results file
+LARGEST = 1e290  # of a number, which has a value in each unit then
 ASK = phrase("Give a results file as the program wrote it.")
 
 
@@ -175,7 +175,7 @@ def _refuse_constant(name: str) -> NoReturn:
 
 def _finite(text: str) -> float:
     value = float(text)
-    if math.isinf(value):
+    if abs(value) > LARGEST:
         raise _Unfit(Phrase("it holds {text}, which is beyond the range of numbers", text=text[:20]))
     return value
 

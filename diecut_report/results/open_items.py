@@ -20,7 +20,7 @@ from diecut_report.results.model import OpenRecord, SummaryRecord
 from diecut_report.results.origins import assumed, input_path, is_default
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
-from diecut_report.standards.ranges import asks_basis, open_choices, range_of, unranged
+from diecut_report.standards.ranges import asks_basis, open_choices, range_of, unranged, zero_is_open
 from diecut_report.text.phrases import Phrase, phrase
 
 FORCES = ("N", "N*m")  # SI units of what a part carries
@@ -119,7 +119,7 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     value, kind = instance.value(slot.key), run.config.kinds.get(instance.name, PRESS)
     usual = range_of(kind, slot.name)
     if not slot.is_given or is_default(run.blocks[instance.name], slot.key):
-        return "default" if value or usual else None
+        return "default" if value or usual or zero_is_open(kind, slot.name) else None
     is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
     beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]
     unsaid = is_unranged and is_limit and not names_something(said.note if said else "")

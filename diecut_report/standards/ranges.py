@@ -68,6 +68,7 @@ class _Without(BaseModel):
     reason: str
     keys: dict[str, list[str]]
     needs_basis: bool = False
+    zero_is_open: bool = False
 
 
 class _Choices(BaseModel):
@@ -128,6 +129,12 @@ def unranged(kind: str) -> Mapping[str, str]:
     """Return the keys of a kind that have no row, and ask for a basis all the same, each with the reason."""
     groups = (group for group in range_table().without if group.needs_basis)
     return {key: phrase(group.reason) for group in groups for key in group.keys.get(kind, ())}
+
+
+@cache
+def zero_is_open(kind: str, path: str) -> bool:
+    """Return whether the default of a key is open although it is zero, which leaves something out of the calculation."""
+    return any(path in group.keys.get(kind, ()) for group in range_table().without if group.zero_is_open)
 
 
 def asks_basis(kind: str, path: str) -> bool:

@@ -99,6 +99,10 @@ def beyond_floats(data: dict[str, Any]) -> None:
     [*next(iter(data["mechanisms"].values()))["outputs"].values()][-1]["value"] = 10**400
 
 
+def beyond_floats_in_mm(data: dict[str, Any]) -> None:
+    [*next(iter(data["mechanisms"].values()))["outputs"].values()][-1]["value"] = 1e308
+
+
 def without_mechanisms(data: dict[str, Any]) -> None:
     data["mechanisms"] = {}
 
@@ -112,6 +116,7 @@ def without_checks(data: dict[str, Any]) -> None:
     ("change", "words"),
     [
         (beyond_floats, "beyond the range of numbers"),
+        (beyond_floats_in_mm, "beyond the range of numbers"),
         (without_mechanisms, "governing: names no check"),
         (without_checks, "governing: names no check"),
     ],

@@ -78,6 +78,18 @@ def test_a_factor_in_place_of_that_of_the_method_asks_for_a_basis(tmp_path: Path
     assert values(tmp_path, HEAD + GEARS % (key, drawn)).get(path) is None
 
 
+DRIVE = """\
+  d: {kind: cylinder_drive, cylinder_radius: 105.5 mm, cylinder_length: 700 mm, cylinder_mass: 104 kg, cylinder_inertia: 0.74 kg*m**2,
+      crank_length: 100 mm, pinion_radius: 70 mm%s}
+"""
+
+
+@pytest.mark.parametrize(("unbalance", "what"), [("", "default"), (", static_unbalance: 2 kg*m", None)])
+def test_an_unbalance_that_is_left_out_is_open(tmp_path: Path, unbalance: str, what: str | None) -> None:
+    """Zero makes the forces of teeth, joints and bearings smaller."""
+    assert values(tmp_path, HEAD + DRIVE % unbalance).get("mechanisms.d.static_unbalance") == what
+
+
 @pytest.mark.parametrize(("allowed", "what"), [("0.4 MPa", None), ("1.5 MPa", "assumed")])
 def test_what_is_allowed_beyond_its_usual_range_is_never_founded(
     tmp_path: Path, allowed: str, what: str | None
