@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, case, named, own_table
+from diecut_report.api import Chapter, Constant, bind, case, named, own_table
 from diecut_report.plugins.gear_pair import formulas as f
 from diecut_report.plugins.gear_pair.mesh import TEETH
 
 KEYS = ("application_factor", "dynamic_factor", "face_load_factor", "transverse_load_factor")
 CALCULATED = ("grade", "speed")
 """The inputs with which the factors are calculated; the face load factor also with the slope of the shafts."""
-METHOD_C = 3.0  # m/s
+METHOD_C = Constant(3.0, "3 m/s", "m/s")
 """The end of method C by the parameter of speed: beyond it the dynamic factor is known only where it is given."""
 DYNAMIC_KNOWN = "dynamic_known"
 BY: dict[str, tuple[str, ...]] = {
@@ -115,7 +115,7 @@ dynamic.value("line_load", "w_A", "N/mm", "Line load with the application factor
     lambda application_factor, tangential_force, face_width: application_factor * tangential_force / face_width, source=ISO)
 dynamic.value("speed_parameter", "X", "m/s", "Speed that the dynamic factor depends on", bind(f.speed_parameter, velocity="pitch_velocity"),
     source=f"{ISO}, 6", lacks=KEYS[1:2])
-dynamic.fact(DYNAMIC_KNOWN, bind(lambda speed_parameter, end: speed_parameter / f.METRE_PER_SECOND <= end, end=METHOD_C),
+dynamic.fact(DYNAMIC_KNOWN, lambda speed_parameter: speed_parameter <= METHOD_C,
     "not calculated: so fast teeth come near their resonance, where method C does not hold; give dynamic_factor", lacks=KEYS[1:2])
 dynamic.value("k_1", "K_1", "N/mm", "Coefficient of the dynamic factor, of the grade", bind(f.of_overlap, spur="k_1_spur", helical="k_1_helical"),
     source=f"{ISO}, 6", output=False, lacks=KEYS[1:2])

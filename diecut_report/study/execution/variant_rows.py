@@ -263,7 +263,7 @@ def governing(found: Verdicts) -> Array:
 
 
 TOGETHER = 1024  # variants that are calculated at a time: fewer cost more per variant, more take more memory
-ALIKE = 1e-6  # of a number, and of the greatest of its column: rounding moves places of extremes by less
+ALIKE = 1e-6  # relative: rounding moves numbers, and places of extremes, by less
 Given = Mapping[Input, Array | list[str]]
 Further = Callable[
     [CalculatedVariants], dict[str, Array]
@@ -383,8 +383,16 @@ def _is_as_alone(together: Calculation, alone: Calculation, row: int, name: str)
     if found.dtype == object:
         return list(found) == list(own)
     length = min(len(found), len(own))  # a list of crossings is as long as that of the variant that has most
-    scale = np.abs(together.values[name][np.isfinite(together.values[name])]).max(initial=0.0)
-    return bool(np.allclose(found[:length], own[:length], rtol=ALIKE, atol=ALIKE * scale, equal_nan=True))
+    rounding = ALIKE**2 * _greatest_of_unit(alone, name)  # what is left of numbers that cancel
+    return bool(np.allclose(found[:length], own[:length], rtol=ALIKE, atol=rounding, equal_nan=True))
+
+
+def _greatest_of_unit(calc: Calculation, name: str) -> float:
+    units = {each: getattr(calc.steps.get(each), "unit", "1") for each in calc.values}
+    alike = [
+        calc.values[each] for each, own in units.items() if own == units[name] and calc.values[each].dtype != object
+    ]
+    return float(np.max([np.max(np.abs(each), initial=1.0, where=np.isfinite(each)) for each in alike], initial=1.0))
 
 
 def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
