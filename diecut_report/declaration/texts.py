@@ -183,6 +183,9 @@ def document_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Faul
         text = _key_result(names, name)
         if text:
             yield Fault(mechanism.at, "key_results", text)
+    for name in mechanism.reactions:
+        if not any(giver.kind == "curve" for giver in names.givers(name)):
+            yield Fault(mechanism.at, "reactions", Phrase("{name} is not a curve", name=name))
     yield from _exports(mechanism, names)
     for comparison in mechanism.comparisons:
         yield from (fault(comparison, text) for text in _comparison(mechanism, names, comparison))

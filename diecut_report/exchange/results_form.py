@@ -90,7 +90,9 @@ def results_of(content: bytes, file: str) -> ResultsRecord:
         why = other_form(found)
         raise UserError([*([Problem(why, file)] if why else []), *problems]) from None
     if results.governing and not _is_there(results, results.governing):
-        raise UserError(Problem(Phrase("names no check of these results. {ask}", ask=ASK), file, path="governing"))
+        told = phrase("it names no check of these results")
+        message = Phrase("is not what stands there in results: {told}. {ask}", told=told, ask=ASK)
+        raise UserError(Problem(message, file, path="governing"))
     config = results.config
     if len(config.materials) > MOST_TABLES or len(config.file) > MAX_TEXT:  # which a configuration could not name
         raise UserError(Problem(Phrase("is not what stands there in results. {ask}", ask=ASK), file, path="config"))

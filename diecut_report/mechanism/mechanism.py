@@ -271,6 +271,7 @@ class Mechanism:
     """Declare a kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
 
     ``key_results`` are the ids of the outputs that the report's summary shows. ``example`` are inputs with which a configuration begins.
+    ``reactions`` are the curves of the forces on what carries it, which another mechanism of the machine is to take.
     """
 
     kind: str
@@ -289,6 +290,7 @@ class Mechanism:
     comparisons: tuple[Comparison, ...] = ()
     partners: tuple[Partner, ...] = ()
     ports: tuple[Port, ...] = ()
+    reactions: tuple[str, ...] = ()
     spectra: tuple[Spectrum, ...] = ()
     example: ExampleBlock | None = None
     at: str = placed()

@@ -218,7 +218,8 @@ def verdict(found: SummaryRecord, calculated: CalculatedCount) -> Verdict:
     """Return the verdict on a machine by its counts and by what is open."""
     if found.fail or calculated.lost:
         return "fail"
-    return "conditional" if found.open else "pass"
+    is_checked = found.passing + found.warn > 0
+    return "pass" if is_checked and not found.open else "conditional"
 
 
 def summary_of(results: ResultsRecord) -> SummaryRecord:

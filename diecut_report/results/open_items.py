@@ -59,8 +59,8 @@ def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[Op
 def free_ports(run: Run) -> dict[str, list[str]]:
     """Return of each mechanism that makes forces the curves of force and torque that nothing takes.
 
-    A mechanism that takes a force, a torque or all of another one is a part which rates it, or hands it on. A mechanism that is
-    calculated alone belongs to no drive line.
+    A mechanism that takes a force, a torque or all of another one is a part which rates it, or hands on what it declares as its reactions.
+    A mechanism that is calculated alone belongs to no drive line.
     """
     taken = {(each.instance, each.result) for target in run.config.links.values() for each in target.single}
     forces = {name: _forces(calc) for name, calc in run.calculations.items()}
@@ -70,11 +70,11 @@ def free_ports(run: Run) -> dict[str, list[str]]:
         for node, target in run.config.links.items()
         if any(each.is_mechanism or (each.instance, each.result) in given for each in target.single)
     }
-    found = {
-        name: [force for force in own if (name, force) not in taken]
+    asked = {
+        name: [force for force in own if name not in parts or force in run.calculations[name].mechanism.reactions]
         for name, own in forces.items()
-        if name not in parts
     }
+    found = {name: [force for force in own if (name, force) not in taken] for name, own in asked.items()}
     return {name: own for name, own in found.items() if own and len(forces) > 1}
 
 
@@ -112,7 +112,10 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     said = instance.bases.get(slot.key)
     is_assumed = said is not None and said.basis == ASSUMED
     is_number = (
-        isinstance(slot.meta, Quantity) and slot.meta is not POINTS and isinstance(slot.value, int | float | str)
+        isinstance(slot.meta, Quantity)
+        and slot.meta is not POINTS
+        and isinstance(slot.value, int | float | str)
+        and slot.value not in slot.meta.words
     )
     if (instance.name, *slot.key) in run.config.links or not is_number:
         return "assumed" if is_assumed else None
@@ -131,7 +134,7 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
 def _open_choice(run: Run, instance: Instance, slot: Slot) -> str:
     """Why a text of an input is open; nothing where it is not, or is made of the parts of the machine."""
     parts = run.config.parts
-    if not isinstance(slot.meta, Text) or (parts is not None and instance.name in parts.calculations):
+    if not isinstance(slot.meta, Text | Quantity) or (parts is not None and instance.name in parts.calculations):
         return ""
     why = open_choices(run.config.kinds.get(instance.name, PRESS)).get((slot.name, str(slot.value)), "")
     return "" if run.bases.is_founded((instance.name, *slot.key)) else why

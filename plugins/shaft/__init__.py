@@ -23,6 +23,7 @@ MECHANISM = Mechanism(
         sizing.diameters, geometry.sections, steels.steel, steels.own_steel, geometry.places, geometry.notches, geometry.endurance, strength.loads,
         strength.bending, strength.fatigue, strength.yielding, strength.critical, strength.enough,
     ),
+    reactions=("reaction_a", "reaction_b"),
     key_results=("reaction_a_max", "reaction_b_max", "bending_moment_max", "fatigue_safety", "fatigue_place", "yield_safety", "deflection_max",
                  "bearing_slope_max", "speed_verdict", "shaft_mass"),
     checks=CHECKS,

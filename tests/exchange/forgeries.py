@@ -104,7 +104,7 @@ OF_RESULTS = (
     Forgery("the unit of a number", _set("mechanisms/knife/outputs/torque_max/display/unit", "kN·m"), NUMBERS),
     Forgery("a sentence, in the language of the report alone (its values)", other_text, REFUSED),
     Forgery("the verdict of a check", _set("mechanisms/knife/checks/0/status", "warn"), NUMBERS),
-    Forgery("a check, left out", without_check, NUMBERS),
+    Forgery("a check, left out", without_check, REFUSED),
     Forgery("the verdict on the machine", _set("status", "pass"), NUMBERS),
     Forgery("the counts of page 1", _set("summary/fail", 0), NUMBERS),
     Forgery("the first line of page 1", _set("summary/conclusion", message_data("All checks pass.")), NUMBERS),

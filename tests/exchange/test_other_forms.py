@@ -117,8 +117,8 @@ def without_checks(data: dict[str, Any]) -> None:
     [
         (beyond_floats, "beyond the range of numbers"),
         (beyond_floats_in_mm, "beyond the range of numbers"),
-        (without_mechanisms, "governing: names no check"),
-        (without_checks, "governing: names no check"),
+        (without_mechanisms, "it names no check"),
+        (without_checks, "it names no check"),
     ],
 )
 def test_results_that_contradict_themselves_are_refused(

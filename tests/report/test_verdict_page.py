@@ -87,7 +87,7 @@ def test_a_failure_without_a_utilisation_tells_by_how_much_in_words() -> None:
         ([unchecked("b", "rated")], "Nothing was checked, and 1 is not checked.", "conditional"),
         ([judged("a", 1.1, "warn"), unchecked("b", "rated")], "No check fails, but 1 warns and 1 is not checked.", "conditional"),
         ([judged("a", 1.1, "fail"), unchecked("b", "rated")], "1 of 1 checks fails; 1 is not checked.", "fail"),
-        ([], "There are no checks.", "pass"),
+        ([], "There are no checks.", "conditional"),
     ],
 )  # fmt: skip
 def test_all_checks_pass_is_said_where_all_are_made_alone(

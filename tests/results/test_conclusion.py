@@ -43,7 +43,7 @@ def summary(**counts: Any) -> SummaryRecord:
         ({"pass": 2, "fail": 1, "not_checked": 1}, "fail", "1 of 3 checks fails; 1 is not checked."),
         ({"pass": 2, "fail": 1}, "fail", "1 of 3 checks fails."),
         ({"not_checked": 1}, "conditional", "Nothing was checked, and 1 is not checked."),
-        ({}, "pass", "There are no checks."),
+        ({}, "conditional", "There are no checks."),
         ({"pass": 3, "lost": 1}, "fail", "1 of 3 mechanisms were not calculated."),
         (
             {"pass": 3, "parts": {"carrying": 9, "rated": 7, "accepted": 2, "not_rated": 0}},

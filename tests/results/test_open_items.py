@@ -229,7 +229,9 @@ def test_each_item_has_the_owner_of_the_project(tmp_path: Path) -> None:
 def test_forces_that_no_part_takes_are_named_by_the_mechanism_that_makes_them() -> None:
     found = Press.read(EXAMPLE, Discovery()).calculate().results.summary.open
     unrated = {each.path: str(each.why) for each in found if each.what == "not_rated"}
-    assert unrated.keys() == {f"mechanisms.{name}" for name in ("drive", "feeder", "cross", "gripper_chain")}
+    names = ("drive", "feeder", "cross", "gripper_chain", "crank_pin", "rocker_pin")
+    assert unrated.keys() == {f"mechanisms.{name}" for name in names}  # bearings take the reactions of the crankshaft
+    assert unrated["mechanisms.crank_pin"] == "no part takes reaction_a, reaction_b"
     assert unrated["mechanisms.cross"] == "no part takes torque, roller_force"
     assert "coupler_force" not in unrated["mechanisms.drive"]  # a pin takes it
 
@@ -239,3 +241,22 @@ def test_a_mechanism_alone_belongs_to_no_drive_line(tmp_path: Path) -> None:
     assert not [each for each in left(tmp_path, one) if each.what == "not_rated"]
     two = left(tmp_path, one + "  b: {kind: lever, force: 1 kN}\n")
     assert [each.path for each in two if each.what == "not_rated"] == ["mechanisms.a", "mechanisms.b"]
+
+
+TURNING = """\
+  s: {kind: shaft, sections: [{length: 300 mm, diameter: 60 mm}], bearing_a: 25 mm, bearing_b: 250 mm, material: 42CrMo4+QT, rotation: %s,
+      loads: [{name: disc, position: 150 mm, force_y: 1 kN}]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("rotation", "what"),
+    [
+        ("turning", None),
+        ("none", "assumed"),
+        ("{value: none, basis: assumed}", "assumed"),
+        ("{value: none, basis: drawing}", None),
+    ],
+)
+def test_that_a_shaft_does_not_turn_asks_for_a_basis(tmp_path: Path, rotation: str, what: str | None) -> None:
+    assert values(tmp_path, HEAD + TURNING % rotation).get("mechanisms.s.rotation") == what

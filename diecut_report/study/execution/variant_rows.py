@@ -414,7 +414,8 @@ def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
             column[row] = values
         column[chosen[bad]] = None
     rows.status[chosen] = STATUS[worst]
-    rows.verdict[chosen] = _verdicts(worst, found.unmade | variants.is_open)
+    unchecked = found.codes.max(axis=0, initial=0) == 0
+    rows.verdict[chosen] = _verdicts(worst, found.unmade | variants.is_open | unchecked)
     rows.governing[chosen] = governing(found)
     rows.errors[chosen[bad]] = [variants.reasons[int(row)] for row in bad]
 
