@@ -53,8 +53,9 @@ def test_each_sheet_says_its_number_and_document(pdf: Path) -> None:
     texts = _texts(pdf)
     assert len(texts) > 5
     for number, text in enumerate(texts, 1):
-        assert re.search(rf"\b{number}\s+of\s+{len(texts)}\b", text)
-        assert "DOC-1" in text and "Sample press" in text and "Design office" in text
+        found = re.sub(r"\s+", "", text)  # how much of a gap is a space differs between versions of pdftotext
+        assert re.search(rf"(?<!\d){number}of{len(texts)}(?!\d)", found)
+        assert "DOC-1" in found and "Samplepress" in found and "Designoffice" in found
 
 
 def test_title_block_is_in_the_metadata_without_dates(pdf: Path) -> None:
