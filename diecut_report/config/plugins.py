@@ -58,7 +58,9 @@ def module_of_file(file: Path) -> ModuleType:
 def _refuse_strays(names: Iterable[str], file: Path) -> None:
     """Raise ImportError where a module beside a plugin was imported by way of sys.path: another plugin would take it for its own."""
     found = {other: getattr(sys.modules[other], "__file__", None) for other in names}
-    strays = [other for other, path in found.items() if path and Path(path).is_relative_to(file.parent.resolve())]
+    folder = file.parent.resolve()  # below which libraries may lie, too
+    own = {str(folder / each) for other in found for each in (f"{other}.py", f"{other}/__init__.py")}
+    strays = [other for other, path in found.items() if path in own]
     for other in strays:
         del sys.modules[other]
     if strays:

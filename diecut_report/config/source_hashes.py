@@ -41,6 +41,10 @@ class PluginCode:
 
 
 _known: WeakKeyDictionary[Mechanism, PluginCode] = WeakKeyDictionary()
+LIBRARIES = tuple(
+    os.path.join(each, "")
+    for each in {sys.prefix, sys.base_prefix, *map(os.path.realpath, (sys.prefix, sys.base_prefix))}
+)
 _reading: list[list[str]] = []  # of each module that is being loaded, the files that were opened meanwhile
 _read: dict[
     Path, dict[str, str]
@@ -118,6 +122,7 @@ def noting_what_is_read(file: Path) -> Iterator[None]:
     finally:
         _reading.remove(opened)
         tables = {path for path in opened if path.startswith(folder) and not path.endswith((".py", ".pyc"))}
+        tables = {path for path in tables if not path.startswith(LIBRARIES)}  # which may lie below the folder
         _read[file] = {path: path.removeprefix(folder) for path in tables if os.path.isfile(path)}
 
 

@@ -117,6 +117,21 @@ def test_a_helper_found_by_way_of_the_path_is_refused(tmp_path: Path, after: str
         sys.path[:] = before
 
 
+def test_a_library_below_the_folder_of_a_plugin_is_no_helper_of_it(tmp_path: Path) -> None:
+    """Such as those of an environment that lies beside it."""
+    before, libraries = list(sys.path), tmp_path / "env" / "site-packages"
+    libraries.mkdir(parents=True)
+    (libraries / "factors_of_makers.py").write_text("F = 2\n")
+    (tmp_path / "gate.py").write_text("import factors_of_makers\n" + (GOOD / "lever.py").read_text("utf-8").replace(
+        "from __future__ import annotations\n", "").replace('kind="lever"', 'kind="gate"'))  # fmt: skip
+    sys.path.insert(0, str(libraries))
+    try:
+        assert Discovery([tmp_path]).mechanism("gate").kind == "gate"
+    finally:
+        sys.path[:] = before
+        sys.modules.pop("factors_of_makers", None)
+
+
 def test_files_that_begin_with_an_underscore_are_no_kinds(tmp_path: Path) -> None:
     (tmp_path / "_shared.py").write_text("raise RuntimeError\n")
     assert Discovery([tmp_path]).origins.keys() == Discovery().origins.keys()

@@ -11,7 +11,7 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.study.execution.variant_rows import calculate_rows
-from tests.configs import LEVER, PLUGINS
+from tests.configs import HEAD, LEVER, PLUGINS
 from tests.study.studies import study, varied
 
 FOLDER = PLUGINS / "scalar"
@@ -106,13 +106,6 @@ shares = Chapter("Shares")
 shares.computed("share", "s", "1", "Share", share, ("speed",), "the speed by the greatest")
 MECHANISM = Mechanism(kind="reach", version="1.0", title="Reach", summary="A share.", inputs=Speeds, chapters=(shares,))
 """
-REACHED = """\
-schema_version: 1
-project: {title: Test}
-press: {name: P, productivity: 6000 1/h, sheet: {length: 700 mm, thickness: 0.6 mm}}
-mechanisms:
-  a: {kind: reach}
-"""
 
 
 @pytest.mark.parametrize("over", ["speed.max()", "speed.mean()", "np.maximum.accumulate(speed)"])
@@ -120,7 +113,9 @@ def test_a_function_that_reaches_over_the_variants_gives_each_its_own_number(tmp
     folder = tmp_path / "plugins"
     folder.mkdir()
     (folder / "reach.py").write_text(REACH.replace("OVER", over), "utf-8")
-    known = study(tmp_path, varied("[1, 4, 2, 3]", path="mechanisms.a.speed"), REACHED, Discovery([folder]))
+    known = study(
+        tmp_path, varied("[1, 4, 2, 3]", path="mechanisms.a.speed"), HEAD + "  a: {kind: reach}\n", Discovery([folder])
+    )
     path = "mechanisms.a.speed"
     rows = calculate_rows(known.base, {known.inputs[path]: known.sample.rows(0, 4)[path]}, 4)
     assert list(rows.columns["a.share"]) == [1, 1, 1, 1]
