@@ -5,6 +5,11 @@ from __future__ import annotations
 from math import acos, asin, cos, hypot, pi, sin
 
 
+def crank_radius(center_distance: float, slots: float) -> float:
+    """Return the radius (m) of the roller's circle, with which it enters the slots without a shock."""
+    return center_distance * sin(pi / slots)
+
+
 def area_and_polar(
     slots: int, center_distance: float, roller_radius: float, locking_radius: float | None, bore: float
 ) -> tuple[float, float]:
@@ -15,7 +20,7 @@ def area_and_polar(
     """
     from scipy.integrate import quad  # a third of the program's start, which only a machine with such a wheel needs
 
-    crank = center_distance * sin(pi / slots)
+    crank = crank_radius(center_distance, slots)
     arc = crank - 3 * roller_radius if locking_radius is None else locking_radius
     rim, end = hypot(center_distance * cos(pi / slots), roller_radius), center_distance - crank
     full = hypot(end, roller_radius)  # from where on a slot has its whole width

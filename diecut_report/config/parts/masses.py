@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import pi, prod, sin
+from math import pi, prod
 from typing import Any
 
 from diecut_report.config.parts.demands import Demands, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
 from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart, chain_pitch
-from diecut_report.mechanics.geneva_wheel import area_and_polar
+from diecut_report.mechanics.geneva_wheel import area_and_polar, crank_radius
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_table
 
@@ -131,14 +131,13 @@ class Masses(Demands):
         if port is not None and port.radius and set(port.radius) <= typed.keys():
             return prod(typed[key] for key in port.radius)
         is_geneva = part.kind == "crank" and {"slots", "center_distance"} <= typed.keys()
-        return typed["center_distance"] * sin(pi / typed["slots"]) if is_geneva else None
+        return crank_radius(typed["center_distance"], typed["slots"]) if is_geneva else None
 
     def _share(self, part: ShaftPart) -> float:
         """What of a full disc a gear is: of a sector the teeth that are there."""
-        keys = next((join.keys for join in self.parts.joins_of(part)), None)
-        if not isinstance(keys, MeshKeys) or keys.teeth_present is None:
+        join = next(self.parts.joins_of(part), None)
+        if join is None or not isinstance(keys := join.keys, MeshKeys) or keys.teeth_present is None:
             return 1.0
-        join = next(self.parts.joins_of(part))
         own, other = (keys.teeth_1, keys.teeth_2) if part in join.drivers else (keys.teeth_2, keys.teeth_1)
         return keys.teeth_present / own if own > other else 1.0
 

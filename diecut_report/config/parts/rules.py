@@ -328,7 +328,9 @@ def integral(parts: MachineParts) -> Iterator[Finding]:
             if root > INTEGRAL_WARNED * part.seat:
                 level: Level = "error" if root > INTEGRAL_MOST * part.seat else "warning"
                 template = "is cut on a shaft of {seat}, but is {root} thick below its teeth: no such shaft is turned; give key or interference"
-                yield finding(parts, "integral", level, (*part.path, "integral"), template, seat=mm(part.seat), root=mm(root))  # fmt: skip
+                yield finding(
+                    parts, "integral", level, (*part.path, "integral"), template, seat=mm(part.seat), root=mm(root)
+                )
 
 
 def force_plane(parts: MachineParts) -> Iterator[Finding]:
