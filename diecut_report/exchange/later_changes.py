@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Set
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import pikepdf
 
@@ -57,7 +59,8 @@ def _is_consistent(old: pikepdf.Pdf, new: pikepdf.Pdf, revision: AddedRevision) 
     return is_same_document and not new.get_warnings()  # a key that stands twice is for each reader another one
 
 
-class _Changes(NamedTuple):
+@dataclass(frozen=True)
+class _Changes:
     """What a revision changes of the objects that were there, by their numbers, and the numbers of those that it adds."""
 
     old: pikepdf.Pdf
@@ -79,7 +82,7 @@ class _Changes(NamedTuple):
         taken |= {field["/AP"]["/N"].objgen[0] for field in fields if "/AP" in field}
         taken |= _reached(self.new.Root.get("/DSS"))
         return (
-            len(fields) <= 1
+            len(fields) + len(stamps) <= 1
             and self.added <= taken
             and all(number >= int(self.old.trailer.Size) for number in self.added)
             and all(self._is_signing(*pair, of_root) for pair in self.changed.values())
@@ -108,7 +111,7 @@ class _Changes(NamedTuple):
         if first.unparse(resolved=True) == second.unparse(resolved=True):
             return True
         if isinstance(first, pikepdf.Array) and isinstance(second, pikepdf.Array):
-            return first.objgen in set(_lists(self.old)) and self._grown(first, second)
+            return first.objgen in self._lists and self._grown(first, second)
         if not (isinstance(first, pikepdf.Dictionary) and isinstance(second, pikepdf.Dictionary)):
             return False
         if first.objgen == self.old.Root.objgen:
@@ -123,6 +126,16 @@ class _Changes(NamedTuple):
         if first.get("/Type") == "/Page":
             return _same_but(first, second, {"/Annots"}) and self._grown(first.get("/Annots"), second.get("/Annots"))
         return first.objgen == self.old.Root.get("/AcroForm", _NONE).objgen and self._is_form(first, second)
+
+    @cached_property
+    def _names(self) -> frozenset[str]:
+        """The names of the fields that were there."""
+        return frozenset(map(_plain, _fields(self.old)))
+
+    @cached_property
+    def _lists(self) -> frozenset[tuple[int, int]]:
+        """The lists that a document timestamp is added to, where they are objects of their own: the fields, the annotations of sheets."""
+        return frozenset(_lists(self.old))
 
     def _is_root(self, root: Any) -> bool:
         """Whether the catalogue tells of its version and of what a signer allows, and of nothing else by it."""
@@ -173,14 +186,14 @@ class _Changes(NamedTuple):
         return _same_but(first, second, OF_FORM) and self._grown(first.get("/Fields"), second.get("/Fields"))
 
     def _grown(self, first: Any, second: Any) -> bool:
-        """Whether a list is the same, but for document timestamps at its end."""
+        """Whether a list is the same, but for one document timestamp at its end."""
         if first is None and second is None:
             return True
         if not isinstance(second, pikepdf.Array):
             return False
         a, b = list(first or ()), list(second)
         pairs = zip(a, b, strict=False)
-        same = len(a) <= len(b) and all(x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in pairs)
+        same = len(a) <= len(b) <= len(a) + 1 and all(x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in pairs)
         return same and all(map(self._is_timestamp, b[len(a) :]))
 
     def _is_timestamp(self, field: Any) -> bool:
@@ -189,8 +202,7 @@ class _Changes(NamedTuple):
             return False
         box = [float(each) for each in field["/Rect"]]
         is_field = field["/Subtype"] == "/Widget" and field["/FT"] == "/Sig"  # a note shows, however small its box
-        names = set(map(_plain, _fields(self.old)))
-        is_dated = self._is_added_signature(field, "/DocTimeStamp") and _plain(field) not in names
+        is_dated = self._is_added_signature(field, "/DocTimeStamp") and _plain(field) not in self._names
         return is_field and is_dated and len(box) == 4 and box[:2] == box[2:]
 
 
@@ -254,7 +266,6 @@ def added_proofs(before: bytes, after: bytes) -> bool:
 
 
 def _lists(old: pikepdf.Pdf) -> Iterator[tuple[int, int]]:
-    """The lists that a document timestamp is added to, where they are objects of their own: the fields, the annotations of sheets."""
     for found in (old.Root.get("/AcroForm", _NONE).get("/Fields"), *(page.obj.get("/Annots") for page in old.pages)):
         if isinstance(found, pikepdf.Array) and found.objgen != (0, 0):
             yield found.objgen

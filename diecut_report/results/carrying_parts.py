@@ -128,6 +128,8 @@ def _without_method(part: ShaftPart) -> Iterator[str]:
     """What of a part carries load and has no method of calculation."""
     if part.kind in BODIES:
         yield phrase("{part}: no method rates its body")
+    if part.keys.integral and part.kind in BODIES:
+        yield phrase("{part}: no method rates where it passes into its shaft")
     if part.keys.interference is not None:
         yield phrase("{part}: no method rates its press fit")
     if part.keys.bolted:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from diecut_report.config.instances import Instance, Slot
+from diecut_report.config.instances import Instance, Node, Slot
 from diecut_report.config.model import PRESS
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, names_something
@@ -20,7 +20,7 @@ from diecut_report.results.model import OpenRecord, SummaryRecord
 from diecut_report.results.origins import assumed, input_path, is_default
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
-from diecut_report.standards.ranges import asks_basis, open_choices, range_of, unranged, zero_is_open
+from diecut_report.standards.ranges import asks_basis, by_reference, open_choices, range_of, unranged, zero_is_open
 from diecut_report.text.phrases import Phrase, phrase
 
 FORCES = ("N", "N*m")  # SI units of what a part carries
@@ -48,34 +48,47 @@ def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[Op
     found = unsettled(checks, doubtful, owner)
     if run.config.parts is not None:
         found += unrated(run.config.parts, run.config.named("drive_train"), checks, owner)
-    for name, ports in free_ports(run).items() if run.config.parts is None else ():
-        why = Phrase("no part takes {ports}", ports=", ".join(ports))
-        found.append(OpenRecord(what="not_rated", path=f"mechanisms.{name}", owner=owner, why=why))
+    for path, why in unrated_forces(run) if run.config.parts is None else ():
+        found.append(OpenRecord(what="not_rated", path=path, owner=owner, why=why))
     found += [OpenRecord(what=each.what, path=each.path, owner=owner, why=each.why) for each in open_values(run)]
     order = list(LEFT)
     return sorted(found, key=lambda each: order.index(each.what))
 
 
-def free_ports(run: Run) -> dict[str, list[str]]:
-    """Return of each mechanism that makes forces the curves of force and torque that nothing takes.
+def unrated_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
+    """Yield of each mechanism the curves of force and torque that nothing takes, and of each load the component that it leaves out.
 
     A mechanism that takes a force, a torque or all of another one is a part which rates it, or hands on what it declares as its reactions.
     A mechanism that is calculated alone belongs to no drive line.
     """
-    taken = {(each.instance, each.result) for target in run.config.links.values() for each in target.single}
+    links = run.config.links.items()
+    taken = {(each.instance, each.result) for _, target in links for each in target.single}
     forces = {name: _forces(calc) for name, calc in run.calculations.items()}
     given = {(name, force) for name, own in forces.items() for force in own}
     parts = {
         node[0]
-        for node, target in run.config.links.items()
+        for node, target in links
         if any(each.is_mechanism or (each.instance, each.result) in given for each in target.single)
     }
-    asked = {
-        name: [force for force in own if name not in parts or force in run.calculations[name].mechanism.reactions]
-        for name, own in forces.items()
-    }
-    found = {name: [force for force in own if (name, force) not in taken] for name, own in asked.items()}
-    return {name: own for name, own in found.items() if own and len(forces) > 1}
+    for name, own in forces.items() if len(forces) > 1 else ():
+        asked = own if name not in parts else run.calculations[name].mechanism.reactions
+        if free := [force for force in own if force in asked and (name, force) not in taken]:
+            yield f"mechanisms.{name}", Phrase("no part takes {ports}", ports=", ".join(free))
+    yield from _taken_in_part(run)
+
+
+def _taken_in_part(run: Run) -> Iterator[tuple[str, Phrase]]:
+    """The loads that take one component of a force, and not the other."""
+    taken: dict[tuple[Node, str], set[str]] = {}
+    for node, target in run.config.links.items():
+        for each in target.single:
+            taken.setdefault((node[:-1], each.instance), set()).add(str(each.result))
+    for (node, name), results in taken.items():
+        ports = run.calculations[name].mechanism.ports if name in run.calculations else ()
+        for forces in {port.forces for port in ports if results.intersection(port.forces)}:
+            if left := [force for force in forces if force not in results]:
+                path = input_path(str(node[0]), node[1:])
+                yield path, Phrase("takes no {ports} of {name}", ports=", ".join(left), name=name)
 
 
 def _forces(calc: Calculation) -> list[str]:
@@ -98,7 +111,7 @@ def open_values(run: Run) -> Iterator[OpenValue]:
     for name, instance in run.config.instances.items():
         if instance is None or name not in run.blocks:
             continue
-        unranged_keys = unranged(run.config.kinds.get(name, PRESS))
+        unranged_keys = unranged(run.config.kinds.get(name, PRESS), _is_alone(run, name))
         for slot in instance.slots:
             path = input_path(name, slot.key)
             if what := _rests_on(run, instance, slot):
@@ -123,12 +136,19 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     usual = range_of(kind, slot.name)
     if not slot.is_given or is_default(run.blocks[instance.name], slot.key):
         return "default" if value or usual or zero_is_open(kind, slot.name) else None
+    is_alone = _is_alone(run, instance.name)
     is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
     beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]
     unsaid = is_unranged and is_limit and not names_something(said.note if said else "")
-    asks = beyond or asks_basis(kind, slot.name)
-    founded = run.bases.is_founded((instance.name, *slot.key)) and not (beyond or unsaid)
+    asks = beyond or asks_basis(kind, slot.name, is_alone)
+    is_drawn_load = not is_alone and said is not None and said.basis == "drawing" and by_reference(kind, slot.name)
+    founded = run.bases.is_founded((instance.name, *slot.key)) and not (beyond or unsaid or is_drawn_load)
     return "assumed" if is_assumed or (asks and not founded) else None
+
+
+def _is_alone(run: Run, name: str) -> bool:
+    """Whether the loads of a mechanism are no others' results: it has none beside it, or the parts of the machine give them."""
+    return len(run.config.kinds) == 1 or (run.config.parts is not None and name in run.config.parts.calculations)
 
 
 def _open_choice(run: Run, instance: Instance, slot: Slot) -> str:

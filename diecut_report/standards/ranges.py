@@ -68,6 +68,7 @@ class _Without(BaseModel):
     reason: str
     keys: dict[str, list[str]]
     needs_basis: bool = False
+    by_reference: bool = False
     zero_is_open: bool = False
 
 
@@ -125,10 +126,19 @@ def reasons_without(kind: str) -> Iterator[tuple[str, str]]:
 
 
 @cache
-def unranged(kind: str) -> Mapping[str, str]:
-    """Return the keys of a kind that have no row, and ask for a basis all the same, each with the reason."""
-    groups = (group for group in range_table().without if group.needs_basis)
+def unranged(kind: str, is_alone: bool = True) -> Mapping[str, str]:
+    """Return the keys of a kind that have no row, and ask for a basis all the same, each with the reason.
+
+    Beside others a mechanism takes its loads and speeds from them; alone they are what it is calculated for.
+    """
+    groups = (group for group in range_table().without if group.needs_basis or (group.by_reference and not is_alone))
     return {key: phrase(group.reason) for group in groups for key in group.keys.get(kind, ())}
+
+
+@cache
+def by_reference(kind: str, path: str) -> bool:
+    """Return whether a key takes what another mechanism of the machine gives, which no drawing founds."""
+    return any(path in group.keys.get(kind, ()) for group in range_table().without if group.by_reference)
 
 
 @cache
@@ -137,10 +147,10 @@ def zero_is_open(kind: str, path: str) -> bool:
     return any(path in group.keys.get(kind, ()) for group in range_table().without if group.zero_is_open)
 
 
-def asks_basis(kind: str, path: str) -> bool:
+def asks_basis(kind: str, path: str, is_alone: bool = True) -> bool:
     """Return whether a value of a key counts as assumed unless it rests on what can be looked up."""
     usual = range_of(kind, path)
-    return path in unranged(kind) or (usual is not None and usual.needs_basis)
+    return path in unranged(kind, is_alone) or (usual is not None and usual.needs_basis)
 
 
 @cache

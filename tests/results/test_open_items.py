@@ -260,3 +260,65 @@ TURNING = """\
 )
 def test_that_a_shaft_does_not_turn_asks_for_a_basis(tmp_path: Path, rotation: str, what: str | None) -> None:
     assert values(tmp_path, HEAD + TURNING % rotation).get("mechanisms.s.rotation") == what
+
+
+LOADED = """\
+  s:
+    kind: shaft
+    sections: [{length: 300 mm, diameter: 60 mm}]
+    bearing_a: 20 mm
+    bearing_b: 200 mm
+    material: 42CrMo4+QT
+    allowable_deflection: 0.1 mm
+    allowable_twist: 0.5 deg/m
+    speed: 50 rpm
+    notches: [{position: 100 mm, type: %s}]
+    loads: [{name: gear, position: 100 mm, torque: balance, gear: {pitch_radius: 60 mm, mesh_angle: 0 deg}}, {name: crank, position: 130 mm, torque: 300 N*m, %s}]
+"""
+
+
+@pytest.mark.parametrize(
+    ("given", "what"),
+    [
+        ("200 N*m", "assumed"),
+        ("{value: 1 N*m, basis: drawing}", "assumed"),  # a drawing founds no load
+        ("{value: 200 N*m, basis: measured}", None),
+        ("'${d.crank_torque_peak}'", None),
+    ],
+)
+def test_a_load_that_is_typed_beside_other_mechanisms_asks_for_a_basis(
+    given: str, what: str | None, tmp_path: Path
+) -> None:
+    """Alone it is what the mechanism is calculated for."""
+    gears = GEARS.replace("200 N*m", given) % ("n_points", 360)
+    assert values(tmp_path, HEAD + gears + DRIVE % "").get("mechanisms.g.torque") == what
+    if "$" not in given:
+        assert values(tmp_path, HEAD + gears).get("mechanisms.g.torque") is None
+
+
+@pytest.mark.parametrize(("offset", "what"), [("", "default"), (", offset: {value: 45 mm, basis: drawing}", None)])
+def test_the_plane_of_a_load_that_is_left_out_is_open(tmp_path: Path, offset: str, what: str | None) -> None:
+    text = HEAD + LOADED % ("keyseat_end_mill", f"force_y: 3 kN{offset}")
+    assert values(tmp_path, text).get("mechanisms.s.loads.1.offset") == what
+
+
+@pytest.mark.parametrize(
+    ("notch", "what"), [("keyseat_end_mill", "assumed"), ("{value: keyseat_pair, basis: drawing}", None), ("press_fit", None)]
+)  # fmt: skip
+def test_nothing_says_that_the_key_of_a_keyseat_is_rated(notch: str, what: str | None, tmp_path: Path) -> None:
+    text = HEAD + LOADED % (notch, "force_y: 3 kN")
+    assert values(tmp_path, text).get("mechanisms.s.notches.0.type") == what
+
+
+@pytest.mark.parametrize(
+    ("force", "is_left"),
+    [
+        ("force_y: '${d.crank_bearing_force_x}'", True),
+        ("force_y: '${d.crank_bearing_force_x}', force_z: '${d.crank_bearing_force_y}'", False),
+        ("force_y: '${d.coupler_force}'", False),  # the whole of it, along the coupler
+    ],
+)
+def test_a_load_that_takes_one_component_of_a_force_is_named(force: str, is_left: bool, tmp_path: Path) -> None:
+    found = left(tmp_path, HEAD + LOADED % ("press_fit", force) + DRIVE % "")
+    why = [str(each.why) for each in found if each.path == "mechanisms.s.loads.1"]
+    assert why == (["takes no crank_bearing_force_y of d"] if is_left else [])

@@ -55,22 +55,14 @@ def names(parts: MachineParts) -> Iterator[Finding]:
 
 
 def riding(parts: MachineParts) -> Iterator[Finding]:
-    """What a part rides on is another one of its shaft, which the shaft carries in the end."""
+    """What a part rides on is a clutch or a coupling of its shaft, which takes its torque: what is fixed to another hub is bolted."""
     for shaft in parts.shafts.values():
-        carried_by = {part.name: part.keys.rides_on for part in shaft.parts}
-        for part in (each for each in shaft.parts if each.keys.rides_on is not None):
-            passed, below = {part.name}, part.keys.rides_on
-            while below in carried_by and below not in passed:
-                passed.add(below)
-                below = carried_by[below]
-            template = "is {name}, which is not a part of this shaft; they are {known}"
-            if below in passed:
-                template = "is {name}, so that it is carried by itself; name a part that is fixed to the shaft"
-            if below is not None:
-                known = ", ".join(name for name in carried_by if name != part.name)
-                yield finding(
-                    parts, "names", "error", (*part.path, "rides_on"), template, name=part.keys.rides_on, known=known
-                )
+        clutches = [part.name for part in shaft.parts if part.kind in ("clutch", "coupling") and not part.keys.rides_on]
+        for part in shaft.parts:
+            if part.keys.rides_on not in (None, *clutches):
+                template = "is {name}, which is no clutch or coupling that this shaft carries; they are {known}. What is fixed to another hub is bolted: true"
+                yield finding(parts, "names", "error", (*part.path, "rides_on"), template, name=quoted(part.keys.rides_on),
+                    known=", ".join(clutches) or phrase("none"))  # fmt: skip
 
 
 def described(parts: MachineParts) -> Iterator[Finding]:

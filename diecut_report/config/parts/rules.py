@@ -319,7 +319,11 @@ def torque_carried(parts: MachineParts) -> Iterator[Finding]:
 
 
 def integral(parts: MachineParts) -> Iterator[Finding]:
-    """What is cut on a shaft is not much thicker below its teeth than the shaft: a wheel is a part of its own."""
+    """Gears, cranks and rockers are in one piece with a shaft; a gear is not much thicker below its teeth than its shaft, else it is a wheel."""
+    for part in (part for _, part in hubs(parts)):
+        if part.keys.integral and part.kind not in ("gear", "crank", "rocker"):
+            template = "is not made in one piece with a shaft, as gears, cranks and rockers are; give key, interference or bolted: true"
+            yield finding(parts, "integral", "error", (*part.path, "integral"), template)
     for join in parts.joins:
         for part in (*join.drivers, *join.driven) if isinstance(join.keys, MeshKeys) else ():
             if not part.keys.integral or part.section is None:
