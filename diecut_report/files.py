@@ -55,6 +55,7 @@ def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool =
                     )
                     raise refusal(template, path)
                 _refuse_stored(place)
+                _refuse_signed(place, content)
                 ready.append((stack.enter_context(_beside(place, content, through)), place, path))
         for temporary, place, path in ready:
             with in_words(path, NOTHING):
@@ -102,6 +103,16 @@ def _refuse_stored(place: Path) -> None:
                 "This belongs to the stored results of a study, which would be damaged. Choose another place with -o."
             )
             raise refusal(template, place)
+
+
+def _refuse_signed(place: Path, content: bytes) -> None:
+    """Refuse a PDF that somebody has signed, unless it stays in what is written, as where somebody else signs it too."""
+    if not place.is_file() or place.suffix.lower() != ".pdf":
+        return
+    before = place.read_bytes()
+    if before.startswith(b"%PDF-") and b"/ByteRange" in before and not content.startswith(before):
+        template = "This report is signed, and would be lost. Choose another place with -o, or move it away."
+        raise refusal(template, place)
 
 
 @contextmanager

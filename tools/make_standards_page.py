@@ -101,7 +101,7 @@ def _bounded(key: str, of: str) -> str:
 def _without() -> Iterator[str]:
     for group in range_table().without:
         kinds = (f"{'all' if kind == EVERY else f'`{kind}`'}: {', '.join(keys)}" for kind, keys in group.keys.items())
-        yield f"- {group.reason[:1].upper()}{group.reason[1:]}{' ●' if group.needs_basis else ''}. {'; '.join(kinds)}."
+        yield f"- {group.reason[:1].upper()}{group.reason[1:]}{' ●' if group.needs_basis or group.by_reference else ''}. {'; '.join(kinds)}."
     yield CHOICES
     for row in range_table().choices:
         keys = (

@@ -170,6 +170,8 @@ def name_fault(name: Any) -> str:
 def place_fault(name: str, lie: str) -> str:
     """Return that a name leads elsewhere than beside the configuration or below; ``lie`` names what: "tables lie"."""
     windows = PureWindowsPath(name)
+    if not windows.name:
+        return Phrase("is {name}, which names no file", name=quoted(name))
     if windows.is_absolute() or windows.drive or PurePosixPath(name).is_absolute() or ".." in windows.parts:
         template = (
             "is {name}; {lie} beside the configuration or in a folder below it: give a name without a folder above"

@@ -398,7 +398,7 @@ def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, 
     home, key = path[:-1], path[-1]
     data = tree.data
     for part in home:  # nothing where there is no block
-        known = part in data if isinstance(data, dict) else isinstance(data, list) and int(part) < len(data)
+        known = part in data if isinstance(data, dict) else isinstance(data, list) and part in range(len(data))
         data = data[part] if known else None
     for name in data if isinstance(data, dict) else ():
         before = (*home, name)

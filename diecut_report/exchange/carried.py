@@ -135,7 +135,7 @@ def _tables(config: CarriedConfigRecord, file: str) -> dict[str, bytes]:
     faults += [Phrase("The name of the logo {fault}.", fault=fault) for name in logo if (fault := logo_fault(name))]
     found |= logo
     template = "The name of a file is longer than {longest_name} bytes: {name}…."
-    long = [name for name in found if max(len(part.encode()) for part in Path(name).parts) > LONGEST_NAME]
+    long = [name for name in found if any(len(part.encode()) > LONGEST_NAME for part in Path(name).parts)]
     faults += [Phrase(template, longest_name=LONGEST_NAME, name=name[:80]) for name in long]
     if faults:
         raise UserError([Problem(fault, file) for fault in faults])

@@ -193,7 +193,9 @@ class _Changes:
             return False
         a, b = list(first or ()), list(second)
         pairs = zip(a, b, strict=False)
-        same = len(a) <= len(b) <= len(a) + 1 and all(x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in pairs)
+        same = len(a) <= len(b) <= len(a) + 1 and all(
+            x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in pairs
+        )
         return same and all(map(self._is_timestamp, b[len(a) :]))
 
     def _is_timestamp(self, field: Any) -> bool:

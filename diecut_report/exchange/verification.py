@@ -262,7 +262,7 @@ def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
     asked = carried.results.report.template_sha256
     if asked == (house.sha256 if house else ""):
         return ""
-    own = Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
+    own = Phrase("templates of their own (SHA-256 {asked})", asked=cell(asked[:SHORT]))
     own = own if asked else phrase("the program's templates alone")
     return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own)
 
@@ -351,15 +351,15 @@ def _compared(results: ResultsRecord, again: ResultsRecord, program: Found) -> M
 
 def _program(first_results: ResultsRecord, again_results: ResultsRecord) -> Found:
     first, again = first_results.program, again_results.program
-    named, old, new = f"{first.name} {first.version}", first.source_sha256, again.source_sha256
+    named, old, new = cell(f"{first.name} {first.version}"), first.source_sha256, again.source_sha256
     if (first.version, old, first.extensions) == (again.version, new, again.extensions):
         template = "{named}, source {old}: the same{others}"
-        return Phrase(template, named=named, old=old[:SHORT], others=_others(first, again)), True
+        return Phrase(template, named=named, old=cell(old[:SHORT]), others=_others(first, again)), True
     if first.version != again.version:
         return Phrase("{named} made the report, this is {version}", named=named, version=again.version), False
     if old != new:
         template = "{named}, but its source is another one ({old} then, {new} now)"
-        return Phrase(template, named=named, old=old[:SHORT], new=new[:SHORT]), False
+        return Phrase(template, named=named, old=cell(old[:SHORT]), new=new[:SHORT]), False
     return Phrase("{named}, but its extensions are others", named=named), False
 
 
@@ -398,7 +398,7 @@ def _codes(results: ResultsRecord) -> dict[str, set[tuple[str, str]]]:
 
 
 def _named_code(code: tuple[str, str]) -> str:
-    return Phrase("version {version}, source {digest}", version=code[0], digest=code[1][:SHORT])
+    return Phrase("version {version}, source {digest}", version=cell(code[0]), digest=cell(code[1][:SHORT]))
 
 
 def _config(carried: CarriedResults) -> Found:
@@ -411,7 +411,7 @@ def _config(carried: CarriedResults) -> Found:
         found = sha256(content).hexdigest()
         if found != hashes[name]:
             template = "{name} is not the one that the report names (SHA-256 {hashes}, found {found})"
-            return Phrase(template, name=cell(name), hashes=hashes[name][:SHORT], found=found[:SHORT]), False
-    told = {"files": ", ".join(map(cell, contents)), "digest": config.sha256[:SHORT]}
+            return Phrase(template, name=cell(name), hashes=cell(hashes[name][:SHORT]), found=found[:SHORT]), False
+    told = {"files": ", ".join(map(cell, contents)), "digest": cell(config.sha256[:SHORT])}
     one = "{files}, SHA-256 {digest}: the one that the report names"
     return Counted(len(contents), one, "{files}, SHA-256 {digest}: the ones that the report names", told), True

@@ -17,7 +17,7 @@ from diecut_report.config.plugins import Discovery, said
 from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.yaml import KeyPath, Tree
 from diecut_report.design.inputs import DesignInput, given_choices, given_numbers
-from diecut_report.errors import PluginError, Problem, UserError, refusal
+from diecut_report.errors import PluginError, Problem, UserError, own_fault, refusal
 from diecut_report.files import write
 from diecut_report.press import Press
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity, with_point
@@ -59,6 +59,7 @@ class LiveSession:
         self.edits: dict[str, str] = {}
         self.serial = 0
         self._places: dict[str, KeyPath] = {}
+        self._items: dict[str, list[object]] = {}
         self._press = WarmPress()
         self._read: dict[Path, object] = {}
         self.read()
@@ -81,7 +82,9 @@ class LiveSession:
         except UserError as error:
             self._failed(error.problems)
             return
-        self.edits = {name: typed for name, typed in self.edits.items() if self.tree.typed(self._places[name]) != typed}
+        for name, typed in list(self.edits.items()):
+            if self.tree.typed(self._places[name]) == typed and not self._is_moved(name):
+                del self.edits[name]
         self._calculate()
 
     def _marks(self) -> dict[Path, object]:
@@ -103,6 +106,8 @@ class LiveSession:
             raise refusal("At most {n} numbers can be changed before they are written to the file.", n=MAX_EDITS)
         for name, typed in taken.items():
             self._places[name] = (machine.inputs.get(name) or machine.choices[name]).stands
+            if self.tree is not None and name not in self.edits:
+                self._items[name] = _items(self.tree, self._places[name])
             self.edits[name] = typed
             if self.tree is not None and self.tree.typed(self._places[name]) == typed:
                 del self.edits[name]
@@ -129,7 +134,14 @@ class LiveSession:
         self.edits = {}
         self.read()
 
+    def _is_moved(self, name: str) -> bool:
+        """Whether other items stand in the file where a number of a list was changed on the page."""
+        return self.tree is not None and _items(self.tree, self._places[name]) != self._items[name]
+
     def _edited(self) -> dict[KeyPath, str]:
+        if moved := [name for name in self.edits if self._is_moved(name)]:
+            template = "{names} changed on this page, but other items of its list stand there now; take the change back, and make it again."
+            raise refusal(template, self.file, names=", ".join(moved))
         return {self._places[name]: typed for name, typed in self.edits.items()}
 
     def _changeable(self) -> LiveMachine:
@@ -171,6 +183,8 @@ class LiveSession:
             self._failed(error.problems)
         except PluginError as error:
             self._failed([Problem(str(error), str(self.file))])
+        except Exception as error:  # of the program itself: the page shows it, and goes on with what is saved next
+            self._failed([Problem(own_fault(error), str(self.file))])
         else:
             self.machine, self.faults = machine, []
             self.start = self.start or machine
@@ -188,6 +202,21 @@ class LiveSession:
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)
         self.serial += 1
+
+
+def _items(tree: Tree, place: KeyPath) -> list[object]:
+    """What tells the items of lists at a place from others: their texts, such as a name, else all that is typed beside it."""
+    found: list[object] = []
+    for depth, step in enumerate(place):
+        listed = tree.node(place[:depth]).children or {}
+        if isinstance(step, int) and step in listed:
+            own = (listed[step].children or {}).items()
+            typed = {key: each.typed for key, each in own if each.typed and place[depth + 1 :] != (key,)}
+            texts = {key: text for key, text in typed.items() if text[:1].isalpha()}
+            found.append(texts or (len(listed), typed))
+        elif isinstance(step, int):
+            found.append(None)
+    return found
 
 
 @contextmanager

@@ -117,11 +117,14 @@ def unrated(
             yield OpenRecord(
                 what="not_rated", path=part.path, owner=own, why=Phrase("{part}: {why}", part=part.name, why=why)
             )
-    for shaft in parts.shafts.values():
-        for each in (part for part in shaft.parts if part.keys.accepted is None):
-            for template in _without_method(each):
-                why = Phrase(template, part=each.called)
-                yield OpenRecord(what="not_rated", path=dotted(each.path), owner=own, why=why)
+    every = [part for shaft in parts.shafts.values() for part in shaft.parts]
+    if train is not None and not any(part.kind == "flywheel" for part in every):
+        why = phrase("it sizes a flywheel, and no part is that")
+        yield OpenRecord(what="not_rated", path=f"mechanisms.{train}", owner=own, why=why)
+    for each in (part for part in every if part.keys.accepted is None):
+        for template in _without_method(each):
+            why = Phrase(template, part=each.called)
+            yield OpenRecord(what="not_rated", path=dotted(each.path), owner=own, why=why)
 
 
 def _without_method(part: ShaftPart) -> Iterator[str]:
@@ -134,5 +137,9 @@ def _without_method(part: ShaftPart) -> Iterator[str]:
         yield phrase("{part}: no method rates its press fit")
     if part.keys.bolted:
         yield phrase("{part}: no method rates its bolts")
+    if part.kind in ("crank", "rocker") and part.keys.pin is None:
+        yield phrase("{part}: its pin is not given")
+    if part.keys.pin is not None and part.keys.pin.bearing is None:
+        yield phrase("{part}: the bearing of its pin is not given")
     if part.keys.pin is not None and part.keys.pin.held is not None:
         yield phrase("{part}: no method rates the press fit of its pin")

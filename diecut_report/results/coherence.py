@@ -6,7 +6,7 @@ places; among many machines it is the reason why a variant cannot exist.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -364,21 +364,31 @@ def disagreements(machine: Machine) -> Iterator[Disagreement]:
 # What the parts of the machine are found to contradict: an error is refused when the file is read, all else is a check of the drive line.
 
 
+DRIVE_LINE = "drive_line"  # the kind that has the checks of the machine's parts
 FITS, CARRIED = "parts_fit", "torque_carried"
+ToldFinding = tuple[str, Phrase]  # the level of what a rule found, and what is said of it with its place
 
 
-def note_findings(calc: Calculation, parts: MachineParts) -> None:
+def told_findings(parts: MachineParts | None, kind: str) -> tuple[ToldFinding, ...]:
+    """Return what the rules of the parts found, of the kind that has their checks; nothing of another one."""
+    if parts is None or kind != DRIVE_LINE:
+        return ()
+    told = "{place}: {message}"
+    return tuple(
+        (each.level, Phrase(told, place=parts.line(each.path), message=each.message)) for each in parts.findings
+    )
+
+
+def note_findings(calc: Calculation, findings: Sequence[ToldFinding]) -> None:
     """Give the calculation of the drive line the checks of its parts; those that nothing contradicts are left out."""
-    by_level = {level: [each for each in parts.findings if each.level == level] for level in ("warning", "fail")}
     checks = []
     for level, id, title, label in (
         ("warning", FITS, phrase("Parts that fit each other"), phrase("doubtful places")),
         ("fail", CARRIED, phrase("Torque carried"), phrase("parts that nothing joins to their shaft")),
     ):
-        found = by_level[level]
-        if found:
-            calc.values[id] = np.full((calc.count, 1), float(len(found)))
-            texts = [Phrase("{place}: {message}", place=parts.line(each.path), message=each.message) for each in found]
+        texts = [text for own, text in findings if own == level]
+        if texts:
+            calc.values[id] = np.full((calc.count, 1), float(len(texts)))
             checks.append(
                 Check(
                     id=id, title=title, check_class="function" if level == "fail" else "practice", severity="fail" if level == "fail" else "warn",
@@ -386,4 +396,4 @@ def note_findings(calc: Calculation, parts: MachineParts) -> None:
                     consequence=Phrase("{findings}.", findings=joined(texts, "; ")),
                 )
             )  # fmt: skip
-    calc.further_checks = (*calc.further_checks, *checks)
+    calc.further_checks = (*(each for each in calc.further_checks if each.id not in (FITS, CARRIED)), *checks)

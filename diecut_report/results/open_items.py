@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from diecut_report.config.instances import Instance, Node, Slot
 from diecut_report.config.model import PRESS
+from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, names_something
 from diecut_report.machine.calculation import Calculation
@@ -48,7 +49,7 @@ def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[Op
     found = unsettled(checks, doubtful, owner)
     if run.config.parts is not None:
         found += unrated(run.config.parts, run.config.named("drive_train"), checks, owner)
-    for path, why in unrated_forces(run) if run.config.parts is None else ():
+    for path, why in unrated_forces(run):
         found.append(OpenRecord(what="not_rated", path=path, owner=owner, why=why))
     found += [OpenRecord(what=each.what, path=each.path, owner=owner, why=each.why) for each in open_values(run)]
     order = list(LEFT)
@@ -59,8 +60,11 @@ def unrated_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
     """Yield of each mechanism the curves of force and torque that nothing takes, and of each load the component that it leaves out.
 
     A mechanism that takes a force, a torque or all of another one is a part which rates it, or hands on what it declares as its reactions.
-    A mechanism that is calculated alone belongs to no drive line.
+    A mechanism that is calculated alone belongs to no drive line. In a machine of parts they are the ports for which no part stands.
     """
+    if run.config.parts is not None:
+        yield from _ports_without_part(run, run.config.parts)
+        return
     links = run.config.links.items()
     taken = {(each.instance, each.result) for _, target in links for each in target.single}
     forces = {name: _forces(calc) for name, calc in run.calculations.items()}
@@ -75,6 +79,14 @@ def unrated_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
         if free := [force for force in own if force in asked and (name, force) not in taken]:
             yield f"mechanisms.{name}", Phrase("no part takes {ports}", ports=", ".join(free))
     yield from _taken_in_part(run)
+
+
+def _ports_without_part(run: Run, parts: MachineParts) -> Iterator[tuple[str, Phrase]]:
+    known = {part.port for shaft in parts.shafts.values() for part in shaft.parts}
+    for name, calc in run.calculations.items():
+        left = [port.name for port in calc.mechanism.ports if (name, port.name) not in known]
+        if left:
+            yield f"mechanisms.{name}", Phrase("no part stands for {ports}", ports=", ".join(left))
 
 
 def _taken_in_part(run: Run) -> Iterator[tuple[str, Phrase]]:

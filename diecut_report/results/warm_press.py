@@ -33,6 +33,7 @@ from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI
 from diecut_report.results.checks import check_results, verdicts
+from diecut_report.results.coherence import ToldFinding, told_findings
 from diecut_report.results.conclusion import governing
 from diecut_report.results.document import document, verdict
 from diecut_report.results.drive_line import drive_line
@@ -62,11 +63,15 @@ KEPT = 4  # machines of each mechanism that are remembered: the one at the start
 
 
 class Told(NamedTuple):
-    """Hold what changes how a calculation is told, and no number of it: its units, what has no basis, what is beside its inputs."""
+    """Hold what changes how a calculation is told, and no number of it.
+
+    These are its units, what has no basis, what is beside its inputs, and what is found of the machine's parts.
+    """
 
     units: ChosenUnits
     unfounded: frozenset[tuple[str | int, ...]]
     beside: Beside
+    findings: tuple[ToldFinding, ...]
 
 
 class Remembered:
@@ -161,7 +166,8 @@ class WarmRun(Run):
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         unfounded = self.bases.unfounded(instance, block)
-        told = Told(self.chosen_units(instance.name), unfounded, self.beside(instance))
+        findings = told_findings(self.config.parts, mechanism.kind)
+        told = Told(self.chosen_units(instance.name), unfounded, self.beside(instance), findings)
         found = self.press.remembered(instance.name, mechanism, flatten(block), told, self._tell)
         self.remembered[instance.name] = found
         return found.calculation

@@ -121,7 +121,7 @@ def test_the_users_own_tables_come_back_and_are_used_again(tmp_path: Path, capfd
     assert "shaft.yaml, data/steels.yaml, SHA-256" in capfd.readouterr().out
 
 
-@pytest.mark.parametrize("name", ["../up.yaml", "/tmp/up.yaml", "C:\\up.yaml", "up.py", f"{300 * 'a'}.yaml"])
+@pytest.mark.parametrize("name", ["", ".", "../up.yaml", "/tmp/up.yaml", "C:\\up.yaml", "up.py", f"{300 * 'a'}.yaml"])
 def test_the_name_of_a_table_leads_nowhere_else(small_report: Path, tmp_path: Path, name: str) -> None:
     def change(data: dict[str, Any]) -> None:
         data["config"]["materials"] = [{"file": name, "sha256": "", "source_text": "x"}]

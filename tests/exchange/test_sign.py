@@ -21,6 +21,7 @@ from cryptography.x509.oid import NameOID
 from page import validate_pdf
 
 from diecut_report.exchange.signatures import signatures
+from tests.configs import SMALL, saved
 from tests.exchange.forgeries import (
     filled_field,
     later,
@@ -165,6 +166,20 @@ def test_an_object_that_is_written_again_as_it_was_is_no_change(signed: Path) ->
 def test_an_object_that_is_changed_after_signing_is_told(signed: Path, change: Callable[[Any], Any]) -> None:
     found = next(iter(signatures(later(signed.read_bytes(), change))))
     assert not found.holds and "the document has been changed since" in found.words
+
+
+def test_a_signed_report_is_not_written_over(signed: Path, signed_once: bytes, capfd: Capture) -> None:
+    config = saved(signed.parent, SMALL).rename(signed.with_suffix(".yaml"))
+    assert run("report", config, "--format", "pdf,json", "-o", signed.parent, "--previous", signed) == 2
+    assert "is signed, and would be lost. Choose another place with -o" in capfd.readouterr().err
+    assert signed.read_bytes() == signed_once and not signed.with_suffix(".json").exists()
+
+
+def test_a_report_that_a_link_names_is_signed_where_it_stands(pdf: Path, key: Path, tmp_path: Path) -> None:
+    link = tmp_path / "link.pdf"
+    link.symlink_to(pdf)
+    assert run("sign", link, "--key", key, "--field", "approved", "--quiet") == 0
+    assert link.is_symlink() and [each.holds for each in signatures(pdf.read_bytes())] == [True]
 
 
 def test_what_is_added_behind_the_signature_is_told(signed: Path) -> None:

@@ -65,12 +65,22 @@ def set_verdict(data: Data) -> None:
     data["status"] = "warn"
 
 
+FORGED = "x\n✓ numbers      all\nEverything agrees."
+
+
+def set_lines(data: Data) -> None:
+    data["program"]["version"] = data["program"]["source_sha256"] = FORGED
+    data["mechanisms"]["clutch"] |= {"plugin_version": FORGED, "plugin_sha256": FORGED}
+    data["report"]["template_sha256"] = data["config"]["sha256"] = FORGED
+
+
 TAMPERED: list[tuple[Callable[[Data], None], list[str]]] = [
     (set_config, ["✗ configuration", "✗ numbers", "mechanisms.clutch.inputs.torque.value: 300.0 → 310.0"]),
     (set_version, ["✗ program", "0.0.1 made the report"]),
     (set_program, ["✗ program", "000000000000 then"]),
     (set_plugin, ["✗ plugins", "clutch: version", "source 000000000000 then"]),
     (set_verdict, ["✗ numbers", "status: warn → pass", "1 other value differs"]),
+    (set_lines, ["✗ program", "✗ plugins"]),
 ]
 
 
@@ -98,6 +108,7 @@ def test_what_was_changed_is_told(
     assert run("verify", changed(small_report / "small.json", tmp_path / "a.json", change)) == 1
     told = capfd.readouterr().out
     assert all(part in told for part in words) and told.endswith("Not everything agrees.\n")
+    assert not any(line.startswith(("✓ numbers      all", "Everything agrees")) for line in told.splitlines())
 
 
 def test_a_number_that_was_changed_is_told_with_what_comes_out(

@@ -154,6 +154,86 @@ def test_what_is_typed_as_the_file_has_it_is_no_change(session: LiveSession) -> 
     assert session.edits == {} and session.faults == []
 
 
+SECOND = """\
+    loads: [{name: gear, position: 100 mm, torque: balance, mass: 2 kg, gear: {pitch_radius: 60 mm, mesh_angle: 0 deg}},
+            {name: crank, position: 130 mm, torque: 300 N*m, force_y: 3 kN, mass: 8 kg}]
+"""
+SHAFT = f"""\
+schema_version: 1
+project: {{title: a shaft}}
+press: {{name: P}}
+mechanisms:
+  s:
+    kind: shaft
+    sections: [{{length: 90 mm, diameter: 50 mm}}, {{length: 210 mm, diameter: 60 mm}}]
+    bearing_a: 20 mm
+    bearing_b: 200 mm
+    allowable_deflection: 0.1 mm
+    material: 42CrMo4+QT
+    speed: 50 rpm
+    notches: [{{position: 100 mm, type: press_fit}}]
+{SECOND}"""
+
+
+@pytest.mark.parametrize(
+    ("changed", "old", "new"),
+    [
+        ("s.loads.1.mass", "[{name: gear,", "[{name: new, position: 50 mm, mass: 1 kg}, {name: gear,"),
+        ("s.loads.1.mass", "name: crank", "name: disc"),
+        ("s.sections.1.length", "{length: 90 mm, diameter: 50 mm}, ", ""),
+        ("s.sections.0.diameter", "90 mm", "95 mm"),  # nothing else tells one section from another one
+    ],
+)
+def test_a_change_of_the_page_goes_to_no_other_item_of_a_list(tmp_path: Path, changed: str, old: str, new: str) -> None:
+    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
+    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session.change({changed: "55 mm" if "sections" in changed else "9 kg"})
+    replaced(session, old, new)
+    saved = session.file.read_text("utf-8")
+    assert saved == SHAFT.replace(old, new)
+    assert [f"{changed} changed on this page" in str(each.message) for each in session.faults] == [True]
+    with pytest.raises(UserError, match="Nothing is saved"):
+        session.write()
+    assert session.file.read_text("utf-8") == saved and changed in session.edits
+    session.take_back([changed])
+    assert session.faults == []
+
+
+def test_a_change_stays_over_a_list_that_grows_behind_its_named_item(tmp_path: Path) -> None:
+    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
+    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session.change({"s.loads.1.mass": "9 kg"})
+    replaced(session, "mass: 8 kg}", "mass: 8 kg}, {name: new, position: 50 mm, mass: 1 kg}")
+    session.write()
+    assert "force_y: 3 kN, mass: 9 kg}" in session.file.read_text("utf-8") and session.edits == {}
+
+
+@pytest.mark.parametrize("spoilt", ["- 1\n", "schema_version: 1\nmechanisms: []\n", "mechanisms:\n  - knife: {}\n"])
+def test_a_block_that_becomes_a_list_is_a_fault_until_it_is_right(session: LiveSession, spoilt: str) -> None:
+    right = session.file.read_text("utf-8")
+    session.change({"knife.eccentricity": "22 mm"})
+    session.file.write_text(spoilt, encoding="utf-8")
+    session.read()
+    assert session.faults and session.edits
+    session.file.write_text(right, encoding="utf-8")
+    session.read()
+    assert session.faults == [] and session.edits == {"knife.eccentricity": "22 mm"}
+
+
+def test_a_fault_of_the_program_is_shown_and_ends_with_what_is_saved_next(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(_: object) -> None:
+        raise ZeroDivisionError("of the program")
+
+    monkeypatch.setattr(session, "_made", broken)
+    session.read()
+    assert ["ZeroDivisionError: of the program" in str(each.message) for each in session.faults] == [True]
+    monkeypatch.undo()
+    session.read()
+    assert session.faults == []
+
+
 @pytest.mark.parametrize("spoil", ["a fault", "no file", "a folder", "not YAML"])
 def test_the_last_machine_stays_while_the_file_is_at_fault(session: LiveSession, spoil: str) -> None:
     right, before = session.file.read_bytes(), force(session)

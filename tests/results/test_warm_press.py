@@ -150,7 +150,7 @@ def find_given(config: Config, name: str) -> float:
 )
 def test_inputs_that_are_only_nearly_the_same_are_others(tmp_path: Path, one: Any, other: Any) -> None:
     calculation = WarmPress().calculate(loaded(tmp_path, LEVER)).calculations["a"]
-    told = Told(calculation.chosen_units, frozenset(), Beside({}, {}))
+    told = Told(calculation.chosen_units, frozenset(), Beside({}, {}), ())
     known = Remembered(calculation, {"x": one}, told)
     shown = calculation.mechanism, told
     assert known.is_of(shown[0], {"x": one}, shown[1])

@@ -153,7 +153,7 @@ class MeshKeys(Block):
     module: Annotated[float, size("m", "Normal module", gt=0)]
     width: Annotated[float, size("b", "Common face width", gt=0)]
     helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle", ge=0, le=30)] = 0
-    efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the mesh", gt=0, le=1)] = 0.97
+    efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the mesh", ge=0.85, le=1)] = 0.97
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Teeth of a sector", ge=1, integer=True)] = None
 
 

@@ -60,7 +60,10 @@ def riding(parts: MachineParts) -> Iterator[Finding]:
         clutches = [part.name for part in shaft.parts if part.kind in ("clutch", "coupling") and not part.keys.rides_on]
         for part in shaft.parts:
             if part.keys.rides_on not in (None, *clutches):
-                template = "is {name}, which is no clutch or coupling that this shaft carries; they are {known}. What is fixed to another hub is bolted: true"
+                template = (
+                    "is {name}, which is no clutch or coupling that this shaft carries; they are {known}; "
+                    "what is fixed to another hub has bolted: true"
+                )
                 yield finding(parts, "names", "error", (*part.path, "rides_on"), template, name=quoted(part.keys.rides_on),
                     known=", ".join(clutches) or phrase("none"))  # fmt: skip
 

@@ -308,7 +308,8 @@ def wall(parts: MachineParts) -> Iterator[Finding]:
 def torque_carried(parts: MachineParts) -> Iterator[Finding]:
     """What takes a torque from its shaft, or gives it one, is keyed, pressed on, cut on it or bolted, in one of these ways."""
     for part in (part for _, part in hubs(parts)):
-        takes = bool(list(parts.joins_of(part))) or part.port is not None
+        carries = (part, *(each for each in part.shaft.parts if each.keys.rides_on == part.name))
+        takes = any(list(parts.joins_of(each)) or each.port is not None for each in carries)
         if takes and part.kind != "bearing" and not part.is_carried:
             template = "carries a torque, but nothing joins it to the shaft; give key, interference, integral: true or bolted: true"
             yield finding(parts, "torque_carried", "fail", part.path, template)
@@ -338,8 +339,11 @@ def integral(parts: MachineParts) -> Iterator[Finding]:
 
 
 def force_plane(parts: MachineParts) -> Iterator[Finding]:
-    """The force on a crank or a rocker without a pin of the machine has a plane, no nearer to the disc than half the roller's width."""
+    """A crank's or rocker's force has a plane beyond the face of its hub; without a pin of the machine no nearer than half the roller's width."""
     for part in (part for _, part in hubs(parts)):
+        if part.kind in ("crank", "rocker") and part.port is not None and not part.hub:
+            template = "has no hub, so that it is not known where its face is, beyond which its force acts; give hub"
+            yield finding(parts, "pin_plane", "error", part.path, template)
         if part.kind not in ("crank", "rocker") or part.port is None or part.keys.pin is not None:
             continue
         if part.keys.plane is None:
@@ -397,6 +401,13 @@ def axes(parts: MachineParts) -> Iterator[Finding]:
             if shaft not in parts.axes:
                 template = "joins {shaft}, which has no axis in machine.frame, so that its forces have no direction; give {shaft}: [x, y] there"
                 yield finding(parts, "frame", "error", join.path, template, ("machine",), shaft=shaft)
+
+
+def one_belt(parts: MachineParts) -> Iterator[Finding]:
+    """One belt is calculated, with the drive train, which knows the motor that pulls it."""
+    for join in [each for each in parts.joins if each.word == "belts"][1:]:
+        template = "is a second belt; one alone is calculated, by the drive train: give what this one drives as a load of its shaft"
+        yield finding(parts, "belt", "error", join.path, template)
 
 
 def center(parts: MachineParts) -> Iterator[Finding]:
@@ -565,5 +576,5 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
     names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
-    torque_carried, integral, force_plane, axes, center, frame, mesh_pair, sector, chain,
+    torque_carried, integral, force_plane, axes, one_belt, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

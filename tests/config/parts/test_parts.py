@@ -20,6 +20,7 @@ from diecut_report.config.yaml import parse
 from diecut_report.errors import Problem, UserError
 from diecut_report.press import Press
 from diecut_report.results.carrying_parts import carrying_parts, is_rated, unrated
+from diecut_report.results.open_items import unrated_forces
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
 from diecut_report.results.warm_press import WarmPress
@@ -123,9 +124,13 @@ BROKEN = [
     ("at: 100, designation", "at: 100 kg, designation", "at: "),
     ("frame: {crank: [0, 0]", "frame: {crank: [0]", "two numbers in mm are needed"),
     ("  drive:\n    kind: cylinder_drive\n", "  drive:\n    kind: cylinder_drive\n    sector_ratio: 6\n", "follows from the parts; remove the key"),
+    ("length: 2000, count: 1}}", "length: 2000, count: 1}, fan: {pulleys: [motor.small, flywheel.large], section: SPA, diameters: 125/375, "
+     "length: 2000, count: 1}}", "belts.fan: is a second belt; one alone is calculated"),
     # how a part is joined to its shaft, and where its force acts
     ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60, key: 50, integral: true}", "by key, integral, of which one"),
     ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60, integral: true}", "no such shaft is turned"),
+    ("at: 35, hub: 60, key: 50, plane: 20, mass", "at: 35, key: 50, plane: 20, mass", "has no hub, so that it is not known where its face is"),
+    ("at: 310, hub: 60, key: 50, mass", "at: 310, key: 50, mass", "has no hub, so that it is not known where its face is"),
     ("key: 50, plane: 20, mass", "key: 50, mass", "has neither a pin nor a plane"),
     ("key: 50, plane: 20, mass", "key: 50, plane: 12, mass", "is 12 mm beyond the disc, but the roller is 25 mm wide"),
     ("key: 50, plane: 20, mass", "key: 50, plane: -20, mass", "is -20 mm beyond the disc, but the roller is 25 mm wide"),
@@ -137,7 +142,7 @@ BROKEN = [
     ("{gear: wheel, at: 130, rides_on: clutch}", "{gear: wheel, at: 130, rides_on: wheel}", "which is no clutch or coupling that this shaft carries; they are clutch"),
     ("{gear: wheel, at: 130, rides_on: clutch}", "{gear: wheel, at: 130, rides_on: clutsch}", "which is no clutch or coupling"),
     ("{clutch: clutch, at: 130, hub: 80, key: 70, mass", "{clutch: clutch, at: 130, rides_on: clutch, mass", "which is no clutch or coupling"),
-    ("{gear: sector, at: 85, hub: 60, key: 50,", "{gear: sector, at: 85, hub: 60, rides_on: arm,", "they are none. What is fixed to another hub is bolted"),
+    ("{gear: sector, at: 85, hub: 60, key: 50,", "{gear: sector, at: 85, hub: 60, rides_on: arm,", "they are none; what is fixed to another hub"),
     ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60, rides_on: a}", "which is no clutch or coupling"),
     ("at: 130, hub: 80, key: 70, mass: 6 kg}", "at: 130, hub: 80, integral: true, mass: 6 kg}", "is not made in one piece with a shaft"),
     ("at: 275, hub: 60, key: 50, width: 35}", "at: 275, hub: 60, integral: true, width: 35}", "is not made in one piece with a shaft"),
@@ -616,6 +621,39 @@ def test_what_carries_load_without_a_method_is_not_rated() -> None:
         "crank.disc: no method rates the press fit of its pin",
         "rocker.arm: no method rates its body",
     } <= told
+
+
+def test_what_is_found_of_the_parts_is_shown_as_long_as_it_is_so() -> None:
+    """A clutch that nothing joins to its shaft, and that carries a wheel; a port for which no part stands."""
+    press = WarmPress(is_advised=False)
+    unkeyed = TEXT.replace("hub: 80, key: 70, mass", "hub: 80, mass", 1)
+    without = re.sub(r"      - {crank: disc, of: cross.crank.*\n", "", TEXT)
+    runs = [
+        press.calculate(examined(parse(text, str(FILE)), DISCOVERY)[0])
+        for text in (TEXT, unkeyed, TEXT, unkeyed, without)
+    ]
+    found = [{check.id: check.status for check in run.checks["drive_line"]}.get("torque_carried") for run in runs]
+    assert found == [None, "fail", None, "fail", None]
+    assert [{path: str(why) for path, why in unrated_forces(run)} for run in (runs[0], runs[-1])] == [
+        {},
+        {"mechanisms.cross": "no part stands for crank"},
+    ]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("at: 175, hub: 60, key: 50,", "at: 175, hub: 60, integral: true,", "rocker.arm: no method rates where it passes into its shaft"),
+        ("plane: 15, bearing: NU2208E}", "plane: 15}", "crank.disc: the bearing of its pin is not given"),
+        ("{flywheel: rim,", "{load: rim,", "it sizes a flywheel, and no part is that"),
+        ("moves: drive.cylinder", "moves: drive.cylinder", "main.disc: its pin is not given"),
+    ],
+)  # fmt: skip
+def test_what_is_left_out_of_a_part_is_not_rated(old: str, new: str, why: str) -> None:
+    assert old in TEXT
+    config = examined(parse(TEXT.replace(old, new, 1), str(FILE)), DISCOVERY)[0]
+    assert config.parts is not None
+    assert why in {str(each.why) for each in unrated(config.parts, config.named("drive_train"), {}, "")}
 
 
 @pytest.mark.nightly
