@@ -116,7 +116,9 @@ def _standards() -> Iterator[ProgramText]:
 def _open_without_basis() -> Iterator[ProgramText]:
     """The reasons for which inputs are open, of the table of plausible values."""
     table = range_table()
-    reasons = [group.reason for group in table.without if group.needs_basis or group.by_reference] + [group.reason for group in table.choices]
+    reasons = [group.reason for group in table.without if group.needs_basis or group.by_reference] + [
+        group.reason for group in table.choices
+    ]
     yield from (ProgramText(reason, note="plausible values") for reason in reasons)
 
 

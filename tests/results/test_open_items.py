@@ -273,7 +273,8 @@ LOADED = """\
     allowable_twist: 0.5 deg/m
     speed: 50 rpm
     notches: [{position: 100 mm, type: %s}]
-    loads: [{name: gear, position: 100 mm, torque: balance, gear: {pitch_radius: 60 mm, mesh_angle: 0 deg}}, {name: crank, position: 130 mm, torque: 300 N*m, %s}]
+    loads: [{name: gear, position: 100 mm, torque: balance, gear: {pitch_radius: 60 mm, mesh_angle: 0 deg}},
+            {name: crank, position: 130 mm, torque: 300 N*m, %s}]
 """
 
 
