@@ -20,6 +20,7 @@ MOST_WARNINGS = 100
 DEEPEST = 100
 MOST_ATTACHED = 1000  # files, with the nodes of their tree
 MOST_REVISIONS = 100
+MOST_OBJECTS = 4_000_000  # of all revisions together, each of which is looked through: a large report has some 200 000
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
 END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
 PDF_FAULTS = (
@@ -42,7 +43,8 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
     try:
         with opened(content) as pdf:
             found = _found(pdf, name, most, file)
-        _refuse_former(content, found, name, most, file)
+            count = len(pdf.objects)
+        _refuse_former(content, count, found, name, most, file)
         return found
     except pikepdf.PasswordError as error:
         raise refusal("The PDF is encrypted, and opens only with a password. Give one without.", file) from error
@@ -83,12 +85,12 @@ def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
     return bytes(content)
 
 
-def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, file: str) -> None:
+def _refuse_former(content: bytes, count: int, found: bytes | None, name: str, most: int, file: str) -> None:
     """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
     ends = [end.end() for end in END.finditer(content)][:-1]
-    if len(ends) > MOST_REVISIONS:
-        template = "The PDF was added to {count} times. Give the file as the program wrote it."
-        raise refusal(template, file, count=len(ends))
+    if len(ends) > MOST_REVISIONS or len(ends) * count > MOST_OBJECTS:
+        template = "The PDF has {objects} objects and was added to {count} times. Give the file as the program wrote it."
+        raise refusal(template, file, objects=count, count=len(ends))
     for end in ends:
         try:
             with opened(content[:end]) as pdf:

@@ -27,10 +27,10 @@ from diecut_report.exchange.carried import MOST, form_of
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.pdf_attachments import PDF_FAULTS
 from diecut_report.exchange.signature_drawing import drawing
-from diecut_report.exchange.signatures import refuse_nested_fields, silent
+from diecut_report.exchange.signatures import refuse_nested_fields, signatures, silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase, joined, phrase
 
 NONE_FREE = phrase(
     "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
@@ -78,6 +78,13 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
         raise refusal(template, asked.report, error=error) from error
     if not only_signed(whole, signed):
         raise refusal(AMBIGUOUS, asked.report)
+    found = signatures(signed)
+    if not any(each.is_last and each.holds for each in found):
+        template = (
+            "The signature would not hold, so nothing was signed: {found}. "
+            "Sign with a certificate that is valid now, and whose names all programs can read."
+        )
+        raise refusal(template, asked.report, found=joined([each.words for each in found if not each.holds], "; "))
     write_all({asked.target: signed}, keep=key.file)
     tell(Phrase("signed by {name} in the field {field}", name=key.name, field=field))
 

@@ -122,13 +122,15 @@ def unrated(
         why = phrase("it sizes a flywheel, and no part is that")
         yield OpenRecord(what="not_rated", path=f"mechanisms.{train}", owner=own, why=why)
     for each in (part for part in every if part.keys.accepted is None):
-        for template in _without_method(each):
+        for template in _without_method(each, parts.mechanisms):
             why = Phrase(template, part=each.called)
             yield OpenRecord(what="not_rated", path=dotted(each.path), owner=own, why=why)
 
 
-def _without_method(part: ShaftPart) -> Iterator[str]:
-    """What of a part carries load and has no method of calculation."""
+def _without_method(part: ShaftPart, mechanisms: Mapping[str, str]) -> Iterator[str]:
+    """What of a part carries load and has no method of calculation, with the kinds of the mechanisms by their names."""
+    if part.kind == "clutch" and "clutch" not in mechanisms.values():
+        yield phrase("{part}: no mechanism calculates how it engages")
     if part.kind in BODIES:
         yield phrase("{part}: no method rates its body")
     if part.keys.integral and part.kind in BODIES:

@@ -32,6 +32,7 @@ TAKEN = {
     "shaft": ("section_diameter",),
     "rolling_bearing": ("bore",),
     "gear_pair": ("working_diameter_1", "working_diameter_2"),
+    "cyclogram": ("torque_curve_turns",),
 }
 """Results by which the rules judge, of each kind."""
 
@@ -345,6 +346,22 @@ def sprockets(machine: Machine) -> Iterator[Disagreement]:
                     )  # fmt: skip
 
 
+def turns(machine: Machine) -> Iterator[Disagreement]:
+    """A drive train takes the torque of the main shaft over as many revolutions as the cyclogram gives it."""
+    for train in machine.of("drive_train"):
+        target = train.target("torque_curve")
+        if target is None or not machine.is_of(target.instance, "cyclogram"):
+            continue
+        timing, key = machine.parts[target.instance], "torque_curve_turns"
+        own, other = train.number(key), timing.number(key)
+        if own is not None and other is not None:
+            yield Disagreement(
+                train, (key,), timing, ("lines",), _differ(own, other),
+                phrase("is {own}, but the torque curve of {timing} spans {other} revolutions of the main shaft; refer to its torque_curve_turns"),
+                {"own": (own, "1"), "other": (other, "1"), "timing": timing.instance.name},
+            )  # fmt: skip
+
+
 RULES: tuple[Callable[[Machine], Iterator[Disagreement]], ...] = (
     named_shafts,
     seats,
@@ -353,6 +370,7 @@ RULES: tuple[Callable[[Machine], Iterator[Disagreement]], ...] = (
     torque_seats,
     speeds,
     sprockets,
+    turns,
 )
 
 

@@ -69,6 +69,9 @@ body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its p
     lambda discs_inertia, bodies_inertia: discs_inertia + bodies_inertia, needs=BODIES)
 body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its parts", lambda discs_inertia: discs_inertia, lacks=BODIES)
 
+body.value("accepted_inertia", "[J_F]", "kg*m**2", "Inertia that the motor still runs up as calculated", lambda required_inertia: 1.1 * required_inertia,
+    source="this method", output=False, needs=FLYWHEEL)
+
 EXAMPLE = ExampleBlock("shaft_body", {
     "discs": [{"name": "journal", "diameter": "50 mm", "width": "40 mm"}, {"name": "seat", "diameter": "60 mm", "width": "320 mm"},
               {"name": "wheel", "diameter": "348 mm", "bore": "60 mm", "width": "50 mm"}],
@@ -88,6 +91,9 @@ MECHANISM = Mechanism(
         Check(id="flywheel", check_class="function", title="Inertia of the flywheel", demand="required_inertia", limit="flywheel_inertia",
             unit="kg*m**2", needs=FLYWHEEL, demand_label="required by the drive train", limit_label="on the shaft", source="energy",
             consequence="the speed swings further than the drive train is calculated for, and the motor takes more of the peak."),
+        Check(id="heavy_flywheel", check_class="function", severity="warn", title="Flywheel that the drive train runs up", demand="flywheel_inertia",
+            limit="accepted_inertia", unit="kg*m**2", needs=FLYWHEEL, demand_label="on the shaft", limit_label="1.1 of that of the drive train",
+            source="this method", consequence="the motor runs up longer, and a stop takes longer, than the drive train is calculated for."),
     ),
     assumptions=("Keyways, teeth and fillets are neglected; a part is a disc without hub and recesses, of which the given fraction is there.",),
 )

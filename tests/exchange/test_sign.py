@@ -175,6 +175,17 @@ def test_a_signed_report_is_not_written_over(signed: Path, signed_once: bytes, c
     assert signed.read_bytes() == signed_once and not signed.with_suffix(".json").exists()
 
 
+@pytest.mark.parametrize("name", ["Firm ₴", "אבג Ann"])  # no library compares such names alike
+def test_nobody_signs_what_would_not_hold(
+    pdf: Path, tmp_path: Path, monkeypatch: Patch, capfd: Capture, name: str
+) -> None:
+    monkeypatch.setenv(VARIABLE, PASSWORD)
+    before, key = pdf.read_bytes(), signer(name).p12(tmp_path / "other.p12")
+    assert run("sign", pdf, "--key", key, "--field", "approved", "--quiet") == 2
+    assert "The signature would not hold, so nothing was signed: " in capfd.readouterr().err
+    assert pdf.read_bytes() == before
+
+
 def test_a_report_that_a_link_names_is_signed_where_it_stands(pdf: Path, key: Path, tmp_path: Path) -> None:
     link = tmp_path / "link.pdf"
     link.symlink_to(pdf)

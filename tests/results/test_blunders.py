@@ -39,6 +39,8 @@ BLUNDERS = [  # what is typed in place of what, and words of the refusal
      "is 500 r/min, but the shaft crankshaft, whose reaction it bears, turns at 50 r/min"),
     ("a chain of another sprocket", ("teeth_1: ${feeder.sprocket_teeth}", "teeth_1: 20"), "gives 20, but the sprocket of feeder"),
     ("a chain of another pitch", ("chain: 12B", "chain: 08B"), "gives 12.7 mm, but the sprocket of feeder"),
+    ("a torque curve over too few turns", ("torque_curve_turns: ${timing.torque_curve_turns}", "torque_curve_turns: 1"),
+     "is 1, but the torque curve of timing spans 2 revolutions of the main shaft"),
     ("a pinion of another module", ("pinion_radius: {value: 70 mm", "pinion_radius: {value: 7 mm"), "the pair sector, which takes the same torque"),
 ]  # fmt: skip
 

@@ -39,7 +39,7 @@ SECTION = re.compile(
 """A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
 INDEX = re.compile(r"[0-9]{1,6}")
 COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
-MASS = Quantity("m", "kg", "Mass of a part", gt=0)
+MASS = Quantity("m", "kg", "Mass of a part", ge=0)
 MODELS: Mapping[str, type[Block]] = {"shafts": ShaftKeys, "meshes": MeshKeys, "chains": ChainKeys, "belts": BeltKeys}
 
 

@@ -6,6 +6,7 @@ The page is parsed by the HTML5 algorithm and its styles by CSS Syntax, so that 
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -14,7 +15,7 @@ from diecut_report.text.phrases import Phrase, phrase
 
 HTML, SVG = "http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"
 RUNNING = {
-    "script", "iframe", "frame", "frameset", "link", "object", "embed", "applet", "portal", "base", "animate", "set", "noscript",
+    "script", "iframe", "frame", "frameset", "link", "object", "embed", "applet", "portal", "base", "animate", "set", "noscript", "template",
 }  # fmt: skip
 """Elements that run, embed, change addresses, or are read otherwise where scripts are off."""
 ADDRESSES = {
@@ -28,11 +29,8 @@ LINKS = re.compile(r"(https?:|mailto:|tel:|data:|#)", re.IGNORECASE)
 FETCHING_FUNCTIONS = {
     "url", "src", "image", "image-set", "-webkit-image-set", "cross-fade", "-webkit-cross-fade", "element", "attr",
 }  # fmt: skip
-_SELECT = re.compile(
-    r"""<select(?!(?:\s+[\w-]+="[^"<>]*")*>(?:\s*<option(?: value="[^"<>]*")?>[^<>]*</option>)*\s*</select>)[^>]{,60}>?""",
-    re.IGNORECASE,
-)
-"""A list of choices, or what begins like one, with anything but choices of plain text in it: browsers read the rest in several ways."""
+_RISKY = re.compile(rf"<({'|'.join(sorted(RUNNING | {'meta', 'form'}))})(?![\w-])", re.IGNORECASE)
+"""The begin of an element that runs, embeds or leads elsewhere, wherever in the page it stands."""
 _UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # characters that no page may hold
 
 
@@ -51,14 +49,25 @@ def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
         words = Phrase("The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
                        "or keep its head.", main=main)  # fmt: skip
         found.append(words)
-    if choices := _SELECT.search(page):
-        template = "A list of choices may hold <option>text</option> alone, since browsers read anything else in it in several ways: {start}"
-        found.append(Phrase(template, start=choices[0]))
+    found += [
+        Phrase("<{tag} stands in a text, where some browsers take it for an element. Write &lt;{tag} there.", tag=tag)
+        for tag in _hidden(page, tree)
+    ]
     if letter := _UNWRITTEN.search(page):
         code = format(ord(letter[0]), "04X")
         found.append(Phrase("A template writes U+{code}, which a page cannot hold. Leave it out.", code=code))
     if found:
         raise UserError([Problem(words, folder) for words in found])
+
+
+def _hidden(page: str, tree: Any) -> list[str]:
+    """The risky elements of which the page holds more than its tree: those in a text, a comment or an attribute.
+
+    No parser reads every page as every browser does: what stands there for one of them may be an element for another.
+    """
+    written = Counter(match[1].lower() for match in _RISKY.finditer(page))
+    read = Counter(str(each.tag).rpartition("}")[2].lower() for each in tree.iter())
+    return [tag for tag, count in written.items() if count > read[tag]]
 
 
 def _is_protected(tree: Any, policy: str) -> bool:
