@@ -89,7 +89,9 @@ def _refuse_former(content: bytes, count: int, found: bytes | None, name: str, m
     """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
     ends = [end.end() for end in END.finditer(content)][:-1]
     if len(ends) > MOST_REVISIONS or len(ends) * count > MOST_OBJECTS:
-        template = "The PDF has {objects} objects and was added to {count} times. Give the file as the program wrote it."
+        template = (
+            "The PDF has {objects} objects and was added to {count} times. Give the file as the program wrote it."
+        )
         raise refusal(template, file, objects=count, count=len(ends))
     for end in ends:
         try:

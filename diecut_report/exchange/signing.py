@@ -24,7 +24,7 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report.errors import nearest, refusal
 from diecut_report.exchange.carried import MOST, form_of
-from diecut_report.exchange.later_changes import only_signed
+from diecut_report.exchange.later_changes import fault, only_signed
 from diecut_report.exchange.pdf_attachments import PDF_FAULTS
 from diecut_report.exchange.signature_drawing import drawing
 from diecut_report.exchange.signatures import refuse_nested_fields, signatures, silent
@@ -35,6 +35,7 @@ from diecut_report.text.phrases import Phrase, joined, phrase
 NONE_FREE = phrase(
     "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
 )
+UNSIGNABLE = phrase("The PDF cannot be signed: {error}. Give the file as the program wrote it.")
 AMBIGUOUS = phrase(
     "The reason or the signer's name holds words that PDF programs take for parts of the file, such as “startxref” or “1 0 obj”: "
     "`diecut-report verify` would refuse the signed report. Give a --reason, or sign with a certificate, without them."
@@ -67,6 +68,8 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     if form_of(whole) != "pdf":
         template = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
         raise refusal(template, asked.report)
+    if damage := fault(whole):  # the library that signs reads without bounds
+        raise refusal(UNSIGNABLE, asked.report, error=damage)
     try:
         with silent():
             field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
@@ -74,8 +77,7 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
         with silent():
             signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
     except (PdfError, SigningError, *PDF_FAULTS) as error:
-        template = "The PDF cannot be signed: {error}. Give the file as the program wrote it."
-        raise refusal(template, asked.report, error=error) from error
+        raise refusal(UNSIGNABLE, asked.report, error=error) from error
     if not only_signed(whole, signed):
         raise refusal(AMBIGUOUS, asked.report)
     found = signatures(signed)

@@ -69,8 +69,8 @@ body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its p
     lambda discs_inertia, bodies_inertia: discs_inertia + bodies_inertia, needs=BODIES)
 body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its parts", lambda discs_inertia: discs_inertia, lacks=BODIES)
 
-body.value("accepted_inertia", "[J_F]", "kg*m**2", "Inertia that the motor still runs up as calculated", lambda required_inertia: 1.1 * required_inertia,
-    source="this method", output=False, needs=FLYWHEEL)
+body.value("accepted_inertia", "[J_F]", "kg*m**2", "Inertia that the motor still runs up as calculated",
+    lambda required_inertia: 1.1 * required_inertia, source="this method", output=False, needs=FLYWHEEL)
 
 EXAMPLE = ExampleBlock("shaft_body", {
     "discs": [{"name": "journal", "diameter": "50 mm", "width": "40 mm"}, {"name": "seat", "diameter": "60 mm", "width": "320 mm"},

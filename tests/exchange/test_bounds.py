@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,10 +14,12 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from pyhanko.pdf_utils.generic import ArrayObject, DictionaryObject, NameObject, StreamObject
 
 from diecut_report.exchange.later_changes import only_signed
+from diecut_report.exchange.pdf_attachments import END
 from diecut_report.exchange.signing import Additions
 from diecut_report.time_limit import limited
 from tests.exchange.reports import run, saved_pdf
 from tests.exchange.test_forgeries import signed
+from tests.exchange.test_sign import signer
 
 Capture = pytest.CaptureFixture[str]
 SECONDS = 20.0  # what none of these takes a tenth of
@@ -146,3 +149,47 @@ def test_a_form_without_an_end_is_neither_judged_nor_signed(
         assert signed(tmp_path / "a.pdf", ec.generate_private_key(ec.SECP256R1()), monkeypatch) == 2
     assert f"a.pdf: The PDF cannot be signed: {words}. Give" in capfd.readouterr().err
     assert (tmp_path / "a.pdf").read_bytes() == whole
+
+
+def with_table(table: bytes) -> bytes:
+    """A PDF of one object, whose table of objects is a stream."""
+    head = b"%PDF-1.7\n1 0 obj\n<< /Type /Catalog >>\nendobj\n"
+    return head + b"2 0 obj\n" + table + b"\nendobj\nstartxref\n%d\n%%%%EOF\n" % len(head)
+
+
+def rows(count: int) -> bytes:
+    """A table of so many rows, packed, that all say the same."""
+    data = zlib.compress(bytes(3 * count), 9)
+    head = b"<< /Type /XRef /Root 1 0 R /W [1 1 1] /Size %d /Filter /FlateDecode /Length %d >>" % (count, len(data))
+    return head + b"\nstream\n" + data + b"\nendstream"
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        b"<< /Type /XRef /Root 1 0 R /W [0 0 0] /Index [0 1000000000] /Size 1000000000 /Length 0 >>\nstream\n\nendstream",
+        rows(30_000_000),
+    ],
+    ids=["rows of nothing", "packed rows"],
+)
+def test_a_table_without_an_end_is_not_signed(table: bytes, tmp_path: Path, capfd: Capture) -> None:
+    """The library that signs reads such a table without bounds."""
+    (tmp_path / "a.pdf").write_bytes(with_table(table))
+    engineer = signer("Engineer")
+    key, cert = engineer.pem(tmp_path / "key.pem"), engineer.cert(tmp_path / "cert.pem")
+    with limited(SECONDS):
+        assert run("sign", tmp_path / "a.pdf", "--key", key, "--cert", cert) == 2
+    assert "a.pdf: The PDF cannot be signed" in capfd.readouterr().err
+
+
+def test_a_pdf_of_many_objects_is_not_looked_through_for_ever(
+    small_report: Path, tmp_path: Path, capfd: Capture
+) -> None:
+    with pikepdf.open(small_report / "small.pdf") as pdf:
+        pdf.Root.More = pikepdf.Array([pdf.make_indirect(pikepdf.Dictionary(A=i)) for i in range(60_000)])
+        content = saved_pdf(pdf)
+    end = END.findall(content)[-1]
+    (tmp_path / "a.pdf").write_bytes(content + 99 * (b"\n" + end))
+    with limited(SECONDS):
+        assert run("extract", tmp_path / "a.pdf", "-o", tmp_path) == 2
+    assert "objects and was added to 99 times" in capfd.readouterr().err
