@@ -215,7 +215,8 @@ def _temporary(place: Path) -> Path:
 
 def _make(temporary: Path, place: Path) -> None:
     """Make an empty file beside ``place``; where that is there, it may be one that not everybody reads."""
-    temporary.touch(0o600 if place.exists() else 0o666, exist_ok=False)
+    is_file = place.exists() and not place.is_symlink()  # which hands its mode on, as a link does not
+    temporary.touch(0o600 if is_file else 0o666, exist_ok=False)
 
 
 @contextmanager
@@ -307,7 +308,11 @@ def room(folder: Path | None = None) -> Iterator[None]:
     nothing = phrase("Nothing was written; free disk space, or name another folder in the variable TMPDIR.")
     after, folder = KEPT if folder else nothing, folder or _for_temporary_files()
     before = tempfile.tempdir
-    with in_words(folder, after), tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as place:
+    with (
+        _ended_by_system(),
+        in_words(folder, after),
+        tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as place,
+    ):
         tempfile.tempdir = place
         try:
             yield

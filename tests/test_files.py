@@ -8,6 +8,7 @@ import os
 import signal
 import stat
 import struct
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -195,6 +196,21 @@ def test_what_another_program_saves_until_the_last_moment_stays(
     with pytest.raises(UserError, match="Another program has saved this file"):
         files.write(path, b"after", instead_of=hashlib.sha256(b"before").hexdigest())
     assert path.read_bytes() == b"saved meanwhile"
+
+
+def test_a_file_in_place_of_a_link_has_the_mode_of_a_new_one(tmp_path: Path) -> None:
+    (tmp_path / "led to").touch()
+    (tmp_path / "link").symlink_to(tmp_path / "led to")
+    files.write_all({tmp_path / "link": b"x", tmp_path / "new": b"x"}, keep=None)
+    assert (tmp_path / "link").lstat().st_mode == (tmp_path / "new").lstat().st_mode
+
+
+def test_temporary_files_are_removed_where_the_system_ends_the_program(tmp_path: Path) -> None:
+    with pytest.raises(KeyboardInterrupt), files.room(tmp_path):
+        assert list(tmp_path.iterdir())
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(10)
+    assert not list(tmp_path.iterdir()) and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
 
 
 def test_a_file_that_is_gone_by_now_is_not_made_again(tmp_path: Path) -> None:

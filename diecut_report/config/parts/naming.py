@@ -191,11 +191,15 @@ def strengths(parts: MachineParts) -> Iterator[Finding]:
 def ports(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """What a part stands for, or a chain moves, is there."""
     for part in (each for shaft in parts.shafts.values() for each in shaft.parts if each.keys.of is not None):
-        if elements.port(part) is None:
+        port = elements.port(part)
+        if port is None:
             known = elements.port_names
             template = "is {of}, which is not a port of a mechanism{near}; there are {known}"
             yield finding(parts, "names", "error", (*part.path, "of"), template, of=part.keys.of, near=nearest(str(part.keys.of), known),
                 known=", ".join(known) or phrase("none"))  # fmt: skip
+        elif part.keys.pin is not None and not port.joint[0]:
+            template = "is a key that {of} has no force for, so that no pin is calculated; remove it, and give plane"
+            yield finding(parts, "names", "error", (*part.path, "pin"), template, of=part.keys.of)
     for join in (each for each in parts.joins if isinstance(each.keys, ChainKeys) and each.keys.moves):
         mechanism, _, what = join.keys.moves.partition(".")
         wanted = "cylinder" if parts.mechanisms.get(mechanism) == "cylinder_drive" else "conveyor"

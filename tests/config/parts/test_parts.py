@@ -131,6 +131,7 @@ BROKEN = [
     ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60, integral: true}", "no such shaft is turned"),
     ("at: 35, hub: 60, key: 50, plane: 20, mass", "at: 35, key: 50, plane: 20, mass", "has no hub, so that it is not known where its face is"),
     ("at: 310, hub: 60, key: 50, mass", "at: 310, key: 50, mass", "has no hub, so that it is not known where its face is"),
+    ("key: 50, plane: 20, mass", "key: 50, pin: {diameter: 40, held: 50, plane: 1}, mass", "is a key that cross.crank has no force for"),
     ("key: 50, plane: 20, mass", "key: 50, mass", "has neither a pin nor a plane"),
     ("key: 50, plane: 20, mass", "key: 50, plane: 12, mass", "is 12 mm beyond the disc, but the roller is 25 mm wide"),
     ("key: 50, plane: 20, mass", "key: 50, plane: -20, mass", "is -20 mm beyond the disc, but the roller is 25 mm wide"),
