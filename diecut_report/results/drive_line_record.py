@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
+
+from pydantic import Field
 
 from diecut_report.results.figure_record import Point
 from diecut_report.results.record import Record, always, sometimes
@@ -13,6 +15,7 @@ PartKind = Literal[
 ]  # fmt: skip
 
 
+Few = Field(max_length=200)  # of each list: no machine has more, and its drawing takes time for each
 State = Literal["rated", "not_rated", "accepted", "none"]
 
 
@@ -47,7 +50,7 @@ class PlacedPartRecord(Record):
     outside: float = sometimes("The outside diameter of a bearing.", 0.0)
     width: float = sometimes("How wide its body is, where that is not as long as its hub.", 0.0)
     toothed: float = sometimes("Of a sector the part of its circumference that has teeth.", 1.0)
-    slots: int = sometimes("The number of slots of a Geneva wheel.", 0)
+    slots: Annotated[int, Field(le=100)] = sometimes("The number of slots of a Geneva wheel.", 0)
     of: str = sometimes("The port of a mechanism that it stands for, MECHANISM.PORT.", "")
     rating: RatingRecord = always("What rates it.")
 
@@ -58,8 +61,10 @@ class MachineShaftRecord(Record):
     name: str = always("Its name.")
     axis: Point | None = sometimes("Where its axis stands in the frame; null where that is not given.")
     left: float | None = sometimes("Where its left end stands along the axes; null where no join tells.")
-    sections: list[ShaftSectionRecord] = always("Its sections from left to right; none of a motor's.")
-    parts: list[PlacedPartRecord] = always("Its parts in the order of the file, each followed by its pieces.")
+    sections: Annotated[list[ShaftSectionRecord], Few] = always("Its sections from left to right; none of a motor's.")
+    parts: Annotated[list[PlacedPartRecord], Few] = always(
+        "Its parts in the order of the file, each followed by its pieces."
+    )
     rating: RatingRecord = always("What rates it.")
 
 
@@ -68,13 +73,13 @@ class JoinRecord(Record):
 
     name: str = always("Its name.")
     kind: Literal["mesh", "chain", "belt"] = always("Its kind.")
-    drivers: list[str] = always("The driving parts.")
-    driven: list[str] = always("The driven parts; none where it drives a mechanism.")
+    drivers: Annotated[list[str], Few] = always("The driving parts.")
+    driven: Annotated[list[str], Few] = always("The driven parts; none where it drives a mechanism.")
     rating: RatingRecord = always("What rates it.")
 
 
 class DriveLineRecord(Record):
     """The parts of the machine as they stand."""
 
-    shafts: list[MachineShaftRecord] = always("The shafts in the order of the file.")
-    joins: list[JoinRecord] = always("What joins them.")
+    shafts: Annotated[list[MachineShaftRecord], Few] = always("The shafts in the order of the file.")
+    joins: Annotated[list[JoinRecord], Few] = always("What joins them.")

@@ -52,7 +52,38 @@ def unknown_language(data: Data) -> None:
     data["project"]["language"] = "xx"
 
 
-NONSENSE = [no_sections, section_of_nonsense, way_out, export_out, hidden_letter, unknown_language]
+def endless_wheel(data: Data) -> None:
+    """A Geneva wheel whose slots nobody could draw."""
+    rating = {"state": "none"}
+    part = {
+        "name": "s.w",
+        "kind": "geneva_wheel",
+        "start": 0.0,
+        "end": 0.03,
+        "seat": 0.05,
+        "radius": 0.2,
+        "slots": 10**9,
+        "rating": rating,
+    }
+    shaft = {"name": "s", "axis": [0.0, 0.0], "left": 0.0, "sections": [], "parts": [part], "rating": rating}
+    data["drive_line"] = {"shafts": [shaft], "joins": []}
+
+
+def endless_shafts(data: Data) -> None:
+    shaft = {"name": "s", "axis": [0.0, 0.0], "left": 0.0, "sections": [], "parts": [], "rating": {"state": "none"}}
+    data["drive_line"] = {"shafts": 201 * [shaft], "joins": []}
+
+
+NONSENSE = [
+    endless_wheel,
+    endless_shafts,
+    no_sections,
+    section_of_nonsense,
+    way_out,
+    export_out,
+    hidden_letter,
+    unknown_language,
+]
 
 
 @pytest.mark.parametrize("change", NONSENSE, ids=lambda change: change.__name__)

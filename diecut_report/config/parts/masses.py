@@ -124,6 +124,11 @@ class Masses(Demands):
             area = 2 * part.seat * radius if part.kind == "rocker" else pi * radius**2 * self._share(part)
         return STEEL * area * width or None
 
+    def full_inertia(self, part: ShaftPart) -> float | None:
+        """Return the moment of inertia of that body about its shaft's axis where it is a disc, kg·m²."""
+        mass, radius = self.full_mass(part), self.parts.body_radius(part)
+        return None if mass is None or radius is None else mass * radius**2 / 2
+
     def _pin_radius(self, part: ShaftPart) -> float | None:
         """The distance of the pin or roller of a crank or rocker from its axis, m; None where it is not typed."""
         port = self.port(part)

@@ -61,7 +61,7 @@ def riding(parts: MachineParts) -> Iterator[Finding]:
         for part in shaft.parts:
             if part.keys.rides_on not in (None, *clutches):
                 template = (
-                    "is {name}, which is no clutch or coupling that this shaft carries; they are {known}; "
+                    "is {name}, which is not a clutch or coupling that this shaft carries; they are {known}; "
                     "what is fixed to another hub has bolted: true"
                 )
                 yield finding(parts, "names", "error", (*part.path, "rides_on"), template, name=quoted(part.keys.rides_on),

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from diecut_report.config.instances import BlockData
 from diecut_report.config.model import PressBlock
@@ -39,7 +39,10 @@ SECTION = re.compile(
 """A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
 INDEX = re.compile(r"[0-9]{1,6}")
 COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
-MASS = Quantity("m", "kg", "Mass of a part", ge=0)
+BODY = {
+    "mass": Quantity("m", "kg", "Mass of a part", ge=0),
+    "inertia": Quantity("J", "kg*m**2", "Moment of inertia of a part", ge=0),
+}
 MODELS: Mapping[str, type[Block]] = {"shafts": ShaftKeys, "meshes": MeshKeys, "chains": ChainKeys, "belts": BeltKeys}
 
 
@@ -237,11 +240,14 @@ class PartsReader:
                 continue
         return found
 
-    def typed_mass(self, path: KeyPath) -> float | None:
-        """Return the mass that is typed at a path, kg; None where none is, or where it refers to what is calculated."""
-        given = _at(self.data, path)
+    def typed_body(self, path: KeyPath, key: Literal["mass", "inertia"]) -> float | None:
+        """Return the mass or inertia of a part that is typed at its path, in SI; None where none is, or where it refers to what is calculated."""
+        given = _at(self.data, (*path, key))
+        meta = BODY[key]
         try:
-            found = MASS.validate(self._calculated(given["value"] if isinstance(given, dict) else given, path, MASS))
+            found = meta.validate(
+                self._calculated(given["value"] if isinstance(given, dict) else given, (*path, key), meta)
+            )
         except (KeyError, ValueError, ConditionError):  # what cannot be read is told where it is used
             return None
         return None if found is None else float(found)

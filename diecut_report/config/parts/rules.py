@@ -33,6 +33,7 @@ from diecut_report.config.parts.naming import (
     strengths,
 )
 from diecut_report.config.validation import ConfigPlace
+from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_series, standard_table
@@ -376,19 +377,35 @@ def _weighed(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """A mass is that of a steel body of the part's dimensions, as far as these are known."""
+    """A mass or moment of inertia is that of a steel body of the part's dimensions, as far as these are known, and never nothing."""
     for _, part in hubs(parts):
-        path = (*part.path, "mass")
-        mass, full = parts.reader.typed_mass(path), elements.full_mass(part)
-        if mass is None or full is None:
-            continue
-        least, most = MASS_SHARE[0] if part.kind != "clutch" else MASS_POSSIBLE[0], MASS_SHARE[1]
-        share = mass / full
-        if not least <= share <= most:
-            is_possible = MASS_POSSIBLE[0] <= share <= MASS_POSSIBLE[1]
-            template = "is {mass} kg, but the full steel body of its dimensions has {full} kg; {least} to {most} of it are usual"
-            yield finding(parts, "mass", "warning" if is_possible else "error", path, template, mass=f"{mass:.4g}", full=f"{full:.3g}", least=least,
-                most=most)  # fmt: skip
+        for key, of, full in (
+            ("mass", "kg", elements.full_mass(part)),
+            ("inertia", "kg·m²", elements.full_inertia(part)),
+        ):
+            typed, path = parts.reader.typed_body(part.path, key), (*part.path, key)
+            if typed == 0:
+                yield finding(
+                    parts,
+                    "mass",
+                    "error",
+                    path,
+                    "is zero, as nothing is that turns; give its own, or leave the key out",
+                )
+            elif typed is not None and full is not None:
+                yield from _share_of_body(parts, part, path, (typed, full), of)
+
+
+def _share_of_body(
+    parts: MachineParts, part: ShaftPart, path: KeyPath, bodies: tuple[float, float], of: str
+) -> Iterator[Finding]:
+    typed, full = bodies
+    least, most = MASS_SHARE[0] if part.kind != "clutch" else MASS_POSSIBLE[0], MASS_SHARE[1]
+    if not least <= typed / full <= most:
+        is_possible = MASS_POSSIBLE[0] <= typed / full <= MASS_POSSIBLE[1]
+        template = "is {typed}, but the full steel body of its dimensions has {full}; {least} to {most} of it are usual"
+        yield finding(parts, "mass", "warning" if is_possible else "error", path, template, typed=f"{typed:.4g} {of}", full=f"{full:.3g} {of}",
+            least=least, most=most)  # fmt: skip
 
 
 # Axes and what joins the shafts.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -106,7 +107,7 @@ def calculated(base: Config, values: Values, count: int, tell: Tell = untold) ->
         made = _Rows(config, variants, tell)
         variants.calculations = made.calculations
         has_parts = config.parts is not None
-        variants.is_open = has_parts or any(True for _ in (*unrated_forces(made), *open_values(made)))
+        variants.is_open = has_parts or any(True for _ in chain(unrated_forces(made), open_values(made)))
     return variants
 
 
