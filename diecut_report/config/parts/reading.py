@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 from diecut_report.config.instances import BlockData
 from diecut_report.config.model import PressBlock
@@ -240,7 +240,7 @@ class PartsReader:
                 continue
         return found
 
-    def typed_body(self, path: KeyPath, key: Literal["mass", "inertia"]) -> float | None:
+    def typed_body(self, path: KeyPath, key: str) -> float | None:
         """Return the mass or inertia of a part that is typed at its path, in SI; None where none is, or where it refers to what is calculated."""
         given = _at(self.data, (*path, key))
         meta = BODY[key]
