@@ -61,6 +61,7 @@ def endless(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return once(tmp_path_factory, "endless_reports", make)
 
 
+@pytest.mark.nightly
 def test_what_unpacks_without_end_is_stopped(endless: Path) -> None:
     files = sorted(path for path in endless.iterdir() if path.is_file())
     assert len(files) == 5 and max(path.stat().st_size for path in files) < 5 * MB

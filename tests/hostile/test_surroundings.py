@@ -81,6 +81,7 @@ def notebook(tmp_path: Path) -> dict[str, str]:
     }
 
 
+@pytest.mark.nightly
 def test_a_report_is_the_same_in_all_surroundings(folder: Path, notebook: dict[str, str], small_report: Path) -> None:
     """The same as in the clean ones of the tests, whose strings have other hashes too."""
     saved(folder, SMALL, "small.yaml")

@@ -155,6 +155,7 @@ def test_interrupted_run_says_how_to_continue_and_is_continued_by_its_own_study_
     assert before.items() <= stored(out).items() and are_complete(out)
 
 
+@pytest.mark.nightly
 def test_second_run_in_a_folder_is_refused_and_the_first_goes_on_even_without_a_worker(
     tmp_path: Path, finished: Run
 ) -> None:
