@@ -292,11 +292,23 @@ def _left(found: SummaryRecord, lost: int) -> Iterator[Phrase]:
         yield Counted(lost, "{n} part is not calculated", "{n} parts are not calculated")
     count = Counter(each.what for each in found.open)
     for what, counted in LEFT.items():
-        if what == "not_rated" and count[what] and found.parts is None:
-            n = count[what]  # mechanisms whose forces nothing takes
-            yield Counted(n, "parts of {n} mechanism are not modelled", "parts of {n} mechanisms are not modelled")
+        if what == "not_rated" and count[what]:
+            yield from _unrated(found, counted)
         elif count[what]:
             yield counted(count[what])
+
+
+def _unrated(found: SummaryRecord, counted: Callable[[int], Counted]) -> Iterator[Phrase]:
+    """How many parts lack a rating, and how many bodies and joints a method; without parts, mechanisms whose forces nothing takes."""
+    paths = [each.path for each in found.open if each.what == "not_rated"]
+    if found.parts is None:
+        n = len({tuple(path.split(".")[:2]) for path in paths})
+        yield Counted(n, "parts of {n} mechanism are not modelled", "parts of {n} mechanisms are not modelled")
+        return
+    if lost := found.parts.not_rated:
+        yield counted(lost)
+    if (beyond := len(paths) - lost) > 0:
+        yield Counted(beyond, "{n} body or joint has no method", "{n} bodies and joints have no method")
 
 
 def _listed(parts: list[Phrase]) -> str:

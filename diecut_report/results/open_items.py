@@ -147,7 +147,8 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     value, kind = instance.value(slot.key), run.config.kinds.get(instance.name, PRESS)
     usual = range_of(kind, slot.name)
     if not slot.is_given or is_default(run.blocks[instance.name], slot.key):
-        return "default" if value or usual or zero_is_open(kind, slot.name) else None
+        leaves_out = zero_is_open(kind, slot.name) and not _is_of_parts(run, instance.name)
+        return "default" if value or usual or leaves_out else None
     is_alone = _is_alone(run, instance.name)
     is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
     beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]
@@ -160,13 +161,17 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
 
 def _is_alone(run: Run, name: str) -> bool:
     """Whether the loads of a mechanism are no others' results: it has none beside it, or the parts of the machine give them."""
-    return len(run.config.kinds) == 1 or (run.config.parts is not None and name in run.config.parts.calculations)
+    return len(run.config.kinds) == 1 or _is_of_parts(run, name)
+
+
+def _is_of_parts(run: Run, name: str) -> bool:
+    """Whether the parts of the machine make the calculation, with all that they know."""
+    return run.config.parts is not None and name in run.config.parts.calculations
 
 
 def _open_choice(run: Run, instance: Instance, slot: Slot) -> str:
     """Why a text of an input is open; nothing where it is not, or is made of the parts of the machine."""
-    parts = run.config.parts
-    if not isinstance(slot.meta, Text | Quantity) or (parts is not None and instance.name in parts.calculations):
+    if not isinstance(slot.meta, Text | Quantity) or _is_of_parts(run, instance.name):
         return ""
     why = open_choices(run.config.kinds.get(instance.name, PRESS)).get((slot.name, str(slot.value)), "")
     return "" if run.bases.is_founded((instance.name, *slot.key)) else why

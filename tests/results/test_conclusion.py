@@ -50,6 +50,11 @@ def summary(**counts: Any) -> SummaryRecord:
             "pass",
             "All checks pass; 2 parts are accepted without a rating.",
         ),
+        (
+            {"pass": 3, "not_rated": 4, "parts": {"carrying": 9, "rated": 8, "accepted": 0, "not_rated": 1}},
+            "conditional",
+            "No check fails, but 1 part is not rated and 3 bodies and joints have no method.",
+        ),
     ],
 )
 def test_the_verdict_is_pass_only_where_nothing_is_open(found: dict[str, Any], verdict: str, line: str) -> None:
