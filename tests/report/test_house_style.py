@@ -261,6 +261,7 @@ OUTSIDE = '<meta http-equiv="refresh" content="0;url=//x">'
         f"<template><col><textarea></template>{OUTSIDE}</textarea>", f"<template><col><style></template>{OUTSIDE}</style>",
         f'<svg></p><style><a title="</style>{OUTSIDE}"></style>', f'<math></p><style><a title="</style>{OUTSIDE}"></style>',
         f'<svg></br><textarea><a title="</textarea>{OUTSIDE}">', f"<!-- {OUTSIDE} -->", f"<title>{OUTSIDE}</title>", f"<xmp>{OUTSIDE}</xmp>",
+        f"<x}}meta><!-- {OUTSIDE} --></x}}meta>", f"<svg><meta}}></svg><x:meta></x:meta><!-- {OUTSIDE} -->",
         "<!--<IFRAME\nsrc=x>-->", "<p title='<form/x>'>", "<textarea><script></textarea>", "<p title='<template>'>", 50_000 * "<!--<base -->",
     ],
 )  # fmt: skip

@@ -66,8 +66,8 @@ def _hidden(page: str, tree: Any) -> list[str]:
     No parser reads every page as every browser does: what stands there for one of them may be an element for another.
     """
     written = Counter(match[1].lower() for match in _RISKY.finditer(page))
-    read = Counter(str(each.tag).rpartition("}")[2].lower() for each in tree.iter())
-    return [tag for tag, count in written.items() if count > read[tag]]
+    read = Counter(str(each.tag) for each in tree.iter())
+    return [tag for tag, count in written.items() if count > read[f"{{{HTML}}}{tag}"]]
 
 
 def _is_protected(tree: Any, policy: str) -> bool:
