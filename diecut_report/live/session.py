@@ -15,7 +15,7 @@ from diecut_report.config import yaml
 from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery, said
 from diecut_report.config.references import as_file, rewritten
-from diecut_report.config.yaml import KeyPath, Tree
+from diecut_report.config.yaml import KeyPath, Tree, YamlNode
 from diecut_report.design.inputs import DesignInput, given_choices, given_numbers
 from diecut_report.errors import PluginError, Problem, UserError, own_fault, refusal
 from diecut_report.files import write
@@ -208,15 +208,27 @@ def _items(tree: Tree, place: KeyPath) -> list[object]:
     """What tells the items of lists at a place from others: their texts, such as a name, else all that is typed beside it."""
     found: list[object] = []
     for depth, step in enumerate(place):
-        listed = tree.node(place[:depth]).children or {}
-        if isinstance(step, int) and step in listed:
-            own = (listed[step].children or {}).items()
-            typed = {key: each.typed for key, each in own if each.typed and place[depth + 1 :] != (key,)}
-            texts = {key: text for key, text in typed.items() if text[:1].isalpha()}
-            found.append(texts or (len(listed), typed))
-        elif isinstance(step, int):
-            found.append(None)
+        if isinstance(step, int):
+            items = tree.node(place[:depth]).children or {}
+            typed = {at: dict(_typed(item, ())) for at, item in items.items()}
+            names = {at: {key: text for key, text in own.items() if _is_name(key, text)} for at, own in typed.items()}
+            own, rest = names.get(step), place[depth + 1 :]
+            is_alone = bool(own) and list(names.values()).count(own or {}) == 1
+            beside = {key: text for key, text in typed.get(step, {}).items() if key[: len(rest)] != rest}
+            found.append(own if is_alone else (len(items), beside))
     return found
+
+
+def _is_name(key: KeyPath, text: str) -> bool:
+    return text[:1].isalpha() and key[-1:] not in (("basis",), ("note",))
+
+
+def _typed(node: YamlNode, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
+    """All that is typed in a node, by its place there."""
+    if node.typed is not None:
+        yield path, node.typed
+    for key, child in (node.children or {}).items():
+        yield from _typed(child, (*path, key))
 
 
 @contextmanager

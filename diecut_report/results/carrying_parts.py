@@ -118,8 +118,11 @@ def unrated(
                 what="not_rated", path=part.path, owner=own, why=Phrase("{part}: {why}", part=part.name, why=why)
             )
     every = [part for shaft in parts.shafts.values() for part in shaft.parts]
-    if train is not None and not any(part.kind == "flywheel" for part in every):
-        why = phrase("it sizes a flywheel, and no part is that")
+    driven = [join.driven[0].shaft for join in parts.joins if join.word == "belts" and join.driven]
+    if train is not None and not any(
+        part.kind == "flywheel" and part.shaft in (driven or [part.shaft]) for part in every
+    ):
+        why = phrase("it sizes a flywheel, and no part of the shaft that it drives is that")
         yield OpenRecord(what="not_rated", path=f"mechanisms.{train}", owner=own, why=why)
     for each in (part for part in every if part.keys.accepted is None):
         for template in _without_method(each, parts.mechanisms):
@@ -129,8 +132,8 @@ def unrated(
 
 def _without_method(part: ShaftPart, mechanisms: Mapping[str, str]) -> Iterator[str]:
     """What of a part carries load and has no method of calculation, with the kinds of the mechanisms by their names."""
-    if part.kind == "clutch" and "clutch" not in mechanisms.values():
-        yield phrase("{part}: no mechanism calculates how it engages")
+    if part.kind == "clutch" and mechanisms.get(part.name) != "clutch":
+        yield phrase("{part}: no mechanism of its name calculates how it engages")
     if part.kind in BODIES:
         yield phrase("{part}: no method rates its body")
     if part.keys.integral and part.kind in BODIES:

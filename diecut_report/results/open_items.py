@@ -9,10 +9,11 @@ from diecut_report.config.instances import Instance, Node, Slot
 from diecut_report.config.model import PRESS
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.source_hashes import plugin_code
-from diecut_report.config.validation import ASSUMED, names_something
+from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
 from diecut_report.machine.calculation import Calculation
-from diecut_report.mechanism.inputs import POINTS, Quantity
+from diecut_report.mechanism.inputs import POINTS, Quantity, Varying
 from diecut_report.mechanism.names import Text
+from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
 from diecut_report.results.carrying_parts import counted, unrated
 from diecut_report.results.conclusion import LEFT, CalculatedCount, judged, summary, unsettled
@@ -26,6 +27,10 @@ from diecut_report.text.phrases import Phrase, phrase
 
 FORCES = ("N", "N*m")  # SI units of what a part carries
 LIMIT = "allowable_"  # of a key: beyond its usual range nothing founds it
+CURVE = "_curve"  # of the input beside a number that takes its course over a cycle
+ONE_OF_CURVE = phrase(
+    "it is one number of a curve: how the load changes over a cycle, and how often it changes its side, is left out"
+)
 UNPROVED = phrase("it is not proved that no check depends on it")
 """Why a value is open as long as nobody has calculated the machine with others."""
 
@@ -128,7 +133,7 @@ def open_values(run: Run) -> Iterator[OpenValue]:
             path = input_path(name, slot.key)
             if what := _rests_on(run, instance, slot):
                 yield OpenValue(path, what, unranged_keys.get(slot.name, UNPROVED) if slot.is_given else UNPROVED)
-            elif why := _open_choice(run, instance, slot):
+            elif why := _open_choice(run, instance, slot) or _one_of_curve(run, instance, slot):
                 yield OpenValue(path, "assumed", why)
 
 
@@ -142,13 +147,20 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
         and isinstance(slot.value, int | float | str)
         and slot.value not in slot.meta.words
     )
-    if (instance.name, *slot.key) in run.config.links or not is_number:
+    kind, target = run.config.kinds.get(instance.name, PRESS), run.config.links.get((instance.name, *slot.key))
+    if (
+        target is not None
+        and target.expression
+        and asks_basis(kind, slot.name)
+        and not _is_of_parts(run, instance.name)
+    ):
+        return None if is_founded(said.basis if said else "", said.note if said else "") else "assumed"
+    if target is not None or not is_number:
         return "assumed" if is_assumed else None
-    value, kind = instance.value(slot.key), run.config.kinds.get(instance.name, PRESS)
+    value = instance.value(slot.key)
     usual = range_of(kind, slot.name)
     if not slot.is_given or is_default(run.blocks[instance.name], slot.key):
-        leaves_out = zero_is_open(kind, slot.name) and not _is_of_parts(run, instance.name)
-        return "default" if value or usual or leaves_out else None
+        return "default" if value or usual or _leaves_out(run, instance, slot) else None
     is_alone = _is_alone(run, instance.name)
     is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
     beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]
@@ -157,6 +169,16 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     is_drawn_load = not is_alone and said is not None and said.basis == "drawing" and by_reference(kind, slot.name)
     founded = run.bases.is_founded((instance.name, *slot.key)) and not (beyond or unsaid or is_drawn_load)
     return "assumed" if is_assumed or (asks and not founded) else None
+
+
+def _leaves_out(run: Run, instance: Instance, slot: Slot) -> bool:
+    """Whether a default of zero leaves something out that nothing beside it stands for."""
+    unless = zero_is_open(run.config.kinds.get(instance.name, PRESS), slot.name)
+    if unless is None or _is_of_parts(run, instance.name):
+        return False
+    home = slot.key[:-1]
+    beside = {each.key[len(home)] for each in instance.slots if each.is_given and each.key[: len(home)] == home}
+    return beside.isdisjoint(unless)
 
 
 def _is_alone(run: Run, name: str) -> bool:
@@ -175,3 +197,19 @@ def _open_choice(run: Run, instance: Instance, slot: Slot) -> str:
         return ""
     why = open_choices(run.config.kinds.get(instance.name, PRESS)).get((slot.name, str(slot.value)), "")
     return "" if run.bases.is_founded((instance.name, *slot.key)) else why
+
+
+def _one_of_curve(run: Run, instance: Instance, slot: Slot) -> str:
+    """Why a reference to one number of a curve is open, where the input takes the curve itself."""
+    target = run.config.links.get((instance.name, *slot.key))
+    if target is None or not (
+        isinstance(slot.meta, Varying) or f"{slot.name}{CURVE}" in keys_of(type(run.blocks[instance.name]))
+    ):
+        return ""
+    known = [
+        (run.calculations[each.instance].steps, each.result)
+        for each in target.single
+        if each.instance in run.calculations
+    ]
+    is_one = any(isinstance(steps.get(str(result)), Reduction) for steps, result in known)
+    return ONE_OF_CURVE if is_one else ""

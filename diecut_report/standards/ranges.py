@@ -5,7 +5,7 @@ One table, ``data/ranges.yaml``, holds them for all kinds that come with the pro
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated
@@ -70,6 +70,7 @@ class _Without(BaseModel):
     needs_basis: bool = False
     by_reference: bool = False
     zero_is_open: bool = False
+    unless: list[str] = []
 
 
 class _Choices(BaseModel):
@@ -142,9 +143,10 @@ def by_reference(kind: str, path: str) -> bool:
 
 
 @cache
-def zero_is_open(kind: str, path: str) -> bool:
-    """Return whether the default of a key is open although it is zero, which leaves something out of the calculation."""
-    return any(path in group.keys.get(kind, ()) for group in range_table().without if group.zero_is_open)
+def zero_is_open(kind: str, path: str) -> Sequence[str] | None:
+    """Return whether the default of a key is open although it is zero, which leaves something out: unless one of these keys stands beside it."""
+    groups = (group for group in range_table().without if group.zero_is_open and path in group.keys.get(kind, ()))
+    return next((group.unless for group in groups), None)
 
 
 def asks_basis(kind: str, path: str, is_alone: bool = True) -> bool:

@@ -89,11 +89,12 @@ MECHANISM = Mechanism(
     key_results=("mass", "inertia"),
     checks=(
         Check(id="flywheel", check_class="function", title="Inertia of the flywheel", demand="required_inertia", limit="flywheel_inertia",
-            unit="kg*m**2", only_with=FLYWHEEL, demand_label="required by the drive train", limit_label="on the shaft", source="energy",
+            unit="kg*m**2", only_with=("required_inertia",), demand_label="required by the drive train", limit_label="on the shaft", source="energy",
             consequence="the speed swings further than the drive train is calculated for, and the motor takes more of the peak."),
-        Check(id="heavy_flywheel", check_class="function", severity="warn", title="Flywheel that the drive train runs up", demand="flywheel_inertia",
-            limit="accepted_inertia", unit="kg*m**2", only_with=FLYWHEEL, demand_label="on the shaft", limit_label="1.1 of that of the drive train",
-            source="this method", consequence="the motor runs up longer, and a stop takes longer, than the drive train is calculated for."),
+        Check(id="heavy_flywheel", check_class="function", severity="warn", title="Flywheel that the drive train runs up",
+            demand="flywheel_inertia", limit="accepted_inertia", unit="kg*m**2", only_with=("required_inertia",), source="this method",
+            demand_label="on the shaft", limit_label="1.1 of that of the drive train",
+            consequence="the motor runs up longer, and a stop takes longer, than the drive train is calculated for."),
     ),
     assumptions=("Keyways, teeth and fillets are neglected; a part is a disc without hub and recesses, of which the given fraction is there.",),
 )

@@ -165,13 +165,14 @@ press: {{name: P}}
 mechanisms:
   s:
     kind: shaft
-    sections: [{{length: 90 mm, diameter: 50 mm}}, {{length: 210 mm, diameter: 60 mm}}]
+    sections: [{{length: 90 mm, diameter: 50 mm}}, {{length: 150 mm, diameter: 60 mm}},
+               {{length: {{value: 60 mm, basis: drawing}}, diameter: {{value: 50 mm, basis: drawing}}}}]
     bearing_a: 20 mm
     bearing_b: 200 mm
     allowable_deflection: 0.1 mm
     material: 42CrMo4+QT
     speed: 50 rpm
-    notches: [{{position: 100 mm, type: press_fit}}]
+    notches: [{{position: 100 mm, type: press_fit}}, {{position: 130 mm, type: press_fit}}]
 {SECOND}"""
 
 
@@ -181,13 +182,15 @@ mechanisms:
         ("s.loads.1.mass", "[{name: gear,", "[{name: new, position: 50 mm, mass: 1 kg}, {name: gear,"),
         ("s.loads.1.mass", "name: crank", "name: disc"),
         ("s.sections.1.length", "{length: 90 mm, diameter: 50 mm}, ", ""),
+        ("s.notches.1.position", "[{position: 100 mm", "[{position: 50 mm, type: press_fit}, {position: 100 mm"),
+        ("s.sections.2.diameter", "{length: 90 mm, diameter: 50 mm}, ", ""),
         ("s.sections.0.diameter", "90 mm", "95 mm"),  # nothing else tells one section from another one
     ],
 )
 def test_a_change_of_the_page_goes_to_no_other_item_of_a_list(tmp_path: Path, changed: str, old: str, new: str) -> None:
     (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
     session = LiveSession(tmp_path / "s.yaml", Discovery([]))
-    session.change({changed: "55 mm" if "sections" in changed else "9 kg"})
+    session.change({changed: "9 kg" if "mass" in changed else "132 mm" if "position" in changed else "55 mm"})
     replaced(session, old, new)
     saved = session.file.read_text("utf-8")
     assert saved == SHAFT.replace(old, new)

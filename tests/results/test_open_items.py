@@ -284,7 +284,9 @@ LOADED = """\
         ("200 N*m", "assumed"),
         ("{value: 1 N*m, basis: drawing}", "assumed"),  # a drawing founds no load
         ("{value: 200 N*m, basis: measured}", None),
-        ("'${d.crank_torque_peak}'", None),
+        ("'${d.crank_torque}'", None),
+        ("'${d.crank_torque_peak}'", "assumed"),  # how it changes over a turn is left out
+        ("'2 * ${d.crank_torque_peak}'", "assumed"),
     ],
 )
 def test_a_load_that_is_typed_beside_other_mechanisms_asks_for_a_basis(
@@ -323,3 +325,25 @@ def test_a_load_that_takes_one_component_of_a_force_is_named(force: str, is_left
     found = left(tmp_path, HEAD + LOADED % ("press_fit", force) + DRIVE % "")
     why = [str(each.why) for each in found if each.path == "mechanisms.s.loads.1"]
     assert why == (["takes no crank_bearing_force_y of d"] if is_left else [])
+
+
+@pytest.mark.parametrize(
+    ("keys", "what"),
+    [
+        ("offset: 1 mm", "default"),
+        ("mass: 8 kg", "default"),
+        ("force_y: 3 kN", None),
+        ("force_z: 3 kN", None),
+        ("axial_force: 1 kN", None),
+    ],
+)
+def test_a_load_without_a_force_is_open(keys: str, what: str | None, tmp_path: Path) -> None:
+    found = values(tmp_path, HEAD + LOADED % ("press_fit", keys))
+    assert found.get("mechanisms.s.loads.1.force_y") == what and "mechanisms.s.loads.0.force_y" not in found
+
+
+def test_a_formula_founds_no_value_that_asks_for_a_basis(tmp_path: Path) -> None:
+    """What it refers to is of something else."""
+    path, of_other = "mechanisms.k.yield_hub", "'900 MPa + 0 * ${k.yield_shaft}'"
+    assert values(tmp_path, HEAD + KEY % of_other).get(path) == "assumed"
+    assert values(tmp_path, HEAD + KEY % f"{{value: {of_other}, basis: drawing}}").get(path) is None

@@ -124,9 +124,21 @@ class Masses(Demands):
             area = 2 * part.seat * radius if part.kind == "rocker" else pi * radius**2 * self._share(part)
         return STEEL * area * width or None
 
+    def share_of_disc(self, part: ShaftPart) -> float | None:
+        """Return what a part's typed bore, width and fraction leave of the disc on its seat, as wide as the mesh; None of one that is no disc."""
+        join = next(self.parts.joins_of(part), None)
+        if join is None or self._disc(part) is None:
+            return None
+        width = self._width(part, join) or 0.0
+        wanted = join.keys.width if isinstance(join.keys, MeshKeys) else width
+        full, bore = (2 * join.radius(part)) ** 2, part.seat if part.keys.bore is None else part.keys.bore
+        return float(part.keys.fill * (full - bore**2) / (full - part.seat**2) * width / wanted)
+
     def full_inertia(self, part: ShaftPart) -> float | None:
-        """Return the moment of inertia of that body about its shaft's axis where it is a disc, kg·m²."""
-        mass, radius = self.full_mass(part), self.parts.body_radius(part)
+        """Return the moment of inertia of that body about its shaft's axis where it is a disc or a Geneva wheel, kg·m²."""
+        mass, radius, section = self.full_mass(part), self.parts.body_radius(part), wheel_section(self.parts, part)
+        if mass is not None and section is not None:
+            return mass * section[1] / section[0]
         return None if mass is None or radius is None else mass * radius**2 / 2
 
     def _pin_radius(self, part: ShaftPart) -> float | None:

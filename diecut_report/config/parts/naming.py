@@ -17,6 +17,8 @@ from diecut_report.text.phrases import phrase
 PART_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 ON_MOTORS = ("pulley", "gear", "sprocket", "coupling", "flywheel")
 """Kinds of parts that a motor's shaft carries."""
+OF_PORTS = ("crank", "rocker", "geneva_wheel", "cam")
+"""Kinds of parts on which mechanisms act; the first two have the pin of a joint."""
 OF_BEARINGS = ("designation", "floating")
 OF_HUBS = (
     "hub",
@@ -122,13 +124,11 @@ def joined(parts: MachineParts) -> Iterator[Finding]:
 def misplaced(parts: MachineParts) -> Iterator[Finding]:
     """A part has the keys of its kind alone, as no other counts."""
     for part in (each for shaft in parts.shafts.values() for each in shaft.parts):
-        lost: tuple[str, ...] = OF_HUBS
-        why = phrase("which a bearing does not have")
-        if part.kind != "bearing":
-            lost = OF_BEARINGS if part.port else (*OF_BEARINGS, "plane")
-            why = phrase("which only a bearing has")
+        lost = OF_HUBS if part.kind == "bearing" else OF_BEARINGS if part.port else (*OF_BEARINGS, "plane")
+        lost = (*lost, "bore", "fill") if part.kind == "geneva_wheel" else lost
         for key in (each for each in lost if each in part.keys.model_fields_set):
-            yield finding(parts, "names", "error", (*part.path, key), "is a key {why}; remove it", why=why)
+            template = "is a key that a {kind} does not have; remove it"
+            yield finding(parts, "names", "error", (*part.path, key), template, kind=part.kind.replace("_", " "))
 
 
 def designations(parts: MachineParts) -> Iterator[Finding]:
@@ -197,6 +197,10 @@ def ports(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             template = "is {of}, which is not a port of a mechanism{near}; there are {known}"
             yield finding(parts, "names", "error", (*part.path, "of"), template, of=part.keys.of, near=nearest(str(part.keys.of), known),
                 known=", ".join(known) or phrase("none"))  # fmt: skip
+        elif part.kind not in (fitting := OF_PORTS[:2] if port.joint[0] else OF_PORTS):
+            template = "is a key of a {kind}, which {of} does not act on; parts that it acts on are {known}"
+            yield finding(parts, "names", "error", (*part.path, "of"), template, kind=part.kind, of=part.keys.of,
+                known=", ".join(fitting))  # fmt: skip
         elif part.keys.pin is not None and not port.joint[0]:
             template = "is a key that {of} has no force for, so that no pin is calculated; remove it, and give plane"
             yield finding(parts, "names", "error", (*part.path, "pin"), template, of=part.keys.of)

@@ -385,15 +385,15 @@ def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
         ):
             typed, path = parts.reader.typed_body(part.path, key), (*part.path, key)
             if typed == 0:
-                yield finding(
-                    parts,
-                    "mass",
-                    "error",
-                    path,
-                    "is zero, as nothing is that turns; give its own, or leave the key out",
-                )
+                template = "is zero, as nothing is that turns; give its own, or leave the key out"
+                yield finding(parts, "mass", "error", path, template)
             elif typed is not None and full is not None:
                 yield from _share_of_body(parts, part, path, (typed, full), of)
+        share = elements.share_of_disc(part)
+        if share is not None and share < MASS_SHARE[0]:
+            template = "leaves by fill, bore and width {share} of its full steel disc; {least} at least is usual"
+            level: Level = "warning" if share >= MASS_POSSIBLE[0] else "error"
+            yield finding(parts, "mass", level, part.path, template, share=f"{share:.3g}", least=MASS_SHARE[0])
 
 
 def _share_of_body(
@@ -430,6 +430,18 @@ def one_belt(parts: MachineParts) -> Iterator[Finding]:
 def center(parts: MachineParts) -> Iterator[Finding]:
     """The axes of the frame are as far apart as a mesh, a chain or a belt wants."""
     for join in (each for each in parts.joins if each.is_between_shafts):
+        if isinstance(join.keys, BeltKeys) and belt_center(join) is None:
+            template = "is too short for its pulleys of {diameters}, which would touch; take a longer belt"
+            diameters = f"{mm(join.keys.diameter_1)} / {mm(join.keys.diameter_2)}"
+            yield finding(
+                parts,
+                "center",
+                "error",
+                (*join.path, "length"),
+                template,
+                (*join.path, "diameters"),
+                diameters=diameters,
+            )
         one, other = join.drivers[0].shaft.name, join.driven[0].shaft.name
         there = parts.distance(one, other)
         wanted = join.center_distance if not isinstance(join.keys, BeltKeys) else belt_center(join)
@@ -446,11 +458,12 @@ def center(parts: MachineParts) -> Iterator[Finding]:
                 there=mm(there), what=what)  # fmt: skip
 
 
-def belt_center(join: Join) -> float:
-    """Return the distance of the axes of a belt of its length, m."""
+def belt_center(join: Join) -> float | None:
+    """Return the distance of the axes of a belt of its length, m; None where it does not go round its pulleys."""
     small, large = sorted((join.keys.diameter_1, join.keys.diameter_2))
     free = join.keys.length - pi * (small + large) / 2
-    return float((free + (free**2 - 2 * (large - small) ** 2) ** 0.5) / 4)
+    found = (free + max(free**2 - 2 * (large - small) ** 2, 0) ** 0.5) / 4
+    return float(found) if found > (small + large) / 2 else None
 
 
 def frame(parts: MachineParts) -> Iterator[Finding]:

@@ -126,6 +126,9 @@ BROKEN = [
     ("  drive:\n    kind: cylinder_drive\n", "  drive:\n    kind: cylinder_drive\n    sector_ratio: 6\n", "follows from the parts; remove the key"),
     ("length: 2000, count: 1}}", "length: 2000, count: 1}, fan: {pulleys: [motor.small, flywheel.large], section: SPA, diameters: 125/375, "
      "length: 2000, count: 1}}", "belts.fan: is a second belt; one alone is calculated"),
+    ("length: 2000, count: 1}}", "length: 1000, count: 1}}", "length: is too short for its pulleys of 125 mm / 375 mm"),
+    ("diameters: 125/375, length", "diameters: 125/750, length", "is too short for its pulleys"),
+    ("length: 2000, count: 1}}", "length: 1, count: 1}}", "is too short for its pulleys"),
     # how a part is joined to its shaft, and where its force acts
     ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60, key: 50, integral: true}", "by key, integral, of which one"),
     ("{gear: wheel, at: 155, hub: 60, key: 50}", "{gear: wheel, at: 155, hub: 60, integral: true}", "no such shaft is turned"),
@@ -150,11 +153,16 @@ BROKEN = [
     ("key: 63, mass: 26 kg}", "key: 63, mass: 26 kg, inertia: 0.01 kg*m**2}", "but the full steel body of its dimensions has"),
     (", inertia: \"${train.flywheel_inertia}\"}", ", inertia: \"${train.flywheel_inertia}\", mass: 0 kg}", "mass: is zero"),
     ("key: 50, width: 35}", "key: 50, width: 35, mass: 0}", "mass: is zero"),
+    ("key: 50, width: 35}", "key: 50, width: 35, fill: 0.1}", "is a key that a geneva wheel does not have"),
+    ("key: 50, width: 35}", "key: 50, width: 35, inertia: 1e-6 kg*m**2}", "but the full steel body of its dimensions has"),
+    ("key: 63, mass: 26 kg}", "key: 63, fill: 0.01}", "leaves by fill, bore and width 0.01 of its full steel disc"),
+    ("key: 63, mass: 26 kg}", "key: 63, width: 0.1}", "of its full steel disc"),
+    ("{rocker: arm, of: drive.rocker,", "{load: arm, of: drive.rocker,", "which drive.rocker does not act on; parts that it acts on are crank, rocker"),
     ("at: 130, hub: 80, key: 70, mass: 6 kg}", "at: 130, hub: 80, integral: true, mass: 6 kg}", "is not made in one piece with a shaft"),
     ("at: 275, hub: 60, key: 50, width: 35}", "at: 275, hub: 60, integral: true, width: 35}", "is not made in one piece with a shaft"),
     (", moves: drive.cylinder}", "}", "drives no shaft and moves nothing"),
-    ("{bearing: a, at: 100,", "{bearing: a, at: 100, hub: 20,", "is a key which a bearing does not have"),
-    ("{gear: wheel, at: 155,", "{gear: wheel, designation: \"6210\", at: 155,", "is a key which only a bearing has"),
+    ("{bearing: a, at: 100,", "{bearing: a, at: 100, hub: 20,", "is a key that a bearing does not have"),
+    ("{gear: wheel, at: 155,", "{gear: wheel, designation: \"6210\", at: 155,", "is a key that a gear does not have"),
     # joins that do not match
     ("to: [far.left, far.right]", "to: [far.left, far.left]", "joins far.left, which is joined already"),
     ("to: [far.left, far.right]", "to: [far.left]", "leads from 2 sprockets to 1"),
@@ -650,9 +658,10 @@ def test_what_is_found_of_the_parts_is_shown_as_long_as_it_is_so() -> None:
     [
         ("at: 175, hub: 60, key: 50,", "at: 175, hub: 60, integral: true,", "rocker.arm: no method rates where it passes into its shaft"),
         ("plane: 15, bearing: NU2208E}", "plane: 15}", "crank.disc: the bearing of its pin is not given"),
-        ("{flywheel: rim,", "{load: rim,", "it sizes a flywheel, and no part is that"),
+        ("{flywheel: rim,", "{load: rim,", "it sizes a flywheel, and no part of the shaft that it drives is that"),
+        ("  clutch:\n    kind: clutch", "  kupplung:\n    kind: clutch", "crank.clutch: no mechanism of its name calculates how it engages"),
         ("moves: drive.cylinder", "moves: drive.cylinder", "main.disc: its pin is not given"),
-        (re.search(r"  clutch:\n    kind: clutch\n(    .*\n)*", TEXT)[0], "", "crank.clutch: no mechanism calculates how it engages"),  # type: ignore[index]
+        (re.search(r"  clutch:\n    kind: clutch\n(    .*\n)*", TEXT)[0], "", "crank.clutch: no mechanism of its name calculates how it engages"),  # type: ignore[index]
     ],
 )  # fmt: skip
 def test_what_is_left_out_of_a_part_is_not_rated(old: str, new: str, why: str) -> None:
