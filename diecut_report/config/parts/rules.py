@@ -5,21 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import combinations, pairwise
-from math import pi
 
 from diecut_report.config.parts.demands import first_place, typed_paths
 from diecut_report.config.parts.elements import SERVICE_KEYS, Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
-from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
+from diecut_report.config.parts.join_rules import axes, center, chain, frame, mesh_pair, one_belt, ratios, sector
+from diecut_report.config.parts.keys import MeshKeys
 from diecut_report.config.parts.masses import wheel_section
 from diecut_report.config.parts.model import (
     SAME_PLACE,
-    Join,
     MachineParts,
     MachineShaft,
     ShaftPart,
     catalogue_size,
-    chain_pitch,
 )
 from diecut_report.config.parts.naming import (
     bores,
@@ -38,12 +36,9 @@ from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_series, standard_table
 
-RATIO = 1e-3  # relative, by which ratios may differ
-BELT_CENTER = 0.02  # relative, by which tensioning moves an axis
 LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
 KEY_TO_FILLET = 0.1  # of the shaft's diameter
 WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
-WIDTH_TO_DIAMETER = 1.2  # of the pinion
 INTEGRAL_WARNED, INTEGRAL_MOST = 2.0, 4.0  # diameters of the seat, below the teeth
 # shares of the full steel body; of a clutch, which has shoes in place of a disc, less is usual
 MASS_SHARE, MASS_POSSIBLE = (0.3, 1.05), (0.05, 1.5)
@@ -51,7 +46,7 @@ MASS_SHARE, MASS_POSSIBLE = (0.3, 1.05), (0.05, 1.5)
 
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
-    of_mechanisms = (rule(parts, elements) for rule in (ports, _ratios, _weighed, _massive, _typed_twice, _unused))
+    of_mechanisms = (rule(parts, elements) for rule in (ports, ratios, _weighed, _massive, _typed_twice, _unused))
     found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
     place = ConfigPlace(parts.reader.tree)
@@ -406,166 +401,6 @@ def _share_of_body(
         template = "is {typed}, but the full steel body of its dimensions has {full}; {least} to {most} of it are usual"
         yield finding(parts, "mass", "warning" if is_possible else "error", path, template, typed=f"{typed:.4g} {of}", full=f"{full:.3g} {of}",
             least=least, most=most)  # fmt: skip
-
-
-# Axes and what joins the shafts.
-
-
-def axes(parts: MachineParts) -> Iterator[Finding]:
-    """Shafts that are joined have axes in the frame: the direction of every force between them follows from these."""
-    for join in (each for each in parts.joins if each.is_between_shafts):
-        for shaft in dict.fromkeys(part.shaft.name for part in (*join.drivers, *join.driven)):
-            if shaft not in parts.axes:
-                template = "joins {shaft}, which has no axis in machine.frame, so that its forces have no direction; give {shaft}: [x, y] there"
-                yield finding(parts, "frame", "error", join.path, template, ("machine",), shaft=shaft)
-
-
-def one_belt(parts: MachineParts) -> Iterator[Finding]:
-    """One belt is calculated, with the drive train, which knows the motor that pulls it."""
-    for join in [each for each in parts.joins if each.word == "belts"][1:]:
-        template = "is a second belt; one alone is calculated, by the drive train: give what this one drives as a load of its shaft"
-        yield finding(parts, "belt", "error", join.path, template)
-
-
-def center(parts: MachineParts) -> Iterator[Finding]:
-    """The axes of the frame are as far apart as a mesh, a chain or a belt wants."""
-    for join in (each for each in parts.joins if each.is_between_shafts):
-        if isinstance(join.keys, BeltKeys) and belt_center(join) is None:
-            template = "is too short for its pulleys of {diameters}, which would touch; take a longer belt"
-            diameters = f"{mm(join.keys.diameter_1)} / {mm(join.keys.diameter_2)}"
-            yield finding(
-                parts,
-                "center",
-                "error",
-                (*join.path, "length"),
-                template,
-                (*join.path, "diameters"),
-                diameters=diameters,
-            )
-        one, other = join.drivers[0].shaft.name, join.driven[0].shaft.name
-        there = parts.distance(one, other)
-        wanted = join.center_distance if not isinstance(join.keys, BeltKeys) else belt_center(join)
-        if there is None or wanted is None:
-            continue
-        allowed, what = SAME_PLACE, "teeth or module"
-        if isinstance(join.keys, BeltKeys):
-            allowed, what = BELT_CENTER * wanted, "length or diameters"
-        elif isinstance(join.keys, ChainKeys):
-            allowed, what = chain_pitch(join.keys) / 2, "links"
-        if abs(there - wanted) > allowed:
-            template = "puts the axes {wanted} apart, but in the frame {one} and {other} are {there} apart; move an axis or change {what}"
-            yield finding(parts, "center", "error", join.path, template, ("machine", "frame", other), wanted=mm(wanted), one=one, other=other,
-                there=mm(there), what=what)  # fmt: skip
-
-
-def belt_center(join: Join) -> float | None:
-    """Return the distance of the axes of a belt of its length, m; None where it does not go round its pulleys."""
-    small, large = sorted((join.keys.diameter_1, join.keys.diameter_2))
-    free = join.keys.length - pi * (small + large) / 2
-    found = (free + max(free**2 - 2 * (large - small) ** 2, 0) ** 0.5) / 4
-    return float(found) if found > (small + large) / 2 else None
-
-
-def frame(parts: MachineParts) -> Iterator[Finding]:
-    """The axes of the frame are as far apart as the mechanisms on them want."""
-    for kind, first, second in (("cylinder_drive", "crank", "rocker"), ("geneva_transport", "crank", "wheel")):
-        for name in (each for each, own in parts.mechanisms.items() if own == kind):
-            ports = {
-                part.port[1]: part
-                for shaft in parts.shafts.values()
-                for part in shaft.parts
-                if part.port and part.port[0] == name
-            }
-            typed = parts.reader.typed_block(name)
-            wanted = typed.get("center_distance")
-            if kind == "cylinder_drive":
-                wanted = typed["crank_length"] * typed.get("frame_ratio", 5.0) if "crank_length" in typed else None
-            if wanted is None or not {first, second} <= ports.keys():
-                continue
-            there = parts.distance(ports[first].shaft.name, ports[second].shaft.name)
-            if there is not None and abs(there - wanted) > SAME_PLACE:
-                template = "wants the axes of {one} and {other} {wanted} apart, but in the frame they are {there} apart; move an axis"
-                yield finding(parts, "frame", "error", ("mechanisms", name), template, ("machine", "frame", ports[second].shaft.name),
-                    one=ports[first].shaft.name, other=ports[second].shaft.name, wanted=mm(wanted), there=mm(there))  # fmt: skip
-
-
-def mesh_pair(parts: MachineParts) -> Iterator[Finding]:
-    """A mesh is no wider than its hubs, and its gears stand in one plane."""
-    for join in (each for each in parts.joins if isinstance(each.keys, MeshKeys)):
-        pinion = 2 * min(join.radius(join.drivers[0]), join.radius(join.driven[0]))
-        for part in (*join.drivers, *join.driven):
-            if part.keys.hub is not None and join.keys.width > part.keys.hub + SAME_PLACE:
-                template = "is {width} wide, but the hub of {name} is {hub} long; make the hub at least as long"
-                yield finding(parts, "mesh_pair", "error", (*join.path, "width"), template, (*part.path, "hub"), width=mm(join.keys.width),
-                    name=part.called, hub=mm(part.keys.hub))  # fmt: skip
-        if join.keys.width > WIDTH_TO_DIAMETER * pinion + SAME_PLACE:
-            template = "is {width} wide, more than {share} times the pinion's diameter {diameter}: the teeth do not bear evenly; take a narrower pair"
-            yield finding(parts, "mesh_pair", "warning", (*join.path, "width"), template, width=mm(join.keys.width), share=WIDTH_TO_DIAMETER,
-                diameter=mm(pinion))  # fmt: skip
-    for one, here, other, there in parts.planes:
-        lefts = parts.lefts
-        if {one.shaft.name, other.shaft.name} <= lefts.keys():
-            apart = abs(lefts[one.shaft.name] + here - lefts[other.shaft.name] - there)
-            if apart > SAME_PLACE:
-                template = (
-                    "stands {apart} beside {name}, with which it works; give left of one of the shafts, or move a part"
-                )
-                yield finding(
-                    parts,
-                    "mesh_pair",
-                    "error",
-                    (*other.path, "at"),
-                    template,
-                    (*one.path, "at"),
-                    apart=mm(apart),
-                    name=one.called,
-                )
-
-
-def sector(parts: MachineParts) -> Iterator[Finding]:
-    """A sector has no more than two thirds of the teeth of its circle."""
-    for join in (each for each in parts.joins if isinstance(each.keys, MeshKeys) and each.keys.teeth_present):
-        whole = max(join.keys.teeth_1, join.keys.teeth_2)
-        if join.keys.teeth_present > 2 * whole / 3:
-            template = "is {teeth}, more than two thirds of the {whole} teeth of the full circle; a sector has fewer"
-            yield finding(
-                parts,
-                "sector",
-                "error",
-                (*join.path, "teeth_present"),
-                template,
-                teeth=join.keys.teeth_present,
-                whole=whole,
-            )
-
-
-def chain(parts: MachineParts) -> Iterator[Finding]:
-    """A chain has an even number of links."""
-    for join in (each for each in parts.joins if isinstance(each.keys, ChainKeys)):
-        if join.keys.links % 2:
-            template = "is {links}, which needs a cranked link; take an even number"
-            yield finding(parts, "chain", "warning", (*join.path, "links"), template, links=join.keys.links)
-
-
-def _ratios(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """A shaft turns as often as the mechanism on it wants."""
-    for shaft in parts.shafts.values():
-        for part in (each for each in shaft.parts if each.port and shaft.name in parts.ratios):
-            assert part.port is not None
-            wanted, _ = elements.line(part.port[0])
-            there = abs(parts.ratios[shaft.name])
-            if abs(there / float(wanted) - 1) > RATIO:
-                template = "turns {there} times a sheet by the teeth, but {mechanism} turns {wanted} times a sheet; change teeth or turns_per_sheet"
-                yield finding(
-                    parts,
-                    "ratio",
-                    "error",
-                    part.path,
-                    template,
-                    there=f"{there:.6g}",
-                    mechanism=part.port[0],
-                    wanted=str(wanted),
-                )
 
 
 def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
