@@ -132,7 +132,11 @@ class Masses(Demands):
         width = self._width(part, join) or 0.0
         wanted = join.keys.width if isinstance(join.keys, MeshKeys) else width
         full, bore = (2 * join.radius(part)) ** 2, part.seat if part.keys.bore is None else part.keys.bore
-        return float(part.keys.fill * (full - bore**2) / (full - part.seat**2) * width / wanted)
+        return (
+            float(part.keys.fill * (full - bore**2) / (full - part.seat**2) * width / wanted)
+            if full > part.seat**2
+            else None
+        )
 
     def full_inertia(self, part: ShaftPart) -> float | None:
         """Return the moment of inertia of that body about its shaft's axis where it is a disc or a Geneva wheel, kg·m²."""
