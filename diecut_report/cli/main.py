@@ -231,6 +231,10 @@ def report(
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
         press = Press.read(source(config, discovery), discovery, progress)
         press.require_reportable(formats, only)
+        for path in [folder / f"{Path(press.config.tree.name).stem}.{form}" for form in formats]:
+            if previous is not None and path.exists() and previous.exists() and path.samefile(previous):
+                template = "This is the previous report itself and would be overwritten. Choose another place with -o."
+                raise refusal(template, path)
         asked = AskedReport(asked_language(), detail, only, house)
         outcome = with_findings(press.calculate()).report(folder, formats, asked, former)
     tell_written(outcome.written)

@@ -43,8 +43,7 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
     try:
         with opened(content) as pdf:
             found = _found(pdf, name, most, file)
-            count = len(pdf.objects)
-        _refuse_former(content, count, found, name, most, file)
+        _refuse_former(content, found, name, most, file)
         return found
     except pikepdf.PasswordError as error:
         raise refusal("The PDF is encrypted, and opens only with a password. Give one without.", file) from error
@@ -85,20 +84,23 @@ def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
     return bytes(content)
 
 
-def _refuse_former(content: bytes, count: int, found: bytes | None, name: str, most: int, file: str) -> None:
+def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, file: str) -> None:
     """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
     ends = [end.end() for end in END.finditer(content)][:-1]
-    if len(ends) > MOST_REVISIONS or len(ends) * count > MOST_OBJECTS:
-        template = (
-            "The PDF has {objects} objects and was added to {count} times. Give the file as the program wrote it."
-        )
-        raise refusal(template, file, objects=count, count=len(ends))
+    if len(ends) > MOST_REVISIONS:
+        template = "The PDF was added to {count} times. Give the file as the program wrote it."
+        raise refusal(template, file, count=len(ends))
+    objects = 0
     for end in ends:
         try:
             with opened(content[:end]) as pdf:
-                former = _found(pdf, name, most, file)
+                objects += len(pdf.objects)
+                former = _found(pdf, name, most, file) if objects <= MOST_OBJECTS else None
         except FAULTS:  # no end of a PDF: the letters stand in a stream
             continue
+        if objects > MOST_OBJECTS:
+            template = "The PDF had more than {most} objects in all, as it was added to {count} times. Give the file as the program wrote it."
+            raise refusal(template, file, most=MOST_OBJECTS, count=len(ends))
         if former is not None and former != found:
             raise refusal(SEVERAL, file, count=2, name=name)
 

@@ -28,8 +28,10 @@ from diecut_report.exchange.pdf_attachments import PDF_FAULTS
 from diecut_report.exchange.signing_keys import MOST, WEAK_DIGESTS, certificates_in, name_of, weak_key
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, cell, joined, phrase
+from diecut_report.time_limit import PATIENCE, Overran, limited
 
 MOST_FIELDS = 100
+ENDLESS = Phrase("it is not read within {seconds} s", seconds=f"{PATIENCE:g}")
 SHORT = 16  # letters of a fingerprint
 USAGE = KeyUsageConstraints(key_usage={"non_repudiation", "digital_signature"}, match_all_key_usages=False)
 Roots = Sequence[x509.Certificate] | None
@@ -63,13 +65,15 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     if found_fault := fault(whole):
         return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
     try:
-        with silent():
+        with silent(), limited(PATIENCE):
             reader = PdfFileReader(io.BytesIO(whole))
             refuse_nested_fields(reader)
             found = _all_judged(reader.embedded_signatures, whole, roots)
     except (PdfError, ValidationInfoReadingError, SignatureValidationError, *PDF_FAULTS) as error:
         told = f"{error}" or type(error).__name__
         return [Signature(Phrase("cannot be read: {error}", error=told), False)]
+    except Overran:
+        return [Signature(Phrase("cannot be read: {error}", error=ENDLESS), False)]
     if not found:
         return [Signature(phrase("the file holds a part of one, but no field has a signature"), False)]
     is_ended = any(each.is_last for each in found) or added_proofs(whole[: max(each.end for each in found)], whole)

@@ -27,10 +27,11 @@ from diecut_report.exchange.carried import MOST, form_of
 from diecut_report.exchange.later_changes import fault, only_signed
 from diecut_report.exchange.pdf_attachments import PDF_FAULTS
 from diecut_report.exchange.signature_drawing import drawing
-from diecut_report.exchange.signatures import refuse_nested_fields, signatures, silent
+from diecut_report.exchange.signatures import ENDLESS, refuse_nested_fields, signatures, silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all
 from diecut_report.text.phrases import Phrase, joined, phrase
+from diecut_report.time_limit import PATIENCE, Overran, limited
 
 NONE_FREE = phrase(
     "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
@@ -71,13 +72,15 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     if damage := fault(whole):  # the library that signs reads without bounds
         raise refusal(UNSIGNABLE, asked.report, error=damage)
     try:
-        with silent():
+        with silent(), limited(PATIENCE):
             field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
         judge()
-        with silent():
+        with silent(), limited(PATIENCE):
             signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
     except (PdfError, SigningError, *PDF_FAULTS) as error:
         raise refusal(UNSIGNABLE, asked.report, error=error) from error
+    except Overran as error:
+        raise refusal(UNSIGNABLE, asked.report, error=ENDLESS) from error
     if not only_signed(whole, signed):
         raise refusal(AMBIGUOUS, asked.report)
     found = signatures(signed)

@@ -143,7 +143,7 @@ def _without_method(part: ShaftPart, mechanisms: Mapping[str, str]) -> Iterator[
     if part.keys.bolted:
         yield phrase("{part}: no method rates its bolts")
     if part.kind in ("crank", "rocker") and part.keys.pin is None:
-        yield phrase("{part}: its pin is not given")
+        yield phrase("{part}: no calculation rates its pin")
     if part.keys.pin is not None and part.keys.pin.bearing is None:
         yield phrase("{part}: the bearing of its pin is not given")
     if part.keys.pin is not None and part.keys.pin.held is not None:

@@ -15,7 +15,7 @@ PartKind = Literal[
 ]  # fmt: skip
 
 
-Few = Field(max_length=200)  # of each list: no machine has more, and its drawing takes time for each
+Few = Field(max_length=60)  # of each list: no machine has more, and its drawing takes time for each
 State = Literal["rated", "not_rated", "accepted", "none"]
 
 

@@ -83,6 +83,11 @@ def unrated_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
         asked = own if name not in parts else run.calculations[name].mechanism.reactions
         if free := [force for force in own if force in asked and (name, force) not in taken]:
             yield f"mechanisms.{name}", Phrase("no part takes {ports}", ports=", ".join(free))
+        elif run.calculations[name].mechanism.ports:
+            yield (
+                f"mechanisms.{name}",
+                phrase("nothing says of which parts its forces pass: shafts and meshes describe them"),
+            )
     yield from _taken_in_part(run)
 
 

@@ -13,6 +13,7 @@ import pytest
 from cryptography.hazmat.primitives.asymmetric import ec
 from pyhanko.pdf_utils.generic import ArrayObject, DictionaryObject, NameObject, StreamObject
 
+from diecut_report.exchange import pdf_attachments
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.pdf_attachments import END
 from diecut_report.exchange.signing import Additions
@@ -183,13 +184,14 @@ def test_a_table_without_an_end_is_not_signed(table: bytes, tmp_path: Path, capf
 
 
 def test_a_pdf_of_many_objects_is_not_looked_through_for_ever(
-    small_report: Path, tmp_path: Path, capfd: Capture
+    small_report: Path, tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(pdf_attachments, "MOST_OBJECTS", 100_000)
     with pikepdf.open(small_report / "small.pdf") as pdf:
-        pdf.Root.More = pikepdf.Array([pdf.make_indirect(pikepdf.Dictionary(A=i)) for i in range(60_000)])
+        pdf.Root.More = pikepdf.Array([pdf.make_indirect(pikepdf.Dictionary(A=i)) for i in range(6_000)])
         content = saved_pdf(pdf)
     end = END.findall(content)[-1]
     (tmp_path / "a.pdf").write_bytes(content + 99 * (b"\n" + end))
     with limited(SECONDS):
         assert run("extract", tmp_path / "a.pdf", "-o", tmp_path) == 2
-    assert "objects and was added to 99 times" in capfd.readouterr().err
+    assert "objects in all, as it was added to 99 times" in capfd.readouterr().err

@@ -32,6 +32,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
+@pytest.mark.parametrize("form", ["html", "json"])
+def test_the_previous_report_is_not_written_over(
+    folder: Path, tmp_path: Path, form: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    former = tmp_path / f"new.{form}"
+    former.write_bytes((folder / f"old.{form}").read_bytes())
+    before = former.read_bytes()
+    assert run("report", folder / "new.yaml", "-o", tmp_path, "--format", "html,json", "--previous", former) == 2
+    assert f"new.{form}: This is the previous report itself and would be overwritten" in capfd.readouterr().err
+    assert former.read_bytes() == before and list(tmp_path.iterdir()) == [former]
+
+
 def test_what_changed_is_told_and_marked(folder: Path) -> None:
     page = (folder / "new.html").read_text("utf-8")
     assert '<h2 id="changes">Changes since revision A</h2>' in page and 'href="#changes"' in page

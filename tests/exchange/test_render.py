@@ -71,7 +71,7 @@ def endless_wheel(data: Data) -> None:
 
 def endless_shafts(data: Data) -> None:
     shaft = {"name": "s", "axis": [0.0, 0.0], "left": 0.0, "sections": [], "parts": [], "rating": {"state": "none"}}
-    data["drive_line"] = {"shafts": 201 * [shaft], "joins": []}
+    data["drive_line"] = {"shafts": 61 * [shaft], "joins": []}
 
 
 NONSENSE = [

@@ -170,7 +170,7 @@ def test_an_object_that_is_changed_after_signing_is_told(signed: Path, change: C
 
 def test_a_signed_report_is_not_written_over(signed: Path, signed_once: bytes, capfd: Capture) -> None:
     config = saved(signed.parent, SMALL).rename(signed.with_suffix(".yaml"))
-    assert run("report", config, "--format", "pdf,json", "-o", signed.parent, "--previous", signed) == 2
+    assert run("report", config, "--format", "pdf,json", "-o", signed.parent) == 2
     assert "is signed, and would be lost. Choose another place with -o" in capfd.readouterr().err
     assert signed.read_bytes() == signed_once and not signed.with_suffix(".json").exists()
 
@@ -315,7 +315,7 @@ def test_what_is_not_a_report_as_pdf_is_told(small_report: Path, key: Path, tmp_
     (tmp_path / "other.pdf").write_bytes(saved_pdf(other))
     refused(capfd, "no free field for a signature", tmp_path / "other.pdf", "--key", key)
     (tmp_path / "closed.pdf").write_bytes(saved_pdf(other, "x"))
-    refused(capfd, "no free field for a signature", tmp_path / "closed.pdf", "--key", key)
+    refused(capfd, "it is encrypted, and opens only with a password", tmp_path / "closed.pdf", "--key", key)
 
 
 def test_an_output_that_cannot_be_written_is_told(pdf: Path, key: Path, tmp_path: Path, capfd: Capture) -> None:

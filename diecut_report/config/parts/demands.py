@@ -162,14 +162,14 @@ class Demands:
         if shaft in self.parts.ratios:
             found = Fraction(1)
             for join, onward in self.parts.route(shaft):
-                ratio = Fraction(abs(join.ratio)).limit_denominator(10_000)
+                ratio = Fraction(abs(join.ratio)).limit_denominator(10_000) or Fraction(1, 10_000)
                 found = found * ratio if onward else found / ratio
             return found
         moving = self.moved_by(self.parts.shafts[shaft])
         if moving is None or not moving.port.advance:
             return Fraction(0)
         steps = self.parts.reader.typed_block(moving.mechanism).get(moving.port.advance, USUAL_STEPS)
-        found = Fraction(1, int(steps))
+        found = Fraction(1, max(int(steps), 1))
         for join in self.chain_from(moving.part.shaft.name, shaft):
             found *= Fraction(abs(join.ratio)).limit_denominator(10_000)
         return found
