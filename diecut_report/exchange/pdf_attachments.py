@@ -6,20 +6,23 @@ import io
 import re
 import zlib
 from collections.abc import Iterator
-from functools import cache
 from typing import Any
 
 import pikepdf
 from pikepdf import settings
 
 from diecut_report.errors import refusal
-from diecut_report.text.phrases import phrase
+from diecut_report.text.phrases import Phrase, phrase
 
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
 DEEPEST = 100
 MOST_ATTACHED = 1000  # files, with the nodes of their tree
 MOST_REVISIONS = 100
+MOST_TO_OPEN = 48_000_000  # bytes that a stream unpacks to while a PDF is opened; the catalogue of a large report stands in one of 20 MB
+FORMER = re.compile(
+    rb"/(?:P|#50)(?:r|#72)(?:e|#65)(?:v|#76)(?:\s|%[^\r\n]*[\r\n])*+\d++(?!\s+\d+\s+R)"
+)  # the place of a former table
 MOST_OBJECTS = 4_000_000  # of all revisions together, each of which is looked through: a large report has some 200 000
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
 END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
@@ -30,6 +33,7 @@ PDF_FAULTS = (
 """What libraries raise for a PDF that is not as the standard has it: it was damaged, or made to harm.
 
 RuntimeError with recursion and what is not implemented, ArithmeticError with decimals, NameError with a variable that was never set."""
+_bounds = {"most": 0}  # of the library, which has one for the whole process
 FAULTS = (pikepdf.PdfError, *PDF_FAULTS)
 """The same of pikepdf."""
 SEVERAL = phrase(
@@ -55,15 +59,24 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
 
 
 def opened(content: bytes) -> pikepdf.Pdf:
-    """Return a PDF as it stands: what is damaged is not repaired, and what all sheets have in common stays where it is written."""
-    return pikepdf.open(
-        io.BytesIO(content), attempt_recovery=False, suppress_warnings=True, inherit_page_attributes=False
-    )
+    """Return a PDF as it stands: what is damaged is not repaired, and what all sheets have in common stays where it is written.
+
+    Opening walks through all tables of objects: through so many, and no larger ones than a large report has.
+    """
+    if sum(1 for _ in FORMER.finditer(content)) > MOST_REVISIONS:
+        raise ValueError(Phrase("it has more than {most} tables of objects", most=MOST_REVISIONS))
+    settings.set_qpdf_limits(flate_max_memory=MOST_TO_OPEN)
+    try:
+        return pikepdf.open(
+            io.BytesIO(content), attempt_recovery=False, suppress_warnings=True, inherit_page_attributes=False
+        )
+    finally:
+        settings.set_qpdf_limits(flate_max_memory=_bounds["most"])
 
 
-@cache
 def bounded(most: int) -> None:
-    """Let the library unpack no more than so much of any stream, be it one that only tells where the objects stand."""
+    """Let the library unpack no more than so much of any stream."""
+    _bounds["most"] = most
     settings.set_qpdf_limits(
         doc_max_warnings=MOST_WARNINGS, parser_max_nesting=DEEPEST, parser_max_container_size=MOST_ITEMS,
         flate_max_memory=most, png_max_memory=most, run_length_max_memory=most, tiff_max_memory=most, dct_max_memory=most,

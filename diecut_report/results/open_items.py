@@ -153,12 +153,7 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
         and slot.value not in slot.meta.words
     )
     kind, target = run.config.kinds.get(instance.name, PRESS), run.config.links.get((instance.name, *slot.key))
-    if (
-        target is not None
-        and target.expression
-        and asks_basis(kind, slot.name)
-        and not _is_of_parts(run, instance.name)
-    ):
+    if target is not None and target.expression and asks_basis(kind, slot.name, _is_alone(run, instance.name)):
         return None if is_founded(said.basis if said else "", said.note if said else "") else "assumed"
     if target is not None or not is_number:
         return "assumed" if is_assumed else None

@@ -285,6 +285,7 @@ LOADED = """\
         ("{value: 1 N*m, basis: drawing}", "assumed"),  # a drawing founds no load
         ("{value: 200 N*m, basis: measured}", None),
         ("'${d.crank_torque}'", None),
+        ("'0.5 * ${d.crank_length} * 4 kN'", "assumed"),  # the number in it is of nobody
         ("'${d.crank_torque_peak}'", "assumed"),  # how it changes over a turn is left out
         ("'2 * ${d.crank_torque_peak}'", "assumed"),
     ],

@@ -12,13 +12,12 @@ from diecut_report.config.parts.model import MachineParts, ShaftPart, catalogue_
 from diecut_report.config.validation import quoted
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import nearest
+from diecut_report.mechanism.mechanism import Port
 from diecut_report.text.phrases import phrase
 
 PART_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 ON_MOTORS = ("pulley", "gear", "sprocket", "coupling", "flywheel")
 """Kinds of parts that a motor's shaft carries."""
-OF_PORTS = ("crank", "rocker", "geneva_wheel", "cam")
-"""Kinds of parts on which mechanisms act; the first two have the pin of a joint."""
 OF_BEARINGS = ("designation", "floating")
 OF_HUBS = (
     "hub",
@@ -188,6 +187,13 @@ def strengths(parts: MachineParts) -> Iterator[Finding]:
             yield finding(parts, "strengths", "error", join.path, template, keys=" and ".join(missing))
 
 
+def _fitting(port: Port) -> tuple[str, ...]:
+    """The kinds of parts that may stand for a port: with the pin of a joint, turned in steps, or any that turns."""
+    if port.joint[0]:
+        return "crank", "rocker"
+    return ("geneva_wheel",) if port.advance else ("crank", "cam")
+
+
 def ports(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """What a part stands for, or a chain moves, is there."""
     for part in (each for shaft in parts.shafts.values() for each in shaft.parts if each.keys.of is not None):
@@ -197,7 +203,7 @@ def ports(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             template = "is {of}, which is not a port of a mechanism{near}; there are {known}"
             yield finding(parts, "names", "error", (*part.path, "of"), template, of=part.keys.of, near=nearest(str(part.keys.of), known),
                 known=", ".join(known) or phrase("none"))  # fmt: skip
-        elif part.kind not in (fitting := OF_PORTS[:2] if port.joint[0] else OF_PORTS):
+        elif part.kind not in (fitting := _fitting(port)):
             template = "is a key of a {kind}, which {of} does not act on; parts that it acts on are {known}"
             yield finding(parts, "names", "error", (*part.path, "of"), template, kind=part.kind, of=part.keys.of,
                 known=", ".join(fitting))  # fmt: skip

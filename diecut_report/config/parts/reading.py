@@ -39,6 +39,7 @@ SECTION = re.compile(
 """A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
 INDEX = re.compile(r"[0-9]{1,6}")
 COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
+REFERENCE = re.compile(r"\$\{[^${}]*\}")
 BODY = {
     "mass": Quantity("m", "kg", "Mass of a part", ge=0),
     "inertia": Quantity("J", "kg*m**2", "Moment of inertia of a part", ge=0),
@@ -242,15 +243,21 @@ class PartsReader:
 
     def typed_body(self, path: KeyPath, key: str) -> float | None:
         """Return the mass or inertia of a part that is typed at its path, in SI; None where none is, or where it refers to what is calculated."""
-        given = _at(self.data, (*path, key))
-        meta = BODY[key]
+        given, meta = self._given_body(path, key), BODY[key]
         try:
-            found = meta.validate(
-                self._calculated(given["value"] if isinstance(given, dict) else given, (*path, key), meta)
-            )
+            found = meta.validate(self._calculated(given, (*path, key), meta))
         except (KeyError, ValueError, ConditionError):  # what cannot be read is told where it is used
             return None
         return None if found is None else float(found)
+
+    def is_formula_of_results(self, path: KeyPath, key: str) -> bool:
+        """Return whether the mass or inertia of a part is a formula of what is calculated, and not that itself."""
+        given = str(self._given_body(path, key))
+        return "${" in given and not REFERENCE.fullmatch(given.strip()) and self.typed_body(path, key) is None
+
+    def _given_body(self, path: KeyPath, key: str) -> Any:
+        given = _at(self.data, (*path, key))
+        return given.get("value") if isinstance(given, dict) else given
 
     def _fault(self, path: KeyPath, template: str, **values: object) -> None:
         self.problems.append(ConfigPlace(self.tree).problem(path, Phrase(template, **values)))

@@ -337,10 +337,10 @@ def integral(parts: MachineParts) -> Iterator[Finding]:
 def force_plane(parts: MachineParts) -> Iterator[Finding]:
     """A crank's or rocker's force has a plane beyond the face of its hub; without a pin of the machine no nearer than half the roller's width."""
     for part in (part for _, part in hubs(parts)):
-        if part.kind in ("crank", "rocker") and part.port is not None and not part.hub:
+        if part.kind in ("crank", "rocker", "cam") and part.port is not None and not part.hub:
             template = "has no hub, so that it is not known where its face is, beyond which its force acts; give hub"
             yield finding(parts, "pin_plane", "error", part.path, template)
-        if part.kind not in ("crank", "rocker") or part.port is None or part.keys.pin is not None:
+        if part.kind not in ("crank", "rocker", "cam") or part.port is None or part.keys.pin is not None:
             continue
         if part.keys.plane is None:
             template = "has neither a pin nor a plane, so that it is not known how far beyond the disc its force acts; give plane"
@@ -379,11 +379,24 @@ def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             ("inertia", "kg·m²", elements.full_inertia(part)),
         ):
             typed, path = parts.reader.typed_body(part.path, key), (*part.path, key)
-            if typed == 0:
+            if parts.reader.is_formula_of_results(part.path, key):
+                template = "is a formula of what is calculated, which nothing holds against the part; type it, or refer to the result itself"
+                yield finding(parts, "mass", "error", path, template)
+            elif typed == 0:
                 template = "is zero, as nothing is that turns; give its own, or leave the key out"
                 yield finding(parts, "mass", "error", path, template)
             elif typed is not None and full is not None:
                 yield from _share_of_body(parts, part, path, (typed, full), of)
+        roller = (
+            parts.reader.typed_block(part.port[0]).get("roller_width", 0.0)
+            if part.kind == "geneva_wheel" and part.port
+            else 0.0
+        )
+        if part.keys.width is not None and part.keys.width < roller / 2:
+            template = "is {width} wide, less than half of the roller of {roller} that runs in it; give its own width"
+            yield finding(
+                parts, "mass", "error", (*part.path, "width"), template, width=mm(part.keys.width), roller=mm(roller)
+            )
         share = elements.share_of_disc(part)
         if share is not None and share < MASS_SHARE[0]:
             template = "leaves by fill, bore and width {share} of its full steel disc; {least} at least is usual"
