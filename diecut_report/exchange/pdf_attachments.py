@@ -18,7 +18,7 @@ MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
 DEEPEST = 100
 MOST_ATTACHED = 1000  # files, with the nodes of their tree
-MOST_REVISIONS = 100
+MOST_REVISIONS = 40
 MOST_TO_OPEN = 48_000_000  # bytes that a stream unpacks to while a PDF is opened; the catalogue of a large report stands in one of 20 MB
 FORMER = re.compile(
     rb"/(?:P|#50)(?:r|#72)(?:e|#65)(?:v|#76)(?:\s|%[^\r\n]*[\r\n])*+\d++(?!\s+\d+\s+R)"

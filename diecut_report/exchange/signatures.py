@@ -28,9 +28,10 @@ from diecut_report.exchange.pdf_attachments import PDF_FAULTS
 from diecut_report.exchange.signing_keys import MOST, WEAK_DIGESTS, certificates_in, name_of, weak_key
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, cell, joined, phrase
-from diecut_report.time_limit import PATIENCE, Overran, limited
+from diecut_report.time_limit import Overran, limited
 
 MOST_FIELDS = 100
+PATIENCE = 50.0  # seconds: those of a large report that three have signed take less than ten
 ENDLESS = Phrase("it is not read within {seconds} s", seconds=f"{PATIENCE:g}")
 SHORT = 16  # letters of a fingerprint
 USAGE = KeyUsageConstraints(key_usage={"non_repudiation", "digital_signature"}, match_all_key_usages=False)

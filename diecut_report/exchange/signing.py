@@ -27,11 +27,11 @@ from diecut_report.exchange.carried import MOST, form_of
 from diecut_report.exchange.later_changes import fault, only_signed
 from diecut_report.exchange.pdf_attachments import PDF_FAULTS
 from diecut_report.exchange.signature_drawing import drawing
-from diecut_report.exchange.signatures import ENDLESS, refuse_nested_fields, signatures, silent
+from diecut_report.exchange.signatures import ENDLESS, PATIENCE, refuse_nested_fields, signatures, silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all
 from diecut_report.text.phrases import Phrase, joined, phrase
-from diecut_report.time_limit import PATIENCE, Overran, limited
+from diecut_report.time_limit import Overran, limited
 
 NONE_FREE = phrase(
     "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
