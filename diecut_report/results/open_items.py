@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
@@ -27,6 +28,7 @@ from diecut_report.text.phrases import Phrase, phrase
 
 FORCES = ("N", "N*m")  # SI units of what a part carries
 LIMIT = "allowable_"  # of a key: beyond its usual range nothing founds it
+WHOLE = re.compile(r"\$\{[^${}]*\}")  # a reference by itself
 CURVE = "_curve"  # of the input beside a number that takes its course over a cycle
 ONE_OF_CURVE = phrase(
     "it is one number of a curve: how the load changes over a cycle, and how often it changes its side, is left out"
@@ -153,7 +155,7 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
         and slot.value not in slot.meta.words
     )
     kind, target = run.config.kinds.get(instance.name, PRESS), run.config.links.get((instance.name, *slot.key))
-    if target is not None and target.expression and asks_basis(kind, slot.name, _is_alone(run, instance.name)):
+    if asks_basis(kind, slot.name, _is_alone(run, instance.name)) and is_formula(instance, slot):
         return None if is_founded(said.basis if said else "", said.note if said else "") else "assumed"
     if target is not None or not is_number:
         return "assumed" if is_assumed else None
@@ -169,6 +171,18 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     is_drawn_load = not is_alone and said is not None and said.basis == "drawing" and by_reference(kind, slot.name)
     founded = run.bases.is_founded((instance.name, *slot.key)) and not (beyond or unsaid or is_drawn_load)
     return "assumed" if is_assumed or (asks and not founded) else None
+
+
+def is_formula(instance: Instance, slot: Slot) -> bool:
+    """Return whether a formula of others stands in the file, with what is of nobody in it: a reference alone is none, nor one that parts make."""
+    tree, path = instance.place.stands(slot.key)
+    path = path if tree.typed(path) else (*path, "value")
+    typed = (tree.typed(path) or "").strip()
+    if "${" not in typed or WHOLE.fullmatch(typed):
+        return False
+    line, column = tree.position(path)
+    written = tree.text.splitlines()[line - 1][column - 1 :].lstrip("\"'")
+    return written.startswith((typed[:8], ">", "|"))
 
 
 def _leaves_out(run: Run, instance: Instance, slot: Slot) -> bool:

@@ -14,7 +14,7 @@ from tests.configs import DISCOVERY, EXAMPLES, PARTS
 from tests.examples import few
 from tests.extremes.random_machines import FILES, faults
 
-FEW, ALL = 2, 2000  # machines of each example
+FEW, ALL = 4, 2000  # machines of each example
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from diecut_report.config.yaml import parse
 from diecut_report.errors import Problem, UserError
 from diecut_report.press import Press
 from diecut_report.results.carrying_parts import carrying_parts, is_rated, unrated
-from diecut_report.results.open_items import unrated_forces
+from diecut_report.results.open_items import is_formula, unrated_forces
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
 from diecut_report.results.warm_press import WarmPress
@@ -675,6 +675,22 @@ def test_what_is_left_out_of_a_part_is_not_rated(old: str, new: str, why: str) -
     config = examined(parse(TEXT.replace(old, new, 1), str(FILE)), DISCOVERY)[0]
     assert config.parts is not None
     assert why in {str(each.why) for each in unrated(config.parts, config.named("drive_train"), {}, "")}
+
+
+def test_a_formula_of_the_file_is_told_from_one_that_the_parts_make() -> None:
+    limits = (
+        "sigma_h_lim_1: 0.6 * ${cross.allowable_contact_pressure}, sigma_h_lim_2: '${cross.allowable_contact_pressure}'"
+    )
+    config, problems = changed("  crank_drive: {", f"  crank_drive: {{{limits}, ")
+    assert not problems
+    found = {
+        (instance.name, *slot.key)
+        for instance in config.instances.values()
+        if instance is not None and instance.name in ("meshes_crank_drive", "shafts_crank_bearings")
+        for slot in instance.slots
+        if is_formula(instance, slot)
+    }
+    assert found == {("meshes_crank_drive", "sigma_h_lim_1")}
 
 
 @pytest.mark.nightly
