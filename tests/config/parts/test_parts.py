@@ -678,9 +678,8 @@ def test_what_is_left_out_of_a_part_is_not_rated(old: str, new: str, why: str) -
 
 
 def test_a_formula_of_the_file_is_told_from_one_that_the_parts_make() -> None:
-    limits = (
-        "sigma_h_lim_1: 0.6 * ${cross.allowable_contact_pressure}, sigma_h_lim_2: '${cross.allowable_contact_pressure}'"
-    )
+    limit = "${cross.allowable_contact_pressure}"
+    limits = f"sigma_h_lim_1: '0.6 * {limit}', sigma_h_lim_2: '{limit}'"
     config, problems = changed("  crank_drive: {", f"  crank_drive: {{{limits}, ")
     assert not problems
     found = {
