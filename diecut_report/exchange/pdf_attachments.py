@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import io
 import re
+import subprocess
+import sys
 import zlib
 from collections.abc import Iterator
+from contextlib import suppress
+from functools import lru_cache
 from typing import Any
 
 import pikepdf
 from pikepdf import settings
 
 from diecut_report.errors import refusal
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import phrase
 
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
@@ -20,9 +24,13 @@ DEEPEST = 100
 MOST_ATTACHED = 1000  # files, with the nodes of their tree
 MOST_REVISIONS = 40
 MOST_TO_OPEN = 48_000_000  # bytes that a stream unpacks to while a PDF is opened; the catalogue of a large report stands in one of 20 MB
-FORMER = re.compile(
-    rb"/(?:P|#50)(?:r|#72)(?:e|#65)(?:v|#76)(?:\s|%[^\r\n]*[\r\n])*+\d++(?!\s+\d+\s+R)"
-)  # the place of a former table
+TABLE = re.compile(rb"startxref|/(?:P|#50)(?:r|#72)(?:e|#65)(?:v|#76)")  # what may lead to a table of objects
+MOST_TABLES = 16  # with which a PDF is opened at once: those of one that three have signed are fewer
+SECONDS = 30  # of the processor, for the opening of one with more in a process of its own
+APART = (
+    f"import resource, sys; resource.setrlimit(resource.RLIMIT_CPU, ({SECONDS}, {SECONDS + 1})); "
+    "from diecut_report.exchange.pdf_attachments import open_all; open_all(sys.stdin.buffer.read())"
+)
 MOST_OBJECTS = 4_000_000  # of all revisions together, each of which is looked through: a large report has some 200 000
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
 END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
@@ -44,6 +52,7 @@ SEVERAL = phrase(
 def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
     """Return the attachment of a name, None where the PDF has none; UserError where it cannot be read, or is larger than ``most``."""
     bounded(most)
+    require_openable(content, file)
     try:
         with opened(content) as pdf:
             found = _found(pdf, name, most, file)
@@ -58,13 +67,42 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
         raise refusal(template, file, most=f"{most / 1e6:g}") from error
 
 
+def require_openable(content: bytes, file: object) -> None:
+    """Raise UserError for a PDF of many tables of objects that is not opened soon: the library walks through all, and cannot be interrupted."""
+    if not _opens_soon(content):
+        template = "The PDF is not opened within {seconds} s. Give the file as the program wrote it."
+        raise refusal(template, file, seconds=SECONDS)
+
+
+@lru_cache(maxsize=1)
+def _opens_soon(content: bytes) -> bool:
+    if sum(1 for _ in TABLE.finditer(content)) <= MOST_TABLES:
+        return True
+    tried = subprocess.run(
+        [sys.executable, "-I", "-c", APART],
+        input=content,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        check=False,
+    )
+    return tried.returncode >= 0  # else the system has ended it
+
+
+def open_all(content: bytes) -> None:
+    """Open a PDF, and what it was before each addition, to see whether that ends; no fault of it is told."""
+    bounded(MOST_TO_OPEN)
+    for end in [end.end() for end in END.finditer(content)][: MOST_REVISIONS + 1]:
+        with suppress(*FAULTS), opened(content[:end]):
+            pass
+    with suppress(*FAULTS), opened(content):
+        pass
+
+
 def opened(content: bytes) -> pikepdf.Pdf:
     """Return a PDF as it stands: what is damaged is not repaired, and what all sheets have in common stays where it is written.
 
-    Opening walks through all tables of objects: through so many, and no larger ones than a large report has.
+    Opening walks through all tables of objects, of which none is larger than a large report has.
     """
-    if sum(1 for _ in FORMER.finditer(content)) > MOST_REVISIONS:
-        raise ValueError(Phrase("it has more than {most} tables of objects", most=MOST_REVISIONS))
     settings.set_qpdf_limits(flate_max_memory=MOST_TO_OPEN)
     try:
         return pikepdf.open(
