@@ -155,7 +155,7 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
         and slot.value not in slot.meta.words
     )
     kind, target = run.config.kinds.get(instance.name, PRESS), run.config.links.get((instance.name, *slot.key))
-    if asks_basis(kind, slot.name, _is_alone(run, instance.name)) and is_formula(instance, slot):
+    if asks_basis(kind, slot.name, _is_alone(run, instance.name)) and is_formula(run.config.parts, instance, slot):
         return None if is_founded(said.basis if said else "", said.note if said else "") else "assumed"
     if target is not None or not is_number:
         return "assumed" if is_assumed else None
@@ -173,16 +173,17 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     return "assumed" if is_assumed or (asks and not founded) else None
 
 
-def is_formula(instance: Instance, slot: Slot) -> bool:
+def is_formula(parts: MachineParts | None, instance: Instance, slot: Slot) -> bool:
     """Return whether a formula of others stands in the file, with what is of nobody in it: a reference alone is none, nor one that parts make."""
     tree, path = instance.place.stands(slot.key)
     path = path if tree.typed(path) else (*path, "value")
     typed = (tree.typed(path) or "").strip()
     if "${" not in typed or WHOLE.fullmatch(typed):
         return False
-    line, column = tree.position(path)
-    written = tree.text.splitlines()[line - 1][column - 1 :].lstrip("\"'")
-    return written.startswith((typed[:8], ">", "|"))
+    is_made = (
+        parts is not None and instance.name in parts.calculations and tree.position(path) not in parts.reader.formulas
+    )
+    return not is_made
 
 
 def _leaves_out(run: Run, instance: Instance, slot: Slot) -> bool:

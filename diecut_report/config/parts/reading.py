@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -23,7 +24,7 @@ from diecut_report.config.parts.keys import (
     size,
 )
 from diecut_report.config.validation import ConfigPlace, copied, declared, quoted, spread_out, validate
-from diecut_report.config.yaml import KeyPath, Tree, resolved
+from diecut_report.config.yaml import KeyPath, Position, Tree, resolved
 from diecut_report.errors import Problem, lookalikes
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
@@ -229,6 +230,16 @@ class PartsReader:
         finally:
             self._sought.pop()
         return value, unit(meta.unit).si
+
+    @cached_property
+    def formulas(self) -> frozenset[Position]:
+        """Return where in the file values stand that refer to others."""
+        nodes, found = [self.tree.root], set[Position]()
+        for node in nodes:
+            nodes.extend((node.children or {}).values())
+            if isinstance(node.scalar, str) and "${" in node.scalar:
+                found.add(node.position)
+        return frozenset(found)
 
     def typed_block(self, name: str) -> dict[str, float]:
         """Return the numbers that are typed in the block of a mechanism, in SI by their keys."""

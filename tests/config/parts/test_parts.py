@@ -677,9 +677,12 @@ def test_what_is_left_out_of_a_part_is_not_rated(old: str, new: str, why: str) -
     assert why in {str(each.why) for each in unrated(config.parts, config.named("drive_train"), {}, "")}
 
 
-def test_a_formula_of_the_file_is_told_from_one_that_the_parts_make() -> None:
+@pytest.mark.parametrize(
+    "typed", ["'0.6 * {}'", "' 0.6 * {}'", '"\\x30.6 * {}"', "&limit '0.6 * {}'", "'0.6\n    * {}'"]
+)
+def test_a_formula_of_the_file_is_told_from_one_that_the_parts_make(typed: str) -> None:
     limit = "${cross.allowable_contact_pressure}"
-    limits = f"sigma_h_lim_1: '0.6 * {limit}', sigma_h_lim_2: '{limit}'"
+    limits = f"sigma_h_lim_1: {typed.replace('{}', limit)}, sigma_h_lim_2: '{limit}'"
     config, problems = changed("  crank_drive: {", f"  crank_drive: {{{limits}, ")
     assert not problems
     found = {
@@ -687,7 +690,7 @@ def test_a_formula_of_the_file_is_told_from_one_that_the_parts_make() -> None:
         for instance in config.instances.values()
         if instance is not None and instance.name in ("meshes_crank_drive", "shafts_crank_bearings")
         for slot in instance.slots
-        if is_formula(instance, slot)
+        if is_formula(config.parts, instance, slot)
     }
     assert found == {("meshes_crank_drive", "sigma_h_lim_1")}
 
