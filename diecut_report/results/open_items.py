@@ -180,10 +180,7 @@ def is_formula(parts: MachineParts | None, instance: Instance, slot: Slot) -> bo
     typed = (tree.typed(path) or "").strip()
     if "${" not in typed or WHOLE.fullmatch(typed):
         return False
-    is_made = (
-        parts is not None and instance.name in parts.calculations and tree.position(path) not in parts.reader.formulas
-    )
-    return not is_made
+    return parts is None or tree.position(path) in parts.reader.formulas
 
 
 def _leaves_out(run: Run, instance: Instance, slot: Slot) -> bool:

@@ -94,8 +94,11 @@ class Masses(Demands):
 
     def is_sized(self, part: ShaftPart) -> bool:
         """Return whether a part is the flywheel that the drive train sizes."""
-        train = f"${{{self.named('drive_train')}.flywheel_inertia}}"
-        return part.kind == "flywheel" and str(self._raw(part.path).get("inertia")) == train
+        return part.kind == "flywheel" and self.is_of_train(part, "inertia")
+
+    def is_of_train(self, part: ShaftPart, key: str) -> bool:
+        """Return whether a part has the mass or inertia of the flywheel that the drive train sizes."""
+        return str(self._raw(part.path).get(key)) == f"${{{self.named('drive_train')}.flywheel_{key}}}"
 
     def _mass(self, part: ShaftPart, mass: str) -> dict[str, Any]:
         """The mass of a part, and its inertia: typed, or of a Geneva wheel or a disc without bore of that ``mass``."""

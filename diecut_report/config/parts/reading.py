@@ -40,7 +40,6 @@ SECTION = re.compile(
 """A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
 INDEX = re.compile(r"[0-9]{1,6}")
 COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
-REFERENCE = re.compile(r"\$\{[^${}]*\}")
 BODY = {
     "mass": Quantity("m", "kg", "Mass of a part", ge=0),
     "inertia": Quantity("J", "kg*m**2", "Moment of inertia of a part", ge=0),
@@ -261,10 +260,9 @@ class PartsReader:
             return None
         return None if found is None else float(found)
 
-    def is_formula_of_results(self, path: KeyPath, key: str) -> bool:
-        """Return whether the mass or inertia of a part is a formula of what is calculated, and not that itself."""
-        given = str(self._given_body(path, key))
-        return "${" in given and not REFERENCE.fullmatch(given.strip()) and self.typed_body(path, key) is None
+    def is_of_results(self, path: KeyPath, key: str) -> bool:
+        """Return whether the mass or inertia of a part refers to what is calculated."""
+        return "${" in str(self._given_body(path, key)) and self.typed_body(path, key) is None
 
     def _given_body(self, path: KeyPath, key: str) -> Any:
         given = _at(self.data, (*path, key))

@@ -379,8 +379,10 @@ def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             ("inertia", "kg·m²", elements.full_inertia(part)),
         ):
             typed, path = parts.reader.typed_body(part.path, key), (*part.path, key)
-            if parts.reader.is_formula_of_results(part.path, key):
-                template = "is a formula of what is calculated, which nothing holds against the part; type it, or refer to the result itself"
+            if parts.reader.is_of_results(part.path, key) and not (
+                part.kind == "flywheel" and elements.is_of_train(part, key)
+            ):
+                template = "is of what is calculated, which nothing holds against the part; type it: only a flywheel refers, to that of the drive train"
                 yield finding(parts, "mass", "error", path, template)
             elif typed == 0:
                 template = "is zero, as nothing is that turns; give its own, or leave the key out"
