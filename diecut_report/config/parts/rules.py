@@ -382,7 +382,7 @@ def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             if parts.reader.is_of_results(part.path, key) and not (
                 part.kind == "flywheel" and elements.is_of_train(part, key)
             ):
-                template = "is of what is calculated, which nothing holds against the part; type it: only a flywheel refers, to that of the drive train"
+                template = "is of what is calculated, which nothing holds against the part; type it. A flywheel may refer to the drive train's"
                 yield finding(parts, "mass", "error", path, template)
             elif typed == 0:
                 template = "is zero, as nothing is that turns; give its own, or leave the key out"
