@@ -256,7 +256,7 @@ def sign(
     from diecut_report.exchange.signing import sign as signed
     from diecut_report.exchange.signing_keys import signing_key
 
-    out = target or report.resolve()  # a report that a link names is signed where it stands
+    out = target or (report.resolve() if report.is_symlink() else report)  # signed where it stands
     for given in filter(None, (key, cert)):
         if out.exists() and given.exists() and out.samefile(given):
             words = "This is the key or its certificate and would be overwritten. Choose another file with -o."

@@ -62,7 +62,7 @@ class MachineShaftRecord(Record):
     axis: Point | None = sometimes("Where its axis stands in the frame; null where that is not given.")
     left: float | None = sometimes("Where its left end stands along the axes; null where no join tells.")
     sections: Annotated[list[ShaftSectionRecord], Few] = always("Its sections from left to right; none of a motor's.")
-    parts: Annotated[list[PlacedPartRecord], Few] = always(
+    parts: Annotated[list[PlacedPartRecord], Field(max_length=160)] = always(
         "Its parts in the order of the file, each followed by its pieces."
     )
     rating: RatingRecord = always("What rates it.")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from diecut_report.config.instances import Instance, Node, Slot
 from diecut_report.config.model import PRESS
 from diecut_report.config.parts.model import MachineParts
+from diecut_report.config.references import WHOLE
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
 from diecut_report.machine.calculation import Calculation
@@ -28,7 +28,6 @@ from diecut_report.text.phrases import Phrase, phrase
 
 FORCES = ("N", "N*m")  # SI units of what a part carries
 LIMIT = "allowable_"  # of a key: beyond its usual range nothing founds it
-WHOLE = re.compile(r"\$\{[^${}]*\}")  # a reference by itself
 CURVE = "_curve"  # of the input beside a number that takes its course over a cycle
 ONE_OF_CURVE = phrase(
     "it is one number of a curve: how the load changes over a cycle, and how often it changes its side, is left out"

@@ -35,6 +35,21 @@ OF_HUBS = (
 )
 
 
+MOST = 60  # shafts, joins, sections of a shaft: a results file holds no more
+MOST_PARTS = 40  # of a shaft, each with its key, its pin and the bearing on that
+
+
+def few(parts: MachineParts) -> Iterator[Finding]:
+    """A machine has no more shafts, joins, sections and parts than can be drawn."""
+    counts: list[tuple[KeyPath, int, int]] = [(("machine",), max(len(parts.shafts), len(parts.joins)), MOST)]
+    for shaft in parts.shafts.values():
+        counts += [(shaft.path, len(shaft.sections), MOST), (shaft.path, len(shaft.parts), MOST_PARTS)]
+    for path, count, most in counts:
+        if count > most:
+            template = "has {count} shafts, joins, sections or parts; at most {most} are allowed"
+            yield finding(parts, "names", "error", path, template, count=count, most=most)
+
+
 def names(parts: MachineParts) -> Iterator[Finding]:
     """Shafts, joins and parts have names that can be referred to, those of a shaft each its own."""
     homes: list[tuple[str, KeyPath]] = [(shaft.name, shaft.path) for shaft in parts.shafts.values()]

@@ -23,6 +23,7 @@ from diecut_report.config.parts.naming import (
     bores,
     described,
     designations,
+    few,
     joined,
     misplaced,
     names,
@@ -455,6 +456,6 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
-    names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
+    few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
     torque_carried, integral, force_plane, axes, one_belt, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

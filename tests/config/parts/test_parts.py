@@ -597,6 +597,12 @@ def test_any_mass_is_read_or_refused_in_words(mass: str) -> None:
     )
 
 
+def test_a_shaft_of_more_sections_than_can_be_drawn_is_refused() -> None:
+    short = ", ".join(61 * ["{length: 5, diameter: 50}"])
+    _, problems = changed("sections: 40x30 r1, 50x640 r1, 40x30", f"sections: [{short}]")
+    assert any("has 61 shafts, joins, sections or parts; at most 60" in problem for problem in problems)
+
+
 @pytest.mark.parametrize("slots", ["six", "{value: 6, basis: drawing}", "0"])
 def test_slots_of_any_kind_end_in_words(slots: str) -> None:
     _, problems = changed("    slots: 6\n", f"    slots: {slots}\n")
