@@ -13,7 +13,7 @@ from types import FrameType
 
 from diecut_report.text.phrases import Phrase
 
-PATIENCE = 120.0  # seconds that a mechanism may be loaded, or calculated and printed
+MECHANISM_SECONDS = 120.0  # that a mechanism may be loaded, or calculated and printed
 AGAIN = 1.0  # seconds after which a plugin that holds the interruption back is interrupted again
 HARD = 2.0  # times the limit: a process that was not interrupted until then is ended
 STUCK = 75  # with what it ends
@@ -49,18 +49,18 @@ def contained() -> Iterator[None]:
 
 @contextmanager
 def in_time() -> Iterator[None]:
-    """Raise TooLong where what runs within takes longer than PATIENCE, with the trace of where it was; who asked for a limit of his own keeps it.
+    """Raise TooLong with the trace of where it was once what runs within took MECHANISM_SECONDS; who asked for a limit of his own keeps it.
 
     It is ``contained`` too.
     """
     is_limited = getattr(_limited, "is_so", False)
     try:
-        with nullcontext() if is_limited else limited(PATIENCE), contained():
+        with nullcontext() if is_limited else limited(MECHANISM_SECONDS), contained():
             yield
     except Overran as cause:
         if is_limited:
             raise
-        message = Phrase("it did not come back within {seconds} s; let its loops end", seconds=f"{PATIENCE:g}")
+        message = Phrase("it did not come back within {seconds} s; let its loops end", seconds=f"{MECHANISM_SECONDS:g}")
         raise TooLong(message).with_traceback(cause.__traceback__) from cause
 
 

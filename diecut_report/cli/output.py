@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 # What is being done, shown on a terminal that wants moving signs once it has taken longer than a second.
 
 
-PATIENCE = 1.0  # seconds until it is shown
+SECONDS_UNSHOWN = 1.0  # until it is shown
 
 
 def is_styled() -> bool:
@@ -50,7 +50,7 @@ class Progress:
     def __init__(self) -> None:
         self.doing, self.done, self.lock = "", is_quiet() or not is_styled(), Lock()
         self.status: Status | None = None
-        self.timer = Timer(PATIENCE, self._show)
+        self.timer = Timer(SECONDS_UNSHOWN, self._show)
         self.timer.daemon = True
 
     def __call__(self, doing: str) -> None:

@@ -14,11 +14,8 @@ from typing import Any, NamedTuple
 
 import pikepdf
 
-MOST_REVISIONS, MOST_ADDED, MOST_BYTES = (
-    50,
-    100_000,
-    5_000_000,
-)  # the latter two of a revision: objects, and their bytes
+MOST_ADDITIONS = 50
+MOST_ADDED, MOST_BYTES = 100_000, 5_000_000  # of one addition: objects, and their bytes
 LONGEST_END = 64  # bytes behind the end; a program looks for the last table in about a thousand
 LONGEST_GAP = 64  # bytes between the numbers of an object and what it is; more are not taken
 KEYS = {"/Type", "/Size", "/Index", "/W", "/ID", "/Prev", "/Length", "/Filter"}  # with /Root and /Info
@@ -63,7 +60,7 @@ def revisions(before: bytes, after: bytes) -> Iterator[AddedRevision]:
     begin, former = len(before), int(_START.findall(before)[-1])
     starts = list(_START.finditer(after, begin))
     last = starts[-1].end() if starts else begin
-    _require(len(starts) <= MOST_REVISIONS and after.count(b"startxref", begin) == len(starts))
+    _require(len(starts) <= MOST_ADDITIONS and after.count(b"startxref", begin) == len(starts))
     _require(b"trailer" not in after[begin:] and after.count(b"xref", begin) == len(starts))
     _require(len(after) - last <= LONGEST_END and not after[last:].strip(b"\r\n"))
     for start in starts:

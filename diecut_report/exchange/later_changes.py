@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Set
+from collections.abc import Set
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -139,7 +139,11 @@ class _Changes:
     @cached_property
     def _lists(self) -> frozenset[tuple[int, int]]:
         """The lists that a document timestamp is added to, where they are objects of their own: the fields, the annotations of sheets."""
-        return frozenset(_lists(self.old))
+        lists = (
+            self.old.Root.get("/AcroForm", _NONE).get("/Fields"),
+            *(page.obj.get("/Annots") for page in self.old.pages),
+        )
+        return frozenset(each.objgen for each in lists if isinstance(each, pikepdf.Array) and each.objgen != (0, 0))
 
     def _is_root(self, root: Any) -> bool:
         """Whether the catalogue tells of its version and of what a signer allows, and of nothing else by it."""
@@ -273,12 +277,6 @@ def added_proofs(before: bytes, after: bytes) -> bool:
             return bool("/DSS" in new.Root and _written(old.Root, "/DSS") != _written(new.Root, "/DSS"))
     except FAULTS:
         return False
-
-
-def _lists(old: pikepdf.Pdf) -> Iterator[tuple[int, int]]:
-    for found in (old.Root.get("/AcroForm", _NONE).get("/Fields"), *(page.obj.get("/Annots") for page in old.pages)):
-        if isinstance(found, pikepdf.Array) and found.objgen != (0, 0):
-            yield found.objgen
 
 
 def _same_but(first: Any, second: Any, keys: set[str]) -> bool:

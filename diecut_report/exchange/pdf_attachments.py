@@ -28,7 +28,7 @@ TABLE = re.compile(rb"startxref|/(?:P|#50)(?:r|#72)(?:e|#65)(?:v|#76)")  # what 
 MOST_TABLES = 16  # with which a PDF is opened at once: those of one that three have signed are fewer
 SECONDS = 30  # of the processor, for the opening of one with more in a process of its own
 APART = (
-    f"import resource, sys; resource.setrlimit(resource.RLIMIT_CPU, ({SECONDS}, {SECONDS + 1})); "
+    "import resource, sys; soft = int(sys.argv[1]); resource.setrlimit(resource.RLIMIT_CPU, (soft, soft + 1)); "
     "from diecut_report.exchange.pdf_attachments import open_all; open_all(sys.stdin.buffer.read())"
 )
 MOST_OBJECTS = 4_000_000  # of all revisions together, each of which is looked through: a large report has some 200 000
@@ -79,7 +79,7 @@ def _opens_soon(content: bytes) -> bool:
     if sum(1 for _ in TABLE.finditer(content)) <= MOST_TABLES:
         return True
     tried = subprocess.run(
-        [sys.executable, "-I", "-c", APART],
+        [sys.executable, "-I", "-c", APART, str(SECONDS)],
         input=content,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

@@ -31,8 +31,8 @@ from diecut_report.text.phrases import Phrase, cell, joined, phrase
 from diecut_report.time_limit import Overran, limited
 
 MOST_FIELDS = 100
-PATIENCE = 50.0  # seconds: those of a large report that three have signed take less than ten
-ENDLESS = Phrase("it is not read within {seconds} s", seconds=f"{PATIENCE:g}")
+READING_SECONDS = 50.0  # seconds: those of a large report that three have signed take less than ten
+ENDLESS = Phrase("it is not read within {seconds} s", seconds=f"{READING_SECONDS:g}")
 SHORT = 16  # letters of a fingerprint
 USAGE = KeyUsageConstraints(key_usage={"non_repudiation", "digital_signature"}, match_all_key_usages=False)
 Roots = Sequence[x509.Certificate] | None
@@ -66,7 +66,7 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     if found_fault := fault(whole):
         return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
     try:
-        with silent(), limited(PATIENCE):
+        with silent(), limited(READING_SECONDS):
             reader = PdfFileReader(io.BytesIO(whole))
             refuse_nested_fields(reader)
             found = _all_judged(reader.embedded_signatures, whole, roots)

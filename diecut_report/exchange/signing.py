@@ -27,7 +27,7 @@ from diecut_report.exchange.carried import MOST, form_of
 from diecut_report.exchange.later_changes import fault, only_signed
 from diecut_report.exchange.pdf_attachments import PDF_FAULTS, require_openable
 from diecut_report.exchange.signature_drawing import drawing
-from diecut_report.exchange.signatures import ENDLESS, PATIENCE, refuse_nested_fields, signatures, silent
+from diecut_report.exchange.signatures import ENDLESS, READING_SECONDS, refuse_nested_fields, signatures, silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all
 from diecut_report.text.phrases import Phrase, joined, phrase
@@ -73,10 +73,10 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     if damage := fault(whole):  # the library that signs reads without bounds
         raise refusal(UNSIGNABLE, asked.report, error=damage)
     try:
-        with silent(), limited(PATIENCE):
+        with silent(), limited(READING_SECONDS):
             field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
         judge()
-        with silent(), limited(PATIENCE):
+        with silent(), limited(READING_SECONDS):
             signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
     except (PdfError, SigningError, *PDF_FAULTS) as error:
         raise refusal(UNSIGNABLE, asked.report, error=error) from error

@@ -25,8 +25,7 @@ from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.text.phrases import phrase
-from diecut_report.time_limit import PATIENCE as SESSION_PATIENCE
-from diecut_report.time_limit import Overran, limited
+from diecut_report.time_limit import MECHANISM_SECONDS, Overran, limited
 
 Data = dict[str, Any]
 MAX_TYPED_LENGTH = 100  # letters of a number that is typed on the page
@@ -235,11 +234,11 @@ def _typed(node: YamlNode, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
 def in_time(file: Path) -> Iterator[None]:
     """Let what runs within take so long at most; UserError with the place in the plugin that does not come back."""
     try:
-        with limited(SESSION_PATIENCE):
+        with limited(MECHANISM_SECONDS):
             yield
     except Overran as cause:
         template = "it did not finish within {seconds} s ({said})"
-        raise refusal(template, file, seconds=f"{SESSION_PATIENCE:g}", said=said(cause)) from cause
+        raise refusal(template, file, seconds=f"{MECHANISM_SECONDS:g}", said=said(cause)) from cause
 
 
 def _chosen(asked: DesignInput, typed: str) -> str:
@@ -263,7 +262,7 @@ def _require_shown(run: WarmRun) -> None:
 
 MEDIA_TYPES = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
 NAME = "report"
-PATIENCE = 900.0  # seconds for a report; while one is made the next waits
+REPORT_SECONDS = 900.0  # for a report; while one is made the next waits
 
 
 class MadeReport(NamedTuple):
@@ -312,7 +311,7 @@ class LiveReports:
         process = await asyncio.create_subprocess_exec(*command, *options, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
                                                        stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE)  # fmt: skip
         try:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(REPORT_SECONDS):
                 _, told = await process.communicate()
         except asyncio.CancelledError:
             process.kill()
@@ -321,7 +320,7 @@ class LiveReports:
             process.kill()
             await process.wait()
             template = "The report was not finished within {seconds} s and was aborted."
-            raise refusal(template, seconds=f"{PATIENCE:g}") from None
+            raise refusal(template, seconds=f"{REPORT_SECONDS:g}") from None
         files = list((folder / "made").glob(f"*.{form}"))
         if not files:
             raise refusal(told.decode(errors="replace").strip() or phrase("The report was not generated."))

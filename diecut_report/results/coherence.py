@@ -384,20 +384,20 @@ def disagreements(machine: Machine) -> Iterator[Disagreement]:
 
 DRIVE_LINE = "drive_line"  # the kind that has the checks of the machine's parts
 FITS, CARRIED = "parts_fit", "torque_carried"
-ToldFinding = tuple[str, Phrase]  # the level of what a rule found, and what is said of it with its place
+PlacedFinding = tuple[str, Phrase]  # the level of what a rule found, and what is said of it with its place
 
 
-def told_findings(parts: MachineParts | None, kind: str) -> tuple[ToldFinding, ...]:
+def placed_findings(parts: MachineParts | None, kind: str) -> tuple[PlacedFinding, ...]:
     """Return what the rules of the parts found, of the kind that has their checks; nothing of another one."""
     if parts is None or kind != DRIVE_LINE:
         return ()
-    told = "{place}: {message}"
+    template = "{place}: {message}"
     return tuple(
-        (each.level, Phrase(told, place=parts.line(each.path), message=each.message)) for each in parts.findings
+        (each.level, Phrase(template, place=parts.line(each.path), message=each.message)) for each in parts.findings
     )
 
 
-def note_findings(calc: Calculation, findings: Sequence[ToldFinding]) -> None:
+def note_findings(calc: Calculation, findings: Sequence[PlacedFinding]) -> None:
     """Give the calculation of the drive line the checks of its parts; those that nothing contradicts are left out."""
     checks = []
     for level, id, title, label in (

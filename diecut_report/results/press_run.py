@@ -33,7 +33,7 @@ from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.advice import advice_text, possible_ways
 from diecut_report.results.checks import holds
-from diecut_report.results.coherence import TAKEN, Machine, disagreements, note_findings, told_findings
+from diecut_report.results.coherence import TAKEN, Machine, disagreements, note_findings, placed_findings
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, SourceRecord
 from diecut_report.results.origins import Absent, Bases, Provenance, Unavailable, Valueless, Withheld, origin_of, output
@@ -326,7 +326,7 @@ class Run:
             with in_time():
                 self.calculations[name] = self._made(instance, instance.mechanism, block)
                 self._slips(instance, note_usual(self.calculations[name], instance, block, known))
-                note_findings(self.calculations[name], told_findings(self.config.parts, instance.mechanism.kind))
+                note_findings(self.calculations[name], placed_findings(self.config.parts, instance.mechanism.kind))
                 self._printed(instance, self.calculations[name])
         except Impossible as fault:
             for path, message in fault.reasons:

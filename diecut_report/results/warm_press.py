@@ -33,7 +33,7 @@ from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI
 from diecut_report.results.checks import check_results, verdicts
-from diecut_report.results.coherence import ToldFinding, told_findings
+from diecut_report.results.coherence import PlacedFinding, placed_findings
 from diecut_report.results.conclusion import governing
 from diecut_report.results.document import document, verdict
 from diecut_report.results.drive_line import drive_line
@@ -71,7 +71,7 @@ class Told(NamedTuple):
     units: ChosenUnits
     unfounded: frozenset[tuple[str | int, ...]]
     beside: Beside
-    findings: tuple[ToldFinding, ...]
+    findings: tuple[PlacedFinding, ...]
 
 
 class Remembered:
@@ -166,7 +166,7 @@ class WarmRun(Run):
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         unfounded = self.bases.unfounded(instance, block)
-        findings = told_findings(self.config.parts, mechanism.kind)
+        findings = placed_findings(self.config.parts, mechanism.kind)
         told = Told(self.chosen_units(instance.name), unfounded, self.beside(instance), findings)
         found = self.press.remembered(instance.name, mechanism, flatten(block), told, self._tell)
         self.remembered[instance.name] = found

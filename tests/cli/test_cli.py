@@ -345,7 +345,7 @@ def test_an_interrupted_run_ends_at_once_and_writes_nothing(tmp_path: Path) -> N
 
 
 def test_progress_is_not_shown_when_it_is_quick(capfd: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("diecut_report.cli.output.PATIENCE", 60)
+    monkeypatch.setattr("diecut_report.cli.output.SECONDS_UNSHOWN", 60)
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     with Progress() as progress:
         progress("doing")

@@ -68,7 +68,7 @@ def test_an_endless_loop_is_ended(
     file = saved(tmp_path, PLUGIN.replace(old, new), "endless.py")
     saved(tmp_path, CONFIG, "press.yaml")
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(time_limit, "PATIENCE", 0.5)
+    monkeypatch.setattr(time_limit, "MECHANISM_SECONDS", 0.5)
     assert main([*COMMANDS[command], "--plugins", "."]) == 3
     lines = file.read_text("utf-8").splitlines()
     line = 1 + next(i for i, text in enumerate(lines) if "while True" in text)
@@ -78,7 +78,7 @@ def test_an_endless_loop_is_ended(
 
 
 def test_who_waits_already_waits_as_long_as_he_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(time_limit, "PATIENCE", 0.05)
+    monkeypatch.setattr(time_limit, "MECHANISM_SECONDS", 0.05)
     with limited(30), in_time():
         time.sleep(0.2)
     with pytest.raises(TooLong), in_time():

@@ -217,7 +217,7 @@ def test_a_pdf_of_many_tables_is_tried_apart(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch, tables: int, ends: int
 ) -> None:
     """All of them are walked through before anything else is known of it."""
-    monkeypatch.setattr(pdf_attachments, "APART", pdf_attachments.APART.replace("(30, 31)", "(1, 2)"))
+    monkeypatch.setattr(pdf_attachments, "SECONDS", 1)
     (tmp_path / "a.pdf").write_bytes(chain(tables, ends))
     with limited(SECONDS):
         assert run("extract", tmp_path / "a.pdf", "-o", tmp_path) == 2

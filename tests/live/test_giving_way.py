@@ -75,7 +75,7 @@ def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
     file.write_bytes(KNIFE.read_bytes())
     session = LiveSession(file, Discovery([]))
     made = LiveApplication(session, (), None)
-    monkeypatch.setattr(live_session, "SESSION_PATIENCE", 0.2)
+    monkeypatch.setattr(live_session, "MECHANISM_SECONDS", 0.2)
 
     async def told() -> tuple[int, bytes]:
         with monkeypatch.context() as patch:
@@ -94,7 +94,7 @@ def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
 
 
 def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reports, "PATIENCE", 0.05)  # an interpreter takes longer to begin
+    monkeypatch.setattr(reports, "REPORT_SECONDS", 0.05)  # an interpreter takes longer to begin
     with pytest.raises(UserError, match=r"not finished within 0\.05 s"):
         asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(filled(ResultsRecord, {}), "html"), 60))
 

@@ -123,8 +123,8 @@ def work(seconds):
     except Overran:
         print("overran")
 
-for seconds in (0.05, 30):
-    end = time.monotonic() + 0.2
+for seconds, lasts in ((0.05, 50), (30, 0.2)):
+    end = time.monotonic() + lasts
     thread = threading.Thread(target=work, args=(seconds,))
     thread.start()
     thread.join()
