@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import io
 import re
+import resource
 import subprocess
 import sys
 import zlib
 from collections.abc import Iterator
-from contextlib import suppress
 from functools import lru_cache
 from typing import Any
 
 import pikepdf
 from pikepdf import settings
 
-from diecut_report.errors import refusal
+from diecut_report.errors import UserError, refusal
 from diecut_report.text.phrases import phrase
 
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
@@ -24,12 +24,11 @@ DEEPEST = 100
 MOST_ATTACHED = 1000  # files, with the nodes of their tree
 MOST_REVISIONS = 40
 MOST_TO_OPEN = 48_000_000  # bytes that a stream unpacks to while a PDF is opened; the catalogue of a large report stands in one of 20 MB
-TABLE = re.compile(rb"startxref|/(?:P|#50)(?:r|#72)(?:e|#65)(?:v|#76)")  # what may lead to a table of objects
-MOST_TABLES = 16  # with which a PDF is opened at once: those of one that three have signed are fewer
-SECONDS = 30  # of the processor, for the opening of one with more in a process of its own
+SECONDS = 30  # of the processor, for reading a PDF in a process of its own: a large report takes 2
+GIGABYTES = 4  # of memory there: a large report takes 0.4
 APART = (
-    "import resource, sys; soft = int(sys.argv[1]); resource.setrlimit(resource.RLIMIT_CPU, (soft, soft + 1)); "
-    "from diecut_report.exchange.pdf_attachments import open_all; open_all(sys.stdin.buffer.read())"
+    "import sys; from diecut_report.exchange.pdf_attachments import try_reading; "
+    "try_reading(sys.stdin.buffer.read(), *map(int, sys.argv[1:]))"
 )
 MOST_OBJECTS = 4_000_000  # of all revisions together, each of which is looked through: a large report has some 200 000
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
@@ -51,13 +50,9 @@ SEVERAL = phrase(
 
 def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
     """Return the attachment of a name, None where the PDF has none; UserError where it cannot be read, or is larger than ``most``."""
-    bounded(most)
-    require_openable(content, file)
+    require_readable(content, most, file)
     try:
-        with opened(content) as pdf:
-            found = _found(pdf, name, most, file)
-        _refuse_former(content, found, name, most, file)
-        return found
+        return _attachment(content, name, most, file)
     except pikepdf.PasswordError as error:
         raise refusal("The PDF is encrypted, and opens only with a password. Give one without.", file) from error
     except FAULTS as error:
@@ -67,35 +62,49 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
         raise refusal(template, file, most=f"{most / 1e6:g}") from error
 
 
-def require_openable(content: bytes, file: object) -> None:
-    """Raise UserError for a PDF of many tables of objects that is not opened soon: the library walks through all, and cannot be interrupted."""
-    if not _opens_soon(content):
-        template = "The PDF is not opened within {seconds} s. Give the file as the program wrote it."
-        raise refusal(template, file, seconds=SECONDS)
+def require_readable(content: bytes, most: int, file: object) -> None:
+    """Raise UserError for a PDF that is not read with bounded time and memory.
+
+    Whatever a few bytes make the library unpack or walk through cannot be interrupted, so a process of its own, which the system can
+    end, reads it first.
+    """
+    if not _is_readable(content, most):
+        template = "The PDF is not read within {seconds} s and {gigabytes} GB of memory. Give the file as the program wrote it."
+        raise refusal(template, file, seconds=SECONDS, gigabytes=GIGABYTES)
 
 
 @lru_cache(maxsize=1)
-def _opens_soon(content: bytes) -> bool:
-    if sum(1 for _ in TABLE.finditer(content)) <= MOST_TABLES:
-        return True
+def _is_readable(content: bytes, most: int) -> bool:
+    limits = [str(each) for each in (most, SECONDS, GIGABYTES)]
     tried = subprocess.run(
-        [sys.executable, "-I", "-c", APART, str(SECONDS)],
+        [sys.executable, "-I", "-c", APART, *limits],
         input=content,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         check=False,
     )
-    return tried.returncode >= 0  # else the system has ended it
+    return tried.returncode == 0
 
 
-def open_all(content: bytes) -> None:
-    """Open a PDF, and what it was before each addition, to see whether that ends; no fault of it is told."""
-    bounded(MOST_TO_OPEN)
-    for end in [end.end() for end in END.finditer(content)][: MOST_REVISIONS + 1]:
-        with suppress(*FAULTS), opened(content[:end]):
-            pass
-    with suppress(*FAULTS), opened(content):
+def try_reading(content: bytes, most: int, seconds: int, gigabytes: int) -> None:
+    """Read a PDF as for an attachment, only to see whether that ends: what is wrong with it is no matter here, but a want of memory is."""
+    for resource_kind, limit in ((resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, gigabytes << 30)):
+        hard = resource.getrlimit(resource_kind)[1]
+        resource.setrlimit(resource_kind, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
+    try:
+        _attachment(content, "results.json", most, "")
+    except MemoryError:
+        raise
+    except (UserError, *FAULTS):
         pass
+
+
+def _attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
+    bounded(most)
+    with opened(content) as pdf:
+        found = _found(pdf, name, most, file)
+    _refuse_former(content, found, name, most, file)
+    return found
 
 
 def opened(content: bytes) -> pikepdf.Pdf:
@@ -147,6 +156,8 @@ def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, fi
             with opened(content[:end]) as pdf:
                 objects += len(pdf.objects)
                 former = _found(pdf, name, most, file) if objects <= MOST_OBJECTS else None
+        except MemoryError:
+            raise
         except FAULTS:  # no end of a PDF: the letters stand in a stream
             continue
         if objects > MOST_OBJECTS:

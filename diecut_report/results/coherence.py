@@ -29,8 +29,8 @@ from diecut_report.text.phrases import Phrase, joined, phrase
 
 LENGTH, RATIO = 5e-5, 1e-3  # m; share
 TAKEN = {
-    "shaft": ("section_diameter",),
-    "rolling_bearing": ("bore",),
+    "shaft": ("section_diameter", "axial_reaction_max"),
+    "rolling_bearing": ("bore", "axial_greatest"),
     "gear_pair": ("working_diameter_1", "working_diameter_2"),
     "cyclogram": ("torque_curve_turns",),
 }
@@ -201,8 +201,12 @@ def seats(machine: Machine) -> Iterator[Disagreement]:
 def _seat(machine: Machine, bearing: LinkedPart, index: int) -> tuple[LinkedPart, str] | None:
     """The shaft that a bearing sits on, with the key of its place there; no key where any section may be meant."""
     target = bearing.target("bearings", index, "radial_force")
-    if target and machine.is_of(target.instance, "shaft") and str(target.result) in ("reaction_a", "reaction_b"):
-        return machine.parts[target.instance], str(target.result).replace("reaction", "bearing")
+    if (
+        target
+        and machine.is_of(target.instance, "shaft")
+        and str(target.result).removesuffix("_max") in ("reaction_a", "reaction_b")
+    ):
+        return machine.parts[target.instance], str(target.result).removesuffix("_max").replace("reaction", "bearing")
     named = bearing.inputs.get("bearings.on", ())
     name = (named[index] if named else None) or bearing.inputs["bearings.name"][index]
     return (machine.parts[name], "") if machine.is_of(name, "shaft") else None
@@ -328,6 +332,23 @@ def _speed_of_shaft(machine: Machine, bearing: LinkedPart, index: int) -> Iterat
         )  # fmt: skip
 
 
+def axial_forces(machine: Machine) -> Iterator[Disagreement]:
+    """The bearing that locates a shaft bears what pushes the shaft along its axis."""
+    for bearing in machine.of("rolling_bearing"):
+        for index in range(bearing.count("bearings.name")):
+            shaft, side = _seat(machine, bearing, index) or (None, "")
+            if shaft is None or side != f"bearing_{shaft.inputs['locating']}":
+                continue
+            own, push = bearing.number("axial_greatest", index), shaft.number("axial_reaction_max")
+            if own is not None and push is not None:
+                yield Disagreement(
+                    bearing, ("bearings", index, "axial_force"), shaft, ("locating",), own < push * (1 - RATIO),
+                    phrase("is at most {own}, but the shaft {shaft}, which this bearing locates, is pushed along its axis by up to {push}; "
+                    "refer to its axial_reaction"),
+                    {"own": (own, "N"), "push": (push, "N"), "shaft": shaft.instance.name},
+                )  # fmt: skip
+
+
 def sprockets(machine: Machine) -> Iterator[Disagreement]:
     """The chain of a conveyor has the teeth and the pitch of the transport's sprocket, whose motion it takes."""
     for chain in machine.of("roller_chain"):
@@ -369,6 +390,7 @@ RULES: tuple[Callable[[Machine], Iterator[Disagreement]], ...] = (
     pitch_radii,
     torque_seats,
     speeds,
+    axial_forces,
     sprockets,
     turns,
 )

@@ -43,7 +43,7 @@ class Mesh(Block):
 
     name: Annotated[str, Text("Name of the pair")]
     module: Annotated[float, Quantity("m_n", "mm", "Normal module", gt=0)]
-    helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle", ge=0, le=30)] = 0
+    helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle, positive where the driving gear is right-handed", ge=-30, le=30)] = 0
     teeth_1: Annotated[int, Quantity("z_1", "1", "Number of teeth of the driving gear", ge=5, integer=True)]
     teeth_2: Annotated[int, Quantity("z_2", "1", "Number of teeth of the driven gear", ge=5, integer=True)]
 

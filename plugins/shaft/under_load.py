@@ -16,7 +16,7 @@ from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import Cycle, Instants, side_by_side
 from diecut_report.plugins.shaft.elastic import ElasticShaft, remembered
 from diecut_report.plugins.shaft.material_point import worst_points
-from diecut_report.plugins.shaft.statics import Sides, Statics
+from diecut_report.plugins.shaft.statics import Sides, Statics, greatest_size
 
 Array = NDArray[Any]
 SAMPLED = 16  # variants whose loads are sampled at once, alike of all shafts: they find what others sampled
@@ -115,13 +115,24 @@ class UnderLoad:
 
     def reactions(self, angle: Array, middle: Array, rows: Array | None) -> Array:
         """Return the reactions (bearing, plane, rows, places) at cycle angles (rows, places)."""
-        own = np.zeros(len(angle), dtype=int) if rows is None and self.variants == 1 else rows
-        chosen = np.arange(self.variants) if own is None else own
-        loads = self.cycle.at(angle / (2 * np.pi), middle / (2 * np.pi), chosen)
+        chosen, loads = self._loads_at(angle, middle, rows)
         supports = Supports(self.bearing_a[chosen], self.bearing_b[chosen])
         places = self.cycle.places[:, chosen]
         planes = (loads.force_y, loads.couple_xy), (loads.force_z, loads.couple_xz)
         return np.stack([np.stack(Loading(places, *plane).reactions(supports)) for plane in planes], axis=1)
+
+    def axial_reaction(self, angle: Array, middle: Array, rows: Array | None) -> Array:
+        """Return the greatest size of the axial force on the locating bearing (rows, places) at cycle angles (rows, places)."""
+        chosen, loads = self._loads_at(angle, middle, rows)
+        low, high = self.cycle.of(chosen).bounds("axial_force", np.ones((1, len(self.cycle.places), len(chosen))))
+        size = greatest_size(np.sum(loads.axial_force, axis=0), (low[0], high[0]))
+        return np.broadcast_to(size, angle.shape)
+
+    def _loads_at(self, angle: Array, middle: Array, rows: Array | None) -> tuple[Array, Instants]:
+        """Which variants the rows are, and their loads at cycle angles."""
+        own = np.zeros(len(angle), dtype=int) if rows is None and self.variants == 1 else rows
+        chosen = np.arange(self.variants) if own is None else own
+        return chosen, self.cycle.at(angle / (2 * np.pi), middle / (2 * np.pi), chosen)
 
     # --- curves along the shaft ---------------------------------------------------------------------------------------------
 

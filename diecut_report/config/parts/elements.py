@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import degrees, inf
 from typing import Any
 
 from diecut_report.config.parts.demands import Element, Ratio, TypedNumber, TypedValue, millimetres
@@ -204,7 +204,9 @@ class Elements(ShaftElements):
             "face_width": TypedValue((*path, "width")),
         }  # fmt: skip
         if keys.helix_angle:
-            inputs["helix_angle"] = TypedValue((*path, "helix_angle"))
+            typed = (*path, "helix_angle")
+            size = TypedNumber(f"{-degrees(keys.helix_angle):.12g} deg", typed)
+            inputs["helix_angle"] = TypedValue(typed) if keys.helix_angle > 0 else size
         torque = self._torque_reference(pinion)
         inputs |= {"torque": torque} if torque else {"torque": self._torque_reference(wheel), "torque_on": "wheel"}
         if inputs["torque"] is None:

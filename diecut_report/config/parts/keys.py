@@ -152,7 +152,7 @@ class MeshKeys(Block):
     teeth_2: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=5, integer=True)]
     module: Annotated[float, size("m", "Normal module", gt=0)]
     width: Annotated[float, size("b", "Common face width", gt=0)]
-    helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle", ge=0, le=30)] = 0
+    helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle, positive where the driving gear is right-handed", ge=-30, le=30)] = 0
     efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the mesh", ge=0.85, le=1)] = 0.97
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Teeth of a sector", ge=1, integer=True)] = None
 

@@ -203,9 +203,11 @@ class ShaftElements(Masses, LoadCases):
             "pitch_radius": self._pitch_radius(join, part),
             "mesh_angle": TypedNumber(f"{angle:.10g} deg", ("machine", "frame")),
         }
-        if join.keys.helix_angle:  # a pair has teeth of opposite hands
-            hand = "" if (part in join.drivers) == (sense > 0) else "-"
-            found["helix_angle"] = TypedNumber(f"{hand}{degrees(join.keys.helix_angle):.12g} deg", join.path)
+        if (
+            join.keys.helix_angle
+        ):  # a pair has teeth of opposite hands; those of a right-handed gear push against its torque
+            hand = -sense if part in join.drivers else sense
+            found["helix_angle"] = TypedNumber(f"{hand * degrees(join.keys.helix_angle):.12g} deg", join.path)
         return found
 
     @staticmethod
@@ -239,13 +241,18 @@ class ShaftElements(Masses, LoadCases):
     def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
         home, designation = part.shaft.calculation, str(part.keys.designation)
         follows = OF_BEARING if catalogue_size(designation, "d") is None else OF_BEARING | {"type"}
-        more = self._beside({}, part.more, part.path, (*part.shaft.path, "parts"), follows)
+        forces = {"radial_force": f"${{{home}.reaction_{end}}}", "tilt": f"${{{home}.slope_{end}}}"}
+        if not part.keys.floating and self._is_pushed(part.shaft):
+            forces["axial_force"] = f"${{{home}.axial_reaction}}"
+        more = self._beside(forces, part.more, part.path, (*part.shaft.path, "parts"), follows)
         found = self._catalogued(part.name, designation, more, (*part.path, "designation"))
-        return (
-            found
-            | {"radial_force": f"${{{home}.reaction_{end}}}", "tilt": f"${{{home}.slope_{end}}}"}
-            | self._relative(part.shaft)
-        )
+        return found | forces | self._relative(part.shaft)
+
+    def _is_pushed(self, shaft: MachineShaft) -> bool:
+        """Whether anything pushes a shaft along its axis: helical teeth, or a force that is typed."""
+        others = [part for part in shaft.parts if part.kind != "bearing"]
+        meshes = [join for part in others for join in self.parts.joins_of(part) if join.word == "meshes"]
+        return any(join.keys.helix_angle for join in meshes) or any("axial_force" in part.more for part in others)
 
     def _catalogued(self, name: str, designation: str, more: dict[str, Any], path: KeyPath) -> dict[str, Any]:
         kind = "roller" if designation.startswith(ROLLER_SERIES) else "deep_groove"
