@@ -115,9 +115,9 @@ def _results_content(whole: bytes, form: Form, file: str) -> bytes:
 
 
 def _attached(whole: bytes, name: str, file: str) -> bytes | None:
-    from diecut_report.exchange.pdf_attachments import attachment  # with the library, which others do not need
+    from diecut_report.exchange.pdf_attachments import attachments  # with the library, which others do not need
 
-    return attachment(whole, name, MOST_RESULTS, file)
+    return attachments(whole, MOST_RESULTS, file)[name]
 
 
 def _config(whole: bytes, form: Form, config: CarriedConfigRecord, file: str) -> bytes:

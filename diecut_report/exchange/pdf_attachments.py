@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import io
+import pickle
 import re
 import resource
 import subprocess
 import sys
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -27,10 +28,9 @@ MOST_TO_OPEN = 48_000_000  # bytes that a stream unpacks to while a PDF is opene
 SECONDS = 30  # of the processor, for reading a PDF in a process of its own: a large report takes 2
 GIGABYTES = 4  # of memory there: a large report takes 0.4
 APART = (
-    "import sys; from diecut_report.exchange.pdf_attachments import try_reading; "
-    "try_reading(sys.stdin.buffer.read(), *map(int, sys.argv[1:]))"
+    "import sys; from diecut_report.exchange.pdf_attachments import print_attachments; print_attachments(*sys.argv[1:])"
 )
-MOST_OBJECTS = 4_000_000  # of all revisions together, each of which is looked through: a large report has some 200 000
+ATTACHED = ("results.json", "config.yaml")
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
 END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
 PDF_FAULTS = (
@@ -48,11 +48,54 @@ SEVERAL = phrase(
 )
 
 
-def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
-    """Return the attachment of a name, None where the PDF has none; UserError where it cannot be read, or is larger than ``most``."""
-    require_readable(content, most, file)
+Attachments = dict[str, bytes | None]
+
+
+def attachments(content: bytes, most: int, file: str) -> Attachments:
+    """Return what a PDF carries of ATTACHED, None for what it does not; UserError where it cannot be read, or one is larger than ``most``.
+
+    Whatever a few bytes make the library unpack or walk through cannot be interrupted, so a process of its own, which the system can
+    end, reads it.
+    """
+    found = _read_apart(content, most, file)
+    if isinstance(found, UserError):
+        raise found
+    if found is None:
+        template = "The PDF is not read within {seconds} s and {gigabytes} GB of memory. Give the file as the program wrote it."
+        raise refusal(template, file, seconds=SECONDS, gigabytes=GIGABYTES)
+    return found
+
+
+@lru_cache(maxsize=1)
+def _read_apart(content: bytes, most: int, file: str) -> Attachments | UserError | None:
+    limits = [str(each) for each in (most, SECONDS, GIGABYTES)]
+    command = [sys.executable, "-I", "-c", APART, *limits, file]
+    read = subprocess.run(command, input=content, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+    return pickle.loads(read.stdout) if read.returncode == 0 else None
+
+
+def print_attachments(most: str, seconds: str, gigabytes: str, file: str) -> None:
+    """Read the PDF on the standard input within limits, and print its attachments pickled, or the UserError."""
+    for resource_kind, limit in ((resource.RLIMIT_CPU, int(seconds)), (resource.RLIMIT_AS, int(gigabytes) << 30)):
+        hard = resource.getrlimit(resource_kind)[1]
+        resource.setrlimit(resource_kind, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
+    found: Attachments | UserError
     try:
-        return _attachment(content, name, most, file)
+        found = _attachments(sys.stdin.buffer.read(), int(most), file)
+    except UserError as error:
+        found = error
+    sys.stdout.buffer.write(pickle.dumps(found))
+
+
+def _attachments(content: bytes, most: int, file: str) -> Attachments:
+    bounded(most)
+    try:
+        with opened(content) as pdf:
+            found = _found(pdf, most, file)
+        _refuse_former(content, found, most, file)
+        return found
+    except MemoryError:
+        raise
     except pikepdf.PasswordError as error:
         raise refusal("The PDF is encrypted, and opens only with a password. Give one without.", file) from error
     except FAULTS as error:
@@ -60,51 +103,6 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
             "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it."
         )
         raise refusal(template, file, most=f"{most / 1e6:g}") from error
-
-
-def require_readable(content: bytes, most: int, file: object) -> None:
-    """Raise UserError for a PDF that is not read with bounded time and memory.
-
-    Whatever a few bytes make the library unpack or walk through cannot be interrupted, so a process of its own, which the system can
-    end, reads it first.
-    """
-    if not _is_readable(content, most):
-        template = "The PDF is not read within {seconds} s and {gigabytes} GB of memory. Give the file as the program wrote it."
-        raise refusal(template, file, seconds=SECONDS, gigabytes=GIGABYTES)
-
-
-@lru_cache(maxsize=1)
-def _is_readable(content: bytes, most: int) -> bool:
-    limits = [str(each) for each in (most, SECONDS, GIGABYTES)]
-    tried = subprocess.run(
-        [sys.executable, "-I", "-c", APART, *limits],
-        input=content,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        check=False,
-    )
-    return tried.returncode == 0
-
-
-def try_reading(content: bytes, most: int, seconds: int, gigabytes: int) -> None:
-    """Read a PDF as for an attachment, only to see whether that ends: what is wrong with it is no matter here, but a want of memory is."""
-    for resource_kind, limit in ((resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, gigabytes << 30)):
-        hard = resource.getrlimit(resource_kind)[1]
-        resource.setrlimit(resource_kind, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
-    try:
-        _attachment(content, "results.json", most, "")
-    except MemoryError:
-        raise
-    except (UserError, *FAULTS):
-        pass
-
-
-def _attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
-    bounded(most)
-    with opened(content) as pdf:
-        found = _found(pdf, name, most, file)
-    _refuse_former(content, found, name, most, file)
-    return found
 
 
 def opened(content: bytes) -> pikepdf.Pdf:
@@ -130,55 +128,53 @@ def bounded(most: int) -> None:
     )  # fmt: skip
 
 
-def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
+def _found(pdf: pikepdf.Pdf, most: int, file: str) -> Attachments:
     # the names only tell which attachment it is; nothing is written under them
-    found = list(_named(pdf, name, file))
-    if not found:
-        return None
-    if len(found) > 1:
-        raise refusal(SEVERAL, file, count=len(found), name=name)
-    content = found[0].read_bytes()
-    if len(content) > most:
+    return {name: _content(streams, name, most, file) for name, streams in _named(pdf, file).items()}
+
+
+def _content(streams: Mapping[tuple[int, int], pikepdf.Stream], name: str, most: int, file: str) -> bytes | None:
+    if len(streams) > 1:
+        raise refusal(SEVERAL, file, count=len(streams), name=name)
+    content = next((bytes(each.read_bytes()) for each in streams.values()), None)
+    if content is not None and len(content) > most:
         template = "What is attached is too large: {count} MB; at most {most} MB are taken."
         raise refusal(template, file, count=f"{len(content) / 1e6:.1f}", most=f"{most / 1e6:g}")
-    return bytes(content)
+    return content
 
 
-def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, file: str) -> None:
-    """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
+def _refuse_former(content: bytes, found: Attachments, most: int, file: str) -> None:
+    """UserError where the file held another attachment of a name before something was added to it: readers of PDF may show either."""
     ends = [end.end() for end in END.finditer(content)][:-1]
     if len(ends) > MOST_REVISIONS:
         template = "The PDF was added to {count} times. Give the file as the program wrote it."
         raise refusal(template, file, count=len(ends))
-    objects = 0
     for end in ends:
         try:
             with opened(content[:end]) as pdf:
-                objects += len(pdf.objects)
-                former = _found(pdf, name, most, file) if objects <= MOST_OBJECTS else None
+                former = _found(pdf, most, file)
         except MemoryError:
             raise
         except FAULTS:  # no end of a PDF: the letters stand in a stream
             continue
-        if objects > MOST_OBJECTS:
-            template = "The PDF had more than {most} objects in all, as it was added to {count} times. Give the file as the program wrote it."
-            raise refusal(template, file, most=MOST_OBJECTS, count=len(ends))
-        if former is not None and former != found:
-            raise refusal(SEVERAL, file, count=2, name=name)
+        for name, each in former.items():
+            if each is not None and each != found[name]:
+                raise refusal(SEVERAL, file, count=2, name=name)
 
 
-def _named(pdf: pikepdf.Pdf, name: str, file: str) -> Iterator[pikepdf.Stream]:
-    """The attachments of a name, wherever the PDF has them: among its attachments, at an annotation, or as an associated file."""
+def _named(pdf: pikepdf.Pdf, file: str) -> dict[str, dict[tuple[int, int], pikepdf.Stream]]:
+    """The attachments of each name, wherever the PDF has them: among its attachments, at an annotation, or as an associated file."""
     names = pdf.Root.get("/Names", pikepdf.Dictionary())
-    specs = [spec for label, spec in _labelled(names.get("/EmbeddedFiles"), file) if _alike(label, name)]
-    told = (part for each in pdf.objects if b"/EF" in each.unparse(resolved=True) for part in _dictionaries(each, 0))
-    specs += [part for part in told if "/EF" in part and any(_alike(part.get(key, ""), name) for key in NAMES)]
-    seen = set[tuple[int, int]]()
-    for spec in specs:
-        for stream in spec["/EF"].as_dict().values():
-            if isinstance(stream, pikepdf.Stream) and stream.objgen not in seen:
-                seen.add(stream.objgen)
-                yield stream
+    specs = [(str(label), spec) for label, spec in _labelled(names.get("/EmbeddedFiles"), file)]
+    risky = (part for each in pdf.objects if b"/EF" in each.unparse(resolved=True) for part in _dictionaries(each, 0))
+    specs += [(str(part.get(key, "")), part) for part in risky if "/EF" in part for key in NAMES]
+    found: dict[str, dict[tuple[int, int], pikepdf.Stream]] = {name: {} for name in ATTACHED}
+    for label, spec in specs:
+        if (streams := found.get(label.strip().casefold())) is not None:
+            for stream in spec["/EF"].as_dict().values():
+                if isinstance(stream, pikepdf.Stream):
+                    streams.setdefault(stream.objgen, stream)
+    return found
 
 
 def _labelled(tree: Any, file: str) -> list[tuple[Any, Any]]:
@@ -192,10 +188,6 @@ def _labelled(tree: Any, file: str) -> list[tuple[Any, Any]]:
             template = "The PDF lists more than {most} attachments, or the same ones again and again. Give the file as the program wrote it."
             raise refusal(template, file, most=MOST_ATTACHED)
     return found
-
-
-def _alike(label: object, name: str) -> bool:
-    return str(label).strip().casefold() == name
 
 
 def _dictionaries(part: Any, depth: int) -> Iterator[pikepdf.Dictionary | pikepdf.Stream]:

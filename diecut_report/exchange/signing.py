@@ -25,7 +25,7 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 from diecut_report.errors import nearest, refusal
 from diecut_report.exchange.carried import MOST, MOST_RESULTS, form_of
 from diecut_report.exchange.later_changes import fault, only_signed
-from diecut_report.exchange.pdf_attachments import PDF_FAULTS, require_readable
+from diecut_report.exchange.pdf_attachments import PDF_FAULTS, attachments
 from diecut_report.exchange.signature_drawing import drawing
 from diecut_report.exchange.signatures import ENDLESS, READING_SECONDS, refuse_nested_fields, signatures, silent
 from diecut_report.exchange.signing_keys import SigningKey
@@ -69,7 +69,7 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     if form_of(whole) != "pdf":
         template = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
         raise refusal(template, asked.report)
-    require_readable(whole, MOST_RESULTS, asked.report)
+    attachments(whole, MOST_RESULTS, str(asked.report))  # what is read without an end is not signed
     if damage := fault(whole):  # the library that signs reads without bounds
         raise refusal(UNSIGNABLE, asked.report, error=damage)
     try:

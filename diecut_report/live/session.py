@@ -34,8 +34,9 @@ MAX_EDITS = 1_000
 
 @dataclass(frozen=True)
 class LiveMachine:
-    """Hold a machine that could be calculated: its configuration, its inputs and choices by name, and its run."""
+    """Hold a machine that could be calculated: the file that it was read from, its configuration, its inputs and choices by name, and its run."""
 
+    tree: Tree
     config: Config
     run: WarmRun
     inputs: Mapping[str, DesignInput]
@@ -81,10 +82,14 @@ class LiveSession:
         except UserError as error:
             self._failed(error.problems)
             return
-        for name, typed in list(self.edits.items()):
-            if self.tree.typed(self._places[name]) == typed and not self._is_moved(name):
-                del self.edits[name]
+        self._forget_written()
         self._calculate()
+
+    def _forget_written(self) -> None:
+        """Forget the changes that stand in the file."""
+        for name, typed in list(self.edits.items()) if self.tree else ():
+            if self.tree and self.tree.typed(self._places[name]) == typed and not self._is_moved(name):
+                del self.edits[name]
 
     def _marks(self) -> dict[Path, object]:
         found: dict[Path, object] = {}
@@ -105,11 +110,10 @@ class LiveSession:
             raise refusal("At most {n} numbers can be changed before they are written to the file.", n=MAX_EDITS)
         for name, typed in taken.items():
             self._places[name] = (machine.inputs.get(name) or machine.choices[name]).stands
-            if self.tree is not None and name not in self.edits:
-                self._items[name] = _items(self.tree, self._places[name])
+            if name not in self.edits:  # by what the page shows, which the file may not be any more
+                self._items[name] = _items(machine.tree, self._places[name])
             self.edits[name] = typed
-            if self.tree is not None and self.tree.typed(self._places[name]) == typed:
-                del self.edits[name]
+        self._forget_written()
         self._calculate()
 
     def take_back(self, names: Iterable[str] | None = None) -> None:
@@ -196,7 +200,9 @@ class LiveSession:
             raise error
         _require_shown(run)
         numbers, choices = given_numbers(config), given_choices(config)
-        return LiveMachine(config, run, {each.name: each for each in numbers}, {each.name: each for each in choices})
+        return LiveMachine(
+            tree, config, run, {each.name: each for each in numbers}, {each.name: each for each in choices}
+        )
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)

@@ -132,7 +132,7 @@ def _known(calc: Calculation, side: str | float, index: int | None) -> float | N
     if isinstance(found, tuple):  # of parts that do not all have it
         found = np.array([[np.nan if part is None else part for part in found]], dtype=float)
     row = np.asarray(found, dtype=float)[0]
-    row = row if index is None else row[[index]]
+    row = row if index is None or len(row) == 1 else row[[index]]  # what has one number has it for all parts
     return float(np.nanmax(row)) if np.isfinite(row).any() else None
 
 

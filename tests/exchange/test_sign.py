@@ -309,13 +309,13 @@ def test_what_is_not_a_report_as_pdf_is_told(small_report: Path, key: Path, tmp_
     refused(capfd, "This is not a PDF", small_report / "small.html", "--key", key)
     refused(capfd, "There is no such file", tmp_path / "none.pdf", "--key", key)
     (tmp_path / "damaged.pdf").write_bytes(b"%PDF-1.7\n%%EOF")
-    refused(capfd, "The PDF cannot be signed", tmp_path / "damaged.pdf", "--key", key)
+    refused(capfd, "The PDF is damaged", tmp_path / "damaged.pdf", "--key", key)
     other = pikepdf.new()
     other.add_blank_page()
     (tmp_path / "other.pdf").write_bytes(saved_pdf(other))
     refused(capfd, "no free field for a signature", tmp_path / "other.pdf", "--key", key)
     (tmp_path / "closed.pdf").write_bytes(saved_pdf(other, "x"))
-    refused(capfd, "it is encrypted, and opens only with a password", tmp_path / "closed.pdf", "--key", key)
+    refused(capfd, "is encrypted, and opens only with a password", tmp_path / "closed.pdf", "--key", key)
 
 
 def test_an_output_that_cannot_be_written_is_told(pdf: Path, key: Path, tmp_path: Path, capfd: Capture) -> None:

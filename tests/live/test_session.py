@@ -202,6 +202,20 @@ def test_a_change_of_the_page_goes_to_no_other_item_of_a_list(tmp_path: Path, ch
     assert session.faults == []
 
 
+def test_a_change_goes_to_the_item_that_the_page_shows_while_the_file_is_at_fault(tmp_path: Path) -> None:
+    """The page shows the last machine that could be calculated; meanwhile other items may stand in the file."""
+    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
+    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    moved = SHAFT.replace("[{name: gear,", "[{name: new, position: 50 mm, mass: 1 kg}, {name: gear,")
+    session.file.write_text(moved.replace("bearing_a: 20 mm", "bearing_a: x20 mm"), encoding="utf-8")
+    session.read()
+    session.change({"s.loads.1.mass": "9 kg"})
+    replaced(session, "bearing_a: x20 mm", "bearing_a: 20 mm")
+    assert ["s.loads.1.mass changed on this page" in str(each.message) for each in session.faults] == [True]
+    session.take_back()
+    assert session.faults == []
+
+
 def test_a_change_stays_over_a_list_that_grows_behind_its_named_item(tmp_path: Path) -> None:
     (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
     session = LiveSession(tmp_path / "s.yaml", Discovery([]))
