@@ -241,8 +241,13 @@ class Key:
     block: type[Block] | None = None
     is_list: bool = False
     may_be_absent: bool = True
-    has_default: bool = False
+    default: Any = None
     home: str = ""
+
+    @property
+    def has_default(self) -> bool:
+        """Return whether it has a value where nobody gives one."""
+        return self.default is not None
 
     @cached_property
     def texts(self) -> tuple[str, ...]:
@@ -264,8 +269,8 @@ def _keys(model: type[Block], prefix: str = "", home: str = "") -> Iterator[Key]
         from_press = isinstance(meta, Quantity) and meta.press is not None and not meta.press.optional
         may_be_none = type(None) in get_args(declared.annotation)  # with a default too: a model may put it to None
         absent = not declared.is_required() and (default == [] or may_be_none) and not from_press
-        has_default = not (declared.is_required() or default is None or default == [])
-        yield Key(path, meta, declared.annotation, block, is_list, absent, has_default, home)
+        default = None if declared.is_required() or default == [] else default
+        yield Key(path, meta, declared.annotation, block, is_list, absent, default, home)
         if block:
             yield from _keys(block, f"{path}.", path if is_list else home)
 

@@ -22,7 +22,7 @@ from diecut_report.formulas import Array
 from diecut_report.formulas.condition_parts import Expression, Name, read_expression
 from diecut_report.machine.calculation import Calculation
 from diecut_report.mechanism.checks import Check
-from diecut_report.mechanism.inputs import Block, Quantity, fields, flatten, list_inputs
+from diecut_report.mechanism.inputs import Block, Quantity, fields, flatten, keys, list_inputs
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.quantities.formatting import given_shown, with_unit
 from diecut_report.quantities.plausible import ROUNDING
@@ -91,15 +91,24 @@ def outside(instance: Instance, inputs: Inputs, beside: Beside, results: Inputs 
     ``inputs`` and ``results`` hold numbers, or arrays of shape (variants,), SI; tuples of them for the parts of a list.
     """
     judged = (
-        _outside(key, row, values, beside.reasons.get(key, ""))
+        _outside(key, row, values, beside.reasons.get(key, ""), _may_be_zero(instance, key))
         for key, row, values in _values(instance, inputs, beside.press, results or {})
     )
     return [each for each in judged if each.unusual.any()]
 
 
-def _outside(key: KeyPath, row: UsualRange, values: Array, reason: str) -> Outside:
+def _may_be_zero(instance: Instance, key: KeyPath) -> bool:
+    """Whether a zero only says what holds without the key: it is left out, or typed where zero is its default."""
+    slot = next((each for each in instance.slots if each.key == key), None)
+    if slot is None or not slot.is_given:
+        return True
+    declared = keys(instance.model)[slot.name]
+    return declared.default == 0 and "${" not in str(slot.value)
+
+
+def _outside(key: KeyPath, row: UsualRange, values: Array, reason: str, may_be_zero: bool) -> Outside:
     size = np.abs(values)
-    there = np.isfinite(size) & (size > 0)  # whether zero is allowed is the business of the key's own bounds
+    there = np.isfinite(size) & ((size > 0) | (not may_be_zero))
     slips = there & ~_within(size, row.hard)
     return Outside(key, row, values, there & ~_within(size, row.usual), slips & (not reason), reason)
 

@@ -82,8 +82,10 @@ def test_all_that_is_unusual_is_one_warning_of_its_mechanism(tmp_path: Path) -> 
     assert found.results["clutch"].warnings == [check.message]
 
 
-def test_zero_is_left_to_the_bounds_of_the_key(tmp_path: Path) -> None:
+def test_zero_is_usual_only_where_it_is_what_holds_without_the_key(tmp_path: Path) -> None:
     assert usual(run(tmp_path, clutch={"engagements_per_hour": "0 1/h"})) is None
+    (found,) = problems(tmp_path, clutch={"engagements_per_hour": "0 1/min * ${clutch.wedge_friction}"})
+    assert "engagements_per_hour = 0 1/h" in found.message
 
 
 def test_a_value_by_an_expression_is_judged_where_it_is_a_number(tmp_path: Path) -> None:
