@@ -27,7 +27,7 @@ from diecut_report.quantities.formatting import given_shown, with_unit
 from diecut_report.results.usual import numbers_of
 from diecut_report.text.phrases import Phrase, joined, phrase
 
-LENGTH, RATIO = 5e-5, 1e-3  # m; share
+LENGTH, RATIO, ANGLE = 5e-5, 1e-3, 1e-3  # m; share; rad
 TAKEN = {
     "shaft": ("section_diameter", "axial_reaction_max"),
     "rolling_bearing": ("bore", "axial_greatest"),
@@ -231,7 +231,7 @@ def keys(machine: Machine) -> Iterator[Disagreement]:
 
 
 def pitch_radii(machine: Machine) -> Iterator[Disagreement]:
-    """A gear of a shaft, and the drive's pinion, has the pitch radius of the pair of gears that takes the same torque."""
+    """A gear of a shaft, and the drive's pinion, has the pitch radius and the helix of the pair of gears that takes the same torque."""
     for shaft in machine.of("shaft"):
         for index in range(shaft.count("loads.name")):
             target = shaft.target("loads", index, "torque")
@@ -239,6 +239,7 @@ def pitch_radii(machine: Machine) -> Iterator[Disagreement]:
             if target and radius is not None:
                 pairs = machine.gears.get((target.instance, target.result), [])
                 yield from _radius(shaft, ("loads", index, "gear", "pitch_radius"), radius, pairs)
+                yield from _helix(shaft, index, pairs)
     for drive in machine.of("cylinder_drive"):
         pinion = drive.number("pinion_radius")
         if pinion is not None:
@@ -255,6 +256,16 @@ def _radius(part: LinkedPart, key: KeyPath, radius: Array, pairs: list[LinkedPar
             part, key, pair, ("module",) if "module" in pair.inputs else ("teeth_1",), wrong,
             phrase("is {own}, but the pair {pair}, which takes the same torque, has the pitch radius {other} there"),
             {"own": (radius, "mm"), "other": (half, "mm"), "pair": pair.instance.name},
+        )  # fmt: skip
+
+
+def _helix(shaft: LinkedPart, index: int, pairs: list[LinkedPart]) -> Iterator[Disagreement]:
+    for pair in pairs[:1]:
+        own, other = np.abs(_of(shaft.number("loads.gear.helix_angle", index))), _of(pair.number("helix_angle"))
+        yield Disagreement(
+            shaft, ("loads", index, "gear", "helix_angle"), pair, ("helix_angle",), _differ(own, other, 0.0, ANGLE),
+            phrase("is {own}, but the pair {pair}, which takes the same torque, has the helix angle {other}"),
+            {"own": (own, "deg"), "other": (other, "deg"), "pair": pair.instance.name},
         )  # fmt: skip
 
 

@@ -13,7 +13,6 @@ from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
 from diecut_report.machine.calculation import Calculation
 from diecut_report.mechanism.inputs import POINTS, Quantity, Varying
-from diecut_report.mechanism.names import Text
 from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
 from diecut_report.results.carrying_parts import counted, unrated
@@ -204,10 +203,11 @@ def _is_of_parts(run: Run, name: str) -> bool:
 
 def _open_choice(run: Run, instance: Instance, slot: Slot) -> str:
     """Why a text of an input is open; nothing where it is not, or is made of the parts of the machine."""
-    if not isinstance(slot.meta, Text | Quantity) or _is_of_parts(run, instance.name):
+    row = open_choices(run.config.kinds.get(instance.name, PRESS)).get((slot.name, str(slot.value)))
+    if row is None or (_is_of_parts(run, instance.name) and not row.typed_in_parts):
         return ""
-    why = open_choices(run.config.kinds.get(instance.name, PRESS)).get((slot.name, str(slot.value)), "")
-    return "" if run.bases.is_founded((instance.name, *slot.key)) else why
+    founded = slot.is_given and run.bases.is_founded((instance.name, *slot.key))
+    return phrase(row.reason) if instance.given.issuperset(row.given) and not founded else ""
 
 
 def _one_of_curve(run: Run, instance: Instance, slot: Slot) -> str:

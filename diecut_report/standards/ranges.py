@@ -73,12 +73,18 @@ class _Without(BaseModel):
     unless: list[str] = []
 
 
-class _Choices(BaseModel):
-    """Hold texts of keys that take something out of a calculation, and why they are open without a basis."""
+class Choices(BaseModel):
+    """Hold texts of keys that take something out of a calculation, and why they are open without a basis.
+
+    They are so only where the keys of ``given`` are given too; where the parts of a machine make the calculation, ``typed_in_parts``
+    says that they do not make this text.
+    """
 
     model_config = ConfigDict(extra="forbid")
     reason: str
     keys: dict[str, dict[str, list[str]]]
+    given: list[str] = []
+    typed_in_parts: bool = False
 
 
 class RangeTable(BaseModel):
@@ -87,7 +93,7 @@ class RangeTable(BaseModel):
     model_config = ConfigDict(extra="forbid")
     ranges: list[_Row]
     without: list[_Without]
-    choices: list[_Choices]
+    choices: list[Choices]
 
 
 def _with_expressions(given: dict[str, list[str] | dict[str, str]]) -> dict[str, dict[str, str]]:
@@ -156,7 +162,7 @@ def asks_basis(kind: str, path: str, is_alone: bool = True) -> bool:
 
 
 @cache
-def open_choices(kind: str) -> Mapping[tuple[str, str], str]:
-    """Return the texts of keys of a kind that ask for a basis, each with the reason."""
-    rows = ((group.reason, group.keys.get(kind, {})) for group in range_table().choices)
-    return {(key, text): phrase(reason) for reason, own in rows for key, texts in own.items() for text in texts}
+def open_choices(kind: str) -> Mapping[tuple[str, str], Choices]:
+    """Return the texts of keys of a kind that ask for a basis, each with its row."""
+    rows = ((row, row.keys.get(kind, {})) for row in range_table().choices)
+    return {(key, text): row for row, own in rows for key, texts in own.items() for text in texts}

@@ -37,6 +37,10 @@ BLUNDERS = [  # what is typed in place of what, and words of the refusal
     ("a key at another speed than its torque", ("cycle_speed: ${drive.crank_speed} #", "cycle_speed: 5 rpm #"), "is 5 r/min, but"),
     ("a bearing at another speed than its shaft", ("reaction_a}\n        speed: ${drive.crank_speed}", "reaction_a}\n        speed: 500 rpm"),
      "is 500 r/min, but the shaft crankshaft, whose reaction it bears, turns at 50 r/min"),
+    ("a helical gear whose axial force no bearing takes", ("mesh_angle: {value: 0 deg, basis: assumed}}", "mesh_angle: 0 deg, helix_angle: 30 deg}"),
+     "is at most 0 N, but the shaft crankshaft, which this bearing locates, is pushed along its axis by up to"),
+    ("a helical gear of a straight pair", ("mesh_angle: {value: 0 deg, basis: assumed}}", "mesh_angle: 0 deg, helix_angle: 30 deg}"),
+     "is 30°, but the pair main_gears, which takes the same torque, has the helix angle 0°"),
     ("a chain of another sprocket", ("teeth_1: ${feeder.sprocket_teeth}", "teeth_1: 20"), "gives 20, but the sprocket of feeder"),
     ("a chain of another pitch", ("chain: 12B", "chain: 08B"), "gives 12.7 mm, but the sprocket of feeder"),
     ("a torque curve over too few turns", ("torque_curve_turns: ${timing.torque_curve_turns}", "torque_curve_turns: 1"),
@@ -63,8 +67,9 @@ def test_a_blunder_is_refused_with_its_place(
     told = [each for each in refused.value.problems if words in each.message]
     assert len(told) == 1
     assert (told[0].line or 0) > 1
-    line = file.read_text(encoding="utf-8").splitlines()[(told[0].line or 0) - 1]
-    assert told[0].file == str(file) and str(told[0].path).replace(".value", "").split(".")[-1] in line
+    text, key = file.read_text(encoding="utf-8"), str(told[0].path).replace(".value", "").split(".")[-1]
+    line = text.splitlines()[(told[0].line or 0) - 1]
+    assert told[0].file == str(file) and (key in line or f"{key}:" not in text)
 
 
 def test_a_contradiction_names_both_places(warm: WarmPress, tmp_path: Path) -> None:

@@ -180,6 +180,35 @@ def test_a_loose_seat_is_a_choice_that_is_open_until_somebody_draws_it(tmp_path:
     assert of_shaft(tmp_path, seat=named).keys() == kept.keys()
 
 
+PAIR = """\
+  a:
+    kind: gear_pair
+    module: 5 mm
+    teeth_1: 24
+    teeth_2: 48
+    face_width: 50 mm
+    torque: 50 N*m
+    sigma_h_lim_1: 767 MPa
+    sigma_h_lim_2: 767 MPa
+    sigma_f_lim_1: 314 MPa
+    sigma_f_lim_2: 314 MPa
+"""
+
+
+@pytest.mark.parametrize(
+    ("keys", "is_open"),
+    [
+        ("", False),  # the load factors are not calculated, so that nothing runs in
+        ("    grade: 8\n    speed: 500 rpm\n", True),
+        ("    grade: 8\n    speed: 500 rpm\n    flanks_1: through_hardened\n", True),
+        ("    grade: 8\n    speed: 500 rpm\n    flanks_1: {value: through_hardened, basis: drawing}\n", False),
+        ("    grade: 8\n    speed: 500 rpm\n    flanks_1: case_hardened\n", False),
+    ],
+)
+def test_flanks_that_run_in_well_are_open_until_somebody_draws_them(tmp_path: Path, keys: str, is_open: bool) -> None:
+    assert ("mechanisms.a.flanks_1" in values(tmp_path, HEAD + PAIR + keys)) == is_open
+
+
 def test_the_factor_of_a_custom_notch_asks_for_its_basis(tmp_path: Path) -> None:
     assert "notches.0.k_f" in of_shaft(tmp_path, k_f="1")
     assert "notches.0.k_f" not in of_shaft(tmp_path)

@@ -235,6 +235,8 @@ class Elements(ShaftElements):
         elif self.is_made(bearings):
             found["speed"] = f"${{{bearings}.{pinion.shaft.bearings[0].name}_speed_max}}"
         found |= {key: TypedValue(("machine", "gears", key)) for key in ("grade", "crowned") if getattr(gears, key)}
+        if gears.flanks:
+            found |= {f"flanks_{gear}": TypedValue(("machine", "gears", "flanks")) for gear in (1, 2)}
         if self._has_teeth(pinion) and self._has_teeth(wheel):
             slopes = (f"${{{part.shaft.calculation}.{part.name}_mesh_slope}}" for part in (pinion, wheel))
             found["slope"] = " + ".join(slopes)

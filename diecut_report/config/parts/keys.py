@@ -41,6 +41,8 @@ class GearDefaults(Block):
     sigma_f_lim: Annotated[float | None, Quantity("σ_Flim", "MPa", "Nominal bending stress number (ISO 6336-5)", gt=0)] = None
     grade: Annotated[int | None, Quantity("Q", "1", "Grade of accuracy (ISO 1328-1:2013)", ge=3, le=11, integer=True)] = None
     crowned: Annotated[bool, Text("Crowned teeth")] = False
+    flanks: Annotated[Literal["through_hardened", "case_hardened", "grey_iron"] | None,
+        Text("Flanks, by which they run in; case_hardened also for nitrided ones")] = None
     hub_yield: Annotated[float | None, Quantity("R_eN", "MPa", "Yield strength of the hubs", gt=0)] = None
 
 

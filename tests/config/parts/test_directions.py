@@ -135,6 +135,33 @@ def _gear(run: Run, shaft: str, part: str) -> dict[str, float]:
     return {"radius": join.radius(gear), "angle": float(np.radians(float(degrees)))}
 
 
+HELICAL = "teeth: 120/20, module: 3.5, width: 30, helix_angle: {angle} deg"
+
+
+@pytest.mark.parametrize("angle", [28.955, -28.955])
+def test_the_bearing_that_locates_a_shaft_takes_the_axial_force_of_its_helical_gear(angle: float) -> None:
+    """By F_a = T / r tan β of the torque at each instant; a right-handed driver is pushed against the sense of its torque."""
+    text = TEXT.replace("teeth: 120/20, module: 4, width: 30", HELICAL.format(angle=angle))
+    config, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    assert text != TEXT and not problems
+    kinds = (*KINDS, "shaft", "rolling_bearing")
+    names = {name for name, own in config.instances.items() if own and own.mechanism and own.mechanism.kind in kinds}
+    names -= {name for name in names if not name.startswith("shafts_conveyor") and config.kinds[name] in kinds[-2:]}
+    order = tuple(node for node in config.order if node[0] in names or len(node) > 1 or node == ("press",))
+    run = Run(replace(config, order=order), lambda _: None)
+    torque = run.calculations["shafts_conveyor_loads"].curve_samples("balance")[0]
+    radius = 3.5e-3 * 20 / 2 / np.cos(np.radians(angle))
+    expected = np.max(np.abs(torque)) / radius * np.tan(np.radians(abs(angle)))
+    bearings = run.calculations["shafts_conveyor_bearings"]
+    assert bearings["axial_greatest"][0] == pytest.approx([expected, 0.0], rel=1e-3)
+    assert expected > 1000
+    load = next(each for each in config.tree.data["mechanisms"]["shafts_conveyor"]["loads"] if each["name"] == "small")
+    # along the shaft F_x = F_t tan β, positive where a left-handed gear is turned from y to z, which are mirrored where the shaft is seen to turn
+    # clockwise; the driven gear is left-handed where the driver is right-handed
+    typed = load["gear"]["helix_angle"]
+    assert float((typed["value"] if isinstance(typed, dict) else typed).split()[0]) == pytest.approx(-SENSES["geneva"] * angle)
+
+
 def test_the_couplers_force_has_the_moment_of_the_torque_about_the_rockers_axis() -> None:
     run = run_in("above")
     loads = run.calculations["shafts_rocker_loads"]
