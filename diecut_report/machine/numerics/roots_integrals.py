@@ -177,7 +177,9 @@ def dips(calc: Calculation, curve: str) -> Array:
     piece, k = np.divmod(np.flatnonzero(lowest), lowest.shape[1])
     before, here, after = (heights[piece, k + i] for i in range(3))
     same = (np.sign(before) == np.sign(here)) & (np.sign(here) == np.sign(after))
-    near = same & (2 * np.abs(here) <= np.maximum(np.abs(before), np.abs(after)))  # a dip no deeper than its rise
+    rise = np.maximum(np.abs(before), np.abs(after))
+    noise = NOISE * pieces.of_variants(np.maximum, sizes)[pieces.variant, 0]
+    near = same & (2 * np.abs(here) <= rise) & (rise > noise[piece])  # a dip no deeper than its rise; not of what rests at zero
     piece, k = piece[near], k[near]
     if not len(piece):
         return np.full((calc.count, 0), np.nan)
