@@ -11,8 +11,9 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.references import WHOLE
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
+from diecut_report.config.yaml import KeyPath
 from diecut_report.machine.calculation import Calculation
-from diecut_report.mechanism.inputs import POINTS, Quantity, Varying
+from diecut_report.mechanism.inputs import POINTS, Quantity, Varying, flatten
 from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
 from diecut_report.results.carrying_parts import counted, unrated
@@ -22,6 +23,7 @@ from diecut_report.results.model import OpenRecord, SummaryRecord
 from diecut_report.results.origins import assumed, input_path, is_default
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
+from diecut_report.results.usual import unbounded
 from diecut_report.standards.ranges import asks_basis, by_reference, open_choices, range_of, unranged, zero_is_open
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -31,6 +33,7 @@ CURVE = "_curve"  # of the input beside a number that takes its course over a cy
 ONE_OF_CURVE = phrase(
     "it is one number of a curve: how the load changes over a cycle, and how often it changes its side, is left out"
 )
+UNBOUNDED = phrase("nothing tells what it is held against, and nothing says where it comes from")
 UNPROVED = phrase("it is not proved that no check depends on it")
 """Why a value is open as long as nobody has calculated the machine with others."""
 
@@ -134,12 +137,22 @@ def open_values(run: Run) -> Iterator[OpenValue]:
         if instance is None or name not in run.blocks:
             continue
         unranged_keys = unranged(run.config.kinds.get(name, PRESS), _is_alone(run, name))
+        unbounded_keys = _unbounded(run, instance)
         for slot in instance.slots:
             path = input_path(name, slot.key)
-            if what := _rests_on(run, instance, slot):
+            if slot.key in unbounded_keys and not run.bases.is_founded((name, *slot.key)):
+                yield OpenValue(path, "assumed", UNBOUNDED)
+            elif what := _rests_on(run, instance, slot):
                 yield OpenValue(path, what, unranged_keys.get(slot.name, UNPROVED) if slot.is_given else UNPROVED)
             elif why := _open_choice(run, instance, slot) or _one_of_curve(run, instance, slot):
                 yield OpenValue(path, "assumed", why)
+
+
+def _unbounded(run: Run, instance: Instance) -> set[KeyPath]:
+    """The inputs that nothing bounds, though their kind has a row."""
+    if (calc := run.calculations.get(instance.name)) is None:
+        return set()
+    return unbounded(instance, flatten(run.blocks[instance.name]), run.beside(instance), calc.values)
 
 
 def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
