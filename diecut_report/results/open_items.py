@@ -140,10 +140,10 @@ def open_values(run: Run) -> Iterator[OpenValue]:
         unbounded_keys = _unbounded(run, instance)
         for slot in instance.slots:
             path = input_path(name, slot.key)
-            if slot.key in unbounded_keys and not run.bases.is_founded((name, *slot.key)):
-                yield OpenValue(path, "assumed", UNBOUNDED)
-            elif what := _rests_on(run, instance, slot):
-                yield OpenValue(path, what, unranged_keys.get(slot.name, UNPROVED) if slot.is_given else UNPROVED)
+            is_bounded = slot.key not in unbounded_keys
+            if what := _rests_on(run, instance, slot, is_bounded=is_bounded):
+                why = unranged_keys.get(slot.name, UNPROVED) if is_bounded else UNBOUNDED
+                yield OpenValue(path, what, why if slot.is_given else UNPROVED)
             elif why := _open_choice(run, instance, slot) or _one_of_curve(run, instance, slot):
                 yield OpenValue(path, "assumed", why)
 
@@ -155,8 +155,8 @@ def _unbounded(run: Run, instance: Instance) -> set[KeyPath]:
     return unbounded(instance, flatten(run.blocks[instance.name]), run.beside(instance), calc.values)
 
 
-def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
-    """What an input rests on, where that is open."""
+def _rests_on(run: Run, instance: Instance, slot: Slot, *, is_bounded: bool) -> OpenKind | None:
+    """What an input rests on, where that is open; what no row bounds asks for a basis."""
     said = instance.bases.get(slot.key)
     is_assumed = said is not None and said.basis == ASSUMED
     is_number = (
@@ -166,7 +166,9 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
         and slot.value not in slot.meta.words
     )
     kind, target = run.config.kinds.get(instance.name, PRESS), run.config.links.get((instance.name, *slot.key))
-    if asks_basis(kind, slot.name, _is_alone(run, instance.name)) and is_formula(run.config.parts, instance, slot):
+    is_alone = _is_alone(run, instance.name)
+    asks = not is_bounded or asks_basis(kind, slot.name, is_alone)
+    if asks and is_formula(run.config.parts, instance, slot):
         return None if is_founded(said.basis if said else "", said.note if said else "") else "assumed"
     if target is not None or not is_number:
         return "assumed" if is_assumed else None
@@ -174,14 +176,12 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     usual = range_of(kind, slot.name)
     if not slot.is_given or is_default(run.blocks[instance.name], slot.key):
         return "default" if value or usual or _leaves_out(run, instance, slot) else None
-    is_alone = _is_alone(run, instance.name)
     is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
     beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]
     unsaid = is_unranged and is_limit and not names_something(said.note if said else "")
-    asks = beyond or asks_basis(kind, slot.name, is_alone)
     is_drawn_load = not is_alone and said is not None and said.basis == "drawing" and by_reference(kind, slot.name)
     founded = run.bases.is_founded((instance.name, *slot.key)) and not (beyond or unsaid or is_drawn_load)
-    return "assumed" if is_assumed or (asks and not founded) else None
+    return "assumed" if is_assumed or ((asks or beyond) and not founded) else None
 
 
 def is_formula(parts: MachineParts | None, instance: Instance, slot: Slot) -> bool:

@@ -49,8 +49,8 @@ chain.value("bearing_area_of_table", "A_t", "mm**2", "Bearing area of a joint: t
 for key, (least, most) in SHARES.items():
     chain.require(f"{key}_as_table", bind(f.is_of_table, given=f"inputs.{key}", own=f"{key}_of_table", least=least, most=most), key=key,
         needs=("chain", key), lacks=(CUSTOM,),
-        message=f"is {{inputs.{key}}}, but that of the table is {{{key}_of_table}} for this designation, where makers have {least:g} to {most:g} times "
-            "as much; correct it, or its unit, or the designation, or set chain to custom with all its values")
+        message=f"is {{inputs.{key}}}, but the table has {{{key}_of_table}} for this designation, and no maker less than {least:g} or more than "
+            f"{most:g} times that; correct it, or its unit, or the designation, or set chain to custom with all its values")
 
 loop = Chapter("Loop over the sprockets",
     text="The number of links follows from the centre distance and is even, so that no link is cranked; with whole links the distance is adjusted. "

@@ -113,7 +113,13 @@ def test_an_impossible_chain_is_told_in_words(keys: dict[str, Any], words: str) 
         chain(keys)
 
 
-ROW = {"pitch": 19.05, "pin_diameter": 5.72, "bearing_area": 5.72 * (11.68 + 2 * 1.85), "breaking_load": 28.9, "mass_per_length": 1.15}
+ROW = {
+    "pitch": 19.05,
+    "pin_diameter": 5.72,
+    "bearing_area": 5.72 * (11.68 + 2 * 1.85),
+    "breaking_load": 28.9,
+    "mass_per_length": 1.15,
+}
 """Of 12B, in the units of the keys."""
 
 
@@ -147,7 +153,7 @@ def test_only_the_machines_of_a_study_with_a_value_of_another_chain_are_refused(
 def test_a_value_of_another_chain_is_refused_typed_and_as_a_formula(tmp_path: Path, area: str) -> None:
     other = f"  other: {{kind: roller_chain, teeth_1: 19, chain: 12B, {TORQUE}}}\n"
     text = HEAD + other + BLOCK.format(f"chain: 12B, {TORQUE}, bearing_area: {area}")
-    with pytest.raises(UserError, match="that of the table is 87.97 mm² for this designation"):
+    with pytest.raises(UserError, match=r"the table has 87\.97 mm² for this designation"):
         compute(loaded(tmp_path, text), lambda _: None)
 
 

@@ -152,7 +152,9 @@ def test_a_limiting_speed_is_held_against_the_mean_diameter_of_its_bearing(
     typed = typed if designation not in ("6209", "NU209E") else f"limiting_speed: {rpm:g} rpm"
     text = HEAD + BEARING % (type_, designation, "", typed)
     if found == "refused":
-        with pytest.raises(UserError, match=r"gives bearings.limiting_speed \* mean_diameter / \(1 revolution\) = ") as refused:
+        with pytest.raises(
+            UserError, match=r"gives bearings.limiting_speed \* mean_diameter / \(1 revolution\) = "
+        ) as refused:
             left(tmp_path, text)
         (problem,) = refused.value.problems
         assert str(problem.path) == "mechanisms.b.bearings.0.limiting_speed"
