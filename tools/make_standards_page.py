@@ -60,7 +60,8 @@ Made from `diecut_report/standards/data/ranges.yaml` by `python tools/make_stand
 
 A value outside its usual range is a warning; outside the possible one the file is refused, unless it says why:
 `{value: 0.7, beyond: "sintered lining, measured on the test rig"}` ([how](configuration.md#plausible-values)). Zero is left to the bounds of the key.
-● marks keys whose value counts as assumed unless it states where it comes from. A row with an expression bounds what that gives.
+● marks keys whose value counts as assumed unless it states where it comes from. A row with an expression bounds what that gives;
+where it gives nothing, as the designation of a bearing does not tell the mean diameter, the value asks for a basis, too.
 
 | key | usual | possible | source |
 | --- | --- | --- | --- |"""

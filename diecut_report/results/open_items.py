@@ -11,8 +11,9 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.references import WHOLE
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
+from diecut_report.config.yaml import KeyPath
 from diecut_report.machine.calculation import Calculation
-from diecut_report.mechanism.inputs import POINTS, Quantity, Varying
+from diecut_report.mechanism.inputs import POINTS, Quantity, Varying, flatten
 from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
 from diecut_report.results.carrying_parts import counted, unrated
@@ -22,6 +23,7 @@ from diecut_report.results.model import OpenRecord, SummaryRecord
 from diecut_report.results.origins import assumed, input_path, is_default
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
+from diecut_report.results.usual import unbounded
 from diecut_report.standards.ranges import asks_basis, by_reference, open_choices, range_of, unranged, zero_is_open
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -31,6 +33,7 @@ CURVE = "_curve"  # of the input beside a number that takes its course over a cy
 ONE_OF_CURVE = phrase(
     "it is one number of a curve: how the load changes over a cycle, and how often it changes its side, is left out"
 )
+UNBOUNDED = phrase("nothing tells what it is held against, and nothing says where it comes from")
 UNPROVED = phrase("it is not proved that no check depends on it")
 """Why a value is open as long as nobody has calculated the machine with others."""
 
@@ -134,16 +137,26 @@ def open_values(run: Run) -> Iterator[OpenValue]:
         if instance is None or name not in run.blocks:
             continue
         unranged_keys = unranged(run.config.kinds.get(name, PRESS), _is_alone(run, name))
+        unbounded_keys = _unbounded(run, instance)
         for slot in instance.slots:
             path = input_path(name, slot.key)
-            if what := _rests_on(run, instance, slot):
-                yield OpenValue(path, what, unranged_keys.get(slot.name, UNPROVED) if slot.is_given else UNPROVED)
+            is_bounded = slot.key not in unbounded_keys
+            if what := _rests_on(run, instance, slot, is_bounded=is_bounded):
+                why = unranged_keys.get(slot.name, UNPROVED) if is_bounded else UNBOUNDED
+                yield OpenValue(path, what, why if slot.is_given else UNPROVED)
             elif why := _open_choice(run, instance, slot) or _one_of_curve(run, instance, slot):
                 yield OpenValue(path, "assumed", why)
 
 
-def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
-    """What an input rests on, where that is open."""
+def _unbounded(run: Run, instance: Instance) -> set[KeyPath]:
+    """The inputs that nothing bounds, though their kind has a row."""
+    if (calc := run.calculations.get(instance.name)) is None:
+        return set()
+    return unbounded(instance, flatten(run.blocks[instance.name]), run.beside(instance), calc.values)
+
+
+def _rests_on(run: Run, instance: Instance, slot: Slot, *, is_bounded: bool) -> OpenKind | None:
+    """What an input rests on, where that is open; what no row bounds asks for a basis."""
     said = instance.bases.get(slot.key)
     is_assumed = said is not None and said.basis == ASSUMED
     is_number = (
@@ -153,7 +166,9 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
         and slot.value not in slot.meta.words
     )
     kind, target = run.config.kinds.get(instance.name, PRESS), run.config.links.get((instance.name, *slot.key))
-    if asks_basis(kind, slot.name, _is_alone(run, instance.name)) and is_formula(run.config.parts, instance, slot):
+    is_alone = _is_alone(run, instance.name)
+    asks = not is_bounded or asks_basis(kind, slot.name, is_alone)
+    if asks and is_formula(run.config.parts, instance, slot):
         return None if is_founded(said.basis if said else "", said.note if said else "") else "assumed"
     if target is not None or not is_number:
         return "assumed" if is_assumed else None
@@ -161,14 +176,12 @@ def _rests_on(run: Run, instance: Instance, slot: Slot) -> OpenKind | None:
     usual = range_of(kind, slot.name)
     if not slot.is_given or is_default(run.blocks[instance.name], slot.key):
         return "default" if value or usual or _leaves_out(run, instance, slot) else None
-    is_alone = _is_alone(run, instance.name)
     is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
     beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]
     unsaid = is_unranged and is_limit and not names_something(said.note if said else "")
-    asks = beyond or asks_basis(kind, slot.name, is_alone)
     is_drawn_load = not is_alone and said is not None and said.basis == "drawing" and by_reference(kind, slot.name)
     founded = run.bases.is_founded((instance.name, *slot.key)) and not (beyond or unsaid or is_drawn_load)
-    return "assumed" if is_assumed or (asks and not founded) else None
+    return "assumed" if is_assumed or ((asks or beyond) and not founded) else None
 
 
 def is_formula(parts: MachineParts | None, instance: Instance, slot: Slot) -> bool:

@@ -97,6 +97,11 @@ def outside(instance: Instance, inputs: Inputs, beside: Beside, results: Inputs 
     return [each for each in judged if each.unusual.any()]
 
 
+def unbounded(instance: Instance, inputs: Inputs, beside: Beside, results: Inputs) -> set[KeyPath]:
+    """Return the keys whose row bounds nothing, as a result that it names does not exist for this value."""
+    return {key for key, _, values in _values(instance, inputs, beside.press, results) if np.isnan(values).any()}
+
+
 def _may_be_zero(instance: Instance, key: KeyPath) -> bool:
     """Whether a zero only says what holds without the key: it is left out, or typed where zero is its default."""
     slot = next((each for each in instance.slots if each.key == key), None)

@@ -8,6 +8,7 @@ from diecut_report.api import Chapter, bind
 from diecut_report.mechanics import drive_line
 from diecut_report.plugins.roller_chain import formulas as f
 from diecut_report.plugins.roller_chain.chains import BY_PITCH, CHAINS
+from diecut_report.plugins.roller_chain.inputs import CUSTOM
 
 # fmt: off
 
@@ -22,6 +23,9 @@ TAKEN = {
     "mass_per_length": ("q", "kg/m", "Mass per unit length of one strand"),
 }
 MEASURED = {"inner_width": ("b_1", "mm", "Width between the inner plates"), "plate_thickness": ("t_i", "mm", "Thickness of the inner plates")}
+SHARES = {"pitch": (0.999, 1.001), "pin_diameter": (0.8, 1.25), "bearing_area": (0.5, 1.25), "breaking_load": (0.5, 1.25),
+          "mass_per_length": (0.5, 1.25)}
+"""Within what share of its row of the table a value of a chain can be, whoever makes it."""
 
 chain = Chapter("Chain", text="All values are those of one strand.")
 for key, (symbol, unit, words) in TAKEN.items():
@@ -30,13 +34,23 @@ for key, (symbol, unit, words) in TAKEN.items():
         chain.interpolated(key, symbol, unit, f"{words} of this pitch", BY_PITCH, of="pitch", column=key, key="chain", lacks=("chain",),
             source="ISO 606")
 for key, (symbol, unit, words) in MEASURED.items():
-    chain.lookup(key, symbol, unit, words, CHAINS, by="chain", column=key, needs=("chain",), lacks=("bearing_area",), source="ISO 606", output=False)
+    chain.lookup(key, symbol, unit, words, CHAINS, by="chain", column=key, needs=("chain",), lacks=(CUSTOM,), source="ISO 606", output=False)
     chain.interpolated(key, symbol, unit, f"{words} of this pitch", BY_PITCH, of="pitch", column=key, key="chain", lacks=("chain", "bearing_area"),
         source="ISO 606", output=False)
 chain.value("bearing_area", "A", "mm**2", "Bearing area of a joint: pin and bush, whose length is the width of the inner link", f.bearing_area,
     lacks=("bearing_area",), source="geometry")
 chain.value("bearing_area", "A", "mm**2", "Bearing area of a joint: as given", bind(lambda given: given, given="inputs.bearing_area"),
     needs=("bearing_area",), source="input")
+for key, (symbol, unit, words) in TAKEN.items():
+    chain.lookup(f"{key}_of_table", f"{symbol},t", unit, f"{words}: that of the table", CHAINS, by="chain", column=key, needs=("chain",),
+        lacks=(CUSTOM,), source="ISO 606", output=False)
+chain.value("bearing_area_of_table", "A_t", "mm**2", "Bearing area of a joint: that of the table",
+    bind(f.bearing_area, pin_diameter="pin_diameter_of_table"), needs=("chain",), lacks=(CUSTOM,), source="geometry", output=False)
+for key, (least, most) in SHARES.items():
+    chain.require(f"{key}_as_table", bind(f.is_of_table, given=f"inputs.{key}", own=f"{key}_of_table", least=least, most=most), key=key,
+        needs=("chain", key), lacks=(CUSTOM,),
+        message=f"is {{inputs.{key}}}, but the table has {{{key}_of_table}} for this designation, and no maker less than {least:g} or more than "
+            f"{most:g} times that; correct it, or its unit, or the designation, or set chain to custom with all its values")
 
 loop = Chapter("Loop over the sprockets",
     text="The number of links follows from the centre distance and is even, so that no link is cranked; with whole links the distance is adjusted. "

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Phrase, Refusal, joined
-from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, bore_of, row_of
+from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, bore_of, outside_of, row_of
 from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.nodes import Nodes
 from diecut_report.plugins.rolling_bearing.part import EXPONENTS, ChosenBearing, GivenBearing
@@ -61,6 +61,10 @@ class Bearings:
     def bore(self, index: int) -> Array:
         """Return the bore of a bearing by its designation, m, (variants, 1); 0 where that tells none."""
         return np.array([[bore_of(each)] for each in self.taken[index].designations])
+
+    def outside(self, index: int) -> Array:
+        """Return the outside diameter of a bearing by its designation, m, (variants, 1); 0 where that tells none."""
+        return np.array([[outside_of(each)] for each in self.taken[index].designations])
 
     def share_of_row(self, column: str, index: int) -> Array:
         """Return a rating that is given as a share of that of its row of the tables, (variants, 1); 1 where there is none."""

@@ -70,8 +70,8 @@ def written(designation: str) -> str:
 
 SMALL_BORES = {"00": 10, "01": 12, "02": 15, "03": 17}  # mm; from 04 on the number is a fifth of the bore (ISO 15)
 CODED = re.compile(
-    "(?:6[0-4]|7[0-4]|16[01]|1[23]|2[23]|2[123][0-4]|(?:NU|NJ|NUP|N)(?:10|2|3|4|22|23))([0-9]{2})(?![0-9])"
-)
+    "(6[0-4]|7[0-4]|16[01]|1[23]|2[23]|2[123][0-4]|(?:NU|NJ|NUP|N)(?:10|2|3|4|22|23))([0-9]{2})(?![0-9])"
+)  # up to the diameter series, and the bore
 
 
 def row_of(kind: str, designation: str | None) -> str | None:
@@ -83,4 +83,14 @@ def row_of(kind: str, designation: str | None) -> str | None:
 def bore_of(designation: str | None) -> float:
     """Return the bore that a designation tells, m; 0 where it tells none."""
     found = CODED.match(written(designation or ""))
-    return si(SMALL_BORES.get(found[1], 5 * int(found[1])), "mm") if found else 0.0
+    return si(SMALL_BORES.get(found[2], 5 * int(found[2])), "mm") if found else 0.0
+
+
+def outside_of(designation: str | None) -> float:
+    """Return the outside diameter that a designation tells by its diameter series, m; 0 where it tells none.
+
+    A bearing of any type has that of the deep groove ball bearing of the same diameter series and bore (ISO 15).
+    """
+    found, table = CODED.match(written(designation or "")), CATALOGUES[DEEP_GROOVE]
+    name = f"6{found[1][-1]}{found[2]}" if found else ""
+    return table.size("D", name) if name in table.names else 0.0

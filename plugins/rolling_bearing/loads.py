@@ -68,6 +68,10 @@ row(ratings, "dynamic_rating", "C", "kN", "Basic dynamic load rating", lambda kn
 row(ratings, "static_rating", "C_0", "kN", "Basic static load rating", lambda known: known.rating("static"), "as given, or from the table")
 row(ratings, "bore", "d", "mm", "Bore, 0 where the designation does not tell it", lambda known: known.row(known.bore),
     "by the designation (ISO 15)", output=False)
+row(ratings, "outside", "D_o", "mm", "Outside diameter, 0 where the designation does not tell it", lambda known: known.row(known.outside),
+    "by the designation (ISO 15)", output=False)
+value(ratings, "mean_diameter", "d_m", "mm", "Mean diameter", lambda bore, outside: (bore + outside) / 2, exists=lambda outside: outside > 0,
+    source="ISO 15", output=False)
 for column, key, symbol, words in (("C", "dynamic_rating", "C/C_t", "Basic dynamic load rating as a share of that in the table"),
                                    ("C0", "static_rating", "C_0/C_0t", "Basic static load rating as a share of that in the table")):
     row(ratings, f"{key}_share", symbol, "1", words, partial(shares, column),

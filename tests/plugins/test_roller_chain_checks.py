@@ -6,12 +6,14 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
 from diecut_report.config.schema import config_schema
 from diecut_report.errors import UserError
 from diecut_report.machine.calculation import Impossible
+from diecut_report.machine.steps.run import recalculated
 from diecut_report.plugins.roller_chain import MECHANISM
 from diecut_report.results.press_run import compute
 from tests.configs import HEAD, loaded, problems
@@ -109,6 +111,50 @@ def test_a_key_that_is_set_as_advised_passes(keys: dict[str, Any], check: str) -
 def test_an_impossible_chain_is_told_in_words(keys: dict[str, Any], words: str) -> None:
     with pytest.raises(Impossible, match=re.escape(words)):
         chain(keys)
+
+
+ROW = {
+    "pitch": 19.05,
+    "pin_diameter": 5.72,
+    "bearing_area": 5.72 * (11.68 + 2 * 1.85),
+    "breaking_load": 28.9,
+    "mass_per_length": 1.15,
+}
+"""Of 12B, in the units of the keys."""
+
+
+@pytest.mark.parametrize(
+    ("key", "held", "refused"),
+    [
+        ("pitch", (0.9991, 1.0009), (0.998, 1.002)),
+        ("pin_diameter", (0.81, 1.24), (0.79, 1.26)),
+        *((key, (0.51, 1.24), (0.49, 1.26)) for key in ("bearing_area", "breaking_load", "mass_per_length")),
+    ],
+)
+def test_a_value_of_a_chain_is_held_against_the_row_of_its_designation(
+    key: str, held: tuple[float, float], refused: tuple[float, float]
+) -> None:
+    for share in held:
+        chain(DRIVE | {key: share * ROW[key]})
+    for share in refused:
+        with pytest.raises(Impossible, match="for this designation") as found:
+            chain(DRIVE | {key: share * ROW[key]})
+        assert found.value.key == key
+        chain(CUSTOM | {key: share * CUSTOM[key]})  # of nobody's row
+
+
+def test_only_the_machines_of_a_study_with_a_value_of_another_chain_are_refused() -> None:
+    made = recalculated(chain(bearing_area=88), {"bearing_area": np.array([45e-6, 900e-6, 88e-6])}, 3)
+    assert made is not None
+    assert {variant: key for variant, (key, _) in made.flaws.items()} == {1: "bearing_area"}
+
+
+@pytest.mark.parametrize("area", ["900 mm**2", "'${other.bearing_area} * 10'"])
+def test_a_value_of_another_chain_is_refused_typed_and_as_a_formula(tmp_path: Path, area: str) -> None:
+    other = f"  other: {{kind: roller_chain, teeth_1: 19, chain: 12B, {TORQUE}}}\n"
+    text = HEAD + other + BLOCK.format(f"chain: 12B, {TORQUE}, bearing_area: {area}")
+    with pytest.raises(UserError, match=r"the table has 87\.97 mm² for this designation"):
+        compute(loaded(tmp_path, text), lambda _: None)
 
 
 BLOCK = "  c: {{kind: roller_chain, teeth_1: 19, {}}}\n"

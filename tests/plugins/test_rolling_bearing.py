@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from diecut_report.machine import mechanism
-from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, bore_of
+from diecut_report.machine.steps.run import recalculated
+from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, bore_of, outside_of
 from tests.examples import examples
 from tests.plugins.bearings import (
     ANGULAR,
@@ -381,3 +382,34 @@ def test_larger_bearings_of_a_series_bear_more() -> None:
 def test_a_designation_tells_the_bore(designation: str | None, bore: float) -> None:
     """By the bore codes of ISO 15."""
     assert bore_of(designation) == pytest.approx(bore * 1e-3)
+
+
+def test_a_designation_tells_the_outside_diameter_of_each_bearing_of_the_tables() -> None:
+    for catalogue in CATALOGUES.values():
+        assert [outside_of(name) for name in catalogue.names] == [catalogue.size("D", name) for name in catalogue.names]
+
+
+@pytest.mark.parametrize(
+    ("designation", "outside"),
+    [
+        ("16012", 95), ("NU 1012", 95), ("23012", 95), ("7209 B", 85), ("NJ 2209 ECP", 85), ("22212", 110), ("2208", 80), ("21312", 130),
+        ("1308", 90), ("6409", 0), ("16112", 0), ("7224", 0), ("NA 4909", 0), ("HK 2020", 0), ("", 0), (None, 0),
+    ],
+)  # fmt: skip
+def test_a_designation_tells_the_outside_diameter(designation: str | None, outside: float) -> None:
+    """By the diameter series of ISO 15: the diameters are those that makers print."""
+    assert outside_of(designation) == pytest.approx(outside * 1e-3)
+
+
+def test_the_mean_diameter_of_machines_of_a_study_is_that_of_the_bearing_which_each_takes() -> None:
+    made = recalculated(one(SOUGHT, axial_force=0), {"bearings.radial_force": (np.array([300.0, 3000.0, 9000.0]),)}, 3)
+    assert made is not None
+    table = CATALOGUES["deep_groove"]
+    means = {
+        rating: (table.size("d", name) + table.size("D", name)) / 2
+        for name in table.of_series("62")
+        for rating in [table.size("C", name)]
+    }
+    taken = made["dynamic_rating"][:, 0].tolist()
+    assert len(set(taken)) == 3
+    assert made["mean_diameter"][:, 0].tolist() == pytest.approx([means[rating] for rating in taken])

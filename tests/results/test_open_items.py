@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.config.plugins import Discovery
+from diecut_report.errors import UserError
 from diecut_report.press import Press
 from diecut_report.results.model import OpenRecord
 from tests.configs import EXAMPLE, GOOD, HEAD, saved
@@ -133,6 +134,55 @@ def test_a_permitted_tilt_is_held_against_what_bearings_of_its_type_take(
     if not is_usual:
         assert warned[0].path == "mechanisms.b.checks.usual_values"
         assert "bearings.permitted_tilt / type_tilt = " in str(warned[0].why)
+
+
+@pytest.mark.parametrize(
+    ("type_", "designation", "rpm", "found"),
+    [  # d_m of 6209 and of all of its diameter series: 65 mm
+        ("deep_groove", "6209", 5000, "usual"), ("deep_groove", "6209", 1000, "warning"), ("deep_groove", "6209", 20_000, "warning"),
+        ("deep_groove", "6209", 100_000, "refused"), ("deep_groove", "6209", 500, "refused"), ("ball", "7209", 100_000, "refused"),
+        ("roller", "NU209E", 100_000, "refused"), ("roller", "NJ 2209", 100_000, "refused"), ("roller", "22209", 5000, "usual"),
+        ("ball", "7224", 5000, "assumed"), ("roller", "NA4909", 100_000, "assumed"), ("roller", "own make", 5000, "assumed"),
+    ],
+)  # fmt: skip
+def test_a_limiting_speed_is_held_against_the_mean_diameter_of_its_bearing(
+    type_: str, designation: str, rpm: float, found: str, tmp_path: Path
+) -> None:
+    typed = f"dynamic_rating: 60 kN, static_rating: 50 kN, limiting_speed: {rpm:g} rpm"
+    typed = typed if designation not in ("6209", "NU209E") else f"limiting_speed: {rpm:g} rpm"
+    text = HEAD + BEARING % (type_, designation, "", typed)
+    if found == "refused":
+        with pytest.raises(
+            UserError, match=r"gives bearings.limiting_speed \* mean_diameter / \(1 revolution\) = "
+        ) as refused:
+            left(tmp_path, text)
+        (problem,) = refused.value.problems
+        assert str(problem.path) == "mechanisms.b.bearings.0.limiting_speed"
+        return
+    own = [each for each in left(tmp_path, text) if each.path in (LIMITING, "mechanisms.b.checks.usual_values")]
+    assert [each.what for each in own] == ([] if found == "usual" else [found])
+
+
+LIMITING = "mechanisms.b.bearings.0.limiting_speed"
+
+
+@pytest.mark.parametrize("unknown", ["own make", "7224"])
+def test_a_limiting_speed_that_nothing_bounds_needs_a_basis(unknown: str, tmp_path: Path) -> None:
+    ratings, typed = "dynamic_rating: 60 kN, static_rating: 50 kN", "limiting_speed: {value: 5000 rpm, basis: %s}"
+    said = {basis: left(tmp_path, HEAD + BEARING % ("ball", unknown, "", f"{ratings}, {typed % basis}"))
+            for basis in ("given", "'catalogue', note: SKF 7224 BM")}  # fmt: skip
+    (given,), none = ([each for each in own if each.path == LIMITING] for own in said.values())
+    assert none == []
+    assert "nothing tells what it is held against" in str(given.why)
+
+
+def test_the_limiting_speed_of_a_part_is_judged_by_its_own_diameter(tmp_path: Path) -> None:
+    large = "      - {name: three, type: roller, designation: NU220E, radial_force: 2 kN, speed: 50 rpm, limiting_speed: %s rpm}\n"
+    typed = HEAD + BEARING % ("deep_groove", "6200", "", "limiting_speed: 35000 rpm")  # 0.7e6 mm/min, 4.9e6 of NU220E
+    assert not [each for each in left(tmp_path, typed + large % 4000) if "usual_values" in each.path]
+    with pytest.raises(UserError) as refused:
+        left(tmp_path, typed + large % 35_000)
+    assert [str(each.path) for each in refused.value.problems] == ["mechanisms.b.bearings.2.limiting_speed"]
 
 
 @pytest.mark.parametrize(

@@ -388,6 +388,22 @@ def test_the_flywheel_that_the_drive_train_sizes_is_compared_with_nothing() -> N
 
 
 @pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("plane: 15, bearing: NU2208E}", "plane: 15, bearing: NU2208E, limiting_speed: 50000 rpm}",
+         "bearings.limiting_speed * mean_diameter / (1 revolution) = 3000000 mm/min"),
+        ("chain: 12B,", "chain: 12B, bearing_area: 900 mm**2,", "is 900 mm², but the table has 87.97 mm² for this designation"),
+    ],
+)  # fmt: skip
+def test_values_of_a_maker_are_refused_where_a_part_has_them(old: str, new: str, words: str) -> None:
+    config, problems = changed(old, new)
+    with pytest.raises(UserError, match=re.escape(words)) as refused:
+        WarmPress(is_advised=False).calculate(config)
+    line = TEXT[: TEXT.index(old)].count("\n") + 1
+    assert not problems and f"{FILE}:{line}:" in str(refused.value)
+
+
+@pytest.mark.parametrize(
     ("typed", "missing"),
     [("mass: 80 kg}", "has no inertia"), ("inertia: 2.8 kg*m**2}", "has no mass"), ("bore: 50}", "has no inertia")],
 )
