@@ -159,7 +159,9 @@ def test_the_bearing_that_locates_a_shaft_takes_the_axial_force_of_its_helical_g
     # along the shaft F_x = F_t tan β, positive where a left-handed gear is turned from y to z, which are mirrored where the shaft is seen to turn
     # clockwise; the driven gear is left-handed where the driver is right-handed
     typed = load["gear"]["helix_angle"]
-    assert float((typed["value"] if isinstance(typed, dict) else typed).split()[0]) == pytest.approx(-SENSES["geneva"] * angle)
+    assert float((typed["value"] if isinstance(typed, dict) else typed).split()[0]) == pytest.approx(
+        -SENSES["geneva"] * angle
+    )
 
 
 def test_the_couplers_force_has_the_moment_of_the_torque_about_the_rockers_axis() -> None:
