@@ -295,15 +295,32 @@ class OpenValueTrials:
 
     def _changing(self, effects: Effects, corners: Mapping[K, Corner]) -> dict[K, bool]:
         """Whether the check of each corner changes its status there, or the machine cannot exist."""
-        if not corners:
-            return {}
-        made = self._tried(np.array([each.values(self.present) for each in corners.values()]))
-        found = {}
-        for row, (key, each) in enumerate(corners.items()):
-            codes = made.codes.get(each.check)
-            is_same = codes is not None and int(codes[row]) == effects.today[each.check]
-            found[key] = row in made.impossible or not is_same
+        found: dict[K, bool] = {}
+        for alone in (False, True):  # which of several corners makes their machine impossible shows alone
+            left = {key: each for key, each in corners.items() if key not in found}
+            if not left:
+                break
+            machines, rows = self._machines(list(left.values()), alone)
+            made = self._tried(machines)
+            for row, (key, each) in zip(rows, left.items(), strict=True):
+                if row not in made.impossible:
+                    codes = made.codes.get(each.check)
+                    found[key] = codes is None or int(codes[row]) != effects.today[each.check]
+                elif alone or rows.count(row) == 1:
+                    found[key] = True
         return found
+
+    def _machines(self, corners: Sequence[Corner], alone: bool) -> tuple[Array, list[int]]:
+        """Machines, shape (machines, trials), with the one of each corner: corners share it where no check feels the values of another one."""
+        machines, rows = list[Array](), list[int]()
+        for corner in corners:
+            felt = np.array([corner.check.partition(".")[0] in each.reached for each in self.trials])
+            own = np.where(felt, corner.values(self.present), np.nan)
+            fitting = (row for row, each in enumerate(machines) if not np.any(np.abs(own - each) > 0))
+            row = len(machines) if alone else next(fitting, len(machines))
+            machines[row : row + 1] = [np.where(felt, own, machines[row]) if row < len(machines) else own]
+            rows.append(row)
+        return np.where(np.isnan(machines), self.present, machines), rows
 
     def _tried(self, values: Array) -> TriedOpenValues:
         """Machines with these values, shape (machines, trials)."""
