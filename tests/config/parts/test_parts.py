@@ -184,7 +184,8 @@ BROKEN = [
     ("sprockets: [pinion.left, pinion.right]", "sprockets: [pinion.left, conveyor.left]", "side by side on pinion and conveyor"),
     ("pair: [main.pinion, crank.wheel]", "pair: [main.wheel, crank.wheel]", "joins main.wheel, which is joined already"),
     # what follows from the parts
-    ("    reserve_factor: 1.2\n", "    reserve_factor: 1.2\n    allowable_radial_force: 1 kN\n", "train.allowable_radial_force: is given here, but follows"),
+    ("    reserve_factor: 1.2\n", "    reserve_factor: 1.2\n    allowable_radial_force: 1 kN\n",
+     "train.allowable_radial_force: is given here, but follows"),
     ("belts: {motor: {pulleys: [motor.small, flywheel.large], section: SPA, diameters: 125/375, length: 2000, count: 1}}", "",
      "motor.radial_force: is compared with the load of no V-belt; remove the key"),
     ("teeth: 18/87, module: 4, width: 50}", "teeth: 18/87, module: 4, width: 50, torque: 3 N*m}", "main_drive.torque: is given here, but follows"),
@@ -224,8 +225,13 @@ def test_the_bearing_of_a_pin_may_touch_its_disc_or_its_supports() -> None:
 
 
 def test_the_shaft_of_the_motor_is_held_against_the_load_of_the_belt() -> None:
-    limit = whole().tree.data["mechanisms"]["train"]["allowable_radial_force"]
-    assert limit == {"value": "800 N", "basis": "assumed"} or limit == "800 N"
+    bases = {}
+    for name in ("flat_cylinder", "flat_cylinder_corrected"):
+        config = load_config(FILE.with_stem(name), DISCOVERY)
+        train = config.instances["train"]
+        assert train is not None and train.value(("allowable_radial_force",)) == 800
+        bases[name] = train.bases[("allowable_radial_force",)].basis
+    assert bases == {"flat_cylinder": "assumed", "flat_cylinder_corrected": "catalogue"}
     config, problems = changed(", radial_force: 800 N", "")
     assert not problems and "allowable_radial_force" not in config.tree.data["mechanisms"]["train"]
 
@@ -710,6 +716,23 @@ def test_what_is_left_out_of_a_part_is_not_rated(old: str, new: str, why: str) -
     config = examined(parse(TEXT.replace(old, new, 1), str(FILE)), DISCOVERY)[0]
     assert config.parts is not None
     assert why in {str(each.why) for each in unrated(config.parts, config.named("drive_train"), {}, "")}
+
+
+def test_the_shaft_of_a_motor_whose_force_nothing_compares_is_not_rated() -> None:
+    """Where there is no drive train, and where the motor drives by a gear."""
+    why = "motor: no method compares the force on its shaft with that which its maker allows"
+    geared = (
+        TEXT.replace("pulley: small", "gear: small")
+        .replace("pulley: large", "gear: large")
+        .replace(", radial_force: 800 N", "")
+    )
+    geared = re.sub(r"(?m)^belts: .*$", "", geared).replace(
+        "meshes:\n", "meshes:\n  motor: {pair: [motor.small, flywheel.large], teeth: 20/60, module: 5, width: 30}\n"
+    )
+    by_gear = examined(parse(geared, str(FILE)), DISCOVERY)[0].parts
+    assert by_gear is not None
+    for machine, train, is_open in ((parts(), "train", False), (parts(), None, True), (by_gear, "train", True)):
+        assert (why in {str(each.why) for each in unrated(machine, train, {}, "")}) == is_open
 
 
 @pytest.mark.parametrize(
