@@ -57,7 +57,8 @@ STEPS: dict[str, tuple[tuple[str, ...], set[str]]] = {
     "elements": (("bearings", "gear_key", "crank_key", "sector", "main_gears", "gripper_chain", "drive.sector_ratio"), COVER | TRUE_RATE),
     "station": (("timing.station",), COVER | TRUE_RATE | {"timing.carriage_height"}),
     "carriage": (("drive.carriage_clearance",), TRUE_RATE),
-    "limits": (("train.vbelt", "drive", "clutch", "damper", "crankshaft", "crank_pin", "rocker_pin", "consistency"), TRUE_RATE),
+    "limits": (("train.vbelt", "train.allowable_radial_force", "drive", "clutch",
+                "damper", "crankshaft", "crank_pin", "rocker_pin", "consistency"), TRUE_RATE),
     "rate": (("press.productivity", "train", "cross_shaft"), set()),
 }  # fmt: skip
 

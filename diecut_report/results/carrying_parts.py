@@ -71,9 +71,10 @@ def dotted(path: Sequence[str | int]) -> str:
     return ".".join(map(str, path))
 
 
-def is_rated(calculation: str, checks: Mapping[str, Sequence[CheckRecord]]) -> bool:
-    """Return whether a calculation rates its parts: it has checks of strength, and each of them was made."""
-    strength = [check for check in checks.get(calculation, ()) if check.check_class == "strength"]
+def is_rated(part: CarryingPart, checks: Mapping[str, Sequence[CheckRecord]]) -> bool:
+    """Return whether its calculation rates a part: it has checks of its strength, and each of them was made."""
+    own = (check for check in checks.get(part.calculation, ()) if part.is_own(check))
+    strength = [check for check in own if check.check_class == "strength"]
     return bool(strength) and all(check.status != "not_checked" for check in strength)
 
 
@@ -89,7 +90,7 @@ def rating(own: Sequence[CarryingPart], checks: Mapping[str, Sequence[CheckRecor
         for each in own
     }
     found, known = governing(made), [name for name in made if name in checks]
-    left = [each for each in own if not is_rated(each.calculation, checks)]
+    left = [each for each in own if not is_rated(each, checks)]
     state: State = "rated" if not left else "accepted" if all(each.accepted for each in left) else "not_rated"
     if found is None:
         return RatingRecord(state=state, calculation=known[0] if known else "")
@@ -99,7 +100,7 @@ def rating(own: Sequence[CarryingPart], checks: Mapping[str, Sequence[CheckRecor
 def counted(parts: MachineParts, train: str | None, checks: Mapping[str, Sequence[CheckRecord]]) -> PartCountRecord:
     """Return how many parts carry load, and how many of them are rated or accepted without."""
     every = list(carrying_parts(parts, train))
-    rated = [part for part in every if is_rated(part.calculation, checks)]
+    rated = [part for part in every if is_rated(part, checks)]
     accepted = sum(bool(part.accepted) for part in every if part not in rated)
     left = len(every) - len(rated) - accepted
     return PartCountRecord(carrying=len(every), rated=len(rated), accepted=accepted, not_rated=left)
@@ -111,12 +112,18 @@ def unrated(
     """Yield the parts that carry load and are neither rated nor accepted, with the reason."""
     own = parts.keys.owner or owner
     for part in carrying_parts(parts, train):
-        if not (part.accepted or is_rated(part.calculation, checks)):
+        if not (part.accepted or is_rated(part, checks)):
             is_there = part.calculation in checks
             why = phrase("not all of its checks of strength are made") if is_there else phrase("its load is not known")
             yield OpenRecord(
                 what="not_rated", path=part.path, owner=own, why=Phrase("{part}: {why}", part=part.name, why=why)
             )
+    for shaft in (each for each in parts.shafts.values() if each.keys.motor):
+        if any(join.word != "belts" or train is None for join in parts.joins if join.drivers[0].shaft is shaft):
+            why = Phrase(
+                "{part}: no method compares the force on its shaft with that which its maker allows", part=shaft.name
+            )
+            yield OpenRecord(what="not_rated", path=dotted(shaft.path), owner=own, why=why)
     every = [part for shaft in parts.shafts.values() for part in shaft.parts]
     driven = [join.driven[0].shaft for join in parts.joins if join.word == "belts" and join.driven]
     if train is not None and not any(

@@ -67,6 +67,8 @@ class DriveTrain(Inputs):
     run_up_torque_ratio: Annotated[float, Quantity("k_a", "1", "Ratio of mean run-up torque to rated torque of the motor", gt=0)] = 1.6
     run_up_load: Annotated[float, Quantity("k_l", "1", "Fraction of the mean torque that loads the motor during run-up (0: disengaged)", ge=0)] = 1.0
     motor_inertia: Annotated[float | None, Quantity("J_m", "kg*m**2", "Moment of inertia of the motor's rotor and pulley", ge=0)] = None
+    allowable_radial_force: Annotated[float | None,
+        Quantity("[F_r]", "N", "Radial force that the maker of the motor allows on its shaft, at the middle of the pulley", gt=0)] = None
     load_inertia: Annotated[float | None,
         Quantity("J_l", "kg*m**2", "Moment of inertia that runs up with the output shaft, referred to that shaft", ge=0)] = None
     allowable_run_up_time: Annotated[float,

@@ -109,6 +109,21 @@ def test_a_belt_slips_that_is_tensioned_for_less_than_the_greatest_pull(tension:
     assert status != "fail" or "299.7 N" in found.message
 
 
+@pytest.mark.parametrize(("allowed", "status"), [(None, "not_checked"), ("0.5 kN", "fail"), ("800 N", "pass")])
+def test_the_load_of_the_belts_is_held_against_what_the_maker_of_the_motor_allows(
+    allowed: str | None, status: str
+) -> None:
+    calc = train(**PRESS | ({} if allowed is None else {"allowable_radial_force": allowed}))
+    found = next(each for each in mechanism_results(calc, {}).checks if each.id == "motor_radial_force")
+    assert (found.status, found.check_class) == (status, "strength")
+    if allowed is None:
+        assert "allowable_radial_force" in found.message
+    else:
+        limit = {"0.5 kN": 500, "800 N": 800}[allowed]
+        assert found.utilisation == pytest.approx(number(calc, "shaft_load") / limit)
+        assert found.demand == pytest.approx(586, abs=1)  # § 6.2 of the method's sheet
+
+
 def test_fewer_belts_than_are_needed_fail() -> None:
     few = train(**PRESS | {"power_per_belt": "0.5 kW", "vbelt": PRESS["vbelt"] | {"count": 2}})  # type: ignore[operator]
     assert number(few, "vbelt_count_needed") == 5  # 1.3 · 1.5 kW/(0.5 kW · 0.9394 · 0.9606) = 4.32

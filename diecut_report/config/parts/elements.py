@@ -304,6 +304,8 @@ class Elements(ShaftElements):
         motor = join.drivers[0].shaft
         if motor.keys.motor is not None:
             fills["motor_speed"] = TypedValue((*motor.path, "motor", "speed"))
+            if motor.keys.motor.radial_force is not None:
+                fills["allowable_radial_force"] = TypedValue((*motor.path, "motor", "radial_force"))
         self.fills.setdefault(train, {}).update(fills)
 
     def _service_factor(self, train: str) -> float:

@@ -89,6 +89,21 @@ class PinKeys(Block):
     rolling_elements: Annotated[int | None, Quantity("Z_g", "1", "Rolling elements per row of the pin's bearing", ge=5, integer=True)] = None
     allowable_deflection: Annotated[float | None, size("[y]", "Allowable deflection of the pin", gt=0)] = None
 
+    @property
+    def supports(self) -> tuple[float, float]:
+        """Return its supports from its end, m: the faces of the disc that holds it, or those of its span."""
+        return (0.0, self.held) if self.held is not None else (self.span_start or 0.0, self.span_end or 0.0)
+
+    @property
+    def middle(self) -> float:
+        """Return the middle of its bearing from its end, m."""
+        return self.plane if self.held is None else self.held + self.plane
+
+    @property
+    def length(self) -> float:
+        """Return its length, m: as far beyond the bearing's middle as that is beyond the disc, or beyond both supports alike."""
+        return sum(self.supports) if self.held is None else self.held + 2 * self.plane
+
 
 class MotorKeys(Block):
     """A motor, whose shaft and bearings are its maker's."""

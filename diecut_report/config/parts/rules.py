@@ -36,6 +36,7 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_series, standard_table
+from diecut_report.text.phrases import Phrase, phrase
 
 LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
 KEY_TO_FILLET = 0.1  # of the shaft's diameter
@@ -354,6 +355,25 @@ def force_plane(parts: MachineParts) -> Iterator[Finding]:
                 plane=mm(part.keys.plane), width=mm(width))  # fmt: skip
 
 
+def pins(parts: MachineParts) -> Iterator[Finding]:
+    """The bearing of a pin stands on it with its whole width, off the face of its disc or off both its supports."""
+    for part, pin in ((part, part.keys.pin) for _, part in hubs(parts) if part.keys.pin is not None):
+        path, place = (*part.path, "pin", "plane"), pin.middle
+        width = (catalogue_size(pin.bearing, "B") or 0.0) if pin.bearing else 0.0
+        near = pin.supports[1] if pin.held is not None else min(pin.supports, key=lambda each: abs(place - each))
+        if (off := abs(place - near)) < width / 2 - SAME_PLACE:
+            support = (
+                phrase("the disc's face") if pin.held is not None else Phrase("the support at {place}", place=mm(near))
+            )
+            template = "has its middle {off} off {support}, but {bearing} is {width} wide; give at least half of that"
+            yield finding(parts, "pin_plane", "error", path, template, (*part.path, "pin", "bearing"), off=mm(off), support=support,
+                bearing=pin.bearing, width=mm(width))  # fmt: skip
+        elif not width / 2 - SAME_PLACE <= place <= pin.length - width / 2 + SAME_PLACE:
+            template = "reaches from {start} to {end}, but the pin from {first} to {last}; move it, or the supports"
+            yield finding(parts, "pin_plane", "error", path, template, (*part.path, "pin", "span"), start=mm(place - width / 2),
+                end=mm(place + width / 2), first=mm(0), last=mm(pin.length))  # fmt: skip
+
+
 def _weighed(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """Each body has a mass that loads its shaft, and an inertia: a Geneva wheel by its width, a flywheel as it is typed."""
     for _, part in hubs(parts):
@@ -447,6 +467,13 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
         if "efficiency" in typed and own not in {each[: len(own)] for each in used}:
             template = "goes into no calculation, as no torque on this pair is known by which way the power flows; remove the key"
             yield finding(parts, "names", "error", own, template)
+    for own in (
+        (*each.path, "motor", "radial_force")
+        for each in parts.shafts.values()
+        if each.keys.motor and each.keys.motor.radial_force
+    ):
+        if own not in used:
+            yield finding(parts, "names", "error", own, "is compared with the load of no V-belt; remove the key")
     service = [("machine", key) for key in SERVICE_KEYS if key in parts.reader.data["machine"]]
     if not used.intersection(service):
         for own in service:
@@ -457,5 +484,5 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
     few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
-    torque_carried, integral, force_plane, axes, one_belt, center, frame, mesh_pair, sector, chain,
+    torque_carried, integral, force_plane, pins, axes, one_belt, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

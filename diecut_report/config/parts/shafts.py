@@ -304,16 +304,12 @@ class ShaftElements(Masses, LoadCases):
         if pin is None or port is None or not part.port or not port.joint[0]:
             return
         mechanism, path = part.port[0], (*part.path, "pin")
-        if pin.held is not None:
-            length, supports = pin.held + 2 * pin.plane, (0.0, pin.held)
-            plane = pin.held + pin.plane
-        else:
-            supports = (pin.span_start or 0.0, pin.span_end or 0.0)
-            length, plane = sum(supports), pin.plane
+        length, middle, *supports = (
+            TypedNumber(millimetres(each), path) for each in (pin.length, pin.middle, *pin.supports)
+        )
         inputs: dict[str, Any] = {
-            "sections": [{"length": TypedNumber(millimetres(length), path), "diameter": TypedValue((*path, "diameter"))}],
-            "bearing_a": TypedNumber(millimetres(supports[0]), path), "bearing_b": TypedNumber(millimetres(supports[1]), path),
-            "loads": [{"name": "joint", "position": TypedNumber(millimetres(plane), path), "seat": "loose"} | self._joint_force(mechanism, port)],
+            "sections": [{"length": length, "diameter": TypedValue((*path, "diameter"))}], "bearing_a": supports[0], "bearing_b": supports[1],
+            "loads": [{"name": "joint", "position": middle, "seat": "loose"} | self._joint_force(mechanism, port)],
         }  # fmt: skip
         if pin.held is not None:
             inputs["notches"] = [{"position": TypedNumber(millimetres(pin.held), path), "type": "press_fit"}]

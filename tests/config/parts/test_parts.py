@@ -19,7 +19,7 @@ from diecut_report.config.validation import Basis
 from diecut_report.config.yaml import parse
 from diecut_report.errors import Problem, UserError
 from diecut_report.press import Press
-from diecut_report.results.carrying_parts import carrying_parts, is_rated, unrated
+from diecut_report.results.carrying_parts import CarryingPart, carrying_parts, is_rated, unrated
 from diecut_report.results.open_items import is_formula, unrated_forces
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
@@ -138,6 +138,14 @@ BROKEN = [
     ("key: 50, plane: 20, mass", "key: 50, mass", "has neither a pin nor a plane"),
     ("key: 50, plane: 20, mass", "key: 50, plane: 12, mass", "is 12 mm beyond the disc, but the roller is 25 mm wide"),
     ("key: 50, plane: 20, mass", "key: 50, plane: -20, mass", "is -20 mm beyond the disc, but the roller is 25 mm wide"),
+    # the bearing of a pin stands beyond its disc or between its supports, and on the pin
+    ("held: 50, plane: 15,", "held: 50, plane: 3,", "has its middle 3 mm off the disc's face, but NU2208E is 23 mm wide"),
+    ("held: 50, plane: 15,", "held: 50, plane: 0,", "has its middle 0 mm off the disc's face, but NU2208E is 23 mm wide"),
+    ("span: [15, 75], plane: 45,", "span: [15, 75], plane: 25,", "has its middle 10 mm off the support at 15 mm, but NU2208E is 23 mm wide"),
+    ("span: [15, 75], plane: 45,", "span: [15, 75], plane: 65,", "has its middle 10 mm off the support at 75 mm, but NU2208E is 23 mm wide"),
+    ("span: [15, 75], plane: 45,", "span: [20, 50], plane: 65,", "reaches from 53.5 mm to 76.5 mm, but the pin from 0 mm to 70 mm"),
+    ("span: [15, 75], plane: 45,", "span: [30, 75], plane: 10,", "reaches from -1.5 mm to 21.5 mm, but the pin from 0 mm to 105 mm"),
+    ("span: [15, 75], plane: 45, bearing: NU2208E", "span: [15, 75], plane: 120", "reaches from 120 mm to 120 mm, but the pin from 0 mm to 90 mm"),
     # what would make a shaft, or a part, vanish
     ("sections: 45x70 r1, 50x40 r1, 60x320 r1, 50x40", "sections: []", "shafts.main: has no sections"),
     ("  far:\n", "  far:\n    motor: {speed: 3 rpm}\n", "but the shaft has sections; remove one of them"),
@@ -176,6 +184,10 @@ BROKEN = [
     ("sprockets: [pinion.left, pinion.right]", "sprockets: [pinion.left, conveyor.left]", "side by side on pinion and conveyor"),
     ("pair: [main.pinion, crank.wheel]", "pair: [main.wheel, crank.wheel]", "joins main.wheel, which is joined already"),
     # what follows from the parts
+    ("    reserve_factor: 1.2\n", "    reserve_factor: 1.2\n    allowable_radial_force: 1 kN\n",
+     "train.allowable_radial_force: is given here, but follows"),
+    ("belts: {motor: {pulleys: [motor.small, flywheel.large], section: SPA, diameters: 125/375, length: 2000, count: 1}}", "",
+     "motor.radial_force: is compared with the load of no V-belt; remove the key"),
     ("teeth: 18/87, module: 4, width: 50}", "teeth: 18/87, module: 4, width: 50, torque: 3 N*m}", "main_drive.torque: is given here, but follows"),
     ("teeth: 18/87, module: 4, width: 50}", "teeth: 18/87, module: 4, width: 50, torque_on: wheel}", "torque_on: is given here, but follows"),
     ("teeth: 18/87, module: 4, width: 50}", "teeth: 18/87, module: 4, width: 50, center_distance: 250 mm}", "center_distance: is given here"),
@@ -200,6 +212,28 @@ def test_what_contradicts_itself_is_refused_at_its_place(old: str, new: str, tol
     _, problems = changed(old, new)
     assert [problem for problem in problems if told in problem], problems
     assert all(str(FILE) in problem for problem in problems)
+
+
+def test_the_bearing_of_a_pin_may_touch_its_disc_or_its_supports() -> None:
+    for old, new in (
+        ("held: 50, plane: 15,", "held: 50, plane: 11.5,"),
+        ("span: [15, 75], plane: 45,", "span: [15, 75], plane: 63.5,"),
+    ):
+        assert not changed(old, new)[1], new
+    (problem,) = changed("held: 50, plane: 15,", "held: 50, plane: 11.4,")[1]
+    assert re.search(r"pin\.plane: .* \(against .*:\d+:\d+\)", problem), problem
+
+
+def test_the_shaft_of_the_motor_is_held_against_the_load_of_the_belt() -> None:
+    bases = {}
+    for name in ("flat_cylinder", "flat_cylinder_corrected"):
+        config = load_config(FILE.with_stem(name), DISCOVERY)
+        train = config.instances["train"]
+        assert train is not None and train.value(("allowable_radial_force",)) == 800
+        bases[name] = train.bases[("allowable_radial_force",)].basis
+    assert bases == {"flat_cylinder": "assumed", "flat_cylinder_corrected": "catalogue"}
+    config, problems = changed(", radial_force: 800 N", "")
+    assert not problems and "allowable_radial_force" not in config.tree.data["mechanisms"]["train"]
 
 
 def test_a_derived_key_is_refused_with_the_place_that_it_follows_from() -> None:
@@ -700,6 +734,23 @@ def test_what_is_left_out_of_a_part_is_not_rated(old: str, new: str, why: str) -
     assert why in {str(each.why) for each in unrated(config.parts, config.named("drive_train"), {}, "")}
 
 
+def test_the_shaft_of_a_motor_whose_force_nothing_compares_is_not_rated() -> None:
+    """Where there is no drive train, and where the motor drives by a gear."""
+    why = "motor: no method compares the force on its shaft with that which its maker allows"
+    geared = (
+        TEXT.replace("pulley: small", "gear: small")
+        .replace("pulley: large", "gear: large")
+        .replace(", radial_force: 800 N", "")
+    )
+    geared = re.sub(r"(?m)^belts: .*$", "", geared).replace(
+        "meshes:\n", "meshes:\n  motor: {pair: [motor.small, flywheel.large], teeth: 20/60, module: 5, width: 30}\n"
+    )
+    by_gear = examined(parse(geared, str(FILE)), DISCOVERY)[0].parts
+    assert by_gear is not None
+    for machine, train, is_open in ((parts(), "train", False), (parts(), None, True), (by_gear, "train", True)):
+        assert (why in {str(each.why) for each in unrated(machine, train, {}, "")}) == is_open
+
+
 @pytest.mark.parametrize(
     "typed", ["'0.6 * {}'", "' 0.6 * {}'", '"\\x30.6 * {}"', "&limit '0.6 * {}'", "'0.6\n    * {}'"]
 )
@@ -741,7 +792,10 @@ def test_a_part_is_rated_by_checks_of_strength_that_are_all_made() -> None:
     left: Any = SimpleNamespace(check_class="strength", status="not_checked")
     other: Any = SimpleNamespace(check_class="function", status="pass")
     checks = {"sound": [made, other], "partly": [made, left], "light": [other]}
-    assert [is_rated(name, checks) for name in (*checks, "nobody")] == [True, False, False, False]
+    every = [CarryingPart("wheel", "", name) for name in (*checks, "nobody")]
+    assert [is_rated(part, checks) for part in every] == [True, False, False, False]
+    left.id, made.id = "motor_radial_force", "vbelt_count"  # of the motor's shaft, and of the belt
+    assert is_rated(CarryingPart("belt", "", "partly", is_own=lambda check: check.id.startswith("vbelt")), checks)
 
 
 @pytest.mark.nightly
