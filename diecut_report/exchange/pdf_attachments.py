@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import io
-import pickle
+import json
 import re
 import resource
 import subprocess
 import sys
 import zlib
+from base64 import b64decode, b64encode
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import Any
@@ -17,7 +18,7 @@ import pikepdf
 from pikepdf import settings
 
 from diecut_report.errors import UserError, refusal
-from diecut_report.text.phrases import phrase
+from diecut_report.text.phrases import Phrase, phrase
 
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
@@ -49,6 +50,10 @@ SEVERAL = phrase(
 
 
 Attachments = dict[str, bytes | None]
+Fault = tuple[str, dict[str, str]]  # the template of a message, and its values
+ENDLESS = phrase(
+    "The PDF is not read within {seconds} s and {gigabytes} GB of memory. Give the file as the program wrote it."
+)
 
 
 def attachments(content: bytes, most: int, file: str) -> Attachments:
@@ -57,52 +62,55 @@ def attachments(content: bytes, most: int, file: str) -> Attachments:
     Whatever a few bytes make the library unpack or walk through cannot be interrupted, so a process of its own, which the system can
     end, reads it.
     """
-    found = _read_apart(content, most, file)
-    if isinstance(found, UserError):
-        raise found
-    if found is None:
-        template = "The PDF is not read within {seconds} s and {gigabytes} GB of memory. Give the file as the program wrote it."
-        raise refusal(template, file, seconds=SECONDS, gigabytes=GIGABYTES)
+    found, fault = _read_apart(content, most)
+    if fault is not None:
+        raise refusal(fault[0], file, **fault[1])
     return found
 
 
 @lru_cache(maxsize=1)
-def _read_apart(content: bytes, most: int, file: str) -> Attachments | UserError | None:
+def _read_apart(content: bytes, most: int) -> tuple[Attachments, Fault | None]:
     limits = [str(each) for each in (most, SECONDS, GIGABYTES)]
-    command = [sys.executable, "-I", "-c", APART, *limits, file]
+    command = [sys.executable, "-I", "-c", APART, *limits]
     read = subprocess.run(command, input=content, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
-    return pickle.loads(read.stdout) if read.returncode == 0 else None
+    if read.returncode != 0:
+        return {}, (ENDLESS, {"seconds": f"{SECONDS}", "gigabytes": f"{GIGABYTES}"})
+    found, fault = json.loads(read.stdout)
+    return {name: each if each is None else b64decode(each) for name, each in found.items()}, fault
 
 
-def print_attachments(most: str, seconds: str, gigabytes: str, file: str) -> None:
-    """Read the PDF on the standard input within limits, and print its attachments pickled, or the UserError."""
+def print_attachments(most: str, seconds: str, gigabytes: str) -> None:
+    """Read the PDF on the standard input within limits, and print its attachments as JSON, or what is wrong with it."""
     for resource_kind, limit in ((resource.RLIMIT_CPU, int(seconds)), (resource.RLIMIT_AS, int(gigabytes) << 30)):
         hard = resource.getrlimit(resource_kind)[1]
         resource.setrlimit(resource_kind, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
-    found: Attachments | UserError
+    found, fault = Attachments(), None
     try:
-        found = _attachments(sys.stdin.buffer.read(), int(most), file)
+        found = _attachments(sys.stdin.buffer.read(), int(most))
     except UserError as error:
-        found = error
-    sys.stdout.buffer.write(pickle.dumps(found))
+        message = error.problems[0].message
+        assert isinstance(message, Phrase), "a refusal has one"
+        fault = message.template, message.values
+    packed = {name: each if each is None else b64encode(each).decode() for name, each in found.items()}
+    sys.stdout.write(json.dumps((packed, fault)))
 
 
-def _attachments(content: bytes, most: int, file: str) -> Attachments:
+def _attachments(content: bytes, most: int) -> Attachments:
     bounded(most)
     try:
         with opened(content) as pdf:
-            found = _found(pdf, most, file)
-        _refuse_former(content, found, most, file)
+            found = _found(pdf, most)
+        _refuse_former(content, found, most)
         return found
     except MemoryError:
         raise
     except pikepdf.PasswordError as error:
-        raise refusal("The PDF is encrypted, and opens only with a password. Give one without.", file) from error
+        raise refusal("The PDF is encrypted, and opens only with a password. Give one without.") from error
     except FAULTS as error:
         template = (
             "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it."
         )
-        raise refusal(template, file, most=f"{most / 1e6:g}") from error
+        raise refusal(template, most=f"{most / 1e6:g}") from error
 
 
 def opened(content: bytes) -> pikepdf.Pdf:
@@ -128,44 +136,44 @@ def bounded(most: int) -> None:
     )  # fmt: skip
 
 
-def _found(pdf: pikepdf.Pdf, most: int, file: str) -> Attachments:
+def _found(pdf: pikepdf.Pdf, most: int) -> Attachments:
     # the names only tell which attachment it is; nothing is written under them
-    return {name: _content(streams, name, most, file) for name, streams in _named(pdf, file).items()}
+    return {name: _content(streams, name, most) for name, streams in _named(pdf).items()}
 
 
-def _content(streams: Mapping[tuple[int, int], pikepdf.Stream], name: str, most: int, file: str) -> bytes | None:
+def _content(streams: Mapping[tuple[int, int], pikepdf.Stream], name: str, most: int) -> bytes | None:
     if len(streams) > 1:
-        raise refusal(SEVERAL, file, count=len(streams), name=name)
+        raise refusal(SEVERAL, count=len(streams), name=name)
     content = next((bytes(each.read_bytes()) for each in streams.values()), None)
     if content is not None and len(content) > most:
         template = "What is attached is too large: {count} MB; at most {most} MB are taken."
-        raise refusal(template, file, count=f"{len(content) / 1e6:.1f}", most=f"{most / 1e6:g}")
+        raise refusal(template, count=f"{len(content) / 1e6:.1f}", most=f"{most / 1e6:g}")
     return content
 
 
-def _refuse_former(content: bytes, found: Attachments, most: int, file: str) -> None:
+def _refuse_former(content: bytes, found: Attachments, most: int) -> None:
     """UserError where the file held another attachment of a name before something was added to it: readers of PDF may show either."""
     ends = [end.end() for end in END.finditer(content)][:-1]
     if len(ends) > MOST_REVISIONS:
         template = "The PDF was added to {count} times. Give the file as the program wrote it."
-        raise refusal(template, file, count=len(ends))
+        raise refusal(template, count=len(ends))
     for end in ends:
         try:
             with opened(content[:end]) as pdf:
-                former = _found(pdf, most, file)
+                former = _found(pdf, most)
         except MemoryError:
             raise
         except FAULTS:  # no end of a PDF: the letters stand in a stream
             continue
         for name, each in former.items():
             if each is not None and each != found[name]:
-                raise refusal(SEVERAL, file, count=2, name=name)
+                raise refusal(SEVERAL, count=2, name=name)
 
 
-def _named(pdf: pikepdf.Pdf, file: str) -> dict[str, dict[tuple[int, int], pikepdf.Stream]]:
+def _named(pdf: pikepdf.Pdf) -> dict[str, dict[tuple[int, int], pikepdf.Stream]]:
     """The attachments of each name, wherever the PDF has them: among its attachments, at an annotation, or as an associated file."""
     names = pdf.Root.get("/Names", pikepdf.Dictionary())
-    specs = [(str(label), spec) for label, spec in _labelled(names.get("/EmbeddedFiles"), file)]
+    specs = [(str(label), spec) for label, spec in _labelled(names.get("/EmbeddedFiles"))]
     risky = (part for each in pdf.objects if b"/EF" in each.unparse(resolved=True) for part in _dictionaries(each, 0))
     specs += [(str(part.get(key, "")), part) for part in risky if "/EF" in part for key in NAMES]
     found: dict[str, dict[tuple[int, int], pikepdf.Stream]] = {name: {} for name in ATTACHED}
@@ -177,7 +185,7 @@ def _named(pdf: pikepdf.Pdf, file: str) -> dict[str, dict[tuple[int, int], pikep
     return found
 
 
-def _labelled(tree: Any, file: str) -> list[tuple[Any, Any]]:
+def _labelled(tree: Any) -> list[tuple[Any, Any]]:
     """What a tree names; UserError for more than MOST_ATTACHED, which nodes that stand in it again and again name without an end."""
     nodes, found = [] if tree is None else [tree], list[tuple[Any, Any]]()
     for node in nodes:
@@ -186,7 +194,7 @@ def _labelled(tree: Any, file: str) -> list[tuple[Any, Any]]:
         nodes.extend(node.get("/Kids", ()))
         if len(nodes) + len(found) > MOST_ATTACHED:
             template = "The PDF lists more than {most} attachments, or the same ones again and again. Give the file as the program wrote it."
-            raise refusal(template, file, most=MOST_ATTACHED)
+            raise refusal(template, most=MOST_ATTACHED)
     return found
 
 
