@@ -203,9 +203,8 @@ class ShaftElements(Masses, LoadCases):
             "pitch_radius": self._pitch_radius(join, part),
             "mesh_angle": TypedNumber(f"{angle:.10g} deg", ("machine", "frame")),
         }
-        if (
-            join.keys.helix_angle
-        ):  # a pair has teeth of opposite hands; those of a right-handed gear push against its torque
+        if join.keys.helix_angle:
+            # a pair has teeth of opposite hands; those of a right-handed gear push against its torque
             hand = -sense if part in join.drivers else sense
             found["helix_angle"] = TypedNumber(f"{hand * degrees(join.keys.helix_angle):.12g} deg", join.path)
         return found

@@ -179,9 +179,8 @@ def dips(calc: Calculation, curve: str) -> Array:
     same = (np.sign(before) == np.sign(here)) & (np.sign(here) == np.sign(after))
     rise = np.maximum(np.abs(before), np.abs(after))
     noise = NOISE * pieces.of_variants(np.maximum, sizes)[pieces.variant, 0]
-    near = (
-        same & (2 * np.abs(here) <= rise) & (rise > noise[piece])
-    )  # a dip no deeper than its rise; not of what rests at zero
+    # a dip no deeper than its rise; what rests at zero has none
+    near = same & (2 * np.abs(here) <= rise) & (rise > noise[piece])
     piece, k = piece[near], k[near]
     if not len(piece):
         return np.full((calc.count, 0), np.nan)
