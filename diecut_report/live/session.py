@@ -199,10 +199,11 @@ class LiveSession:
         for error in run.errors.values():
             raise error
         _require_shown(run)
-        numbers, choices = given_numbers(config), given_choices(config)
-        return LiveMachine(
-            tree, config, run, {each.name: each for each in numbers}, {each.name: each for each in choices}
+        numbers, choices = (  # those that the parts of the machine give are changed where the parts are described
+            {each.name: each for each in found if tree.typed(each.stands) is not None}
+            for found in (given_numbers(config), given_choices(config))
         )
+        return LiveMachine(tree, config, run, numbers, choices)
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)

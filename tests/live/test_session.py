@@ -14,6 +14,7 @@ import pytest
 
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.references import rewritten
 from diecut_report.config.yaml import Tree
 from diecut_report.design.machines import UTILISATION, varied
 from diecut_report.errors import UserError
@@ -223,6 +224,17 @@ def test_a_change_stays_over_a_list_that_grows_behind_its_named_item(tmp_path: P
     replaced(session, "mass: 8 kg}", "mass: 8 kg}, {name: new, position: 50 mm, mass: 1 kg}")
     session.write()
     assert "force_y: 3 kN, mass: 9 kg}" in session.file.read_text("utf-8") and session.edits == {}
+
+
+def test_of_a_machine_of_parts_it_offers_the_numbers_that_the_mechanisms_give(tmp_path: Path) -> None:
+    file = tmp_path / "machine.yaml"
+    file.write_bytes((KNIFE.parent / "machines" / "flat_cylinder.yaml").read_bytes())
+    session = LiveSession(file, Discovery([]))
+    assert session.machine and session.tree and not session.faults
+    offered = [*session.machine.inputs.values(), *session.machine.choices.values()]
+    assert "drive.crank_length" in session.machine.inputs and len(offered) > 20
+    given = {each.stands: str(each.written) for each in offered}
+    assert rewritten(session.tree, given).text == session.tree.text
 
 
 @pytest.mark.parametrize("spoilt", ["- 1\n", "schema_version: 1\nmechanisms: []\n", "mechanisms:\n  - knife: {}\n"])
