@@ -199,15 +199,18 @@ class LiveSession:
         for error in run.errors.values():
             raise error
         _require_shown(run)
-        numbers, choices = (  # those that the parts of the machine give are changed where the parts are described
-            {each.name: each for each in found if tree.typed(each.stands) is not None}
-            for found in (given_numbers(config), given_choices(config))
+        return LiveMachine(
+            tree, config, run, typed_in(tree, given_numbers(config)), typed_in(tree, given_choices(config))
         )
-        return LiveMachine(tree, config, run, numbers, choices)
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)
         self.serial += 1
+
+
+def typed_in(tree: Tree, inputs: Iterable[DesignInput]) -> dict[str, DesignInput]:
+    """Return by name the inputs that a file gives; those that the parts of its machine make are changed where the parts are described."""
+    return {each.name: each for each in inputs if tree.typed(each.stands) is not None}
 
 
 def _items(tree: Tree, place: KeyPath) -> list[object]:

@@ -13,13 +13,15 @@ import numpy as np
 import pytest
 
 from diecut_report.config import yaml
+from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import rewritten
 from diecut_report.config.yaml import Tree
+from diecut_report.design.inputs import given_choices, given_numbers
 from diecut_report.design.machines import UTILISATION, varied
 from diecut_report.errors import UserError
 from diecut_report.live.page import WORDS, Pictures, assets, effect, page, page_data, slider
-from diecut_report.live.session import LiveSession
+from diecut_report.live.session import LiveSession, typed_in
 from diecut_report.press import Press
 from diecut_report.results.warm_press import WarmRun
 from diecut_report.text.translation import speaking
@@ -226,15 +228,13 @@ def test_a_change_stays_over_a_list_that_grows_behind_its_named_item(tmp_path: P
     assert "force_y: 3 kN, mass: 9 kg}" in session.file.read_text("utf-8") and session.edits == {}
 
 
-def test_of_a_machine_of_parts_it_offers_the_numbers_that_the_mechanisms_give(tmp_path: Path) -> None:
-    file = tmp_path / "machine.yaml"
-    file.write_bytes((KNIFE.parent / "machines" / "flat_cylinder.yaml").read_bytes())
-    session = LiveSession(file, Discovery([]))
-    assert session.machine and session.tree and not session.faults
-    offered = [*session.machine.inputs.values(), *session.machine.choices.values()]
-    assert "drive.crank_length" in session.machine.inputs and len(offered) > 20
-    given = {each.stands: str(each.written) for each in offered}
-    assert rewritten(session.tree, given).text == session.tree.text
+def test_of_a_machine_of_parts_it_offers_the_numbers_that_the_mechanisms_give() -> None:
+    file = KNIFE.parent / "machines" / "flat_cylinder.yaml"
+    tree, config = yaml.read(file), load_config(file, Discovery([]))
+    offered = typed_in(tree, [*given_numbers(config), *given_choices(config)])
+    assert "drive.crank_length" in offered and 20 < len(offered) < 100
+    given = {each.stands: str(each.written) for each in offered.values()}
+    assert rewritten(tree, given).text == tree.text
 
 
 @pytest.mark.parametrize("spoilt", ["- 1\n", "schema_version: 1\nmechanisms: []\n", "mechanisms:\n  - knife: {}\n"])
