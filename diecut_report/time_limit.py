@@ -66,7 +66,7 @@ def in_time() -> Iterator[None]:
 
 @contextmanager
 def limited(seconds: float | None, *, own_process: bool = False) -> Iterator[None]:
-    """Raise Overran in what runs within, once it has taken so long.
+    """Raise Overran in what runs within, once it has taken so long. What runs is called: a loop beside it in the frame of this ``with`` may escape.
 
     What computes in a library without coming back to Python cannot be interrupted; a process of its own is ended then.
     """

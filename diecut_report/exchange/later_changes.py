@@ -15,7 +15,6 @@ from diecut_report.exchange.added_sections import AddedRevision, revisions
 from diecut_report.exchange.carried import MOST_RESULTS
 from diecut_report.exchange.pdf_attachments import bounded, opened
 from diecut_report.exchange.signature_drawing import drawings
-from diecut_report.text.phrases import Phrase, phrase
 
 OF_FIELD = {"/V", "/AP", "/F", "/M"}  # what signing sets in a field: the signature, how it shows, its flags, its time
 OF_FORM = {"/SigFlags", "/Fields"}  # the fields may grow by document timestamps
@@ -28,9 +27,6 @@ OF_SIGNATURE = {"/Type", "/Filter", "/SubFilter", "/ByteRange", "/Contents", "/M
                 "/Reference"}  # fmt: skip
 OF_PROOF = {"/Type", "/Cert", "/CRL", "/OCSP", "/TU", "/TS"}  # of one signature
 WRAPPED = re.compile(rb"q q (?:/BackgroundGS gs )?1 0 0 1 0 0 cm (.*) Q Q", re.DOTALL)
-MOST_ROWS = (
-    2_000_000  # of the table of objects, each of which the library that signs keeps: a large report has some 200 000
-)
 FLAGS = 4 | 128 | 512
 """Printed, locked, its contents locked; others let a field grow over the sheet where it is shown small."""
 FAULTS = (pikepdf.PasswordError, *pdf_attachments.FAULTS)
@@ -252,22 +248,6 @@ def _reached(found: Any, depth: int = 5) -> set[int]:
             inner = each.values() if isinstance(each, pikepdf.Dictionary) else listed
             waiting += [(one, left - 1) for one in inner]
     return numbers
-
-
-def fault(content: bytes) -> str:
-    """Return why the objects of a PDF cannot be read within bounds; "" where they can, so that a library without bounds may read them."""
-    bounded(MOST_RESULTS)
-    try:
-        with opened(content) as pdf:
-            if int(pdf.trailer.Size) > MOST_ROWS or pdf.get_warnings():
-                return Phrase("its table of objects is damaged, or has more than {most} rows", most=MOST_ROWS)
-            for _ in pdf.objects:  # each is unpacked from the stream that holds it
-                pass
-    except pikepdf.PasswordError:
-        return phrase("it is encrypted, and opens only with a password")
-    except FAULTS as error:
-        return f"{error}" or type(error).__name__
-    return ""
 
 
 def added_proofs(before: bytes, after: bytes) -> bool:

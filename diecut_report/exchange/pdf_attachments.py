@@ -26,12 +26,15 @@ DEEPEST = 100
 MOST_ATTACHED = 1000  # files, with the nodes of their tree
 MOST_REVISIONS = 40
 MOST_TO_OPEN = 48_000_000  # bytes that a stream unpacks to while a PDF is opened; the catalogue of a large report stands in one of 20 MB
-SECONDS = 30  # of the processor, for reading a PDF in a process of its own: a large report takes 2
+SECONDS = 20  # of the processor, for reading a PDF in a process of its own: a large report takes 2
 GIGABYTES = 4  # of memory there: a large report takes 0.4
 APART = (
     "import sys; from diecut_report.exchange.pdf_attachments import print_attachments; print_attachments(*sys.argv[1:])"
 )
 ATTACHED = ("results.json", "config.yaml")
+MOST_ROWS = (
+    2_000_000  # of the table of objects, each of which the library that signs keeps: a large report has some 200 000
+)
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
 END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
 PDF_FAULTS = (
@@ -62,21 +65,31 @@ def attachments(content: bytes, most: int, file: str) -> Attachments:
     Whatever a few bytes make the library unpack or walk through cannot be interrupted, so a process of its own, which the system can
     end, reads it.
     """
-    found, fault = _read_apart(content, most)
+    found, fault, _ = _read_apart(content, most)
     if fault is not None:
         raise refusal(fault[0], file, **fault[1])
     return found
 
 
+def damage(content: bytes, most: int) -> str:
+    """Return why a library that reads without bounds may not read a PDF; "" where it may. ``most`` is that of ``attachments``."""
+    _, fault, is_damaged = _read_apart(content, most)
+    if not is_damaged:
+        return ""
+    template = "its table of objects is damaged, or has more than {most} rows"
+    return Phrase(*fault) if fault else Phrase(template, most=MOST_ROWS)
+
+
 @lru_cache(maxsize=1)
-def _read_apart(content: bytes, most: int) -> tuple[Attachments, Fault | None]:
+def _read_apart(content: bytes, most: int) -> tuple[Attachments, Fault | None, bool]:
+    """The attachments, what is wrong with the PDF, and whether its table of objects is damaged."""
     limits = [str(each) for each in (most, SECONDS, GIGABYTES)]
     command = [sys.executable, "-I", "-c", APART, *limits]
     read = subprocess.run(command, input=content, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
     if read.returncode != 0:
-        return {}, (ENDLESS, {"seconds": f"{SECONDS}", "gigabytes": f"{GIGABYTES}"})
-    found, fault = json.loads(read.stdout)
-    return {name: each if each is None else b64decode(each) for name, each in found.items()}, fault
+        return {}, (ENDLESS, {"seconds": f"{SECONDS}", "gigabytes": f"{GIGABYTES}"}), True
+    found, fault, is_damaged = json.loads(read.stdout)
+    return {name: each if each is None else b64decode(each) for name, each in found.items()}, fault, is_damaged
 
 
 def print_attachments(most: str, seconds: str, gigabytes: str) -> None:
@@ -84,33 +97,34 @@ def print_attachments(most: str, seconds: str, gigabytes: str) -> None:
     for resource_kind, limit in ((resource.RLIMIT_CPU, int(seconds)), (resource.RLIMIT_AS, int(gigabytes) << 30)):
         hard = resource.getrlimit(resource_kind)[1]
         resource.setrlimit(resource_kind, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
-    found, fault = Attachments(), None
-    try:
-        found = _attachments(sys.stdin.buffer.read(), int(most))
-    except UserError as error:
-        message = error.problems[0].message
-        assert isinstance(message, Phrase), "a refusal has one"
-        fault = message.template, message.values
+    found, fault, is_damaged = _attachments(sys.stdin.buffer.read(), int(most))
     packed = {name: each if each is None else b64encode(each).decode() for name, each in found.items()}
-    sys.stdout.write(json.dumps((packed, fault)))
+    sys.stdout.write(json.dumps((packed, fault and (fault.template, fault.values), is_damaged)))
 
 
-def _attachments(content: bytes, most: int) -> Attachments:
+def _attachments(content: bytes, most: int) -> tuple[Attachments, Phrase | None, bool]:
+    """What ``_read_apart`` tells."""
     bounded(most)
+    found, is_damaged = Attachments(), False
+    fault: str | None = None
     try:
         with opened(content) as pdf:
+            is_damaged = int(pdf.trailer.Size) > MOST_ROWS or bool(pdf.get_warnings())
             found = _found(pdf, most)
         _refuse_former(content, found, most)
-        return found
     except MemoryError:
         raise
-    except pikepdf.PasswordError as error:
-        raise refusal("The PDF is encrypted, and opens only with a password. Give one without.") from error
-    except FAULTS as error:
+    except UserError as error:
+        fault = error.problems[0].message
+    except pikepdf.PasswordError:
+        fault, is_damaged = Phrase("The PDF is encrypted, and opens only with a password. Give one without."), True
+    except FAULTS:
         template = (
             "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it."
         )
-        raise refusal(template, most=f"{most / 1e6:g}") from error
+        fault, is_damaged = Phrase(template, most=f"{most / 1e6:g}"), True
+    assert fault is None or isinstance(fault, Phrase), "what refuses has a template"
+    return found, fault, is_damaged
 
 
 def opened(content: bytes) -> pikepdf.Pdf:

@@ -23,15 +23,25 @@ from pyhanko.sign.validation.settings import KeyUsageConstraints
 from pyhanko.sign.validation.status import SignatureCoverageLevel
 from pyhanko_certvalidator import ValidationContext
 
-from diecut_report.exchange.later_changes import added_proofs, fault, only_signed
-from diecut_report.exchange.pdf_attachments import PDF_FAULTS
-from diecut_report.exchange.signing_keys import MOST, WEAK_DIGESTS, certificates_in, name_of, weak_key
+from diecut_report.errors import refusal
+from diecut_report.exchange.carried import MOST_RESULTS
+from diecut_report.exchange.later_changes import added_proofs, only_signed
+from diecut_report.exchange.pdf_attachments import PDF_FAULTS, damage
+from diecut_report.exchange.signing_keys import (
+    KEY_FAULTS,
+    MOST,
+    WEAK_DIGESTS,
+    certificates_in,
+    name_of,
+    public_key,
+    weak_key,
+)
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, cell, joined, phrase
 from diecut_report.time_limit import Overran, limited
 
 MOST_FIELDS = 100
-READING_SECONDS = 50.0  # seconds: those of a large report that three have signed take less than ten
+READING_SECONDS = 20.0  # seconds: those of a large report that three have signed take less than ten
 ENDLESS = Phrase("it is not read within {seconds} s", seconds=f"{READING_SECONDS:g}")
 SHORT = 16  # letters of a fingerprint
 USAGE = KeyUsageConstraints(key_usage={"non_repudiation", "digital_signature"}, match_all_key_usages=False)
@@ -57,20 +67,20 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     With ``trusted``, a file of certificates, who is not known fails, and so does a report without a signature. UserError where that
     file cannot be read.
     """
-    roots = certificates_in(content(trusted, MOST, phrase("certificates (PEM)")), trusted) if trusted else None
+    roots = _roots(trusted) if trusted else None
     if b"/ByteRange" not in whole:  # which stands in clear in each file that is signed
         message = phrase(
             "none, where --trust asks for one: nobody has signed the report, or the signatures were removed"
         )
         return [] if roots is None else [Signature(message, False)]
-    if found_fault := fault(whole):
-        return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
+    if error := damage(whole, MOST_RESULTS):
+        return [Signature(Phrase("cannot be read: {error}", error=error), False)]
     try:
         with silent(), limited(READING_SECONDS):
             reader = PdfFileReader(io.BytesIO(whole))
             refuse_nested_fields(reader)
             found = _all_judged(reader.embedded_signatures, whole, roots)
-    except (PdfError, ValidationInfoReadingError, SignatureValidationError, *PDF_FAULTS) as error:
+    except (PdfError, ValidationInfoReadingError, SignatureValidationError, *KEY_FAULTS, *PDF_FAULTS) as error:
         told = f"{error}" or type(error).__name__
         return [Signature(Phrase("cannot be read: {error}", error=told), False)]
     except Overran:
@@ -81,6 +91,17 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     if all(each.holds for each in found) and not is_ended:
         found.append(Signature(phrase("something was added to the file after the last signature"), False))
     return found
+
+
+def _roots(file: Path) -> list[x509.Certificate]:
+    """The certificates that are trusted, without those of keys that are not known here, which no signature can be held against."""
+    every = certificates_in(content(file, MOST, phrase("certificates (PEM)")), file)
+    if found := [each for each in every if public_key(each) is not None]:
+        return found
+    raise refusal(
+        "No key of these certificates is of a kind that is known here. Give those of RSA or of the curves P-256 to P-521.",
+        file,
+    )
 
 
 def refuse_nested_fields(reader: PdfFileReader) -> None:

@@ -24,11 +24,11 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report.errors import nearest, refusal
 from diecut_report.exchange.carried import MOST, MOST_RESULTS, form_of
-from diecut_report.exchange.later_changes import fault, only_signed
-from diecut_report.exchange.pdf_attachments import PDF_FAULTS, attachments
+from diecut_report.exchange.later_changes import only_signed
+from diecut_report.exchange.pdf_attachments import PDF_FAULTS, attachments, damage
 from diecut_report.exchange.signature_drawing import drawing
 from diecut_report.exchange.signatures import ENDLESS, READING_SECONDS, refuse_nested_fields, signatures, silent
-from diecut_report.exchange.signing_keys import SigningKey
+from diecut_report.exchange.signing_keys import KEY_FAULTS, SigningKey
 from diecut_report.files import content, write_all
 from diecut_report.text.phrases import Phrase, joined, phrase
 from diecut_report.time_limit import Overran, limited
@@ -69,16 +69,16 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     if form_of(whole) != "pdf":
         template = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
         raise refusal(template, asked.report)
-    attachments(whole, MOST_RESULTS, str(asked.report))  # what is read without an end is not signed
-    if damage := fault(whole):  # the library that signs reads without bounds
-        raise refusal(UNSIGNABLE, asked.report, error=damage)
+    attachments(whole, MOST_RESULTS, str(asked.report))  # UserError for what is not read
+    if why := damage(whole, MOST_RESULTS):  # the library that signs reads without bounds
+        raise refusal(UNSIGNABLE, asked.report, error=why)
     try:
         with silent(), limited(READING_SECONDS):
             field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
         judge()
         with silent(), limited(READING_SECONDS):
             signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
-    except (PdfError, SigningError, *PDF_FAULTS) as error:
+    except (PdfError, SigningError, *KEY_FAULTS, *PDF_FAULTS) as error:
         raise refusal(UNSIGNABLE, asked.report, error=error) from error
     except Overran as error:
         raise refusal(UNSIGNABLE, asked.report, error=ENDLESS) from error

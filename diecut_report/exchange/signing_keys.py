@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from cryptography import x509
+from cryptography.exceptions import InvalidSignature, UnsupportedAlgorithm
 from cryptography.hazmat.primitives import serialization
 from cryptography.hazmat.primitives.asymmetric import dsa, ec, rsa
 from cryptography.hazmat.primitives.serialization import pkcs12
@@ -21,6 +22,11 @@ from diecut_report.text.phrases import Phrase, phrase
 MOST = 1_000_000  # bytes of a key or of certificates
 PEM = b"-----BEGIN"
 WRONG = phrase("The key cannot be opened: the password is wrong, or the file is damaged or not a key (PKCS #12, PEM).")
+UNKNOWN = phrase(
+    "The kind of this key, or of the password's encryption, is not known here: {error}. Keys with RSA and with the curves P-256 to P-521 are taken."
+)
+KEY_FAULTS = (UnsupportedAlgorithm, InvalidSignature)
+"""What the library raises for a key, a certificate or a signature of a kind that it does not know, and no ValueError is."""
 WEAK_DIGESTS = ("md2", "md4", "md5", "sha1")  # of which somebody can make another document
 SHORTEST = {"rsa": 2048, "rsassa_pss": 2048, "dsa": 2048, "ec": 224}
 """Bits of a key: NIST SP 800-131A wants 112 bits of security."""
@@ -59,12 +65,15 @@ def weak_key(kind: str, bits: int | None) -> str:
 def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
     """Return the key in a file with its certificate, which may stand in another one; UserError in words where they do not serve."""
     whole = content(key, MOST, phrase("a key (PKCS #12 or PEM)"))
-    private, found = _pem(whole, key, ask) if PEM in whole else _pkcs12(whole, key, ask)
+    try:
+        private, found = _pem(whole, key, ask) if PEM in whole else _pkcs12(whole, key, ask)
+    except UnsupportedAlgorithm as error:
+        raise refusal(UNKNOWN, key, error=error) from None
     if certificates is not None:
         found = certificates_in(content(certificates, MOST, phrase("a certificate (PEM)")), certificates) + found
     if not found:
         raise refusal("The file holds no certificate. Give that of the key with --cert.", key)
-    own = next((each for each in found if each.public_key() == private.public_key()), None)
+    own = next((each for each in found if public_key(each) == private.public_key()), None)
     if own is None:
         template = (
             "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert."
@@ -80,6 +89,14 @@ def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
         template = "The certificate is not valid now: from {not_valid_before_utc} to {last}."
         raise refusal(template, certificates or key, **told)
     return SigningKey(key, private, own, tuple(each for each in found if each != own))
+
+
+def public_key(certificate: x509.Certificate) -> Any:
+    """Return the key of a certificate; None where its kind is not known here."""
+    try:
+        return certificate.public_key()
+    except UnsupportedAlgorithm:
+        return None
 
 
 def _pkcs12(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certificate]]:

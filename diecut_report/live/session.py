@@ -60,6 +60,7 @@ class LiveSession:
         self.serial = 0
         self._places: dict[str, KeyPath] = {}
         self._items: dict[str, list[object]] = {}
+        self._typed: dict[str, str | None] = {}
         self._press = WarmPress()
         self._read: dict[Path, object] = {}
         self.read()
@@ -112,6 +113,7 @@ class LiveSession:
             self._places[name] = (machine.inputs.get(name) or machine.choices[name]).stands
             if name not in self.edits:  # by what the page shows, which the file may not be any more
                 self._items[name] = _items(machine.tree, self._places[name])
+                self._typed[name] = machine.tree.typed(self._places[name])
             self.edits[name] = typed
         self._forget_written()
         self._calculate()
@@ -138,12 +140,15 @@ class LiveSession:
         self.read()
 
     def _is_moved(self, name: str) -> bool:
-        """Whether other items stand in the file where a number of a list was changed on the page."""
-        return self.tree is not None and _items(self.tree, self._places[name]) != self._items[name]
+        """Whether something else stands in the file where a number was changed on the page: another item of its list, or another number."""
+        if self.tree is None:
+            return False
+        is_other = self.tree.typed(self._places[name]) not in (self._typed[name], self.edits.get(name))
+        return is_other or _items(self.tree, self._places[name]) != self._items[name]
 
     def _edited(self) -> dict[KeyPath, str]:
         if moved := [name for name in self.edits if self._is_moved(name)]:
-            template = "{names} changed on this page, but other items of its list stand there now; take the change back, and make it again."
+            template = "{names} changed on this page, but something else stands there in the file now; take the change back, and make it again."
             raise refusal(template, self.file, names=", ".join(moved))
         return {self._places[name]: typed for name, typed in self.edits.items()}
 

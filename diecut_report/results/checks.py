@@ -15,6 +15,7 @@ from diecut_report.machine.calculation import Calculation, declared_unit, unit_f
 from diecut_report.machine.printing.substitution import filled
 from diecut_report.machine.steps.soundness import is_made
 from diecut_report.mechanism.checks import Check, by_part
+from diecut_report.mechanism.inputs import list_inputs
 from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.names import Misdeclared, listed
 from diecut_report.quantities.formatting import place_shown, shown, with_unit
@@ -84,6 +85,20 @@ def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
         if index is None or index in key or all(isinstance(part, str) for part in key)
     }
     return tuple(name for name in check.founded if name in own)
+
+
+def left_out(calc: Calculation, check: Check, found: JudgedCheck) -> tuple[str, ...]:
+    """Return the optional keys that parts of a row leave out, so that the check judges the others alone; named parts have checks of their own."""
+    one_side = (np.isfinite(found.demand) != np.isfinite(found.limit)).any(axis=(0, 1))
+    homes = list_inputs(calc.mechanism.inputs)
+    rows = {key: calc.inputs.get(key) for key in check.named if check.index is None and key in homes}
+    return tuple(
+        f"{homes[key]}.{index}.{key.removeprefix(homes[key] + '.')}"
+        for key, row in rows.items()
+        if isinstance(row, tuple) and len(row) == len(one_side)
+        for index in np.flatnonzero(one_side)
+        if row[index] is None
+    )
 
 
 def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRecord:
@@ -189,7 +204,8 @@ def _results(calc: Calculation, *, is_advised: bool) -> list[CheckRecord]:
         if found is not None:
             own = _check(calc, check, found, advisor)
             keys = without_basis(calc, check) if own.status == "pass" else ()
-            made.append(unfounded(calc, check, keys) if keys else own)
+            parts = left_out(calc, check, found) if own.status == "pass" else ()
+            made.append(unfounded(calc, check, keys) if keys else not_made(calc, check, parts) if parts else own)
         elif check.id not in ids and (missing := missing_checks(calc, check)):
             ids.add(check.id)
             made.append(not_made(calc, check, missing))

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from random import Random
+from ssl import DER_cert_to_PEM_cert
 from typing import Any
 
 import pikepdf
@@ -20,6 +21,7 @@ from cryptography.hazmat.primitives.serialization import pkcs12
 from cryptography.x509.oid import NameOID
 from page import validate_pdf
 
+from diecut_report.errors import UserError
 from diecut_report.exchange.signatures import signatures
 from tests.configs import SMALL, saved
 from tests.exchange.forgeries import (
@@ -265,6 +267,33 @@ def refused(capfd: Capture, words: str, *arguments: object) -> None:
     assert run("sign", *arguments) == 2
     told = capfd.readouterr().err
     assert words in told and "Traceback" not in told
+
+
+EC_KEY, OWN_KEY = (
+    bytes.fromhex("06072a8648ce3d0201"),
+    bytes.fromhex("06072a8648ce3d0209"),
+)  # of a public key, and of no kind that is known
+
+
+def test_a_key_or_a_certificate_of_a_kind_that_is_not_known_is_told(
+    pdf: Path, engineer: Signer, tmp_path: Path, monkeypatch: Patch, capfd: Capture
+) -> None:
+    monkeypatch.delenv(VARIABLE, raising=False)
+    der = serialization.Encoding.DER
+    whole = engineer.private.private_bytes(der, serialization.PrivateFormat.PKCS8, serialization.NoEncryption())
+    other = signer("Authority").certificate.public_bytes(der).replace(EC_KEY, OWN_KEY)
+    key, foreign = tmp_path / "foreign-key.pem", tmp_path / "foreign.pem"
+    key.write_text(DER_cert_to_PEM_cert(whole.replace(EC_KEY, OWN_KEY)).replace("CERTIFICATE", "PRIVATE KEY"))
+    foreign.write_text(DER_cert_to_PEM_cert(other))
+    own = engineer.pem(tmp_path / "own.pem")
+    refused(capfd, "The kind of this key", pdf, "--key", key, "--field", "checked")
+    refused(capfd, "This is not the certificate of the key", pdf, "--key", own, "--cert", foreign, "--field", "checked")
+    both = tmp_path / "both.pem"
+    both.write_bytes(foreign.read_bytes() + engineer.cert(tmp_path / "cert.pem").read_bytes())
+    assert run("sign", pdf, "--key", own, "--cert", both, "--field", "checked", "--quiet") == 0
+    with pytest.raises(UserError, match="No key of these certificates"):
+        signatures(pdf.read_bytes(), foreign)
+    assert [each.holds for each in signatures(pdf.read_bytes(), both)] == [True]
 
 
 def test_a_wrong_password_is_told(

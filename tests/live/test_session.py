@@ -186,6 +186,12 @@ mechanisms:
         ("s.loads.1.mass", "name: crank", "name: disc"),
         ("s.sections.1.length", "{length: 90 mm, diameter: 50 mm}, ", ""),
         ("s.notches.1.position", "[{position: 100 mm", "[{position: 50 mm, type: press_fit}, {position: 100 mm"),
+        (
+            "s.notches.1.position",
+            "{position: 100 mm, type: press_fit}, {position: 130 mm",
+            "{position: 130 mm, type: press_fit}, {position: 100 mm",
+        ),
+        ("s.loads.1.mass", "mass: 8 kg", "mass: 7 kg"),  # the same number, changed in the editor too
         ("s.sections.2.diameter", "{length: 90 mm, diameter: 50 mm}, ", ""),
         ("s.sections.0.diameter", "90 mm", "95 mm"),  # nothing else tells one section from another one
     ],

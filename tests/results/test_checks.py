@@ -143,6 +143,11 @@ def test_a_part_without_the_quantity_is_not_judged() -> None:
     given = flatten(Rack.model_validate({"bars": [{"load": 9}, {"load": 2, "rated": 5}, {"load": 1, "rated": 1}]}))
     [found] = check_results(calculate(rack(rated), given))
     assert [part.status for part in found.parts] == [None, "pass", "fail"] and found.part == 3
+    given = flatten(Rack.model_validate({"bars": [{"load": 9}, {"load": 2, "rated": 5}, {"load": 1, "rated": 4}]}))
+    calc = calculate(rack(rated), given)
+    [left] = check_results(calc)  # the others hold, of it nobody knows
+    assert (left.status, left.missing) == ("not_checked", ["bars.0.rated"])
+    assert variant_rows.verdicts({"rack": calc}, 1).unchecked == ["rack.checks.c"]
     [unmade] = check_results(calculated(rated))
     assert (unmade.status, unmade.missing, unmade.demand, unmade.limit) == (
         "not_checked",

@@ -163,6 +163,41 @@ def test_a_limiting_speed_is_held_against_the_mean_diameter_of_its_bearing(
     assert [each.what for each in own] == ([] if found == "usual" else [found])
 
 
+@pytest.mark.parametrize("unknown", ["own make", "7224"])
+def test_the_ratings_and_factors_of_a_bearing_that_no_table_has_need_a_basis(unknown: str, tmp_path: Path) -> None:
+    keys = {
+        "dynamic_rating": "500 kN",
+        "static_rating": "400 kN",
+        "x": "0.35",
+        "y": "0.57",
+        "e": "1.14",
+        "x0": "0.5",
+        "y0": "0.26",
+    }
+    typed = {basis: ", ".join(f"{key}: {{value: {value}, basis: {basis}, note: SKF 7224 BM}}" for key, value in keys.items())
+             for basis in ("given", "catalogue")}  # fmt: skip
+    found = [{each.path.rpartition(".")[2] for each in left(tmp_path, HEAD + BEARING % ("ball", unknown, "", text)) if each.what == "assumed"}
+             for text in typed.values()]  # fmt: skip
+    assert found[0] >= keys.keys() and not found[1] & keys.keys()
+
+
+@pytest.mark.parametrize(("basis", "is_open"), [("given", True), ("catalogue", False)])
+def test_the_values_of_a_chain_of_ones_own_need_a_basis(basis: str, is_open: bool, tmp_path: Path) -> None:
+    keys = {
+        "pitch": "19.05 mm",
+        "pin_diameter": "5.72 mm",
+        "bearing_area": "900 mm**2",
+        "breaking_load": "28.9 kN",
+        "mass_per_length": "1.15 kg/m",
+    }
+    text = "  c:\n    kind: roller_chain\n    chain: custom\n    teeth_1: 19\n    links: 100\n    speed: 100 rpm\n    torque: 50 N*m\n    application_factor: 1.3\n"
+    text += "".join(
+        f"    {key}: {{value: {value}, basis: {basis}, note: the maker's}}\n" for key, value in keys.items()
+    )
+    assumed = {each.path.rpartition(".")[2] for each in left(tmp_path, HEAD + text) if each.what == "assumed"}
+    assert (keys.keys() <= assumed) == is_open and bool(keys.keys() & assumed) == is_open
+
+
 LIMITING = "mechanisms.b.bearings.0.limiting_speed"
 
 

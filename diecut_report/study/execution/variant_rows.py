@@ -39,6 +39,7 @@ from diecut_report.results.checks import (
     is_of_machine,
     is_sized,
     judged,
+    left_out,
     missing_checks,
     without_basis,
 )
@@ -228,7 +229,9 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
                     int(row): f"{name}: {check.title}. {check.consequence}" for row in np.flatnonzero(there & ~held)
                 }
                 continue
-            if without_basis(calc, check):  # what holds by what was typed alone is not checked
+            if without_basis(calc, check) or left_out(
+                calc, check, found
+            ):  # what holds by what was typed, or for some parts alone, is not checked
                 unmade |= there & held
                 there = there & ~held
                 if not there.any():
