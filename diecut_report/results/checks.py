@@ -89,15 +89,17 @@ def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
 
 def left_out(calc: Calculation, check: Check, found: JudgedCheck) -> tuple[str, ...]:
     """Return the optional keys that parts of a row leave out, so that the check judges the others alone; named parts have checks of their own."""
+    rows = {key: calc.inputs.get(key) for key in (check.named if check.index is None else ())}
+    optional = {key: row for key, row in rows.items() if isinstance(row, tuple) and any(part is None for part in row)}
+    if not optional:
+        return ()
     one_side = (np.isfinite(found.demand) != np.isfinite(found.limit)).any(axis=(0, 1))
     homes = list_inputs(calc.mechanism.inputs)
-    rows = {key: calc.inputs.get(key) for key in check.named if check.index is None and key in homes}
     return tuple(
         f"{homes[key]}.{index}.{key.removeprefix(homes[key] + '.')}"
-        for key, row in rows.items()
-        if isinstance(row, tuple) and len(row) == len(one_side)
-        for index in np.flatnonzero(one_side)
-        if row[index] is None
+        for key, row in optional.items()
+        for index, (part, lacks) in enumerate(zip(row, one_side, strict=True))
+        if part is None and lacks
     )
 
 
