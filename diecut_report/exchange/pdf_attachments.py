@@ -32,21 +32,17 @@ APART = (
     "import sys; from diecut_report.exchange.pdf_attachments import print_attachments; print_attachments(*sys.argv[1:])"
 )
 ATTACHED = ("results.json", "config.yaml")
-MOST_ROWS = (
-    2_000_000  # of the table of objects, each of which the library that signs keeps: a large report has some 200 000
-)
+MOST_ROWS = 2_000_000  # of the table of objects, which the library that signs keeps: a large report has some 200 000
 NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
 END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
-PDF_FAULTS = (
-    ValueError, TypeError, LookupError, AttributeError, NameError, ArithmeticError, RuntimeError, AssertionError, OSError, MemoryError,
-    zlib.error,
+FAULTS = (
+    pikepdf.PdfError, ValueError, TypeError, LookupError, AttributeError, NameError, ArithmeticError, RuntimeError, AssertionError, OSError,
+    MemoryError, zlib.error,
 )  # fmt: skip
-"""What libraries raise for a PDF that is not as the standard has it: it was damaged, or made to harm.
+"""What the library raises for a PDF that is not as the standard has it: it was damaged, or made to harm.
 
 RuntimeError with recursion and what is not implemented, ArithmeticError with decimals, NameError with a variable that was never set."""
 _bounds = {"most": 0}  # of the library, which has one for the whole process
-FAULTS = (pikepdf.PdfError, *PDF_FAULTS)
-"""The same of pikepdf."""
 SEVERAL = phrase(
     "The PDF carries {count} files named {name}, and a report has one. Give the file as the program wrote it."
 )

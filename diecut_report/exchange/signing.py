@@ -15,20 +15,18 @@ from pyhanko.keys.internal import translate_pyca_cryptography_cert_to_asn1
 from pyhanko.pdf_utils.content import RawContent
 from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
 from pyhanko.pdf_utils.layout import AxisAlignment, BoxConstraints, Margins, SimpleBoxLayoutRule
-from pyhanko.pdf_utils.misc import PdfError
 from pyhanko.sign.fields import SigSeedSubFilter, enumerate_sig_fields
-from pyhanko.sign.general import SigningError
 from pyhanko.sign.signers import PdfSignatureMetadata, PdfSigner, SimpleSigner
 from pyhanko.stamp import StaticStampStyle
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
-from diecut_report.errors import nearest, refusal
+from diecut_report.errors import UserError, nearest, refusal
 from diecut_report.exchange.carried import MOST, MOST_RESULTS, form_of
 from diecut_report.exchange.later_changes import only_signed
-from diecut_report.exchange.pdf_attachments import PDF_FAULTS, attachments, damage
+from diecut_report.exchange.pdf_attachments import attachments, damage
 from diecut_report.exchange.signature_drawing import drawing
 from diecut_report.exchange.signatures import ENDLESS, READING_SECONDS, refuse_nested_fields, signatures, silent
-from diecut_report.exchange.signing_keys import KEY_FAULTS, SigningKey
+from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all
 from diecut_report.text.phrases import Phrase, joined, phrase
 from diecut_report.time_limit import Overran, limited
@@ -78,7 +76,9 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
         judge()
         with silent(), limited(READING_SECONDS):
             signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
-    except (PdfError, SigningError, *KEY_FAULTS, *PDF_FAULTS) as error:
+    except UserError:
+        raise
+    except Exception as error:  # of any kind: libraries read what a stranger may have made
         raise refusal(UNSIGNABLE, asked.report, error=error) from error
     except Overran as error:
         raise refusal(UNSIGNABLE, asked.report, error=ENDLESS) from error

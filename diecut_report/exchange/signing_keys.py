@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from cryptography import x509
-from cryptography.exceptions import InvalidSignature, UnsupportedAlgorithm
+from cryptography.exceptions import UnsupportedAlgorithm
 from cryptography.hazmat.primitives import serialization
 from cryptography.hazmat.primitives.asymmetric import dsa, ec, rsa
 from cryptography.hazmat.primitives.serialization import pkcs12
@@ -25,8 +25,8 @@ WRONG = phrase("The key cannot be opened: the password is wrong, or the file is 
 UNKNOWN = phrase(
     "The kind of this key, or of the password's encryption, is not known here: {error}. Keys with RSA and with the curves P-256 to P-521 are taken."
 )
-KEY_FAULTS = (UnsupportedAlgorithm, InvalidSignature)
-"""What the library raises for a key, a certificate or a signature of a kind that it does not know, and no ValueError is."""
+KEY_FAULTS = (UnsupportedAlgorithm, x509.InvalidVersion)
+"""What the library raises for a key or a certificate of a kind that it does not know, and is no ValueError."""
 WEAK_DIGESTS = ("md2", "md4", "md5", "sha1")  # of which somebody can make another document
 SHORTEST = {"rsa": 2048, "rsassa_pss": 2048, "dsa": 2048, "ec": 224}
 """Bits of a key: NIST SP 800-131A wants 112 bits of security."""
@@ -67,7 +67,7 @@ def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
     whole = content(key, MOST, phrase("a key (PKCS #12 or PEM)"))
     try:
         private, found = _pem(whole, key, ask) if PEM in whole else _pkcs12(whole, key, ask)
-    except UnsupportedAlgorithm as error:
+    except KEY_FAULTS as error:
         raise refusal(UNKNOWN, key, error=error) from None
     if certificates is not None:
         found = certificates_in(content(certificates, MOST, phrase("a certificate (PEM)")), certificates) + found
@@ -92,10 +92,10 @@ def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
 
 
 def public_key(certificate: x509.Certificate) -> Any:
-    """Return the key of a certificate; None where its kind is not known here."""
+    """Return the key of a certificate; None where it is damaged, or its kind is not known here."""
     try:
         return certificate.public_key()
-    except UnsupportedAlgorithm:
+    except (ValueError, *KEY_FAULTS):
         return None
 
 
@@ -127,5 +127,5 @@ def certificates_in(whole: bytes, file: Path) -> list[x509.Certificate]:
     """Return the certificates that a file holds as PEM, or the one that it is; UserError where there is none."""
     try:
         return x509.load_pem_x509_certificates(whole) if PEM in whole else [x509.load_der_x509_certificate(whole)]
-    except ValueError:
+    except (ValueError, *KEY_FAULTS):
         raise refusal("This is not a certificate that can be read. Give one as PEM.", file) from None

@@ -291,6 +291,12 @@ def test_a_key_or_a_certificate_of_a_kind_that_is_not_known_is_told(
     both = tmp_path / "both.pem"
     both.write_bytes(foreign.read_bytes() + engineer.cert(tmp_path / "cert.pem").read_bytes())
     assert run("sign", pdf, "--key", own, "--cert", both, "--field", "checked", "--quiet") == 0
+    version, third = bytes.fromhex("a003020102"), bytes.fromhex("a003020105")
+    foreign.write_text(DER_cert_to_PEM_cert(engineer.certificate.public_bytes(der).replace(version, third, 1)))
+    refused(
+        capfd, "This is not a certificate that can be read", pdf, "--key", own, "--cert", foreign, "--field", "approved"
+    )
+    foreign.write_text(DER_cert_to_PEM_cert(other))
     with pytest.raises(UserError, match="No key of these certificates"):
         signatures(pdf.read_bytes(), foreign)
     assert [each.holds for each in signatures(pdf.read_bytes(), both)] == [True]

@@ -190,7 +190,8 @@ def test_the_values_of_a_chain_of_ones_own_need_a_basis(basis: str, is_open: boo
         "breaking_load": "28.9 kN",
         "mass_per_length": "1.15 kg/m",
     }
-    text = "  c:\n    kind: roller_chain\n    chain: custom\n    teeth_1: 19\n    links: 100\n    speed: 100 rpm\n    torque: 50 N*m\n    application_factor: 1.3\n"
+    text = "  c:\n    kind: roller_chain\n    chain: custom\n    teeth_1: 19\n    links: 100\n    speed: 100 rpm\n    torque: 50 N*m\n"
+    text += "    application_factor: 1.3\n"
     text += "".join(
         f"    {key}: {{value: {value}, basis: {basis}, note: the maker's}}\n" for key, value in keys.items()
     )
