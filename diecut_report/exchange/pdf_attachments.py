@@ -76,7 +76,7 @@ def damage(content: bytes, most: int) -> str:
     return Phrase(*fault) if fault else Phrase(template, most=MOST_ROWS)
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=2)  # a report, and the one before it
 def _read_apart(content: bytes, most: int) -> tuple[Attachments, Fault | None, bool]:
     """The attachments, what is wrong with the PDF, and whether its table of objects is damaged."""
     limits = [str(each) for each in (most, SECONDS, GIGABYTES)]

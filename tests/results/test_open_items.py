@@ -203,7 +203,7 @@ def test_the_values_of_a_chain_of_ones_own_need_a_basis(basis: str, is_open: boo
 @pytest.mark.parametrize(("basis", "is_open"), [("given", True), ("measured", False)])
 def test_a_property_that_no_range_bounds_needs_a_basis(basis: str, is_open: bool, tmp_path: Path) -> None:
     text = (EXAMPLE.parent / "circular_knife.yaml").read_text("utf-8")
-    given = re.sub(r"shear_resistance: .*", f"shear_resistance: {{value: 42 N/mm, basis: {basis}}}", text)
+    given = re.sub(r"shear_resistance: .*", f"shear_resistance: {{value: 42 N/mm**2, basis: {basis}}}", text)
     assert given != text
     found = {each.path for each in left(tmp_path, given) if each.what == "assumed"}
     assert any(path.endswith(".shear_resistance") for path in found) == is_open
