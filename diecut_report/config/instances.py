@@ -314,7 +314,7 @@ class Instance:
 
     def forget(self) -> None:
         """Forget what follows from the inputs, as they have changed."""
-        for known in ("slots", "_by_key", "given", "results", "phases", "rows"):
+        for known in ("slots", "by_key", "given", "results", "phases", "rows"):
             self.__dict__.pop(known, None)
 
     @cached_property
@@ -323,7 +323,8 @@ class Instance:
         return tuple(slots(self.model, self.data))
 
     @cached_property
-    def _by_key(self) -> dict[KeyPath, Slot]:
+    def by_key(self) -> dict[KeyPath, Slot]:
+        """The same by their keys."""
         return {slot.key: slot for slot in self.slots}
 
     @cached_property
@@ -393,7 +394,7 @@ class Instance:
 
     def value(self, key: KeyPath) -> Any:
         """The value of an input that is not a reference: an SI number, a text, true or false, values of a curve, or None."""
-        slot = next(self._by_key[key[:n]] for n in range(len(key), 0, -1) if key[:n] in self._by_key)
+        slot = next(self.by_key[key[:n]] for n in range(len(key), 0, -1) if key[:n] in self.by_key)
         value = slot.value
         for part in key[len(slot.key) :]:  # within a block that is there by default
             if value is None:  # an optional block that is not given

@@ -318,7 +318,9 @@ class OpenValueTrials:
             own = np.where(felt, corner.values(self.present), np.nan)
             fitting = (row for row, each in enumerate(machines) if not np.any(np.abs(own - each) > 0))
             row = len(machines) if alone else next(fitting, len(machines))
-            machines[row : row + 1] = [np.where(felt, own, machines[row]) if row < len(machines) else own]
+            if row == len(machines):
+                machines.append(own)
+            machines[row] = np.where(felt, own, machines[row])
             rows.append(row)
         return np.where(np.isnan(machines), self.present, machines), rows
 

@@ -28,6 +28,7 @@ MOST_REVISIONS = 40
 MOST_TO_OPEN = 48_000_000  # bytes that a stream unpacks to while a PDF is opened; the catalogue of a large report stands in one of 20 MB
 SECONDS = 20  # of the processor, for reading a PDF in a process of its own: a large report takes 2
 GIGABYTES = 4  # of memory there: a large report takes 0.4
+OUT_OF_MEMORY = 12  # with what that process ends, as ENOMEM
 APART = (
     "import sys; from diecut_report.exchange.pdf_attachments import print_attachments; print_attachments(*sys.argv[1:])"
 )
@@ -80,10 +81,11 @@ def damage(content: bytes, most: int) -> str:
 def _read_apart(content: bytes, most: int) -> tuple[Attachments, Fault | None, bool]:
     """The attachments, what is wrong with the PDF, and whether its table of objects is damaged."""
     limits = [str(each) for each in (most, SECONDS, GIGABYTES)]
-    command = [sys.executable, "-I", "-c", APART, *limits]
-    read = subprocess.run(command, input=content, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
-    if read.returncode != 0:
+    read = subprocess.run([sys.executable, "-P", "-c", APART, *limits], input=content, capture_output=True, check=False)
+    if read.returncode < 0 or read.returncode == OUT_OF_MEMORY:  # else the system has ended it
         return {}, (ENDLESS, {"seconds": f"{SECONDS}", "gigabytes": f"{GIGABYTES}"}), True
+    if read.returncode:
+        raise ChildProcessError(read.stderr.decode(errors="replace").strip().rpartition("\n")[2])
     found, fault, is_damaged = json.loads(read.stdout)
     return {name: each if each is None else b64decode(each) for name, each in found.items()}, fault, is_damaged
 
@@ -93,7 +95,10 @@ def print_attachments(most: str, seconds: str, gigabytes: str) -> None:
     for resource_kind, limit in ((resource.RLIMIT_CPU, int(seconds)), (resource.RLIMIT_AS, int(gigabytes) << 30)):
         hard = resource.getrlimit(resource_kind)[1]
         resource.setrlimit(resource_kind, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
-    found, fault, is_damaged = _attachments(sys.stdin.buffer.read(), int(most))
+    try:
+        found, fault, is_damaged = _attachments(sys.stdin.buffer.read(), int(most))
+    except MemoryError:
+        sys.exit(OUT_OF_MEMORY)
     packed = {name: each if each is None else b64encode(each).decode() for name, each in found.items()}
     sys.stdout.write(json.dumps((packed, fault and (fault.template, fault.values), is_damaged)))
 

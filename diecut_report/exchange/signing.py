@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -70,18 +71,11 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     attachments(whole, MOST_RESULTS, str(asked.report))  # UserError for what is not read
     if why := damage(whole, MOST_RESULTS):  # the library that signs reads without bounds
         raise refusal(UNSIGNABLE, asked.report, error=why)
-    try:
-        with silent(), limited(READING_SECONDS):
-            field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
-        judge()
-        with silent(), limited(READING_SECONDS):
-            signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
-    except UserError:
-        raise
-    except Exception as error:  # of any kind: libraries read what a stranger may have made
-        raise refusal(UNSIGNABLE, asked.report, error=error) from error
-    except Overran as error:
-        raise refusal(UNSIGNABLE, asked.report, error=ENDLESS) from error
+    with _signable(asked.report):
+        field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
+    judge()
+    with _signable(asked.report):
+        signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
     if not only_signed(whole, signed):
         raise refusal(AMBIGUOUS, asked.report)
     found = signatures(signed)
@@ -93,6 +87,20 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
         raise refusal(template, asked.report, found=joined([each.words for each in found if not each.holds], "; "))
     write_all({asked.target: signed}, keep=key.file)
     tell(Phrase("signed by {name} in the field {field}", name=key.name, field=field))
+
+
+@contextmanager
+def _signable(report: Path) -> Iterator[None]:
+    """UserError where the library that signs cannot read a report, or not soon."""
+    try:
+        with silent(), limited(READING_SECONDS):
+            yield
+    except UserError:
+        raise
+    except Exception as error:  # of any kind: libraries read what a stranger may have made
+        raise refusal(UNSIGNABLE, report, error=error) from error
+    except Overran as error:
+        raise refusal(UNSIGNABLE, report, error=ENDLESS) from error
 
 
 def _free_fields(writer: Additions) -> dict[str, Any]:

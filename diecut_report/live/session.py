@@ -88,9 +88,11 @@ class LiveSession:
 
     def _forget_written(self) -> None:
         """Forget the changes that stand in the file."""
-        for name, typed in list(self.edits.items()) if self.tree else ():
-            if self.tree and self.tree.typed(self._places[name]) == typed and not self._is_moved(name):
-                del self.edits[name]
+        if self.tree is not None:
+            in_file = {name: self.tree.typed(self._places[name]) for name in self.edits}
+            self.edits = {
+                name: typed for name, typed in self.edits.items() if in_file[name] != typed or self._is_moved(name)
+            }
 
     def _marks(self) -> dict[Path, object]:
         found: dict[Path, object] = {}

@@ -104,7 +104,7 @@ def unbounded(instance: Instance, inputs: Inputs, beside: Beside, results: Input
 
 def _may_be_zero(instance: Instance, key: KeyPath) -> bool:
     """Whether a zero only says what holds without the key: it is left out, or typed where zero is its default."""
-    slot = next((each for each in instance.slots if each.key == key), None)
+    slot = instance.by_key.get(key)
     if slot is None or not slot.is_given:
         return True
     declared = keys(instance.model)[slot.name]

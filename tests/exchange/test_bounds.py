@@ -238,3 +238,12 @@ def test_a_pdf_that_takes_too_long_or_too_much_memory_is_ended(
     with limited(SECONDS):
         assert run("extract", tmp_path / "a.pdf", "-o", tmp_path) == 2
     assert "a.pdf: The PDF is not read within" in capfd.readouterr().err
+
+
+def test_a_reader_that_breaks_is_a_fault_of_the_program_and_not_of_the_pdf(
+    small_report: Path, tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(pdf_attachments, "APART", "raise LookupError('not there')")
+    (tmp_path / "a.pdf").write_bytes((small_report / "small.pdf").read_bytes() + b"\n")
+    assert run("extract", tmp_path / "a.pdf", "-o", tmp_path / "out") == 70
+    assert "LookupError: not there" in capfd.readouterr().err

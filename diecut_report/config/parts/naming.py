@@ -35,15 +35,15 @@ OF_HUBS = (
 )
 
 
-MOST = 60  # shafts, joins, sections of a shaft: a results file holds no more
+MOST_DRAWN = 60  # shafts, joins, sections of a shaft: a results file holds no more
 MOST_PARTS = 40  # of a shaft, each with its key, its pin and the bearing on that
 
 
 def few(parts: MachineParts) -> Iterator[Finding]:
     """A machine has no more shafts, joins, sections and parts than can be drawn."""
-    counts: list[tuple[KeyPath, int, int]] = [(("machine",), max(len(parts.shafts), len(parts.joins)), MOST)]
+    counts: list[tuple[KeyPath, int, int]] = [(("machine",), max(len(parts.shafts), len(parts.joins)), MOST_DRAWN)]
     for shaft in parts.shafts.values():
-        counts += [(shaft.path, len(shaft.sections), MOST), (shaft.path, len(shaft.parts), MOST_PARTS)]
+        counts += [(shaft.path, len(shaft.sections), MOST_DRAWN), (shaft.path, len(shaft.parts), MOST_PARTS)]
     for path, count, most in counts:
         if count > most:
             template = "has {count} shafts, joins, sections or parts; at most {most} are allowed"
