@@ -23,6 +23,8 @@ from page import validate_pdf
 
 from diecut_report.errors import UserError
 from diecut_report.exchange.signatures import signatures
+from diecut_report.exchange.signing import Signing, sign
+from diecut_report.exchange.signing_keys import SigningKey
 from tests.configs import SMALL, saved
 from tests.exchange.forgeries import (
     filled_field,
@@ -267,6 +269,16 @@ def refused(capfd: Capture, words: str, *arguments: object) -> None:
     assert run("sign", *arguments) == 2
     told = capfd.readouterr().err
     assert words in told and "Traceback" not in told
+
+
+def test_what_the_judgement_of_a_report_raises_is_no_fault_of_the_pdf(pdf: Path, engineer: Signer) -> None:
+    def judge() -> None:
+        raise LookupError("of a plugin")
+
+    asked = Signing(pdf, pdf, "checked")
+    key = SigningKey(pdf, engineer.private, engineer.certificate)
+    with pytest.raises(LookupError, match="of a plugin"):
+        sign(asked, key, lambda _: None, judge)
 
 
 EC_KEY, OWN_KEY = (
