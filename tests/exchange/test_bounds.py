@@ -228,7 +228,7 @@ def packed() -> bytes:
     return made + b"4 0 obj\n%s\nstream\n%s\nendstream\nendobj\nstartxref\n%d\n%%%%EOF\n" % (table, rows, len(made))
 
 
-@pytest.mark.parametrize("content", [chain(40), comment(), packed()], ids=["tables", "comment", "packed"])
+@pytest.mark.parametrize("content", [chain(400), comment(), packed()], ids=["tables", "comment", "packed"])
 def test_a_pdf_that_takes_too_long_or_too_much_memory_is_ended(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch, content: bytes
 ) -> None:

@@ -98,15 +98,29 @@ class ShaftPart:
             return self.keys.hub
         return (self.size("B") if self.kind == "bearing" else self.keys.width) or 0.0
 
-    def size(self, column: Literal["d", "D", "B"]) -> float | None:
-        """Return a dimension of a bearing, m: as typed, else of the catalogue."""
-        typed = {"d": self.keys.bore, "D": self.keys.outside, "B": self.keys.width}[column]
+    def size(self, column: Literal["d", "D", "B", "r"]) -> float | None:
+        """Return a dimension of a bearing, m: as typed, else of the catalogue; r is the least corner of its inner ring."""
+        typed = {"d": self.keys.bore, "D": self.keys.outside, "B": self.keys.width}.get(column)
         return typed if typed is not None or not self.keys.designation else catalogue_size(self.keys.designation, column)  # fmt: skip
 
     @property
     def ends(self) -> tuple[float, float]:
         """Return where its hub begins and ends, m from the shaft's left end."""
         return self.keys.at - self.hub / 2, self.keys.at + self.hub / 2
+
+    @cached_property
+    def shoulders(self) -> dict[Literal["left", "right"], tuple[ShaftSection, float | None]]:
+        """Return the thicker sections that it touches, by its side, each with the fillet radius of the step."""
+        sections, own = self.shaft.sections, self.section
+        if own is None:
+            return {}
+        beside = {"left": (own.index - 1, own.start - self.ends[0]), "right": (own.index + 1, own.end - self.ends[1])}
+        return {
+            side: (sections[index], sections[min(index, own.index)].fillet)
+            for side, (index, gap) in beside.items()
+            if 0 <= index < len(sections) and abs(gap) <= SAME_PLACE
+            and sections[index].diameter > own.diameter + SAME_PLACE
+        }  # fmt: skip
 
     @property
     def is_carried(self) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import combinations, pairwise
@@ -10,7 +11,7 @@ from diecut_report.config.parts.demands import first_place, typed_paths
 from diecut_report.config.parts.elements import SERVICE_KEYS, Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
 from diecut_report.config.parts.join_rules import axes, center, chain, frame, mesh_pair, one_belt, ratios, sector
-from diecut_report.config.parts.keys import MeshKeys
+from diecut_report.config.parts.keys import WORDS, MeshKeys
 from diecut_report.config.parts.masses import wheel_section
 from diecut_report.config.parts.model import (
     SAME_PLACE,
@@ -44,11 +45,21 @@ WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, a
 INTEGRAL_WARNED, INTEGRAL_MOST = 2.0, 4.0  # diameters of the seat, below the teeth
 # shares of the full steel body; of a clutch, which has shoes in place of a disc, less is usual
 MASS_SHARE, MASS_POSSIBLE = (0.3, 1.05), (0.05, 1.5)
+HARDNESS = (0.69, 260e6)  # σ_Hlim of R_m, Pa: quality ME of ISO 6336-5, with HV = R_m / 3.2 MPa
+LEAST_YIELD = 0.45  # of the tensile strength, usual
+SIDES = {
+    ("left",): phrase("on the left"),
+    ("right",): phrase("on the right"),
+    ("left", "right"): phrase("on both sides"),
+}
+ROOT = re.compile(r"\$\{\s*(\w+)\.")  # what a reference begins with
 
 
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
-    of_mechanisms = (rule(parts, elements) for rule in (ports, ratios, _weighed, _massive, _typed_twice, _unused))
+    of_mechanisms = (
+        rule(parts, elements) for rule in (ports, ratios, _weighed, _massive, _typed_twice, _untied, _unused)
+    )
     found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
     place = ConfigPlace(parts.reader.tree)
@@ -198,6 +209,47 @@ def mounting(parts: MachineParts) -> Iterator[Finding]:
             )
 
 
+def shoulder(parts: MachineParts) -> Iterator[Finding]:
+    """A shoulder that a bearing rests on is as high as its ring needs, not as high as the other ring, and rounded less than its corner."""
+    for shaft, part in hubs(parts):
+        corner, outside = part.size("r"), part.size("D")
+        if part.kind != "bearing" or corner is None or outside is None:
+            continue
+        row = table_row("bearing_shoulders", corner)
+        least = row["h0" if (part.keys.designation or "").startswith("60") else "h"]
+        for step, fillet in part.shoulders.values():
+            place = (*shaft.path, "sections")
+            if not -SAME_PLACE <= step.diameter - part.seat - 2 * least <= outside - part.seat - 4 * least + SAME_PLACE:
+                template = "rests on a shoulder of {diameter}; its rings want {least} to {most} there: change section {number}, or stop the bearing by a ring"
+                yield finding(parts, "shoulder", "warning", part.path, template, place, diameter=mm(step.diameter), least=mm(part.seat + 2 * least),
+                    most=mm(outside - 2 * least), number=step.index + 1)  # fmt: skip
+            if fillet is not None and fillet > corner - SAME_PLACE:
+                template = "rests on a shoulder with a fillet of {fillet}, which its ring with corners from {corner} on does not clear; take a fillet below {most}"
+                yield finding(parts, "shoulder", "error", part.path, template, place, fillet=mm(fillet), corner=mm(corner),
+                    most=mm(corner - SAME_PLACE))  # fmt: skip
+
+
+def stop(parts: MachineParts) -> Iterator[Finding]:
+    """What is put on a shaft is held in both directions: by a shoulder, the part beside it, or a ring, sleeve, nut or press fit."""
+    for shaft, part in hubs(parts):
+        keys, ends = part.keys, part.ends
+        if part.section is None or keys.integral or keys.bolted or keys.interference or keys.rides_on:
+            continue
+        if keys.stop == "shoulder" and not part.shoulders:
+            template = "is stopped by a shoulder, but touches no thicker section; move it to one, or give another stop"
+            yield finding(parts, "stop", "warning", (*part.path, "stop"), template, (*shaft.path, "sections"))
+        elif keys.stop in (None, "shoulder") and parts.keys.stop is None:
+            others = [each.ends for each in shaft.parts if each is not part and each.kind != "load"]
+            held = {
+                "left": any(abs(end - ends[0]) <= SAME_PLACE for _, end in others),
+                "right": any(abs(start - ends[1]) <= SAME_PLACE for start, _ in others),
+            }
+            free = [side for side, beside in held.items() if not beside and side not in part.shoulders]
+            if sides := SIDES.get(tuple(free)):
+                template = "is held along the shaft by nothing {sides}; move it to a shoulder, or give stop here or under machine: ring, sleeve, nut or press"
+                yield finding(parts, "stop", "warning", part.path, template, sides=sides)
+
+
 # Keys and what carries a torque.
 
 
@@ -269,38 +321,58 @@ def _key_on_section(parts: MachineParts, shaft: MachineShaft, part: ShaftPart, l
         )
 
 
-def key_row(diameter: float) -> dict[str, float]:
-    """Return the key of DIN 6885-1 for a shaft, m: width, height, depths."""
-    table = standard_table("parallel_keys")
-    factor = unit(table.columns[0].unit).factor
-    rows = zip(*(column.values for column in table.columns), strict=True)
-    names = [column.name for column in table.columns]
-    last: dict[str, float] = {}
-    for row in rows:
-        last = {name: value * factor for name, value in zip(names, row, strict=True)}
-        if diameter <= last["d"] * (1 + 1e-9):
-            break
-    return last
+def table_row(table: str, value: float) -> dict[str, float]:
+    """Return the first row of a table of sizes whose first column is not below a value, m, else the last; SI by column."""
+    columns = standard_table(table).columns
+    rows = [[value * unit(column.unit).factor for value in column.values] for column in columns]
+    index = next((i for i, first in enumerate(rows[0]) if value <= first * (1 + 1e-9)), -1)
+    return {column.name: row[index] for column, row in zip(columns, rows, strict=True)}
 
 
 def key_width(diameter: float) -> float:
-    """Return the width of the key for a shaft, m."""
-    return key_row(diameter)["b"]
+    """Return the width of the key for a shaft, m (DIN 6885-1)."""
+    return table_row("parallel_keys", diameter)["b"]
 
 
 def wall(parts: MachineParts) -> Iterator[Finding]:
-    """Below the teeth of a keyed pinion enough is left above the keyway."""
+    """Below the teeth of a keyed pinion enough is left above the keyway, and around its seat."""
     for join in parts.joins:
         for part in (*join.drivers, *join.driven) if isinstance(join.keys, MeshKeys) else ():
             if not part.keys.key or part.section is None:
                 continue
             module = join.keys.module
-            left = join.radius(part) - 1.25 * module - part.seat / 2 - key_row(part.seat)["t2"]
+            left = join.radius(part) - 1.25 * module - part.seat / 2 - table_row("parallel_keys", part.seat)["t2"]
             if left < WALL_WARNED * module * (1 - 1e-9):
                 level: Level = "error" if left < WALL_LEAST * module else "warning"
                 template = "leaves {left} between teeth and keyway, {modules} modules; {wanted} are wanted: take a larger gear or a thinner seat"
                 yield finding(parts, "wall", level, part.path, template, (*join.path, "module"), left=mm(left), modules=f"{left / module:.3g}",
                     wanted=WALL_WARNED)  # fmt: skip
+            root = 2 * join.radius(part) - 2.5 * module
+            if root < HUB_OUTSIDE * part.seat * (1 - 1e-9):
+                template = "is {root} thick below its teeth, less than {share} times its seat of {seat}; take a larger gear or a thinner seat"
+                yield finding(parts, "wall", "warning", part.path, template, (*join.path, "module"), root=mm(root), share=HUB_OUTSIDE,
+                    seat=mm(part.seat))  # fmt: skip
+
+
+def steel(parts: MachineParts) -> Iterator[Finding]:
+    """Flanks of through-hardened gears bear no more than their steel does, whose strength follows from what their hubs yield at."""
+    gears = parts.keys.gears
+    if gears.flanks not in (None, "through_hardened") or gears.sigma_h_lim is None or gears.hub_yield is None:
+        return
+    most = HARDNESS[0] * gears.hub_yield / LEAST_YIELD + HARDNESS[1]
+    if gears.sigma_h_lim > most:
+        template = "is {limit}, but through-hardened steel with hubs of {hub} has {most} at the most (ISO 6336-5, ME); give flanks, or the values of one steel"
+        own, hub = (("machine", "gears", key) for key in ("sigma_h_lim", "hub_yield"))
+        shown = {"limit": gears.sigma_h_lim, "hub": gears.hub_yield, "most": most}
+        yield finding(
+            parts,
+            "steel",
+            "warning",
+            own,
+            template,
+            hub,
+            **{name: f"{value / 1e6:.4g} MPa" for name, value in shown.items()},
+        )
 
 
 def torque_carried(parts: MachineParts) -> Iterator[Finding]:
@@ -451,6 +523,16 @@ def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
         yield finding(parts, "typed_twice", "error", path, template, against)
 
 
+def _untied(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """A block that is calculated as a part's calculations are belongs to a part, to which a value of it refers."""
+    kinds, made = {each.kind for each in elements.made}, {each.name for each in elements.made}
+    for name, block in elements.blocks.items():
+        known = {found[1] for found in ROOT.finditer(str(block))} & {*WORDS, *made}
+        if block.get("kind") in kinds and not known:
+            template = "is of the kind {kind}, which is calculated of the parts, but refers to none of them; make it a part, or refer to the part it belongs to"
+            yield finding(parts, "block_without_part", "warning", ("mechanisms", name), template, kind=block["kind"])
+
+
 def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """What is typed at a part beside its own keys goes into its calculation, and the efficiency of a mesh into a torque."""
     used = set(typed_paths([*(each.inputs for each in elements.made), *elements.fills.values()]))
@@ -483,6 +565,6 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
-    few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, key, wall,
+    few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, shoulder, stop, key, wall, steel,
     torque_carried, integral, force_plane, pins, axes, one_belt, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

@@ -113,6 +113,7 @@ BROKEN = [
     ("{gear: wheel, at: 155,", "{gear: wheel, at: 120,", "begins at 90 mm, but a ends at 110 mm"),
     ("{crank: disc, of: cross.crank, at: 35,", "{crank: disc, of: cross.crank, at: 20,", "the shaft goes from 0 to"),
     ("designation: NU210E, floating: true", "designation: NU210E", "exactly one is needed"),
+    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1.1, 60x320 r1, 50x40", "with a fillet of 1.1 mm, which its ring with corners from 1.1 mm on"),
     ("conveyor: [180, 520]", "conveyor: [180, 521]", "puts the axes 280 mm apart"),
     (", far: [2180.254, 520]}", "}", "joins far, which has no axis in machine.frame"),
     ("rocker: [500, 0]", "rocker: [501, 0]", "wants the axes of crank and rocker 500 mm apart"),
@@ -212,6 +213,60 @@ def test_what_contradicts_itself_is_refused_at_its_place(old: str, new: str, tol
     _, problems = changed(old, new)
     assert [problem for problem in problems if told in problem], problems
     assert all(str(FILE) in problem for problem in problems)
+
+
+DOUBTFUL = [
+    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1, 56x320 r1, 50x40", "shoulder", "a shoulder of 56 mm; its rings want 56.5 mm to 83.5 mm there"),
+    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1, 84x320 r1, 50x40", "shoulder", "a shoulder of 84 mm; its rings want 56.5 mm to 83.5 mm there"),
+    ("{sprocket: left, at: 55, hub: 40, key: 36}", "{sprocket: left, at: 55, hub: 40, key: 36, stop: shoulder}", "stop",
+     "is stopped by a shoulder, but touches no thicker section"),
+    ("teeth: 18/87, module: 4,", "teeth: 15/90, module: 4,", "wall", "is 50 mm thick below its teeth, less than 1.5 times its seat of 35 mm"),
+    ("hub_yield: 370 MPa", "hub_yield: 320 MPa", "steel", "is 767 MPa, but through-hardened steel with hubs of 320 MPa has 750.7 MPa at the most"),
+    ("\nmechanisms:\n", "\nmechanisms:\n  extra:\n    {kind: parallel_key, shaft_diameter: 40 mm, key_length: 36 mm, torque: 9 N*m, application_factor: 1, "
+     "yield_shaft: 600 MPa, yield_hub: 370 MPa}\n", "block_without_part", "of the kind parallel_key, which is calculated of the parts"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "rule", "told"), DOUBTFUL, ids=[each[2:][1][:30] for each in DOUBTFUL])
+def test_what_is_doubtful_warns(old: str, new: str, rule: str, told: str) -> None:
+    config, _ = changed(old, new)
+    assert config.parts is not None
+    found = [each for each in config.parts.findings if (each.rule, each.level) == (rule, "warning")]
+    assert [each for each in found if told in str(each.message)], config.parts.findings
+
+
+def test_a_shoulder_within_its_bounds_and_a_block_that_refers_to_a_part_are_not_doubtful() -> None:
+    block = "  extra:\n    {kind: parallel_key, shaft_diameter: 40 mm, key_length: 36 mm, torque: '${shafts.far.parts.left.torque}'}\n"
+    for old, new in (
+        ("50x40 r1, 60x320 r1, 50x40", "50x40 r1, 57x320 r1, 50x40"),
+        ("50x40 r1, 60x320 r1, 50x40", "50x40 r1.04, 60x320 r1, 50x40"),
+        ("hub_yield: 370 MPa", "flanks: case_hardened, hub_yield: 320 MPa"),
+        ("\nmechanisms:\n", f"\nmechanisms:\n{block}"),
+    ):
+        config, _ = changed(old, new)
+        assert config.parts is not None
+        assert {each.rule for each in config.parts.findings} <= {"overlap", "wall"}, new
+
+
+def test_what_nothing_holds_along_its_shaft_warns_by_its_side() -> None:
+    """The bearings of the main shaft touch its thick section, the parts beside them touch nothing."""
+    config, problems = changed("  stop: sleeve     # where no shoulder holds a part\n", "")
+    assert config.parts is not None and not problems
+    main = config.parts.shafts["main"]
+    sides = {
+        each.path[-1]: str(each.message).partition("nothing ")[2].partition(";")[0]
+        for each in config.parts.findings
+        if each.rule == "stop" and each.path[:2] == ("shafts", "main")
+    }
+    told = {main.parts[int(index)].name: side for index, side in sides.items()}
+    assert told == {"disc": "on both sides", "wheel": "on both sides", "pinion": "on both sides"} | dict(
+        zip("ab", ("on the left", "on the right"), strict=True)
+    )
+    held = "{crank: disc, of: cross.crank, at: 35, stop: ring,"
+    text = TEXT.replace("  stop: sleeve     # where no shoulder holds a part\n", "")
+    config, _ = examined(parse(text.replace("{crank: disc, of: cross.crank, at: 35,", held), str(FILE)), DISCOVERY)
+    assert config.parts is not None
+    assert len([each for each in config.parts.findings if each.rule == "stop" and "main" in each.path]) == 4
 
 
 def test_the_bearing_of_a_pin_may_touch_its_disc_or_its_supports() -> None:
