@@ -25,7 +25,7 @@ from diecut_report.errors import PluginError, Problem, UserError, nearest, refus
 from diecut_report.files import standard_input
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput
-from diecut_report.mechanism.inputs import Block
+from diecut_report.mechanism.inputs import Block, keys
 from diecut_report.mechanism.mechanism import Mechanism, Partner, absent_partners_checks, without_checks
 from diecut_report.mechanism.names import SI, Pending, Text
 from diecut_report.text.phrases import Phrase
@@ -216,6 +216,7 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     problems = [
         *reader.problems,
         *tables.problems,
+        *_unknown_tables(tables, reader, discovery),
         *faults,
         *linker.problems,
         *_wrong_values(reader, linker),
@@ -233,6 +234,28 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
                     dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings(), logo,
                     found.parts if found else None, bool(found and found.problems))  # fmt: skip
     return config, problems
+
+
+def _unknown_tables(tables: OwnTables, reader: _ConfigReader, discovery: Discovery) -> Iterator[Problem]:
+    """Tables of the user's own that no kind takes: one of another name would stand beside the standard one that is taken in its place."""
+    used = {each.mechanism for each in reader.instances.values() if each and each.mechanism}
+    if not set(tables.entries) - _tables_of(used):
+        return
+    known = _tables_of(filter(None, (_declared(discovery, kind) for kind in discovery.origins)))
+    for table in set(tables.entries) - known:
+        first = next(iter(tables.entries[table].values()))
+        template = "is a table that no kind takes{near}; there are {known}"
+        near = nearest(table, known)
+        yield ConfigPlace(first.tree).problem(
+            (table,), template, at_key=True, near=near, known=", ".join(sorted(known))
+        )
+
+
+def _tables_of(mechanisms: Iterable[Mechanism]) -> set[str]:
+    models = [
+        model for each in mechanisms for model in (each.inputs, *(key.block for key in keys(each.inputs).values()))
+    ]
+    return {rule.table for model in models if model for rule in model.from_tables}
 
 
 def _stands_alone(tree: Tree, problem: Problem) -> bool:

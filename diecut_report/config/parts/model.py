@@ -366,7 +366,9 @@ class MachineParts:
     def _named(self, text: str, kind: str, path: KeyPath) -> ShaftPart | None:
         """The part that SHAFT.NAME names; None where there is none, which is noted."""
         shaft, _, name = text.partition(".")
-        if shaft not in self.shafts and shaft in self.reader.data["shafts"]:  # it cannot be read, which is told there
+        shafts = self.reader.data["shafts"]
+        is_unread = shaft in shafts if isinstance(shafts, dict) else shafts is not None
+        if shaft not in self.shafts and is_unread:  # which is told there
             return None
         own = (
             {part.name: part for part in self.shafts[shaft].parts if part.kind == kind} if shaft in self.shafts else {}

@@ -220,11 +220,11 @@ def shoulder(parts: MachineParts) -> Iterator[Finding]:
         for step, fillet in part.shoulders.values():
             place = (*shaft.path, "sections")
             if not -SAME_PLACE <= step.diameter - part.seat - 2 * least <= outside - part.seat - 4 * least + SAME_PLACE:
-                template = "rests on a shoulder of {diameter}; its rings want {least} to {most} there: change section {number}, or stop the bearing by a ring"
+                template = "rests on a shoulder of {diameter}; its rings want {least} to {most}: change section {number}, or put a ring between"
                 yield finding(parts, "shoulder", "warning", part.path, template, place, diameter=mm(step.diameter), least=mm(part.seat + 2 * least),
                     most=mm(outside - 2 * least), number=step.index + 1)  # fmt: skip
             if fillet is not None and fillet > corner - SAME_PLACE:
-                template = "rests on a shoulder with a fillet of {fillet}, which its ring with corners from {corner} on does not clear; take a fillet below {most}"
+                template = "rests on a shoulder with a fillet of {fillet}, too large for its ring with corners from {corner}; take less than {most}"
                 yield finding(parts, "shoulder", "error", part.path, template, place, fillet=mm(fillet), corner=mm(corner),
                     most=mm(corner - SAME_PLACE))  # fmt: skip
 
@@ -246,7 +246,7 @@ def stop(parts: MachineParts) -> Iterator[Finding]:
             }
             free = [side for side, beside in held.items() if not beside and side not in part.shoulders]
             if sides := SIDES.get(tuple(free)):
-                template = "is held along the shaft by nothing {sides}; move it to a shoulder, or give stop here or under machine: ring, sleeve, nut or press"
+                template = "is held along the shaft by nothing {sides}; move it to a shoulder, or give stop, here or to all parts under machine"
                 yield finding(parts, "stop", "warning", part.path, template, sides=sides)
 
 
@@ -361,7 +361,7 @@ def steel(parts: MachineParts) -> Iterator[Finding]:
         return
     most = HARDNESS[0] * gears.hub_yield / LEAST_YIELD + HARDNESS[1]
     if gears.sigma_h_lim > most:
-        template = "is {limit}, but through-hardened steel with hubs of {hub} has {most} at the most (ISO 6336-5, ME); give flanks, or the values of one steel"
+        template = "is {limit}, but through-hardened steel with hubs of {hub} has {most} at most (ISO 6336-5, ME); give flanks, or the steel's own"
         own, hub = (("machine", "gears", key) for key in ("sigma_h_lim", "hub_yield"))
         shown = {"limit": gears.sigma_h_lim, "hub": gears.hub_yield, "most": most}
         yield finding(
@@ -529,7 +529,7 @@ def _untied(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     for name, block in elements.blocks.items():
         known = {found[1] for found in ROOT.finditer(str(block))} & {*WORDS, *made}
         if block.get("kind") in kinds and not known:
-            template = "is of the kind {kind}, which is calculated of the parts, but refers to none of them; make it a part, or refer to the part it belongs to"
+            template = "is a {kind}, as they are calculated of the parts, but refers to none of them; make it a part, or refer to its part"
             yield finding(parts, "block_without_part", "warning", ("mechanisms", name), template, kind=block["kind"])
 
 
@@ -565,6 +565,6 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
-    few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting, shoulder, stop, key, wall, steel,
-    torque_carried, integral, force_plane, pins, axes, one_belt, center, frame, mesh_pair, sector, chain,
+    few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting,
+    shoulder, stop, key, wall, steel, torque_carried, integral, force_plane, pins, axes, one_belt, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

@@ -113,7 +113,7 @@ BROKEN = [
     ("{gear: wheel, at: 155,", "{gear: wheel, at: 120,", "begins at 90 mm, but a ends at 110 mm"),
     ("{crank: disc, of: cross.crank, at: 35,", "{crank: disc, of: cross.crank, at: 20,", "the shaft goes from 0 to"),
     ("designation: NU210E, floating: true", "designation: NU210E", "exactly one is needed"),
-    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1.1, 60x320 r1, 50x40", "with a fillet of 1.1 mm, which its ring with corners from 1.1 mm on"),
+    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1.1, 60x320 r1, 50x40", "with a fillet of 1.1 mm, too large for its ring with corners from 1.1 mm"),
     ("conveyor: [180, 520]", "conveyor: [180, 521]", "puts the axes 280 mm apart"),
     (", far: [2180.254, 520]}", "}", "joins far, which has no axis in machine.frame"),
     ("rocker: [500, 0]", "rocker: [501, 0]", "wants the axes of crank and rocker 500 mm apart"),
@@ -216,15 +216,23 @@ def test_what_contradicts_itself_is_refused_at_its_place(old: str, new: str, tol
 
 
 DOUBTFUL = [
-    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1, 56x320 r1, 50x40", "shoulder", "a shoulder of 56 mm; its rings want 56.5 mm to 83.5 mm there"),
-    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1, 84x320 r1, 50x40", "shoulder", "a shoulder of 84 mm; its rings want 56.5 mm to 83.5 mm there"),
+    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1, 56x320 r1, 50x40", "shoulder", "a shoulder of 56 mm; its rings want 56.5 mm to 83.5 mm"),
+    ("50x40 r1, 60x320 r1, 50x40", "50x40 r1, 84x320 r1, 50x40", "shoulder", "a shoulder of 84 mm; its rings want 56.5 mm to 83.5 mm"),
     ("{sprocket: left, at: 55, hub: 40, key: 36}", "{sprocket: left, at: 55, hub: 40, key: 36, stop: shoulder}", "stop",
      "is stopped by a shoulder, but touches no thicker section"),
     ("teeth: 18/87, module: 4,", "teeth: 15/90, module: 4,", "wall", "is 50 mm thick below its teeth, less than 1.5 times its seat of 35 mm"),
-    ("hub_yield: 370 MPa", "hub_yield: 320 MPa", "steel", "is 767 MPa, but through-hardened steel with hubs of 320 MPa has 750.7 MPa at the most"),
-    ("\nmechanisms:\n", "\nmechanisms:\n  extra:\n    {kind: parallel_key, shaft_diameter: 40 mm, key_length: 36 mm, torque: 9 N*m, application_factor: 1, "
-     "yield_shaft: 600 MPa, yield_hub: 370 MPa}\n", "block_without_part", "of the kind parallel_key, which is calculated of the parts"),
+    ("hub_yield: 370 MPa", "hub_yield: 320 MPa", "steel", "is 767 MPa, but through-hardened steel with hubs of 320 MPa has 750.7 MPa at most"),
+    ("\nmechanisms:\n", "\nmechanisms:\n  extra: {kind: parallel_key, shaft_diameter: 40 mm, key_length: 36 mm}\n",
+     "block_without_part", "is a parallel_key, as they are calculated of the parts"),
 ]  # fmt: skip
+
+
+@pytest.mark.parametrize("given", ["", "5", "true", "main", "[]", "{}"])
+def test_shafts_that_are_none_end_in_words_also_where_something_joins_them(given: str) -> None:
+    start, end = TEXT.index("shafts:\n"), TEXT.index("meshes:\n")
+    _, problems = examined(parse(f"{TEXT[:start]}shafts: {given}\n{TEXT[end:]}", str(FILE)), DISCOVERY)
+    told = "names flywheel.pinion, but there is no such gear" if given in ("", "{}") else "a block of names is needed"
+    assert told in str(problems[0]), problems
 
 
 @pytest.mark.parametrize(("old", "new", "rule", "told"), DOUBTFUL, ids=[each[2:][1][:30] for each in DOUBTFUL])
