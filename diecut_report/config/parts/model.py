@@ -109,8 +109,8 @@ class ShaftPart:
         return self.keys.at - self.hub / 2, self.keys.at + self.hub / 2
 
     @cached_property
-    def shoulders(self) -> dict[Literal["left", "right"], tuple[ShaftSection, float | None]]:
-        """Return the thicker sections that it touches, by its side, each with the fillet radius of the step."""
+    def shoulders(self) -> dict[str, tuple[ShaftSection, float | None]]:
+        """Return the thicker sections that it touches, by its side, left or right, each with the fillet radius of the step."""
         sections, own = self.shaft.sections, self.section
         if own is None:
             return {}
@@ -118,8 +118,7 @@ class ShaftPart:
         return {
             side: (sections[index], sections[min(index, own.index)].fillet)
             for side, (index, gap) in beside.items()
-            if 0 <= index < len(sections) and abs(gap) <= SAME_PLACE
-            and sections[index].diameter > own.diameter + SAME_PLACE
+            if index in range(len(sections)) and abs(gap) <= SAME_PLACE and sections[index].diameter > own.diameter + SAME_PLACE
         }  # fmt: skip
 
     @property

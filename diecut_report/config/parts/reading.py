@@ -23,12 +23,13 @@ from diecut_report.config.parts.keys import (
     ShaftKeys,
     size,
 )
+from diecut_report.config.references import WHOLE
 from diecut_report.config.validation import ConfigPlace, copied, declared, quoted, spread_out, validate
 from diecut_report.config.yaml import KeyPath, Position, Tree, resolved
 from diecut_report.errors import Problem, lookalikes
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
-from diecut_report.mechanism.inputs import Block, Quantity
+from diecut_report.mechanism.inputs import Block, Meta, Quantity
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -95,7 +96,7 @@ class PartsReader:
     models: Mapping[str, type[Block]]  # of the mechanisms, by their names
     tables: OwnTables = field(default_factory=OwnTables)
     problems: list[Problem] = field(default_factory=list)
-    _sought: list[str] = field(default_factory=list)  # references that are followed just now
+    _known: dict[str, tuple[float, str] | ConditionError] = field(default_factory=dict)  # what typed values give
 
     def machine(self) -> ReadBlock | None:
         """Return the block ``machine``, whose keys go on to no calculation: an unknown one is refused."""
@@ -196,7 +197,7 @@ class PartsReader:
         values: dict[str, float] = {}
 
         def name(path: str) -> Name:
-            value, si = self._typed(path)
+            value, si = self._typed(path.removeprefix("${").removesuffix("}"))
             values[path] = value
             return Name(path, "number", si)
 
@@ -206,28 +207,46 @@ class PartsReader:
         return f"{found.value(values.__getitem__) / unit(meta.unit).factor!r} {meta.unit}"
 
     def _typed(self, path: str) -> tuple[float, str]:
-        """The number that is typed at a path, in SI, and its SI unit; ConditionError where none is."""
-        key: KeyPath = tuple(
-            int(part) if INDEX.fullmatch(part) else part
-            for part in path.removeprefix("${").removesuffix("}").split(".")
-        )
+        """The number that is typed at a path, in SI, and its SI unit; ConditionError where none is.
+
+        What it refers to is worked out before it, each once and to any depth.
+        """
+        waiting = [] if path in self._known else [path]
+        while waiting:
+            last = waiting[-1]
+            ahead = next((each for each in self._referred(last) if each not in self._known), None)
+            if ahead is None or ahead in waiting:
+                self._known[last] = self._number(last) if ahead is None else _circular(ahead)
+                waiting.pop()
+            else:
+                waiting.append(ahead)
+        found = self._known[path]
+        if isinstance(found, ConditionError):
+            raise found
+        return found
+
+    def _referred(self, path: str) -> list[str]:
+        given = self._given(path)[1]
+        return WHOLE.findall(given) if isinstance(given, str) else []
+
+    def _given(self, path: str) -> tuple[KeyPath, Any, Meta | type[Block] | None]:
+        """A path, what is typed there, and what its key declares."""
+        key: KeyPath = tuple(int(part) if INDEX.fullmatch(part) else part for part in path.split("."))
         given = _at(self.data.get("mechanisms"), key) if key[0] not in self.data else _at(self.data, key)
         known: dict[str, type[Block]] = {"press": PressBlock, **self.models}
         model = known.get(str(key[0]))
         meta = declared(model, key[1:]) if model and key[1:] else None
-        given = given.get("value") if isinstance(given, dict) else given
+        return key, given.get("value") if isinstance(given, dict) else given, meta
+
+    def _number(self, path: str) -> tuple[float, str] | ConditionError:
+        key, given, meta = self._given(path)
         if not isinstance(meta, Quantity) or given is None:
             template = "{path} is not a number that is typed; a dimension of a part must be known before anything is calculated."
-            raise ConditionError(template, path=path)
-        if path in self._sought:
-            raise ConditionError("{path} refers to itself; give one of these values a number.", path=path)
-        self._sought.append(path)
+            return ConditionError(template, path=path)
         try:
             value: float = meta.validate(self._calculated(given, key, meta))
         except ValueError as fault:
-            raise ConditionError(str(fault)) from None
-        finally:
-            self._sought.pop()
+            return ConditionError(str(fault))
         return value, unit(meta.unit).si
 
     @cached_property
@@ -270,6 +289,10 @@ class PartsReader:
 
     def _fault(self, path: KeyPath, template: str, **values: object) -> None:
         self.problems.append(ConfigPlace(self.tree).problem(path, Phrase(template, **values)))
+
+
+def _circular(path: str) -> ConditionError:
+    return ConditionError("{path} refers to itself; give one of these values a number.", path=path)
 
 
 def _at(data: Any, key: KeyPath) -> Any:

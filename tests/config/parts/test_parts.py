@@ -24,6 +24,7 @@ from diecut_report.results.open_items import is_formula, unrated_forces
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
 from diecut_report.results.warm_press import WarmPress
+from diecut_report.time_limit import limited
 
 FILE = Path(import_module("diecut_report.configs").__path__[0]) / "machines" / "flat_cylinder.yaml"
 TEXT = FILE.read_text("utf-8")
@@ -720,6 +721,25 @@ def test_a_shaft_of_more_sections_than_can_be_drawn_is_refused() -> None:
 def test_slots_of_any_kind_end_in_words(slots: str) -> None:
     _, problems = changed("    slots: 6\n", f"    slots: {slots}\n")
     assert bool(problems) == (not slots.startswith("{"))
+
+
+@pytest.mark.parametrize("both", ["", " + ${m%d.bore_radius} - ${m%d.bore_radius}"], ids=["one", "many"])
+def test_a_dimension_is_worked_out_through_many_references_each_once(both: str) -> None:
+    """Each of 150 values refers to the next one, or to it and twice to another one beside it."""
+    rest = "kind: cylinder_sizing, generatrix_length: 700 mm, working_length: 400 mm"
+    blocks = "".join(
+        f"  m{i}: {{{rest}, segment_height: '${{m{i + 1}.segment_height}}{both.replace('%d', str(i + 1))}', "
+        f"bore_radius: '${{m{i + 1}.bore_radius}}'}}\n"
+        for i in range(150)
+    )
+    last = f"  m150: {{{rest}, segment_height: 35 mm, bore_radius: 9 mm}}\n"
+    text = TEXT.replace(
+        "{crank: disc, of: cross.crank, at: 35,", "{crank: disc, of: cross.crank, at: '${m0.segment_height}',"
+    )
+    with limited(30):
+        config, problems = examined(parse(f"{text}{blocks}{last}", str(FILE)), DISCOVERY)
+    assert not problems and config.parts is not None
+    assert config.parts.shafts["main"].parts[0].keys.at == pytest.approx(0.035)
 
 
 def test_references_that_go_round_end_in_words() -> None:
