@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.catalogues import catalogues_for, lacking
-from diecut_report.config.loader import Config, examined, in_order, load_config
+from diecut_report.config.loader import FOLLOWS, Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import rewritten
-from diecut_report.config.yaml import KeyPath, Tree
+from diecut_report.config.yaml import KeyPath, Tree, dotted
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, nearest, refusal
 from diecut_report.files import write_all
 from diecut_report.results.conclusion import doubtful
@@ -129,8 +129,14 @@ class Press:
 
     def with_values(self, values: Mapping[KeyPath, str], *, over_references: bool = False) -> Press:
         """Return the press with these values typed into its text, by their places; UserError where that is not possible or not allowed."""
-        tree = rewritten(self.config.tree, values, over_references=over_references)
-        return replace(self, config=load_config(tree, self.discovery))
+        tree, parts = self.config.tree, self.config.parts
+        if parts is not None:
+            tree = parts.reader.tree  # what follows from the parts is worked out again
+            if derived := next((path for path in values if parts.follows(path[1:])), None):
+                raise refusal("{path} {reason}", tree.file, path=dotted(derived[1:]), reason=FOLLOWS)
+        return replace(
+            self, config=load_config(rewritten(tree, values, over_references=over_references), self.discovery)
+        )
 
     def require_reportable(self, formats: Sequence[str], only: Sequence[str] = ()) -> None:
         """Raise UserError where a report in these formats, or of these mechanisms alone, is not possible."""

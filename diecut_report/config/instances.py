@@ -24,12 +24,22 @@ from diecut_report.config.validation import (
     validate,
 )
 from diecut_report.config.yaml import KeyPath, dotted
-from diecut_report.errors import Problem, nearest
+from diecut_report.errors import Problem, latin_letters, nearest
 from diecut_report.formulas.condition_parts import Expression
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.curve_inputs import CurveInput, FromTable
-from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields, flatten, list_inputs, texts_given
+from diecut_report.mechanism.inputs import (
+    Block,
+    Meta,
+    Quantity,
+    Varying,
+    allowed,
+    fields,
+    flatten,
+    list_inputs,
+    texts_given,
+)
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import FromPress, Text
 from diecut_report.mechanism.steps import PREFIX, ComputedCurve, PartNames, Step, part_result
@@ -123,11 +133,17 @@ class BlockData:
 
     def _judge(self, model: type[Block], rule: FromTable) -> None:
         """Judge all entries of a table by the block that may take them, whether it does or not."""
+        known = {_plain(text): text for text in allowed(keys_of(model)[rule.key].field.annotation, None)}
         for entry in self.tables.entries.get(rule.table, {}).values():
             mark = (*entry.path, entry.tree.file, model.__name__, rule.key)
             if mark not in self.tables.judged:
                 self.tables.judged.add(mark)
                 self.tables.problems += _faults(model, rule, entry)
+                standard = known.get(_plain(entry.name), entry.name)
+                if standard != entry.name:
+                    template = "is nearly named as the standard {standard}, which is taken where that is named; write {standard}, or another name"
+                    place = ConfigPlace(entry.tree)
+                    self.tables.problems.append(place.problem(entry.path, template, at_key=True, standard=standard))
 
     def _rest_on_entry(self, key: KeyPath) -> None:
         """Let a quantity that comes from an entry rest on it, as far as the entry itself does not say."""
@@ -180,6 +196,11 @@ def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:
     if isinstance(meta, Quantity | CurveInput):
         return meta.unit
     return "1" if isinstance(meta, Text) and "value" in given else ""
+
+
+def _plain(name: str) -> str:
+    """A name without what is easily overlooked: blanks, capitals, and letters that only look Latin."""
+    return "".join(latin_letters(name).split()).casefold()
 
 
 def _unknown_entry(table: str, name: str, known: Sequence[str]) -> str:

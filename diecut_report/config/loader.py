@@ -28,7 +28,7 @@ from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import Block, keys
 from diecut_report.mechanism.mechanism import Mechanism, Partner, absent_partners_checks, without_checks
 from diecut_report.mechanism.names import SI, Pending, Text
-from diecut_report.text.phrases import Phrase
+from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import contained
 
 # Partners: the mechanisms from which a kind takes inputs by itself, and the kinds that run without being asked.
@@ -142,6 +142,8 @@ def refuse_study(tree: Tree) -> None:
 
 
 RESERVED = (PRESS, "project", *WORDS)
+FOLLOWS = phrase("follows from the parts of the machine; change these in the file.")
+MADE_WITH = phrase("is what parts of the machine are made with, which follow it only where it is changed in the file.")
 
 
 @dataclass(frozen=True)
@@ -177,6 +179,12 @@ class Config:
         """Return the only mechanism of a kind."""
         found = [name for name, own in self.kinds.items() if own == kind]
         return found[0] if len(found) == 1 else None
+
+    def tied(self, node: Node) -> Phrase | None:
+        """Return why other values of an input give no other machine by themselves: it and the parts follow from each other."""
+        if self.parts is None:
+            return None
+        return FOLLOWS if self.parts.follows(node) else MADE_WITH if self.parts.is_made_with(node) else None
 
     @property
     def source_hashes(self) -> dict[str, str]:

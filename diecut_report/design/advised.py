@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.design.inputs import DesignInput, given_numbers, is_form, named_input
+from diecut_report.design.inputs import DesignInput, given_numbers, is_form, named_input, untied
 from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, Chosen, VariedMachines, upstream, varied
 from diecut_report.errors import PluginError, UserError
 from diecut_report.formulas import Array
@@ -371,7 +371,9 @@ Choices = dict[str, tuple[DesignInput, dict[str, float]]]
 
 def changeable_choices(config: Config, free: Sequence[DesignInput], keep: Container[str]) -> Choices:
     """Return what of the ``free`` ones takes one of some values, else the sizes that are numbers of a list; not those paths."""
-    named = free or [each for each in given_numbers(config) if each.meta.listed and is_form(config, each)]
+    named = free or [
+        each for each in untied(config, given_numbers(config)) if each.meta.listed and is_form(config, each)
+    ]
     return {each.asked.path: (each, own) for each in named if each.asked.path not in keep and (own := _values(each))}
 
 

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from diecut_report.config.loader import Config
+from diecut_report.config.loader import MADE_WITH, Config
 from diecut_report.config.model import PRESS
 from diecut_report.design.inputs import DesignInput, standing_numbers
 from diecut_report.design.machines import SLACK, downstream, slacks
@@ -34,19 +34,22 @@ LEFT_OUT = tuple(
 
 
 UNTRIED = phrase(
-    "it is not one number of the configuration, or its mechanism takes no arrays, so no other value was tried"
+    "it is not one number of the configuration, parts of the machine are made with it, or its mechanism takes no arrays, "
+    "so no other value was tried"
 )
 
 
 def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]:
     """Return what is open of a machine without the assumed and default values that are proved harmless; those left say which check changes.
 
-    Values that are not a single number of the configuration, or of mechanisms that cannot be calculated on arrays, stay open; so do
-    those of which nobody knows what would be usual.
+    Values that are not a single number of the configuration, those that parts are made with, and those of mechanisms that cannot be
+    calculated on arrays stay open; so do those of which nobody knows what would be usual.
     """
     numbers = standing_numbers(config)
     tried = [each for each in results.summary.open if each.what in VALUES and each.why == UNPROVED]
-    named = [each for each in tried if each.path in numbers]
+    named = [
+        each for each in tried if each.path in numbers and config.tied(numbers[each.path].asked.node) is not MADE_WITH
+    ]
     homes = {numbers[each.path].asked.instance for each in named}
     reached = {home: frozenset(downstream(config, home)) for home in homes}
     trials = [Trial.of(config, each, numbers[each.path], reached) for each in named]

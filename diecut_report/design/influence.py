@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
 from typing import Any, Literal, TypeVar
@@ -17,7 +17,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import InfluenceSettings
 from diecut_report.config.yaml import KeyPath
 from diecut_report.design.answers import AskedNumber, quantity
-from diecut_report.design.inputs import DesignInput, design_input, given_numbers, numbers_at_default
+from diecut_report.design.inputs import DesignInput, design_input, given_numbers, numbers_at_default, untied
 from diecut_report.design.machines import CHECKS, VariedMachines, impossible, varied
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.formulas import Array
@@ -69,16 +69,18 @@ class Tornado:
     """Hold the inputs by what they do to a number, the greatest first.
 
     ``impossible`` are those of which a change makes no machine and that do nothing else, ``reason`` says why the first does not.
-    Those that do nothing are counted (``still``), and those that stand at their default and were not changed (``at_default``).
+    Those that do nothing are counted (``still``), and those that were not changed, as they stand at their default (``at_default``)
+    or are of parts of the machine or what these are made with (``tied``).
     """
 
     asked: AskedNumber
     present: float
     bars: tuple[InputEffect, ...]
     still: int
-    at_default: int
     impossible: tuple[InputEffect, ...] = ()
     reason: str = ""
+    at_default: int = 0
+    tied: int = 0
 
     @property
     def record(self) -> TornadoRecord:
@@ -119,8 +121,9 @@ def tornados(
     govern. UserError where there is nothing to look at.
     """
     own = {each.asked.path for each in tolerances}
-    standing = numbers_at_default(config)
-    numbers = [*given_numbers(config), *(standing if defaults else ())]
+    given, standing = given_numbers(config), untied(config, numbers_at_default(config))
+    free = untied(config, given)
+    numbers = [*free, *(standing if defaults else ())]
     inputs = [*tolerances, *(each for each in numbers if each.present and each.asked.path not in own)]
     if not inputs:
         raise refusal("no input is given as a non-zero number, so none has an influence.", config.tree.file)
@@ -138,7 +141,10 @@ def tornados(
             )
             raise UserError(Problem(Phrase(template, asked=number.name), config.tree.file, path="--of"))
     left = 0 if defaults else sum(1 for each in standing if each.present and each.asked.path not in own)
-    return [_tornado(made, each, inputs, ends, left) for each in asked]
+    tied = len(
+        {config.tree.position(each.stands) for each in given if each not in free}
+    )  # one number may stand for several inputs
+    return [replace(_tornado(made, each, inputs, ends), at_default=left, tied=tied) for each in asked]
 
 
 def by_input(sizes: Iterable[tuple[DesignInput, float]]) -> dict[DesignInput, float]:
@@ -202,7 +208,6 @@ def _tornado(
     asked: AskedNumber,
     inputs: Sequence[DesignInput],
     ends: Sequence[tuple[float, float]],
-    left: int,
 ) -> Tornado:
     values = made.values(asked.column)
     present, sides = float(values[0]), np.reshape(values[1:], (-1, 2)).tolist()
@@ -211,7 +216,7 @@ def _tornado(
     moving.sort(key=lambda each: -each.reach(present))
     impossible = tuple(each for each in bars if each not in moving and each.is_impossible)
     reason = next((why for why in _errors(made, bars.index(impossible[0])) if why), "") if impossible else ""
-    return Tornado(asked, present, tuple(moving), len(bars) - len(moving) - len(impossible), left, impossible, reason)
+    return Tornado(asked, present, tuple(moving), len(bars) - len(moving) - len(impossible), impossible, reason)
 
 
 def _errors(made: VariedMachines, index: int) -> Array:
@@ -307,6 +312,12 @@ def _left_out(found: Sequence[Tornado], option: str) -> Iterator[Phrase]:
         one = "{n} input has its default value and is not varied; {option} includes it"
         many = "{n} inputs have their default values and are not varied; {option} includes them"
         yield Counted(left, one, many, option=option)
+    if tied := max((each.tied for each in found), default=0):
+        single = (
+            "{n} number of the parts of the machine, or with which they are made, is not varied; change it in the file"
+        )
+        several = "{n} numbers of the parts of the machine, or with which they are made, are not varied; change them in the file"
+        yield Counted(tied, single, several)
 
 
 def _tolerances(found: TolerancesRecord) -> Iterator[Phrase]:

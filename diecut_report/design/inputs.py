@@ -131,7 +131,7 @@ def design_input(config: Config, name: str) -> DesignInput:
     """Return the number that a name stands for, also where it refers to it; UserError in words where it cannot be changed."""
     asked = _asked(config, name)
     for _ in range(MANY_STEPS):
-        target = config.links.get((asked.instance, *asked.key))
+        target = config.links.get(asked.node)
         if target is None or target.is_default:
             break
         if target.expression or target.result is not None or target.is_broken:
@@ -154,10 +154,30 @@ def design_input(config: Config, name: str) -> DesignInput:
     return _made(config, asked)
 
 
+def varied_input(config: Config, name: str) -> DesignInput:
+    """Return the number that a name stands for, which takes other values; UserError in words where these give no other machine."""
+    found = design_input(config, name)
+    require_untied(config, found)
+    return found
+
+
+def require_untied(config: Config, design: DesignInput) -> None:
+    """Raise UserError in words where the parts of a machine do not follow other values of an input."""
+    if tied := config.tied(design.asked.node):
+        raise refusal("{name} {reason}", config.tree.file, name=design.name, reason=tied)
+
+
+def untied(config: Config, designs: Iterable[DesignInput]) -> list[DesignInput]:
+    """Return those whose other values give another machine, also where it is made of parts."""
+    return [each for each in designs if not config.tied(each.asked.node)]
+
+
 def named_input(config: Config, name: str) -> DesignInput:
     """Return the input of a name, be it a number, a text or a yes/no; UserError in words where there is none."""
     asked = _asked(config, name)
-    return design_input(config, name) if isinstance(asked.meta, Quantity) else _made(config, asked)
+    found = design_input(config, name) if isinstance(asked.meta, Quantity) else _made(config, asked)
+    require_untied(config, found)
+    return found
 
 
 def _asked(config: Config, name: str) -> Input:
@@ -222,7 +242,7 @@ def _made(config: Config, asked: Input) -> DesignInput:
 
 def _present(config: Config, asked: Input) -> float | None:
     """The value that the file gives, or the default."""
-    link = config.links.get((asked.instance, *asked.key))
+    link = config.links.get(asked.node)
     if link is not None and (link.expression or link.result is not None or link.node in config.links):
         return None
     instance = config.instances[asked.instance if link is None else link.instance]
@@ -261,7 +281,7 @@ NAMED = 12  # inputs that a message names
 
 def nothing_free(config: Config, left_out: Collection[str]) -> Phrase:
     """Return what is to be done where no input is free: the inputs that could be named, but for those paths."""
-    known = [*given_choices(config), *(each for each in given_numbers(config) if each.present)]
+    known = untied(config, [*given_choices(config), *(each for each in given_numbers(config) if each.present)])
     found = [each.name for each in known if each.asked.path not in left_out]
     if not found:
         return Phrase("nothing is free to be changed: keep fewer inputs by --keep.")
@@ -271,8 +291,8 @@ def nothing_free(config: Config, left_out: Collection[str]) -> Phrase:
 
 def untried(config: Config, instances: Collection[str], known: Collection[str]) -> tuple[str, ...]:
     """Return the texts, yes/no and numbers of parts of mechanisms that are tried only where they are named."""
-    choices = [each for each in given_choices(config) if len(each.options) > 1]
-    whole = [each for each in given_numbers(config) if each.is_whole and each.present]
+    choices = [each for each in untied(config, given_choices(config)) if len(each.options) > 1]
+    whole = [each for each in untied(config, given_numbers(config)) if each.is_whole and each.present]
     own = (each for each in (*choices, *whole) if each.asked.instance in instances and each.asked.path not in known)
     return tuple(dict.fromkeys(each.name for each in own))
 
@@ -328,7 +348,7 @@ def changeable(
         if not each.present:
             template = "{input} has no value at present, or is zero, and cannot be varied by a percentage; give it a value first."
             raise UserError(Problem(Phrase(template, input=each.name), config.tree.file, path="--free"))
-    own = free or [*(each for each in given_numbers(config) if is_form(config, each)), *advised]
+    own = free or [*(each for each in untied(config, given_numbers(config)) if is_form(config, each)), *advised]
     left = [each for each in own if not each.is_stepped and each.present and each.asked.path not in keep]
     return list({each.asked.path: each for each in left}.values())
 

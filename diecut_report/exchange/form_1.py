@@ -10,6 +10,7 @@ from diecut_report.results.record import WORDINGS
 from diecut_report.text.phrases import Phrase, message_of
 
 FIRST = "1.0"
+LONGEST = 100_000  # letters of a text
 
 
 def is_own(results: Mapping[str, Any]) -> bool:
@@ -35,13 +36,18 @@ def _message(wording: Any) -> Phrase | None:
 
 
 def _data(wording: Any) -> Any:
+    """A text with its values as the form of today has it; None where it is not one, or longer than any."""
     if not isinstance(wording, dict):
         return wording
-    values = {name: _data(each) for name, each in (wording.get("values") or {}).items()}
+    given, template = wording.get("values") or {}, str(wording.get("text"))
+    if not isinstance(given, dict):
+        return None
+    values = {name: _data(each) for name, each in given.items()}
+    texts = {name: _text(each) for name, each in values.items()}
+    if len(template) + template.count("{") * max(map(len, texts.values()), default=0) > LONGEST:
+        return None
     counted = {key: wording[key] for key in ("one", "count") if key in wording}
-    made = {"template": wording.get("text"), "values": values} | counted
-    filled = Phrase(str(made["template"]), {name: _text(each) for name, each in values.items()})
-    return made | {"text": str.__str__(filled)}
+    return {"template": wording.get("text"), "values": values, "text": str.__str__(Phrase(template, texts))} | counted
 
 
 def _text(value: Any) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Collection, Iterator, Sequence
+import math
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import chain
@@ -486,10 +487,25 @@ class Expression:
             found = numbers(self.tree, value_of)
         return float(found) if found.ndim == 0 else found
 
-    def fault(self, value_of: Callable[[str], Any]) -> str:
-        """Return why a single machine gives it no value, in words."""
+    def known_value(self, known: Mapping[str, Any]) -> Any:
+        """Return its value in SI; ConditionError where a single machine gives it none, with why that is so."""
+        found = self.value(known.__getitem__)
+        if not (isinstance(found, float) and math.isnan(found)):
+            return found
+        single = (
+            Phrase("{name} is {given}", name=name, given=f"{each:.6g}")
+            for name, each in known.items()
+            if np.ndim(each) == 0
+        )
         with np.errstate(all="ignore"):
-            return next(_faults(self.tree, value_of), phrase("gives a number that is too large to calculate with"))
+            too_large = phrase("gives a number that is too large to calculate with")
+            fault = next(_faults(self.tree, known.__getitem__), too_large)
+        raise ConditionError(
+            "“{text}” {fault}, where (in SI) {values}.",
+            text=self.text,
+            fault=fault,
+            values=joined_phrases(single, ", "),
+        )
 
     def refused(self, wanted: str) -> str:
         """Return why it cannot stand where a quantity in the unit ``wanted`` is needed; nothing where it can."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.design.inputs import DesignInput
+from diecut_report.design.inputs import DesignInput, require_untied
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
 from diecut_report.errors import Problem, refusal
 from diecut_report.live.session import LiveMachine, LiveSession
@@ -368,6 +368,7 @@ def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
     asked = machine.inputs.get(name)
     if asked is None:
         raise refusal("{name} is not a number that the file gives.", name=repr(name))
+    require_untied(machine.config, asked)
     places = _places(asked)
     moved = narrowed(machine.config, downstream(machine.config, asked.asked.instance))
     found = varied(moved, {asked.asked: places}, len(places), tell=tell)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -20,6 +19,7 @@ from diecut_report.config.plugins import said
 from diecut_report.config.validation import declared, validate
 from diecut_report.errors import MAX_COMPARISONS, PluginError, Problem, UserError
 from diecut_report.formulas import Array
+from diecut_report.formulas.conditions import ConditionError
 from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUnits, CurveHandle, Impossible
 from diecut_report.machine.steps.needed import needed
 from diecut_report.machine.steps.run import calculate
@@ -215,15 +215,10 @@ class Run:
         expression = target.expression
         assert expression is not None
         known = {name: given.value for name, given in zip(expression.names, values, strict=True)}
-        value = expression.value(known.__getitem__)
-        if isinstance(value, float) and math.isnan(value):
-            single = {name: f"{given:.6g}" for name, given in known.items() if np.ndim(given) == 0}
-            told = ", ".join(Phrase("{name} is {given}", name=name, given=given) for name, given in single.items())
-            fault = expression.fault(known.__getitem__)
-            raise Valueless(
-                Phrase("{told} {fault}, where (in SI) {told_2}.", told=target.told, fault=fault, told_2=told)
-            )
-        return SI(value, str(target.unit), expression.text)
+        try:
+            return SI(expression.known_value(known), str(target.unit), expression.text)
+        except ConditionError as fault:
+            raise Valueless(fault.words) from None
 
     def _derived(self, instance: Instance, node: Node, target: Target, value: SI) -> SI:
         """A default of the press that is not the press's field itself."""

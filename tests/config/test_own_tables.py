@@ -168,6 +168,8 @@ def test_several_files_are_read(tmp_path: Path) -> None:
         ("source: Works standard 12, 2024", "source: ''", "steels.yaml:1:9: source: is “”; a text is needed"),
         ("source: Works standard 12, 2024", "source: '.'", "steels.yaml:1:9: source: is “.”; a text is needed"),
         ("steels:\n  own:", "stels:\n  own:", "is “own”; allowed: 42CrMo4+QT, C45E+QT, C45E+N"),
+        ("  own:", "  'c45E +QT':", "is nearly named as the standard C45E+QT, which is taken where that is named"),
+        ("  own:", "  \u042145E+QT:", "is nearly named as the standard C45E+QT"),  # a Cyrillic letter
         ("chains:", "chans:", "chans: is a table that no kind takes (did you mean 'chains'?); there are chains, gear_materials, keys, steels"),
         ("  own:", "  owm:", "is “own” (did you mean 'owm'?); allowed: 42CrMo4+QT, C45E+QT, C45E+N, owm"),
         ("sigma_f_lim: 500 MPa", "sigma_f_lim: '${press.name}'", "a table holds values, and no references"),

@@ -11,6 +11,7 @@ import pytest
 
 import diecut_report as dr
 from diecut_report.results.record import FORM_VERSION
+from diecut_report.time_limit import limited
 from tests.cli.test_cli import Capture, run
 
 COMMANDS = {
@@ -48,6 +49,26 @@ def first_form(data: Any) -> Any:
 @pytest.mark.parametrize("command", COMMANDS)
 def test_results_of_the_first_form_are_read(command: str, results: dict[str, Any], tmp_path: Path) -> None:
     assert asked(command, first_form(results), tmp_path) in (0, 1)
+
+
+def nested(depth: int) -> dict[str, Any]:
+    """A wording of so many within each other, each twice as long as the one in it."""
+    inner = {"values": {"a": nested(depth - 1)}} if depth else {"values": {"a": "ha"}}
+    return {"text": "{a}{a}", **inner}
+
+
+@pytest.mark.parametrize(
+    "wording", [{"text": "x", "values": [1]}, {"text": "x", "values": "y"}, nested(60)], ids=["list", "text", "long"]
+)
+@pytest.mark.parametrize("command", COMMANDS)
+def test_wordings_that_cannot_be_or_take_all_memory_are_none(
+    command: str, wording: dict[str, Any], results: dict[str, Any], tmp_path: Path
+) -> None:
+    with limited(20):
+        assert asked(command, first_form(results) | {"form_version": "1.6", "wordings": {"x": wording}}, tmp_path) in (
+            0,
+            1,
+        )
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -50,6 +50,20 @@ WRITERS: dict[str, Callable[[Path, list[list[Any]]], None]] = {
 }
 
 
+def test_a_number_that_excel_shows_as_a_percentage_is_what_was_typed(tmp_path: Path) -> None:
+    """Excel keeps 71 % as 0.71; a percent sign in quotes of a number format is text beside the number."""
+    book = openpyxl.Workbook()
+    sheet = book.worksheets[0]
+    sheet.append(["a [%]", "b", "c [%]"])
+    sheet.append([0.71, 0.125, 5])
+    for column, form in enumerate(("0%", "0.00 %", '0" %"'), 1):
+        sheet.cell(2, column).number_format = form
+    book.save(tmp_path / "t.xlsx")
+    table = read_table(tmp_path / "t.xlsx")
+    values = [table.columns[name].cells.texts() for name in table.columns]
+    assert values == [["71 %"], ["12.5 %"], ["5"]]
+
+
 def faults(read: Callable[[], object]) -> list[str]:
     with pytest.raises(UserError) as caught:
         read()

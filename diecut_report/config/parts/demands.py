@@ -168,8 +168,8 @@ class Demands:
         moving = self.moved_by(self.parts.shafts[shaft])
         if moving is None or not moving.port.advance:
             return Fraction(0)
-        steps = self.parts.reader.typed_block(moving.mechanism).get(moving.port.advance, USUAL_STEPS)
-        found = Fraction(1, max(int(steps), 1))
+        steps = self.parts.reader.typed_number(moving.mechanism, moving.port.advance)
+        found = Fraction(1, max(int(USUAL_STEPS if steps is None else steps), 1))
         for join in self.chain_from(moving.part.shaft.name, shaft):
             found *= Fraction(abs(join.ratio)).limit_denominator(10_000)
         return found
@@ -237,6 +237,7 @@ class Demands:
         lines = self.blocks[timing].get("lines", []) if timing else []
         for index, line in enumerate(lines if isinstance(lines, list) else []):
             if isinstance(line, dict) and line.get("mechanism") == mechanism:
+                self.parts.reader.read.add(f"{timing}.lines.{index}.turns_per_sheet")
                 try:
                     turns = exact_turns(str(line.get("turns_per_sheet", "1")))
                 except ValueError:

@@ -312,8 +312,8 @@ class Elements(ShaftElements):
         """The factor on the motor's power for the belts: the greater one where the run-up torque is not a number of the file."""
         keys, run_up = self.parts.keys, "run_up_torque_ratio"
         usual = self.of_kind["drive_train"].inputs.model_fields[run_up].default
-        is_typed = run_up in self._raw(("mechanisms", train))
-        ratio = self.parts.reader.typed_block(train).get(run_up, inf) if is_typed else usual
+        typed = self.parts.reader.typed_number(train, run_up)
+        ratio = typed or (inf if run_up in self._raw(("mechanisms", train)) else usual)
         return SERVICE_FACTORS[keys.service][ratio > HIGH_RUN_UP][(keys.hours_per_day > 10) + (keys.hours_per_day > 16)]
 
     def _train_gears(self, shaft: str) -> list[dict[str, Any]]:

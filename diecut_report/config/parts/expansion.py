@@ -59,6 +59,8 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
     elements = Elements(parts, blocks, known)
     made = elements.all()
     parts.calculations.update({each.name: ".".join(map(str, each.path[:2])) for each in made if len(each.path) > 1})
+    parts.derived.update((each.name,) for each in made)
+    parts.derived.update((name, key) for name, fills in elements.fills.items() for key in fills)
     taken = [each.name for each in made if each.name in given]
     for name in taken:
         parts.fault(("mechanisms", name), "is the name of a calculation that the parts make; choose another one")

@@ -85,10 +85,9 @@ def frame(parts: MachineParts) -> Iterator[Finding]:
                 for part in shaft.parts
                 if part.port and part.port[0] == name
             }
-            typed = parts.reader.typed_block(name)
-            wanted = typed.get("center_distance")
-            if kind == "cylinder_drive":
-                wanted = typed["crank_length"] * typed.get("frame_ratio", 5.0) if "crank_length" in typed else None
+            wanted = parts.reader.typed_number(name, "center_distance") if kind == "geneva_transport" else None
+            if kind == "cylinder_drive" and (crank := parts.reader.typed_number(name, "crank_length")) is not None:
+                wanted = crank * (parts.reader.typed_number(name, "frame_ratio") or 5.0)
             if wanted is None or not {first, second} <= ports.keys():
                 continue
             there = parts.distance(ports[first].shaft.name, ports[second].shaft.name)

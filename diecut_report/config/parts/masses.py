@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import pi, prod
 from typing import Any
 
@@ -151,11 +152,10 @@ class Masses(Demands):
     def _pin_radius(self, part: ShaftPart) -> float | None:
         """The distance of the pin or roller of a crank or rocker from its axis, m; None where it is not typed."""
         port = self.port(part)
-        typed = self.parts.reader.typed_block(part.port[0]) if part.port else {}
-        if port is not None and port.radius and set(port.radius) <= typed.keys():
-            return prod(typed[key] for key in port.radius)
-        is_geneva = part.kind == "crank" and {"slots", "center_distance"} <= typed.keys()
-        return crank_radius(typed["center_distance"], typed["slots"]) if is_geneva else None
+        if port is not None and port.radius and (typed := _typed(self.parts, part, port.radius)):
+            return prod(typed)
+        typed = _typed(self.parts, part, ("center_distance", "slots")) if part.kind == "crank" else []
+        return crank_radius(*typed) if typed else None
 
     def _share(self, part: ShaftPart) -> float:
         """What of a full disc a gear is: of a sector the teeth that are there."""
@@ -168,12 +168,19 @@ class Masses(Demands):
 
 def wheel_section(parts: MachineParts, part: ShaftPart) -> tuple[float, float] | None:
     """Return area (m²) and polar second moment of area (m⁴) of a Geneva wheel; None of other parts, or where its dimensions are not typed."""
-    keys = parts.reader.typed_block(part.port[0]) if part.kind == "geneva_wheel" and part.port else {}
-    if not {"slots", "center_distance", "roller_radius"} <= keys.keys():
+    typed = _typed(parts, part, ("slots", "center_distance", "roller_radius")) if part.kind == "geneva_wheel" else []
+    if not typed or not part.port:
         return None
+    slots, distance, radius = typed
     return area_and_polar(
-        int(keys["slots"]), keys["center_distance"], keys["roller_radius"], keys.get("locking_radius"), part.seat
+        int(slots), distance, radius, parts.reader.typed_number(part.port[0], "locking_radius"), part.seat
     )
+
+
+def _typed(parts: MachineParts, part: ShaftPart, keys: Sequence[str]) -> list[float]:
+    """What is typed at these keys of the mechanism that a part belongs to, SI; nothing where one of them is not."""
+    given = [parts.reader.typed_number(part.port[0], key) for key in keys] if part.port else []
+    return [each for each in given if each is not None] if None not in given else []
 
 
 def tooth_width(keys: ChainKeys) -> float:

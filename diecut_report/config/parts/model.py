@@ -305,6 +305,9 @@ class MachineParts:
     shafts: dict[str, MachineShaft] = field(default_factory=dict)
     joins: list[Join] = field(default_factory=list)
     findings: list[Any] = field(default_factory=list)
+    derived: set[KeyPath] = field(
+        default_factory=set
+    )  # calculations, and keys of mechanisms, that follow from the parts
     calculations: dict[str, str] = field(
         default_factory=dict
     )  # those that are made of parts, with the part: shafts.crank
@@ -336,6 +339,14 @@ class MachineParts:
     def fault(self, path: KeyPath, template: str, **values: object) -> None:
         """Note what is wrong with what stands at a path."""
         self.reader.problems.append(ConfigPlace(self.reader.tree).problem(path, Phrase(template, **values)))
+
+    def follows(self, node: KeyPath) -> bool:
+        """Return whether an input of a mechanism follows from the parts."""
+        return node[:1] in self.derived or node[:2] in self.derived
+
+    def is_made_with(self, node: KeyPath) -> bool:
+        """Return whether the parts are made with an input of a mechanism or of the press: they change with it."""
+        return ".".join(map(str, node)) in self.reader.read
 
     def where(self, path: KeyPath) -> str:
         """Return the file, line and column of a path, as messages name a second place."""
@@ -426,7 +437,7 @@ class MachineParts:
         if join is not None:
             return join.radius(part)
         if part.kind == "clutch" and self.mechanisms.get(part.name) == "clutch":
-            return self.reader.typed_block(part.name).get("shoe_radius")
+            return self.reader.typed_number(part.name, "shoe_radius")
         return None if part.keys.outside is None else part.keys.outside / 2
 
     def body_width(self, part: ShaftPart) -> float:

@@ -71,10 +71,17 @@ def names(parts: MachineParts) -> Iterator[Finding]:
 
 
 def riding(parts: MachineParts) -> Iterator[Finding]:
-    """What a part rides on is a clutch or a coupling of its shaft, which takes its torque: what is fixed to another hub is bolted."""
+    """What a part rides on is a clutch or a coupling there, which takes its torque: what is fixed to another hub is bolted."""
     for shaft in parts.shafts.values():
-        clutches = [part.name for part in shaft.parts if part.kind in ("clutch", "coupling") and not part.keys.rides_on]
+        clutches = {
+            part.name: part for part in shaft.parts if part.kind in ("clutch", "coupling") and not part.keys.rides_on
+        }
         for part in shaft.parts:
+            carrier = clutches.get(part.keys.rides_on or "")
+            if carrier is not None and not carrier.ends[0] <= part.keys.at <= carrier.ends[1]:
+                template = "stands at {at}, but {name}, which it rides on, goes from {start} to {end}; move one of them"
+                yield finding(parts, "overlap", "error", (*part.path, "at"), template, (*carrier.path, "at"), at=mm(part.keys.at),
+                    name=carrier.name, start=mm(carrier.ends[0]), end=mm(carrier.ends[1]))  # fmt: skip
             if part.keys.rides_on not in (None, *clutches):
                 template = (
                     "is {name}, which is not a clutch or coupling that this shaft carries; they are {known}; "

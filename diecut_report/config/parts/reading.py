@@ -89,13 +89,14 @@ class ReadBlock:
 
 @dataclass
 class PartsReader:
-    """Reads the blocks of parts of a file; ``problems`` is what is wrong with them."""
+    """Reads the blocks of parts of a file; ``problems`` is what is wrong with them, ``read`` what was asked for outside the parts."""
 
     tree: Tree
     data: Mapping[str, Any]
     models: Mapping[str, type[Block]]  # of the mechanisms, by their names
     tables: OwnTables = field(default_factory=OwnTables)
     problems: list[Problem] = field(default_factory=list)
+    read: set[str] = field(default_factory=set)
     _known: dict[str, tuple[float, str] | ConditionError] = field(default_factory=dict)  # what typed values give
 
     def machine(self) -> ReadBlock | None:
@@ -204,7 +205,7 @@ class PartsReader:
         found = read_expression(given, name)
         if refused := found.refused(meta.unit):
             raise ConditionError(refused)
-        return f"{found.value(values.__getitem__) / unit(meta.unit).factor!r} {meta.unit}"
+        return f"{found.known_value(values) / unit(meta.unit).factor!r} {meta.unit}"
 
     def _typed(self, path: str) -> tuple[float, str]:
         """The number that is typed at a path, in SI, and its SI unit; ConditionError where none is.
@@ -240,6 +241,7 @@ class PartsReader:
 
     def _number(self, path: str) -> tuple[float, str] | ConditionError:
         key, given, meta = self._given(path)
+        self.read.add(path)
         if not isinstance(meta, Quantity) or given is None:
             template = "{path} is not a number that is typed; a dimension of a part must be known before anything is calculated."
             return ConditionError(template, path=path)
@@ -259,16 +261,12 @@ class PartsReader:
                 found.add(node.position)
         return frozenset(found)
 
-    def typed_block(self, name: str) -> dict[str, float]:
-        """Return the numbers that are typed in the block of a mechanism, in SI by their keys."""
-        model, block = self.models.get(name), _at(self.data.get("mechanisms"), (name,))
-        found = {}
-        for key in model.model_fields if model and isinstance(block, dict) else ():
-            try:
-                found[key] = self._typed(f"{name}.{key}")[0]
-            except ConditionError:
-                continue
-        return found
+    def typed_number(self, name: str, key: str) -> float | None:
+        """Return a number that is typed in the block of a mechanism, SI; None where none is, or where it is calculated."""
+        try:
+            return self._typed(f"{name}.{key}")[0]
+        except ConditionError:
+            return None
 
     def typed_body(self, path: KeyPath, key: str) -> float | None:
         """Return the mass or inertia of a part that is typed at its path, in SI; None where none is, or where it refers to what is calculated."""

@@ -290,6 +290,14 @@ def _key_on_section(parts: MachineParts, shaft: MachineShaft, part: ShaftPart, l
         yield finding(parts, "key", "error", path, template, (*shaft.path, "sections"), start=mm(start), end=mm(end), first=mm(section.start),
             last=mm(section.end))  # fmt: skip
         return
+    deep = table_row("parallel_keys", section.diameter)["t1"]
+    if (section.diameter - section.bore) / 2 <= deep:
+        template = (
+            "lies in a keyseat {deep} deep, but the wall around the bore of {bore} is not thicker; take a smaller bore"
+        )
+        yield finding(
+            parts, "key", "error", path, template, (*shaft.path, "sections"), deep=mm(deep), bore=mm(section.bore)
+        )
     bearing = long - key_width(section.diameter) if part.keys.key_form == "A" else long
     if bearing > LONGEST_KEY * section.diameter + SAME_PLACE:
         template = "bears over {length}, more than {share} times the diameter {diameter}: the torque enters at its end; take a shorter key"
@@ -420,7 +428,7 @@ def force_plane(parts: MachineParts) -> Iterator[Finding]:
             template = "has neither a pin nor a plane, so that it is not known how far beyond the disc its force acts; give plane"
             yield finding(parts, "pin_plane", "error", part.path, template)
             continue
-        width = parts.reader.typed_block(part.port[0]).get("roller_width", 0.0)
+        width = parts.reader.typed_number(part.port[0], "roller_width") or 0.0
         if part.keys.plane < width / 2 - SAME_PLACE:
             template = "is {plane} beyond the disc, but the roller is {width} wide and would stand in the disc; give at least half of it"
             yield finding(parts, "pin_plane", "error", (*part.path, "plane"), template, ("mechanisms", part.port[0], "roller_width"),
@@ -483,7 +491,7 @@ def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             elif typed is not None and full is not None:
                 yield from _share_of_body(parts, part, path, (typed, full), of)
         roller = (
-            parts.reader.typed_block(part.port[0]).get("roller_width", 0.0)
+            (parts.reader.typed_number(part.port[0], "roller_width") or 0.0)
             if part.kind == "geneva_wheel" and part.port
             else 0.0
         )

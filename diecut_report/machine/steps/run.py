@@ -12,7 +12,7 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible, ImpossibleTogether, Unproven
 from diecut_report.machine.curve_samples import SampledCurve
-from diecut_report.machine.mechanism import MechanismHandle
+from diecut_report.machine.mechanism import MechanismHandle, PhaseHandle
 from diecut_report.machine.numerics import extremes, roots_integrals
 from diecut_report.machine.numerics.domain import Domain
 from diecut_report.machine.printing.substitution import filled
@@ -159,7 +159,12 @@ class MachineRun(Calculation):
     def computed(self, step: Any, taken: Sequence[Any]) -> Any:
         """Call plain code, for each of many machines where what it takes knows one alone."""
         if not any(isinstance(each, Machines) for each in taken):
-            return self.call(step, taken)
+            found, is_asked = (
+                self.call(step, taken),
+                any(isinstance(each, MechanismHandle | PhaseHandle) for each in taken),
+            )
+            if self.count == 1 or not is_asked or np.shape(found)[:1] == (self.count,):
+                return found  # else it is what a mechanism or a phase told of the first machine
 
         def make(row: int) -> Any:
             return np.ravel(step.function(*(of_machine(value, row, self.count) for value in taken)))

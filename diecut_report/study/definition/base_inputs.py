@@ -40,6 +40,11 @@ class Input:
     metadata: tuple[Any, ...]
 
     @property
+    def node(self) -> KeyPath:
+        """Return its mechanism with its key."""
+        return (self.instance, *self.key)
+
+    @property
     def unit(self) -> str | None:
         """Return its SI unit; None for a text, a choice or a yes/no."""
         return self.meta.parsed_unit.si if isinstance(self.meta, Quantity) else None
@@ -84,6 +89,14 @@ def find_input(base: Config, path: str) -> Input:
     assert isinstance(home, type)
     field = keys_of(home)[str(key[-1])].field
     return Input(path, instance.name, key, meta, _with_entries(instance, key, field.annotation), tuple(field.metadata))
+
+
+def varied_input(base: Config, path: str) -> Input:
+    """Return the input that a study varies; UnknownPath also where the parts of a machine do not follow it."""
+    found = find_input(base, path)
+    if tied := base.tied(found.node):
+        raise UnknownPath(tied)
+    return found
 
 
 def _with_entries(instance: Instance, key: KeyPath, annotation: Any) -> Any:

@@ -17,7 +17,7 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.mechanism.inputs import Block, Quantity
 from diecut_report.mechanism.names import SI, Pending
-from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, with_values
+from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, varied_input, with_values
 from diecut_report.study.definition.constraints import stored_value
 from diecut_report.study.definition.samples import Grid, LatinHypercube, Sample, Sobol, TableSample, Zip
 from diecut_report.study.definition.schema import (
@@ -99,14 +99,14 @@ class SampleReader:
     def _found(self, vary: Mapping[str, Any]) -> Iterator[tuple[str, Input]]:
         for path in vary:
             try:
-                yield path, find_input(self.base, path)
+                yield path, varied_input(self.base, path)
             except UnknownPath as fault:
                 self.problems.append(self.vary.problem((path,), str(fault), at_key=True))
 
     def _headed(self, columns: Mapping[str, ReadColumn]) -> Iterator[tuple[str, Input]]:
         for path, column in columns.items():
             try:
-                yield path, find_input(self.base, path)
+                yield path, varied_input(self.base, path)
             except UnknownPath as fault:
                 round_ = re.fullmatch(r"([\w.-]+)\s*\(([^()]*)\)", path)
                 template = " A unit stands in square brackets: {path} [{unit}]."

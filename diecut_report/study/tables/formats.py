@@ -264,6 +264,7 @@ CELL_ELEMENTS = {"row", "c", "v", "f", "is", "si", "t", "r"}
 MAX_ROWS = 1_048_576  # of a sheet
 MAX_PLACES = 20 * MAX_CELLS[".xlsx"]  # with the empty ones before the last cell of each row
 ENCODINGS = {"", "utf-8", "us-ascii", "iso-8859-1"}  # in which "<" is the byte that it is in ASCII
+QUOTED = re.compile(r'"[^"]*"|\\.')  # text within a number format
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 COMMENTS = ((b"<!--", b"-->"), (b"<?", b"?>"))
 LONG = phrase("holds a text of more than a million letters; a cell has some dozens. Save it again")
@@ -286,10 +287,18 @@ def read_xlsx(file: BinaryIO) -> Columns:
         try:
             sheet = book.worksheets[0]
             sheet.reset_dimensions()  # the stored size may be wrong
-            rows = list(_bounded(sheet.iter_rows(values_only=True)))
+            rows = list(_bounded(tuple(map(_typed, row)) for row in sheet.iter_rows()))
         finally:
             book.close()
     return _columns(rows)
+
+
+def _typed(cell: Any) -> Any:
+    """What was typed into a cell: a number that it shows as a percentage is kept there as its hundredth."""
+    value = cell.value
+    if isinstance(value, int | float) and "%" in QUOTED.sub("", cell.number_format or ""):
+        return f"{value * 100:.15g} %"
+    return value
 
 
 @contextmanager
