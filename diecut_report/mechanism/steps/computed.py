@@ -20,7 +20,8 @@ class Computed(QuantityStep):
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of curve inputs (``Curve``).
     It gives an array of shape (variants, 1), SI; (variants, parts) for a row over the list ``over``, or over what ``PartNames`` declares; or with
-    ``is_text`` a text for each variant. Truth values are printed as yes and no.
+    ``is_text`` a text for each variant. Truth values are printed as yes and no. One that takes a mechanism or a phase, of which it is told what is of
+    one machine, is called for each of many, unless it gives a value for each.
     """
 
     function: Callable[..., Any]
