@@ -39,7 +39,10 @@ def one_belt(parts: MachineParts) -> Iterator[Finding]:
 def center(parts: MachineParts) -> Iterator[Finding]:
     """The axes of the frame are as far apart as a mesh, a chain or a belt wants."""
     for join in (each for each in parts.joins if each.is_between_shafts):
-        if isinstance(join.keys, BeltKeys) and belt_center(join) is None:
+        is_belt = isinstance(join.keys, BeltKeys)
+        one, other = join.drivers[0].shaft.name, join.driven[0].shaft.name
+        there, wanted = parts.distance(one, other), belt_center(join) if is_belt else join.center_distance
+        if is_belt and wanted is None:
             template = "is too short for its pulleys of {diameters}, which would touch; take a longer belt"
             diameters = f"{mm(join.keys.diameter_1)} / {mm(join.keys.diameter_2)}"
             yield finding(
@@ -51,13 +54,10 @@ def center(parts: MachineParts) -> Iterator[Finding]:
                 (*join.path, "diameters"),
                 diameters=diameters,
             )
-        one, other = join.drivers[0].shaft.name, join.driven[0].shaft.name
-        there = parts.distance(one, other)
-        wanted = join.center_distance if not isinstance(join.keys, BeltKeys) else belt_center(join)
         if there is None or wanted is None:
             continue
         allowed, what = SAME_PLACE, "teeth or module"
-        if isinstance(join.keys, BeltKeys):
+        if is_belt:
             allowed, what = BELT_CENTER * wanted, "length or diameters"
         elif isinstance(join.keys, ChainKeys):
             allowed, what = chain_pitch(join.keys) / 2, "links"

@@ -58,7 +58,7 @@ ROOT = re.compile(r"\$\{\s*(\w+)\.")  # what a reference begins with
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
     of_mechanisms = (
-        rule(parts, elements) for rule in (ports, ratios, _weighed, _massive, _typed_twice, _untied, _unused)
+        rule(parts, elements) for rule in (ports, ratios, _weighed, _massive, _filled, _typed_twice, _untied, _unused)
     )
     found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
@@ -475,14 +475,11 @@ def _weighed(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """A mass or moment of inertia is that of a steel body of the part's dimensions, as far as these are known, and never nothing."""
     for _, part in hubs(parts):
-        for key, of, full in (
-            ("mass", "kg", elements.full_mass(part)),
-            ("inertia", "kg·m²", elements.full_inertia(part)),
-        ):
+        bodies = ("mass", "kg", elements.full_mass(part)), ("inertia", "kg·m²", elements.full_inertia(part))
+        for key, of, full in bodies:
             typed, path = parts.reader.typed_body(part.path, key), (*part.path, key)
-            if parts.reader.is_of_results(part.path, key) and not (
-                part.kind == "flywheel" and elements.is_of_train(part, key)
-            ):
+            refers_to_train = part.kind == "flywheel" and elements.is_of_train(part, key)
+            if parts.reader.is_of_results(part.path, key) and not refers_to_train:
                 template = "is of what is calculated, which nothing holds against the part; type it. A flywheel may refer to the drive train's"
                 yield finding(parts, "mass", "error", path, template)
             elif typed == 0:
@@ -490,21 +487,25 @@ def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
                 yield finding(parts, "mass", "error", path, template)
             elif typed is not None and full is not None:
                 yield from _share_of_body(parts, part, path, (typed, full), of)
-        roller = (
-            (parts.reader.typed_number(part.port[0], "roller_width") or 0.0)
-            if part.kind == "geneva_wheel" and part.port
-            else 0.0
-        )
-        if part.keys.width is not None and part.keys.width < roller / 2:
-            template = "is {width} wide, less than half of the roller of {roller} that runs in it; give its own width"
-            yield finding(
-                parts, "mass", "error", (*part.path, "width"), template, width=mm(part.keys.width), roller=mm(roller)
-            )
-        share = elements.share_of_disc(part)
+
+
+def _filled(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """A body is not much less than the full disc of its dimensions, and a Geneva wheel as wide as its roller wants."""
+    for _, part in hubs(parts):
+        share, width = elements.share_of_disc(part), part.keys.width
         if share is not None and share < MASS_SHARE[0]:
             template = "leaves by fill, bore and width {share} of its full steel disc; {least} at least is usual"
             level: Level = "warning" if share >= MASS_POSSIBLE[0] else "error"
             yield finding(parts, "mass", level, part.path, template, share=f"{share:.3g}", least=MASS_SHARE[0])
+        if part.kind == "geneva_wheel" and part.port and width is not None:
+            roller = parts.reader.typed_number(part.port[0], "roller_width") or 0.0
+            if width < roller / 2:
+                template = (
+                    "is {width} wide, less than half of the roller of {roller} that runs in it; give its own width"
+                )
+                yield finding(
+                    parts, "mass", "error", (*part.path, "width"), template, width=mm(width), roller=mm(roller)
+                )
 
 
 def _share_of_body(
