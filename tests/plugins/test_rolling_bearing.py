@@ -346,7 +346,7 @@ NSK_ROLLERS = {  # designs EW and ET: bore, outside, width in mm; ratings in kN
 def test_rollers_have_the_dimensions_and_not_more_than_the_ratings_of_a_maker_that_the_table_was_not_made_of() -> None:
     table = CATALOGUES["roller"].table
     for name, (*sizes, dynamic, static) in NSK_ROLLERS.items():
-        row = [table.by_name(column.name)[name] for column in table.columns]
+        row = [table.by_name(column)[name] for column in ("d", "D", "B", "C", "C0")]
         assert row[:3] == sizes
         for own, makers in zip(row[3:], (dynamic, static), strict=True):
             assert makers * 0.95 <= own <= makers * 1.005
@@ -355,12 +355,36 @@ def test_rollers_have_the_dimensions_and_not_more_than_the_ratings_of_a_maker_th
 def test_the_table_has_the_dimensions_and_not_more_than_the_ratings_of_the_makers() -> None:
     table = CATALOGUES["deep_groove"].table
     for name, (*sizes, dynamic, static, f0) in NSK_62.items():
-        row = [table.by_name(column.name)[name] for column in table.columns]
+        row = [table.by_name(column)[name] for column in ("d", "D", "B", "C", "C0", "f0")]
         assert row[:3] == sizes
         for own, makers in zip(row[3:], (dynamic, static, f0), strict=True):
             assert makers * 0.95 <= own <= makers
     for name, ratings in SKF_62.items():
         assert all(table.by_name(key)[name] <= rating for key, rating in zip(("C", "C0"), ratings, strict=True))
+
+
+# least corners of the inner rings by the number of the bore, 00 to 20 (NKE, pages 384 and 550)
+NKE_CORNERS = {
+    "60": "0.3 0.3 0.3 0.3 0.6 0.6 1 1 1 1 1 1.1 1.1 1.1 1.1 1.1 1.1 1.1 1.5 1.5 1.5",
+    "62": "0.6 0.6 0.6 0.6 1 1 1 1.1 1.1 1.1 1.1 1.5 1.5 1.5 1.5 1.5 2 2 2 2.1 2.1",
+    "63": "0.6 1 1 1 1.1 1.1 1.1 1.5 1.5 1.5 2 2 2.1 2.1 2.1 2.1 2.1 3 3 3 3",
+    "NU2": "0.6 0.6 0.6 0.6 1.1 1.1 1.1 1.1 1.5 1.5 1.5 1.5 2 2 2 2.1 2.1",
+    "NU22": "0.6 0.6 0.6 0.6 1.1 1.1 1.1 1.1 1.5 1.5 1.5 1.5 2 2 2 2.1 2.1",
+    "NU3": "0.6 1.1 1.1 1.1 1.5 1.5 2 2 2.1 2.1 2.1 2.1 2.1 3 3 3 3",
+    "NU23": "0.6 1.1 1.1 1.1 1.5 1.5 2 2 2.1 2.1 2.1 2.1 2.1 3 3 3 3",
+}
+
+
+def test_the_corners_of_the_rings_are_those_of_a_second_maker() -> None:
+    for kind, suffix in (("deep_groove", ""), ("roller", "E")):
+        corners = CATALOGUES[kind].table.by_name("r")
+        typed = {
+            f"{series}{number:02}{suffix}": float(corner)
+            for series, text in NKE_CORNERS.items()
+            if series.startswith("NU") is (kind == "roller")
+            for number, corner in enumerate(text.split(), 4 if kind == "roller" else 0)
+        }
+        assert corners == typed
 
 
 def test_larger_bearings_of_a_series_bear_more() -> None:

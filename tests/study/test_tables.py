@@ -50,18 +50,28 @@ WRITERS: dict[str, Callable[[Path, list[list[Any]]], None]] = {
 }
 
 
-def test_a_number_that_excel_shows_as_a_percentage_is_what_was_typed(tmp_path: Path) -> None:
-    """Excel keeps 71 % as 0.71; a percent sign in quotes of a number format is text beside the number."""
+def test_a_number_of_excel_has_the_unit_that_its_cell_shows(tmp_path: Path) -> None:
+    """Excel keeps 71 % as 0.71, and a unit that only the number format has nowhere else."""
     book = openpyxl.Workbook()
     sheet = book.worksheets[0]
-    sheet.append(["a [%]", "b", "c [%]"])
-    sheet.append([0.71, 0.125, 5])
-    for column, form in enumerate(("0%", "0.00 %", '0" %"'), 1):
+    forms = "0%", "0.00 %", '0" %"', '0.0" kN·m";-0.0', r"#\ ##0\ \m\m", "[$MPa] 0.0", "[Red]#,##0", "0.0,"
+    sheet.append([f"head {form}" for form in forms])
+    sheet.append([0.71, 0.125, 5, 0.6, 1200, 3, 7, 12000])
+    for column, form in enumerate(forms, 1):
         sheet.cell(2, column).number_format = form
     book.save(tmp_path / "t.xlsx")
     table = read_table(tmp_path / "t.xlsx")
     values = [table.columns[name].cells.texts() for name in table.columns]
-    assert values == [["71 %"], ["12.5 %"], ["5"]]
+    assert values == [
+        ["71 %"],
+        ["12.5 %"],
+        ["5 %"],
+        ["0.6 kN·m"],
+        ["1200 mm"],
+        ["3 MPa"],
+        ["7"],
+        ["12000 shown in thousands"],
+    ]
 
 
 def faults(read: Callable[[], object]) -> list[str]:

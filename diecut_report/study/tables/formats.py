@@ -264,7 +264,8 @@ CELL_ELEMENTS = {"row", "c", "v", "f", "is", "si", "t", "r"}
 MAX_ROWS = 1_048_576  # of a sheet
 MAX_PLACES = 20 * MAX_CELLS[".xlsx"]  # with the empty ones before the last cell of each row
 ENCODINGS = {"", "utf-8", "us-ascii", "iso-8859-1"}  # in which "<" is the byte that it is in ASCII
-QUOTED = re.compile(r'"[^"]*"|\\.')  # text within a number format
+LITERAL = re.compile(r'"([^"]*)"|\\(.)|\[\$([^\]-]*)[^\]]*\]')  # text within a number format
+SCALED = re.compile(r"[0#?],+(?![0#?])")  # a number that is shown in thousands
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 COMMENTS = ((b"<!--", b"-->"), (b"<?", b"?>"))
 LONG = phrase("holds a text of more than a million letters; a cell has some dozens. Save it again")
@@ -294,11 +295,16 @@ def read_xlsx(file: BinaryIO) -> Columns:
 
 
 def _typed(cell: Any) -> Any:
-    """What was typed into a cell: a number that it shows as a percentage is kept there as its hundredth."""
-    value = cell.value
-    if isinstance(value, int | float) and "%" in QUOTED.sub("", cell.number_format or ""):
+    """What a cell shows: a percentage is kept as its hundredth, and a unit may stand in the number format alone."""
+    value, form = cell.value, (cell.number_format or "").partition(";")[0]
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return value
+    beside, rest = "".join("".join(found) for found in LITERAL.findall(form)).strip(), LITERAL.sub("", form)
+    if "%" in rest:
         return f"{value * 100:.15g} %"
-    return value
+    if SCALED.search(rest):
+        return f"{value} shown in thousands"  # which is refused as it stands there
+    return f"{value} {beside}" if beside else value
 
 
 @contextmanager
