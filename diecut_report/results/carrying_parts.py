@@ -131,6 +131,10 @@ def unrated(
     ):
         why = phrase("it sizes a flywheel, and no part of the shaft that it drives is that")
         yield OpenRecord(what="not_rated", path=f"mechanisms.{train}", owner=own, why=why)
+    clutches = {part.name for part in every if part.kind == "clutch"}
+    for name in (name for name, kind in parts.mechanisms.items() if kind == "clutch" and name not in clutches):
+        why = phrase("no part of the machine is this clutch, so that its engagement loads nothing")
+        yield OpenRecord(what="not_rated", path=f"mechanisms.{name}", owner=own, why=why)
     for each in (part for part in every if part.keys.accepted is None):
         for template in _without_method(each, parts.mechanisms):
             why = Phrase(template, part=each.called)

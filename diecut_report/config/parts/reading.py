@@ -241,7 +241,7 @@ class PartsReader:
 
     def _number(self, path: str) -> tuple[float, str] | ConditionError:
         key, given, meta = self._given(path)
-        self.read.add(path)
+        self.read.add(".".join(map(str, key)))  # lines.01 is lines.1
         if not isinstance(meta, Quantity) or given is None:
             template = "{path} is not a number that is typed; a dimension of a part must be known before anything is calculated."
             return ConditionError(template, path=path)

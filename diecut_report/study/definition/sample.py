@@ -42,6 +42,7 @@ from diecut_report.text.phrases import Phrase, named, phrase
 
 MAX_WRONG_TEXTS = 100  # different wrong texts of a column after which no further ones are judged
 MAX_LOOKED_UP = 50  # values of a text for each of which the names of the results are looked up
+NO_VALUE = phrase("has no value; write one, or remove the entry")
 NEEDED = phrase(
     "a list of values, a range {from: …, to: …, count: …}, a distribution {distribution: normal, "
     "mean: …, sd: …} or {table: FILE, column: …} is needed"
@@ -148,6 +149,10 @@ class SampleReader:
                 options = list(getattr(asked.meta, "options", ()))[:2]
                 example = ", ".join(options) or phrase("first, second")
                 raise SampleError(Phrase("{texts}, as in [{example}].", texts=TEXTS, example=example))
+            if empty := [key for key, value in given.items() if value is None]:
+                place = self._place(asked)
+                self.problems += [place.problem((key,), Phrase("{words}.", words=NO_VALUE)) for key in empty]
+                return None
             return self._distribution(asked, given) if "distribution" in given else self._range(asked, given)
         except SampleError as fault:
             self.problems.append(self.vary.problem((asked.path,), str(fault)))
@@ -161,8 +166,7 @@ class SampleReader:
     def _value(self, asked: Input, form: type[Block], index: int, given: Any) -> Any:
         place = ConfigPlace(self.place.tree, ("vary", asked.path), {("value",): (index,)})
         if given is None or (isinstance(given, str) and "${" in given):
-            empty = phrase("has no value; write one, or remove the entry")
-            words = empty if given is None else Phrase("is {given}; a reference does not vary", given=quoted(given))
+            words = NO_VALUE if given is None else Phrase("is {given}; a reference does not vary", given=quoted(given))
             self.problems.append(place.problem(("value",), Phrase("{words}.", words=words)))
             return None
         block = self._validated(form, {"value": given}, place)
@@ -181,7 +185,7 @@ class SampleReader:
 
     def _distribution(self, asked: Input, given: dict[str, Any]) -> Variable | None:
         law, place = given["distribution"], self._place(asked)
-        if law not in DISTRIBUTIONS:
+        if not isinstance(law, str) or law not in DISTRIBUTIONS:
             near = nearest(law, DISTRIBUTIONS) if isinstance(law, str) else ""
             template = "is {name}{near}; allowed: {names}"
             message = Phrase(template, name=quoted(law), near=near, names=", ".join(DISTRIBUTIONS))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import parse
 from diecut_report.design.inputs import given_numbers, untied, varied_input
 from diecut_report.design.machines import varied
 from diecut_report.errors import UserError
@@ -38,6 +39,16 @@ def test_what_follows_from_the_parts_or_they_from_it_is_not_varied(name: str, wh
     if name not in ("timing.lines.0.turns_per_sheet", "drive.pinion_radius"):  # a text, and one that refers
         with pytest.raises(UserError, match=why):
             varied_input(press().config, name)
+
+
+def test_a_place_in_a_list_is_the_same_with_a_leading_zero() -> None:
+    text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
+    text = text.replace(
+        "of: cross.crank, at: 52", 'of: cross.crank, at: "${timing.lines.01.path_efficiency} / 0.95 * 52 mm"'
+    )
+    config = Press.read(parse(text, "a.yaml"), Discovery([])).config
+    with pytest.raises(UnknownPath, match=MADE_WITH):
+        of_study(config, "mechanisms.timing.lines.1.path_efficiency")
 
 
 def test_a_number_that_parts_are_made_with_makes_them_anew_where_it_is_typed() -> None:
