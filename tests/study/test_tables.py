@@ -50,6 +50,17 @@ WRITERS: dict[str, Callable[[Path, list[list[Any]]], None]] = {
 }
 
 
+def test_a_column_has_one_decimal_sign(tmp_path: Path) -> None:
+    """Where the comma is it, 1.200 may be twelve hundred."""
+    (tmp_path / "t.csv").write_text("a [N*m];b\n850,5;1\n1.200;2\n3;3\n", "utf-8")
+    table = read_table(tmp_path / "t.csv")
+    with pytest.raises(UserError, match=r"row 3: the cell has the decimal sign \., but row 2 has ,; a column has one"):
+        table.columns["a"].si("N*m")
+    (tmp_path / "t.csv").write_text("a [N*m];b\n850,5;1.5 kg\n3;2.5 kg\n", "utf-8")
+    table = read_table(tmp_path / "t.csv")
+    assert list(table.columns["a"].si("N*m")) == [850.5, 3] and list(table.columns["b"].si("kg")) == [1.5, 2.5]
+
+
 def test_a_number_of_excel_has_the_unit_that_its_cell_shows(tmp_path: Path) -> None:
     """Excel keeps 71 % as 0.71, and a unit that only the number format has nowhere else."""
     book = openpyxl.Workbook()

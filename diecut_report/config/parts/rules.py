@@ -537,9 +537,11 @@ def _untied(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     kinds, made = {each.kind for each in elements.made}, {each.name for each in elements.made}
     for name, block in elements.blocks.items():
         known = {found[1] for found in ROOT.finditer(str(block))} & {*WORDS, *made}
-        if block.get("kind") in kinds and not known:
+        if parts.mechanisms[name] in kinds and not known:
             template = "is a {kind}, as they are calculated of the parts, but refers to none of them; make it a part, or refer to its part"
-            yield finding(parts, "block_without_part", "warning", ("mechanisms", name), template, kind=block["kind"])
+            yield finding(
+                parts, "block_without_part", "warning", ("mechanisms", name), template, kind=parts.mechanisms[name]
+            )
 
 
 def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:

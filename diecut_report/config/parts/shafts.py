@@ -254,7 +254,7 @@ class ShaftElements(Masses, LoadCases):
         return any(join.keys.helix_angle for join in meshes) or any("axial_force" in part.more for part in others)
 
     def _catalogued(self, name: str, designation: str, more: dict[str, Any], path: KeyPath) -> dict[str, Any]:
-        kind = "roller" if designation.startswith(ROLLER_SERIES) else "deep_groove"
+        kind = "roller" if designation.strip().upper().startswith(ROLLER_SERIES) else "deep_groove"
         return {"name": name, "type": kind, "designation": TypedValue(path)} | more
 
     def _relative(self, shaft: MachineShaft) -> dict[str, Any]:

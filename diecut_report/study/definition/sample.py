@@ -185,7 +185,7 @@ class SampleReader:
 
     def _distribution(self, asked: Input, given: dict[str, Any]) -> Variable | None:
         law, place = given["distribution"], self._place(asked)
-        if not isinstance(law, str) or law not in DISTRIBUTIONS:
+        if law not in list(DISTRIBUTIONS):  # a list or a block, too
             near = nearest(law, DISTRIBUTIONS) if isinstance(law, str) else ""
             template = "is {name}{near}; allowed: {names}"
             message = Phrase(template, name=quoted(law), near=near, names=", ".join(DISTRIBUTIONS))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -17,6 +18,11 @@ EMPTY = phrase("the cell is empty (or a formula without a stored value); every r
 REPORTED = 5  # wrong cells of a column that are reported one by one
 REMEMBERED = 65_536  # different cells that are remembered while a column is read
 SLICE = 65_536  # cells that are Python values at a time
+
+DECIMAL = re.compile(r"\s*[-+−]?[\d\s']*([.,])\d")
+MIXED = phrase(
+    "the cell has the decimal sign {mark}, but row {row} has {other}; a column has one, and thousands are not set apart by it"
+)
 
 Wrong = tuple[Array, Callable[[int], str]]
 """The places of wrong cells, counted from 0, and what is wrong with one; asked of the first ones alone."""
@@ -111,6 +117,7 @@ def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Wrong]:
     values, is_wrong, messages = np.full(len(cells), np.nan), np.zeros(len(cells), dtype=bool), dict[int, str]()
     known: dict[Any, tuple[float, str] | str] = {}
     agreed = (unit(unit_text).text, phrase("the header")) if own else None
+    marks: dict[str, int] = {}  # the decimal signs with the place where each stands first
     for place, item in enumerate(cells.items()):
         key = (type(item), item)
         read = known.get(key)
@@ -121,9 +128,16 @@ def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Wrong]:
         if not isinstance(read, str):
             values[place], given = read
             agreed = agreed or (given, Phrase("row {row}", row=cells.row(place)))
-            if given == agreed[0] or (own and not given):
+            mark = DECIMAL.match(item) if isinstance(item, str) else None
+            first = next(iter(marks.items()), None)
+            if mark and first and mark[1] != first[0]:
+                read = Phrase(MIXED, mark=mark[1], other=first[0], row=cells.row(first[1]))
+            elif given == agreed[0] or (own and not given):
+                if mark:
+                    marks.setdefault(mark[1], place)
                 continue
-            read = _unlike(given, *agreed)
+            else:
+                read = _unlike(given, *agreed)
         is_wrong[place] = True
         if len(messages) <= REPORTED:
             messages[place] = read

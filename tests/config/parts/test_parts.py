@@ -756,6 +756,12 @@ def test_references_that_go_round_end_in_words() -> None:
     assert found and "itself" in " ".join(map(str, found))
 
 
+def test_a_designation_may_be_written_small() -> None:
+    config, problems = changed("designation: NU210E", "designation: nu210e")
+    bearing = config.tree.data["mechanisms"]["shafts_rocker_bearings"]["bearings"][1]
+    assert not problems and bearing["type"] == "roller"
+
+
 def test_54_parts_carry_load_and_each_has_a_calculation() -> None:
     every = list(carrying_parts(parts(), whole().named("drive_train")))
     assert len(every) == 54
