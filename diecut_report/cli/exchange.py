@@ -252,7 +252,6 @@ def sign(
     The report is verified first: one that differs from what this program produces is not signed.
     The key's password is asked for, or taken from the variable DIECUT_REPORT_KEY_PASSWORD.
     """
-    from diecut_report.exchange.signing import Signing
     from diecut_report.exchange.signing import sign as signed
     from diecut_report.exchange.signing_keys import signing_key
 
@@ -274,7 +273,7 @@ def sign(
     def told(words: str) -> None:
         inform([f"{out}: " + phrase(words)])
 
-    signed(Signing(report, out, field, reason), signing_key(key, cert, _password), told, require_as_made)
+    signed(report, out, signing_key(key, cert, _password), told, require_as_made, field, reason)
     return PASSED
 
 

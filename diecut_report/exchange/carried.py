@@ -17,7 +17,7 @@ from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.exchange.results_form import results_of
 from diecut_report.files import content, write_all
 from diecut_report.results.model import CarriedConfigRecord, ResultsRecord
-from diecut_report.results.results_file import config_content, logo_content, table_contents
+from diecut_report.results.results_file import source_content
 from diecut_report.text.phrases import Phrase, phrase
 
 # Reads the results that an HTML report carries, from the one link that the program writes; nothing of the page is run or fetched.
@@ -61,7 +61,7 @@ Form = Literal["pdf", "html", "json"]
 
 @dataclass(frozen=True)
 class CarriedResults:
-    """Hold the results of a file, the bytes of their own file, and those of the configuration; ``content`` is the whole file.
+    """Hold the results of a file, and the bytes of their own file; ``content`` is the whole file.
 
     ``tables`` are the user's own that the configuration names, and its logo, by these names, which lead nowhere but beside it and below;
     ``former_tables`` those of the former revision, since which the report shows changes.
@@ -72,7 +72,6 @@ class CarriedResults:
     content: bytes
     results: ResultsRecord
     results_content: bytes
-    config_content: bytes
     tables: dict[str, bytes]
     former_tables: dict[str, bytes]
 
@@ -86,9 +85,13 @@ def carried_results(path: Path) -> CarriedResults:
         raise refusal(template, path)
     found = _results_content(whole, form, str(path))
     results = results_of(found, str(path))
-    config, tables = _config(whole, form, results.config, str(path)), _tables(results.config, str(path))
+    attached = _attached(whole, "config.yaml", str(path)) if form == "pdf" else None  # for a reader's convenience
+    if attached not in (None, source_content(results.config)):
+        template = "The configuration that is attached is not the one in the attached results. Somebody has exchanged one of the two."
+        raise refusal(template, path)
+    tables = _tables(results.config, str(path))
     former = _tables(results.former, str(path)) if results.former else {}
-    return CarriedResults(path, form, whole, results, found, config, tables, former)
+    return CarriedResults(path, form, whole, results, found, tables, former)
 
 
 def form_of(whole: bytes) -> Form | None:
@@ -120,17 +123,9 @@ def _attached(whole: bytes, name: str, file: str) -> bytes | None:
     return attachments(whole, MOST_RESULTS, file)[name]
 
 
-def _config(whole: bytes, form: Form, config: CarriedConfigRecord, file: str) -> bytes:
-    """The configuration in the results; that of the PDF, which is attached for a reader's convenience, must be the same."""
-    found = config_content(config)
-    if form == "pdf" and _attached(whole, "config.yaml", file) not in (None, found):
-        template = "The configuration that is attached is not the one in the attached results. Somebody has exchanged one of the two."
-        raise refusal(template, file)
-    return found
-
-
 def _tables(config: CarriedConfigRecord, file: str) -> dict[str, bytes]:
-    found, logo = table_contents(config), logo_content(config)
+    found = {table.file: source_content(table) for table in config.materials}
+    logo = {config.logo.file: base64.b64decode(config.logo.base64)} if config.logo else {}
     faults = [Phrase("The name of a table {fault}.", fault=fault) for name in found if (fault := name_fault(name))]
     faults += [Phrase("The name of the logo {fault}.", fault=fault) for name in logo if (fault := logo_fault(name))]
     found |= logo
@@ -152,7 +147,8 @@ def extract(report: Path, folder: Path) -> list[Path]:
     be read.
     """
     found = carried_results(report)
-    contents = {f"{report.stem}.yaml": found.config_content, f"{report.stem}.json": found.results_content}
+    config = source_content(found.results.config)
+    contents = {f"{report.stem}.yaml": config, f"{report.stem}.json": found.results_content}
     if doubled := sorted(contents.keys() & found.tables.keys()):
         template = "The configuration names a file {doubled}, and would be called so itself. Rename the report."
         raise refusal(template, report, doubled=doubled[0])

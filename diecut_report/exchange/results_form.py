@@ -14,12 +14,11 @@ from pydantic_core import ErrorDetails
 from diecut_report.config.own_tables import MAX_FILES as MOST_TABLES
 from diecut_report.config.yaml import CONTROL
 from diecut_report.errors import MAX_SHOWN, MAX_TEXT, Problem, UserError, refusal
-from diecut_report.exchange import form_1
 from diecut_report.pictures import MAX_BYTES as MOST_OF_PICTURE
 from diecut_report.pictures import PictureFault, media_type
-from diecut_report.results.model import GoverningRecord, LogoRecord, ResultsRecord
-from diecut_report.results.record import FORM_VERSION, SCHEMA_VERSION
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.results.model import LogoRecord, ResultsRecord
+from diecut_report.results.record import FORM_VERSION, SCHEMA_VERSION, WORDINGS
+from diecut_report.text.phrases import Phrase, message_of, phrase
 
 # Results of another form than the program writes: which they are of, and what is told where they cannot be used.
 
@@ -27,7 +26,7 @@ from diecut_report.text.phrases import Phrase, phrase
 MOST_LETTERS = 4 * MOST_OF_PICTURE // 3 + 4  # of a logo in base64
 TOLD_SINCE = "1.3"  # the first form that tells itself
 SHAPE = re.compile(r"\d{1,4}\.\d{1,4}")
-PROGRAM = re.compile(r"\d[\w.+-]{0,40}", re.ASCII)
+VERSION = re.compile(r"\d[\w.+-]{0,40}", re.ASCII)  # of a program or a library
 
 
 def refuse_other_form(results: Mapping[str, Any], file: str) -> None:
@@ -64,7 +63,7 @@ def other_form(results: Mapping[str, Any]) -> str:
 def _by(results: Mapping[str, Any]) -> str:
     program = results.get("program")
     version = program.get("version") if isinstance(program, dict) else None
-    is_known = isinstance(version, str) and PROGRAM.fullmatch(version)
+    is_known = isinstance(version, str) and VERSION.fullmatch(version)
     return Phrase(" (diecut-report {version})", version=version) if is_known else ""
 
 
@@ -83,27 +82,23 @@ def results_of(content: bytes, file: str) -> ResultsRecord:
     refuse_other_form(found, file)
     _refuse_hidden(found, file)
     try:
-        results = form_1.results_of(found) if form_1.is_own(found) else ResultsRecord.model_validate(found)
+        is_first = str(found.get("form_version", FIRST)).startswith("1.")  # those before 1.3 do not report their form
+        results = _of_form_1(found) if is_first else ResultsRecord.model_validate(found)
     except ValidationError as error:
         faults = error.errors(include_url=False)[:MAX_SHOWN]
         problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults]
         why = other_form(found)
         raise UserError([*([Problem(why, file)] if why else []), *problems]) from None
-    if results.governing and not _is_there(results, results.governing):
-        told = phrase("it names no check of these results")
-        message = Phrase("is not what stands there in results: {told}. {ask}", told=told, ask=ASK)
-        raise UserError(Problem(message, file, path="governing"))
+    governing = results.governing
+    known = results.calculated.get(governing.mechanism) if governing else None
+    if governing and not (known and any(each.id == governing.check for each in known.checks)):
+        raise UserError(Problem(_unlike(phrase("it names no check of these results")), file, path="governing"))
     config = results.config
     if len(config.materials) > MOST_TABLES or len(config.file) > MAX_TEXT:  # which a configuration could not name
         raise UserError(Problem(Phrase("is not what stands there in results. {ask}", ask=ASK), file, path="config"))
     if config.logo:
         _refuse_logo(config.logo, file)
     return results
-
-
-def _is_there(results: ResultsRecord, governing: GoverningRecord) -> bool:
-    found = results.calculated.get(governing.mechanism)
-    return found is not None and any(each.id == governing.check for each in found.checks)
 
 
 def _refuse_logo(logo: LogoRecord, file: str) -> None:
@@ -115,14 +110,15 @@ def _refuse_logo(logo: LogoRecord, file: str) -> None:
         told = Phrase("the logo {fault}", fault=fault)
     except ValueError:  # an error of base64
         pass  # what is no picture is not of this type either
-    message = Phrase("is not what stands there in results: {told}. {ask}", told=told, ask=ASK)
-    raise UserError(Problem(message, file, path="config.logo"))
+    raise UserError(Problem(_unlike(told), file, path="config.logo"))
+
+
+def _unlike(told: object) -> Phrase:
+    return Phrase("is not what stands there in results: {told}. {ask}", told=told, ask=ASK)
 
 
 def _words(fault: ErrorDetails) -> Phrase:
-    if fault["type"] == "missing":
-        return Phrase("is missing. {ask}", ask=ASK)
-    return Phrase("is not what stands there in results: {told}. {ask}", told=fault["msg"], ask=ASK)
+    return Phrase("is missing. {ask}", ask=ASK) if fault["type"] == "missing" else _unlike(fault["msg"])
 
 
 def parsed(content: bytes, file: str) -> dict[str, Any]:
@@ -205,3 +201,41 @@ def _refuse_hidden(data: Any, file: str) -> None:
         elif isinstance(part, str) and (found := CONTROL.search(part)):
             template = "The file holds the control character U+{code}. {ask}"
             raise refusal(template, file, code=f"{ord(found[0]):04X}", ask=ASK)
+
+
+# Results files of form 1 (up to 1.7), which kept how a text was made beside the texts, by the English sentence.
+
+
+FIRST = "1.0"
+LONGEST = 100_000  # letters of a text
+
+
+def _of_form_1(results: Mapping[str, Any]) -> ResultsRecord:
+    wordings = results.get("wordings", {})
+    made = {text: _message(wording) for text, wording in wordings.items()} if isinstance(wordings, dict) else {}
+    own = {key: part for key, part in results.items() if key != "wordings"}
+    context = {WORDINGS: {text: each for text, each in made.items() if each == text}}
+    return ResultsRecord.model_validate({"form_version": FIRST} | own, context=context)
+
+
+def _message(wording: Any) -> Phrase | None:
+    """A text with its template and values; None where it is not one."""
+    try:
+        return message_of(_message_data(wording))
+    except (ValueError, RecursionError):
+        return None
+
+
+def _message_data(wording: Any) -> Any:
+    """A text with its values as the form of today has it; None where it is not one, or longer than any."""
+    if not isinstance(wording, dict):
+        return wording
+    given, template = wording.get("values") or {}, str(wording.get("text"))
+    if not isinstance(given, dict):
+        return None
+    values = {name: _message_data(each) for name, each in given.items()}
+    texts = {name: each["text"] if isinstance(each, dict) else str(each) for name, each in values.items()}
+    if len(template) + template.count("{") * max(map(len, texts.values()), default=0) > LONGEST:
+        return None
+    counted = {key: wording[key] for key in ("one", "count") if key in wording}
+    return {"template": wording.get("text"), "values": values, "text": str.__str__(Phrase(template, texts))} | counted

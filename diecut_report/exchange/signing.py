@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -42,16 +41,6 @@ AMBIGUOUS = phrase(
 )
 
 
-@dataclass(frozen=True)
-class Signing:
-    """What is signed and how: the field (None where only one is free), a reason, and the file to write."""
-
-    report: Path
-    target: Path
-    field: str | None = None
-    reason: str | None = None
-
-
 class Additions(IncrementalPdfFileWriter):
     """Adds to a PDF, and leaves its metadata as they are: they say what PDF/A it is, which the library would write otherwise."""
 
@@ -59,33 +48,37 @@ class Additions(IncrementalPdfFileWriter):
         """Write no metadata."""
 
 
-def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Callable[[], None]) -> None:
-    """Write a report with a signature; UserError in words where it cannot be signed, and then nothing is written.
+def sign(
+    report: Path, target: Path, key: SigningKey, tell: Callable[[str], None], judge: Callable[[], None],
+    field: str | None = None, reason: str | None = None,
+) -> None:  # fmt: skip
+    """Write a report with a signature to ``target``; UserError in words where it cannot be signed, and then nothing is written.
 
+    ``field`` may be None where only one is free.
     ``judge`` raises a UserError where the report is not as the program makes it: nobody signs what others have put into it.
     """
-    whole = content(asked.report, MOST, phrase("a report as PDF"))
+    whole = content(report, MOST, phrase("a report as PDF"))
     if form_of(whole) != "pdf":
         template = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
-        raise refusal(template, asked.report)
-    attachments(whole, MOST_RESULTS, str(asked.report))  # UserError for what is not read
+        raise refusal(template, report)
+    attachments(whole, MOST_RESULTS, str(report))  # UserError for what is not read
     if why := damage(whole, MOST_RESULTS):  # the library that signs reads without bounds
-        raise refusal(UNSIGNABLE, asked.report, error=why)
-    with _signable(asked.report):
-        field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
+        raise refusal(UNSIGNABLE, report, error=why)
+    with _signable(report):
+        field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), field, report)
     judge()
-    with _signable(asked.report):
-        signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
+    with _signable(report):
+        signed = with_signature(Additions(io.BytesIO(whole)), field, reason, key)
     if not only_signed(whole, signed):
-        raise refusal(AMBIGUOUS, asked.report)
+        raise refusal(AMBIGUOUS, report)
     found = signatures(signed)
     if not any(each.is_last and each.holds for each in found):
         template = (
             "The signature would not hold, so nothing was signed: {found}. "
             "Sign with a certificate that is valid now, and whose names all programs can read."
         )
-        raise refusal(template, asked.report, found=joined([each.words for each in found if not each.holds], "; "))
-    write_all({asked.target: signed}, keep=key.file)
+        raise refusal(template, report, found=joined([each.words for each in found if not each.holds], "; "))
+    write_all({target: signed}, keep=key.file)
     tell(Phrase("signed by {name} in the field {field}", name=key.name, field=field))
 
 
@@ -126,17 +119,17 @@ def with_signature(writer: Additions, field: str, reason: str | None, key: Signi
     return content
 
 
-def _chosen(free: list[str], asked: Signing) -> str:
+def _chosen(free: list[str], field: str | None, report: Path) -> str:
     if not free:
-        raise refusal(NONE_FREE, asked.report)
-    if asked.field is None and len(free) > 1:
+        raise refusal(NONE_FREE, report)
+    if field is None and len(free) > 1:
         template = "Several fields are free; name one with --field: {free}."
-        raise refusal(template, asked.report, free=", ".join(free))
-    if asked.field is not None and asked.field not in free:
-        near = nearest(asked.field, free)
+        raise refusal(template, report, free=", ".join(free))
+    if field is not None and field not in free:
+        near = nearest(field, free)
         template = "There is no free field {field}{nearest}; free are: {free}."
-        raise refusal(template, asked.report, field=repr(asked.field), nearest=near, free=", ".join(free))
-    return asked.field or free[0]
+        raise refusal(template, report, field=repr(field), nearest=near, free=", ".join(free))
+    return field or free[0]
 
 
 def _signer(key: SigningKey) -> SimpleSigner:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -13,18 +11,18 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.config import yaml
-from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
 from diecut_report.design.findings import decided, with_findings
 from diecut_report.errors import PluginError, UserError
 from diecut_report.exchange.carried import CarriedResults
 from diecut_report.exchange.rendering import document
-from diecut_report.press import AskedReport, Press
+from diecut_report.exchange.results_form import VERSION
+from diecut_report.press import AskedReport, CalculatedPress, Press
 from diecut_report.report.pages.firm_templates import HouseStyle
-from diecut_report.results.changes import compare_with
+from diecut_report.results.changes import compare_with, is_number
 from diecut_report.results.model import CarriedConfigRecord, ProgramRecord, ResultsRecord
-from diecut_report.results.results_file import config_content
+from diecut_report.results.results_file import source_content
 from diecut_report.text.phrases import Counted, Phrase, cell, joined, phrase
 
 if TYPE_CHECKING:
@@ -71,7 +69,7 @@ class Agreement:
     @property
     def differing(self) -> int:
         """Return how many numbers differ."""
-        return sum(_is_number(each.first) or _is_number(each.second) for each in self.differences)
+        return sum(is_number(each.first) or is_number(each.second) for each in self.differences)
 
 
 def agreement(first: Mapping[str, Any], second: Mapping[str, Any]) -> Agreement:
@@ -87,7 +85,7 @@ def _differences(a: Value, b: Value, path: str, made: Agreement, scale: float) -
             yield from _differences(a.get(key, NOWHERE), b.get(key, NOWHERE), _below(path, key), made, 0.0)
         yield from _order_of_keys(a, b, path)
     elif isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
-        scale = max((abs(each) for each in a if _is_number(each)), default=0.0)
+        scale = max((abs(each) for each in a if is_number(each)), default=0.0)
         for index, pair in enumerate(zip(a, b, strict=True)):
             part = pair[0]["id"] if isinstance(pair[0], dict) and isinstance(pair[0].get("id"), str) else index
             yield from _differences(*pair, _below(path, part), made, scale)
@@ -106,15 +104,11 @@ def _order_of_keys(a: dict[str, Value], b: dict[str, Value], path: str) -> Itera
 def _agree(a: Value, b: Value, made: Agreement, scale: float) -> bool:
     if isinstance(a, str) and isinstance(b, str):  # a name that knows its formula is a text, too
         return str(a) == str(b)
-    if not (_is_number(a) and _is_number(b)):
+    if not (is_number(a) and is_number(b)):
         return type(a) is type(b) and bool(a == b)
     made.numbers += 1
     made.exact += a == b
     return math.isclose(a, b, rel_tol=CLOSE, abs_tol=max(NOISE * scale, TINY))
-
-
-def _is_number(value: Value) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _below(path: str, key: object) -> str:
@@ -138,13 +132,11 @@ def recalculated(
     of it. UserError where the configuration cannot be calculated any more.
     """
     given = carried.results
-    with _tables(carried.tables) as find:
-        tree = _tree(given.config, f"{carried.path} (its configuration)")
-        made = decided(Press.read(tree, discovery, tell, find=find).calculate())
-        # a results file without any part of a report is as ``calc`` writes it
-        has_more = bool(given.summary.tried or given.summary.moves) and not made.results.summary.tried
-        is_report = carried.form != "json" or has_more or given.summary.advice or given.influence
-        made = with_findings(made) if is_report else made
+    made = _calculated(given.config, carried.tables, f"{carried.path} (its configuration)", discovery, tell)
+    # a results file without any part of a report is as ``calc`` writes it
+    has_more = bool(given.summary.tried or given.summary.moves) and not made.results.summary.tried
+    is_report = carried.form != "json" or has_more or given.summary.advice or given.influence
+    made = with_findings(made) if is_report else made
     results = made.results
     # as far as the command takes them; what it does not take differs from what comes out now
     only = given.report.only if results.mechanisms.keys() >= set(given.report.only) else []
@@ -163,24 +155,23 @@ def recalculated(
     return again, made.broken, tuple(found)
 
 
-def _tree(config: CarriedConfigRecord, file: str) -> Tree:
-    """A configuration in a report; it is called as the report calls it, and problems name the report."""
-    tree = yaml.parse(config.source_text, file)
-    return Tree(tree.root, tree.file, tree.text, sha256(config_content(config)).hexdigest(), config.file)
+def _calculated(
+    config: CarriedConfigRecord, tables: Mapping[str, bytes], file: str, discovery: Discovery, tell: Callable[[str], None]
+) -> CalculatedPress:  # fmt: skip
+    """A configuration in a report, calculated; it is called as the report calls it, and problems name the report (``file``).
 
-
-@contextmanager
-def _tables(contents: Mapping[str, bytes]) -> Iterator[Find]:
-    """Where the tables are that a configuration names: those that the report carries, and none that lie beside it by chance."""
+    Its tables are those that the report carries, and none that lie beside it by chance.
+    """
     with TemporaryDirectory(prefix="diecut-report-") as folder:
-        places = {name: Path(folder) / f"{number}" / Path(name).name for number, name in enumerate(contents)}
+        places = {name: Path(folder) / f"{number}" / Path(name).name for number, name in enumerate(tables)}
         for name, path in places.items():
             path.parent.mkdir()
-            path.write_bytes(contents[name])
-        yield lambda name: places.get(name, Path(folder) / "not carried" / name)
-
-
-# --- options of the command that the configuration does not tell ------------------------------------------------------
+            path.write_bytes(tables[name])
+        tree = yaml.parse(config.source_text, file)
+        named = Tree(tree.root, tree.file, tree.text, sha256(source_content(config)).hexdigest(), config.file)
+        missing = Path(folder) / "not carried"
+        press = Press.read(named, discovery, tell, find=lambda name: places.get(name, missing / name))
+        return decided(press.calculate())
 
 
 def _options(given: ResultsRecord, again: ResultsRecord, asked: AskedReport) -> Found:
@@ -201,9 +192,6 @@ def _options(given: ResultsRecord, again: ResultsRecord, asked: AskedReport) -> 
     return Phrase(template, options=named) if named else phrase(none), True
 
 
-# --- the former revision -----------------------------------------------------------------------------------------------
-
-
 def _former(
     carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], previous: ResultsRecord | None
 ) -> tuple[ResultsRecord | None, str]:
@@ -217,9 +205,8 @@ def _former(
         )
         return None, phrase(template)
     try:
-        with _tables(carried.former_tables) as find:
-            tree = _tree(former, f"{carried.path} (its former configuration)")
-            return decided(Press.read(tree, discovery, tell, find=find).calculate()).results, ""
+        file = f"{carried.path} (its former configuration)"
+        return _calculated(former, carried.former_tables, file, discovery, tell).results, ""
     except UserError:
         template = "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
         return None, phrase(template)
@@ -267,9 +254,6 @@ def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
     return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own)
 
 
-VERSION = re.compile(r"\d[\w.+-]{0,40}", re.ASCII)  # of a library
-
-
 @dataclass
 class Verification:
     """Hold what was found of a report; ``broken`` are plugins that broke while it was calculated again.
@@ -283,8 +267,8 @@ class Verification:
     options: tuple[Found, ...]
     agreement: Agreement
     pages: Found | None
-    broken: tuple[PluginError, ...] = field(default=())
-    signatures: tuple[Signature, ...] = field(default=())
+    broken: tuple[PluginError, ...]
+    signatures: tuple[Signature, ...]
 
     @property
     def holds(self) -> bool:
@@ -404,7 +388,7 @@ def _named_code(code: tuple[str, str]) -> str:
 def _config(carried: CarriedResults) -> Found:
     """Whether the configuration and its tables are those whose hashes the report names."""
     config = carried.results.config
-    contents = {config.file: carried.config_content} | carried.tables
+    contents = {config.file: source_content(config)} | carried.tables
     files = (*config.materials, *([config.logo] if config.logo else ()), config)
     hashes = {file.file: file.sha256 for file in files}
     for name, content in contents.items():

@@ -392,7 +392,8 @@ def _shortest(line: TriedLine, place: VariedNumber, value: float, *, up: bool) -
 
 def _together(trials: Trials, keys: Sequence[str]) -> Way | None:
     given = [place for key in keys for place in trials.places(key) if place.present is not None]
-    places = [place for place in given if not place.is_absent] or given
+    # nothing of what is never below zero, such as a bore, does not grow with the others
+    places = [place for place in given if not place.present == place.meta.ge == 0] or given
     if not places:
         return None
     ray = _common_ray(places)

@@ -39,7 +39,9 @@ def carrying_parts(parts: MachineParts, train: str | None) -> Iterator[CarryingP
             yield from _of_part(part)
     for join in parts.joins:
         if join.word == "belts":
-            yield CarryingPart(join.name, dotted(join.path), train or "", is_own=_is_of_belt)
+            yield CarryingPart(
+                join.name, dotted(join.path), train or "", is_own=lambda check: check.id.startswith("vbelt")
+            )
         else:
             yield CarryingPart(join.name, dotted(join.path), join.calculation)
 
@@ -60,10 +62,6 @@ def _of_part(part: ShaftPart) -> Iterator[CarryingPart]:
 def _is_of(bearing: str, check: CheckRecord) -> bool:
     """Whether a check of several bearings is of this one."""
     return getattr(check.title, "values", {}).get("name") == bearing
-
-
-def _is_of_belt(check: CheckRecord) -> bool:
-    return check.id.startswith("vbelt")
 
 
 def dotted(path: Sequence[str | int]) -> str:
@@ -110,35 +108,33 @@ def unrated(
     parts: MachineParts, train: str | None, checks: Mapping[str, Sequence[CheckRecord]], owner: str
 ) -> Iterator[OpenRecord]:
     """Yield the parts that carry load and are neither rated nor accepted, with the reason."""
-    own = parts.keys.owner or owner
+
+    def record(path: str, why: Phrase) -> OpenRecord:
+        return OpenRecord(what="not_rated", path=path, owner=parts.keys.owner or owner, why=why)
+
     for part in carrying_parts(parts, train):
         if not (part.accepted or is_rated(part, checks)):
             is_there = part.calculation in checks
             why = phrase("not all of its checks of strength are made") if is_there else phrase("its load is not known")
-            yield OpenRecord(
-                what="not_rated", path=part.path, owner=own, why=Phrase("{part}: {why}", part=part.name, why=why)
-            )
+            yield record(part.path, Phrase("{part}: {why}", part=part.name, why=why))
     for shaft in (each for each in parts.shafts.values() if each.keys.motor):
         if any(join.word != "belts" or train is None for join in parts.joins if join.drivers[0].shaft is shaft):
-            why = Phrase(
-                "{part}: no method compares the force on its shaft with that which its maker allows", part=shaft.name
-            )
-            yield OpenRecord(what="not_rated", path=dotted(shaft.path), owner=own, why=why)
+            template = "{part}: no method compares the force on its shaft with that which its maker allows"
+            yield record(dotted(shaft.path), Phrase(template, part=shaft.name))
     every = [part for shaft in parts.shafts.values() for part in shaft.parts]
     driven = [join.driven[0].shaft for join in parts.joins if join.word == "belts" and join.driven]
     if train is not None and not any(
         part.kind == "flywheel" and part.shaft in (driven or [part.shaft]) for part in every
     ):
         why = phrase("it sizes a flywheel, and no part of the shaft that it drives is that")
-        yield OpenRecord(what="not_rated", path=f"mechanisms.{train}", owner=own, why=why)
+        yield record(f"mechanisms.{train}", why)
     clutches = {part.name for part in every if part.kind == "clutch"}
     for name in (name for name, kind in parts.mechanisms.items() if kind == "clutch" and name not in clutches):
         why = phrase("no part of the machine is this clutch, so that its engagement loads nothing")
-        yield OpenRecord(what="not_rated", path=f"mechanisms.{name}", owner=own, why=why)
+        yield record(f"mechanisms.{name}", why)
     for each in (part for part in every if part.keys.accepted is None):
         for template in _without_method(each, parts.mechanisms):
-            why = Phrase(template, part=each.called)
-            yield OpenRecord(what="not_rated", path=dotted(each.path), owner=own, why=why)
+            yield record(dotted(each.path), Phrase(template, part=each.called))
 
 
 def _without_method(part: ShaftPart, mechanisms: Mapping[str, str]) -> Iterator[str]:

@@ -22,7 +22,6 @@ from diecut_report.results.model import (
     ChangedTextRecord,
     ChangesRecord,
     CheckSideRecord,
-    GoverningRecord,
     QuantitySideRecord,
     ResultsRecord,
 )
@@ -31,7 +30,7 @@ Mechanisms = Mapping[str, MechanismRecord]
 SAME = 1e-9  # relative; below it is nothing but rounding
 NOTHING = 1e-12  # in the display unit, which no quantity of a press has
 MOST_DIGITS = 12
-LIKE_WARN = {"not_checked": 0.5}
+RANKS = {**RANK, "not_checked": 0.5}
 """A check that is not made is worse than one that passes, and better than one that warns."""
 SEEN = 5e-4  # of a utilisation, which is printed in per cent with one decimal
 Change = Literal["worse", "better", "added", "removed", "more used", "less used"]
@@ -60,6 +59,7 @@ def compare_with(former: ResultsRecord, results: ResultsRecord) -> ResultsRecord
 
 def _document(results: ResultsRecord) -> ChangedDocumentRecord:
     project, config, found = results.project, results.config, results.governing
+    own = results.calculated[found.mechanism].checks if found else []
     return ChangedDocumentRecord(
         title=project.title,
         document_number=project.document_number,
@@ -71,13 +71,8 @@ def _document(results: ResultsRecord) -> ChangedDocumentRecord:
         status=results.status,
         checks={status: results.summary.of(status) for status in COUNTED},
         governing=str(found) if found else "",
-        governing_title=_title(results, found) if found else "",
+        governing_title=next(each.title for each in own if each.id == found.check) if found else "",
     )
-
-
-def _title(results: ResultsRecord, governing: GoverningRecord) -> str:
-    """The title of the check that governs."""
-    return next(each.title for each in results.calculated[governing.mechanism].checks if each.id == governing.check)
 
 
 def _mechanisms(old: Mechanisms, new: Mechanisms) -> Iterator[ChangedTextRecord]:
@@ -131,15 +126,11 @@ def _change(before: CheckRecord | None, after: CheckRecord | None) -> Change:
     """What happened to a check: worse, better, more or less used; added or removed."""
     if before is None or after is None:
         return "added" if before is None else "removed"
-    ranks = [_rank(check.status) for check in (before, after)]
+    ranks = [RANKS[check.status] for check in (before, after)]
     if ranks[0] != ranks[1]:
         return "worse" if ranks[1] > ranks[0] else "better"
     ratios = [math.inf if check.utilisation is None else check.utilisation for check in (before, after)]
-    return ORDER[4] if ratios[1] > ratios[0] else ORDER[5]
-
-
-def _rank(status: str) -> float:
-    return {**RANK, **LIKE_WARN}[status]
+    return "more used" if ratios[1] > ratios[0] else "less used"
 
 
 def _check_order(row: ChangedCheckRecord) -> tuple[float, ...]:
@@ -148,7 +139,7 @@ def _check_order(row: ChangedCheckRecord) -> tuple[float, ...]:
     before, after = (side.utilisation if side else None for side in (row.old, row.new))
     first = 0 if row.change == "worse" or (row.change == "added" and statuses[1] == "fail") else 1
     step = 0.0 if before is None or after is None else abs(after - before)
-    return first, ORDER.index(row.change), -max(map(_rank, statuses)), -step
+    return first, ORDER.index(row.change), -max(RANKS[status] for status in statuses), -step
 
 
 # --- quantities ------------------------------------------------------------------------------------------------------
@@ -194,13 +185,14 @@ def _has_changed(before: QuantityRecord | None, after: QuantityRecord | None) ->
 def _has_other_value(before: QuantityRecord, after: QuantityRecord) -> bool:
     """Whether a quantity has another value, rounding apart."""
     a, b = before.value, after.value
-    if not (_is_number(a) and _is_number(b)):
+    if not (is_number(a) and is_number(b)):
         return a != b
     factor = _factor(after)
     return before.unit != after.unit or not math.isclose(a / factor, b / factor, rel_tol=SAME, abs_tol=NOTHING)
 
 
-def _is_number(value: object) -> TypeGuard[float]:
+def is_number(value: object) -> TypeGuard[float]:
+    """Return whether a value is a number, which true and false are not here."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
@@ -215,7 +207,7 @@ def _factor(row: QuantityRecord) -> float:
 def _texts(before: QuantityRecord | None, after: QuantityRecord | None) -> list[str]:
     """Both values as neutral texts in their display unit, with so many digits that they can be told apart."""
     texts = [row.display.text if row else "" for row in (before, after)]
-    if not (before and after and _is_number(before.value) and _is_number(after.value)):
+    if not (before and after and is_number(before.value) and is_number(after.value)):
         return texts
     values = [before.value / _factor(before), after.value / _factor(after)]
     for digits in range(5, MOST_DIGITS):
@@ -237,7 +229,7 @@ def _relative(before: QuantityRecord | None, after: QuantityRecord | None) -> fl
     if before is None or after is None or before.unit != after.unit:
         return None
     a, b = before.value, after.value
-    if not (_is_number(a) and _is_number(b)) or abs(a / _factor(before)) <= NOTHING:
+    if not (is_number(a) and is_number(b)) or abs(a / _factor(before)) <= NOTHING:
         return None
     share = (b - a) / abs(a)
     return share if math.isfinite(share) else None
@@ -307,7 +299,7 @@ def _is_own(before: QuantityRecord | None, after: QuantityRecord | None) -> bool
 
 def _spread(rows: Sequence[QuantityRecord | None]) -> tuple[bool, float]:
     values = [row.value for row in rows if row]
-    numbers = [value for value in values if _is_number(value)]
+    numbers = [value for value in values if is_number(value)]
     greatest = max(map(abs, numbers), default=0.0)
     spread = (max(numbers) - min(numbers)) / greatest if greatest and len(numbers) == len(values) else math.inf
     return len(values) < len(rows), -spread

@@ -240,8 +240,8 @@ def judged(calc: Calculation, check: Check) -> JudgedCheck:
 def _judged(check: Check, demand: Array, limit: Array) -> JudgedCheck:
     held, ratio = verdict(check, demand, limit)
     there = np.isfinite(demand) & np.isfinite(limit)
-    flat = [part.reshape(len(demand), -1) for part in (demand, limit, held, ratio, there)]
-    return JudgedCheck(demand, limit, held, ratio, there, worst(flat[0], flat[1], flat[2], flat[3], flat[4]))
+    flat = (part.reshape(len(demand), -1) for part in (demand, limit, held, ratio, there))
+    return JudgedCheck(demand, limit, held, ratio, there, worst(*flat))
 
 
 def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
@@ -268,7 +268,9 @@ def worst(demand: Array, limit: Array, held: Array, ratio: Array, there: Array) 
 def _compared(calc: Calculation, check: Check) -> Array:
     """Demands and limits of all machines, SI, shape (2, variants, pairs of sides, parts)."""
     pairs = [
-        calc.judged[check.id, number][:2] if (check.id, number) in calc.judged else _sides(calc, check, pair)
+        calc.judged[check.id, number][:2]
+        if (check.id, number) in calc.judged
+        else [_side(calc, check, each) for each in pair]
         for number, pair in enumerate(check.pairs)
     ]
     sides = [side for pair in pairs for side in pair]
@@ -283,14 +285,11 @@ def _compared(calc: Calculation, check: Check) -> Array:
     return found[..., [check.index]]
 
 
-def _sides(calc: Calculation, check: Check, pair: tuple[str | float, ...]) -> tuple[Array, ...]:
-    """Two sides of a check, each of shape (variants, 1) or (variants, parts); NaN for a part that does not have it."""
-    factor = unit(check.unit).factor
-    return tuple(_side(calc, s) if isinstance(s, str) else np.full((calc.count, 1), s * factor) for s in pair)
-
-
-def _side(calc: Calculation, name: str) -> Array:
-    found: Any = calc[name]
+def _side(calc: Calculation, check: Check, side: str | float) -> Array:
+    """A side of a check, of shape (variants, 1) or (variants, parts); NaN for a part that does not have it."""
+    if not isinstance(side, str):
+        return np.full((calc.count, 1), side * unit(check.unit).factor)
+    found: Any = calc[side]
     if isinstance(found, tuple):  # an optional input of repeated parts, which some do not have
         columns = [np.broadcast_to(np.nan if part is None else part, (calc.count,)) for part in found]
         return np.stack(columns, axis=1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.source_hashes import plugin_faults
@@ -25,7 +25,7 @@ from diecut_report.results.mechanism_record import (
 )
 from diecut_report.results.model import GoverningRecord, OpenRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.record import OpenKind, Verdict
-from diecut_report.text.phrases import Counted, Phrase, joined, phrase
+from diecut_report.text.phrases import Counted, Phrase, keys_listed, phrase
 
 # The sources of a machine: a plugin's own, but those that only steps and checks name which this machine does not have.
 
@@ -38,11 +38,11 @@ def cited_sources(calc: Calculation) -> list[SourceRecord]:
     used |= {check.source for check in checks_of(calc) if applies(calc, check)}
     for chapter, step in mechanism.active(calc.given):
         used |= {chapter.text, step.source, step.description, getattr(step, "method", "")}
-
-    def is_cited(source: Source) -> bool:
-        return source.id.isdigit() or _is_named(source, used) or not _is_named(source, every)
-
-    return [SourceRecord(id=source.id, citation=source.citation) for source in mechanism.sources if is_cited(source)]
+    return [
+        SourceRecord(id=source.id, citation=source.citation)
+        for source in mechanism.sources
+        if source.id.isdigit() or _is_named(source, used) or not _is_named(source, every)
+    ]
 
 
 def _is_named(source: Source, texts: Collection[str]) -> bool:
@@ -151,11 +151,6 @@ def counts(checks: Sequence[CheckRecord]) -> CountRecord:
     )  # fmt: skip
 
 
-def failed_self_tests(checks: Iterable[CheckRecord]) -> list[CheckRecord]:
-    """Return the self-tests of the calculation that do not hold."""
-    return [check for check in checks if check.check_class == SELF_TEST and check.status != "pass"]
-
-
 def summary(checks: Mapping[str, Sequence[CheckRecord]], assumed: Sequence[str]) -> SummaryRecord:
     """Return the counts of the checks of each mechanism with the paths of assumed inputs; the verdict is added later."""
     named, count = governing(checks), counts([check for each in checks.values() for check in each])
@@ -200,26 +195,14 @@ VALUES: tuple[OpenKind, ...] = ("assumed", "default")
 """What is open of inputs, and may be proved harmless."""
 
 
-class CalculatedCount(NamedTuple):
-    """Hold how many mechanisms and comparisons a machine has, and how many of them were not calculated."""
+def judged(found: SummaryRecord, total: int, lost: int, *, are_compared: bool = False) -> SummaryRecord:
+    """Return a summary with its verdict and the first line on the machine, which follow from its counts and from what is open.
 
-    total: int
-    lost: int
-    are_compared: bool = False
-
-
-def judged(found: SummaryRecord, calculated: CalculatedCount) -> SummaryRecord:
-    """Return a summary with its verdict and the first line on the machine, which follow from its counts and from what is open."""
-    whole = found.with_(verdict=verdict(found, calculated))
-    return whole.with_(conclusion=_conclusion(whole, calculated))
-
-
-def verdict(found: SummaryRecord, calculated: CalculatedCount) -> Verdict:
-    """Return the verdict on a machine by its counts and by what is open."""
-    if found.fail or calculated.lost:
-        return "fail"
-    is_checked = found.passing + found.warn > 0
-    return "pass" if is_checked and not found.open else "conditional"
+    ``total`` counts the mechanisms and comparisons, ``lost`` those of them that were not calculated.
+    """
+    verdict: Verdict = "pass" if found.passing + found.warn > 0 and not found.open else "conditional"
+    verdict = "fail" if found.fail or lost else verdict
+    return found.with_(verdict=verdict, conclusion=_conclusion(found, total, lost, are_compared))
 
 
 def summary_of(results: ResultsRecord) -> SummaryRecord:
@@ -233,46 +216,37 @@ def rejudged(results: ResultsRecord) -> SummaryRecord:
     if found.verdict is None:
         why = phrase("it is assumed")
         assumed = [OpenRecord(what="assumed", path=path, owner=owner, why=why) for path in found.assumed]
-        found = found.with_(open=[*open_checks(results.calculated, owner), *assumed])
+        checks = {name: data.checks for name, data in results.calculated.items()}
+        doubtful = [name for name, data in results.calculated.items() if data.is_doubtful]
+        found = found.with_(open=[*unsettled(checks, doubtful, owner), *assumed])
     parts = results.calculated.values()
-    return judged(
-        found, CalculatedCount(len(parts), sum(bool(each.error) for each in parts), bool(results.comparisons))
-    )
-
-
-def open_checks(mechanisms: Mapping[str, MechanismRecord], owner: str) -> list[OpenRecord]:
-    """Return what the checks of mechanisms leave open, and plugins whose formulas have faults: first what warns."""
-    checks = {name: data.checks for name, data in mechanisms.items()}
-    doubtful = [name for name, data in mechanisms.items() if data.is_doubtful]
-    return unsettled(checks, doubtful, owner)
+    lost = sum(bool(each.error) for each in parts)
+    return judged(found, len(parts), lost, are_compared=bool(results.comparisons))
 
 
 def unsettled(checks: Mapping[str, Sequence[CheckRecord]], doubtful: Iterable[str], owner: str) -> list[OpenRecord]:
     """Return the checks that warn or are not made, and the mechanisms whose formulas have faults, as open items."""
     every = [(f"mechanisms.{name}.checks.{check.id}", check) for name, own in checks.items() for check in own]
     faults = phrase("the formulas of its plugin have faults")
-    warned = [OpenRecord(what="warning", path=f"mechanisms.{name}", owner=owner, why=faults) for name in doubtful]
-    for path, check in every:
-        if check.status == "warn" and check.check_class != SELF_TEST:
-            warned.append(OpenRecord(what="warning", path=path, owner=owner, why=check.message))
-    unmade = [(path, check) for path, check in every if check.status == "not_checked"]
-    return [
-        *warned,
-        *(OpenRecord(what="not_checked", path=path, owner=owner, why=check.message) for path, check in unmade),
-    ]
+    found: list[tuple[OpenKind, str, str]] = [("warning", f"mechanisms.{name}", faults) for name in doubtful]
+    warns = [each for each in every if each[1].status == "warn" and each[1].check_class != SELF_TEST]
+    found += [("warning", path, check.message) for path, check in warns]
+    found += [("not_checked", path, check.message) for path, check in every if check.status == "not_checked"]
+    return [OpenRecord(what=what, path=path, owner=owner, why=why) for what, path, why in found]
 
 
-def _conclusion(found: SummaryRecord, calculated: CalculatedCount) -> Phrase:
+def _conclusion(found: SummaryRecord, total: int, lost: int, are_compared: bool) -> Phrase:
     """The one sentence that every command, page and file begins with."""
-    left, made = _listed([*_left(found, calculated.lost)]), found.passing + found.warn + found.fail
+    parts, made = [*_left(found, lost)], found.passing + found.warn + found.fail
+    left = keys_listed(parts) if parts else ""
     if found.fail:
         failed = Counted(found.fail, "{n} of {total} checks fails", "{n} of {total} checks fail", total=made)
         return Phrase("{failed}; {left}.", failed=failed, left=left) if left else Phrase("{failed}.", failed=failed)
-    if calculated.lost:
+    if lost:
         template = "{n} of {total} mechanisms were not calculated."
-        if calculated.are_compared:
+        if are_compared:
             template = "{n} of {total} mechanisms and comparisons were not calculated."
-        return Phrase(template, n=calculated.lost, total=calculated.total)
+        return Phrase(template, n=lost, total=total)
     if not made:
         return Phrase("Nothing was checked, and {left}.", left=left) if left else phrase("There are no checks.")
     if left:
@@ -309,10 +283,3 @@ def _unrated(found: SummaryRecord, counted: Callable[[int], Counted]) -> Iterato
         yield counted(lost)
     if (beyond := len(paths) - lost) > 0:
         yield Counted(beyond, "{n} body or joint has no method", "{n} bodies and joints have no method")
-
-
-def _listed(parts: list[Phrase]) -> str:
-    if not parts:
-        return ""
-    *most, last = parts
-    return Phrase("{first} and {next}", first=joined(most, ", "), next=last) if most else last

@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import platform
 from collections.abc import Iterable, Sequence, Sized
+from functools import reduce
+from operator import getitem
 from typing import Any
 
 import numpy as np
@@ -18,7 +20,7 @@ from diecut_report.config.model import PRESS, PressBlock
 from diecut_report.config.own_tables import Logo
 from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.validation import GIVEN, declared, keys_of
-from diecut_report.config.yaml import KeyPath, printable
+from diecut_report.config.yaml import printable
 from diecut_report.errors import MAX_COMPARISONS
 from diecut_report.machine.calculation import CurveHandle
 from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit, TakenWhole
@@ -210,7 +212,8 @@ def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases
         case [Block(), *_]:
             return [_plain(part, (*node, index), instance, bases) for index, part in enumerate(value)]
         case CurveHandle(calculation=_):
-            return _written(instance.data, node[1:])
+            written: Any = instance.data
+            return reduce(getitem, node[1:], written)
         case Extremes(low=low, high=high) if isinstance(meta, Quantity):
             return {"min": as_given(low, meta.unit), "max": as_given(high, meta.unit)}
         case InOtherUnit(value=number, unit=unit):
@@ -224,13 +227,6 @@ def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases
         case str() | bool() if isinstance(meta, Text):
             return _resting(value, node, bases)
     return value
-
-
-def _written(data: Any, key: KeyPath) -> Any:
-    """What stands in the file at a key."""
-    for part in key:
-        data = data[part]
-    return data
 
 
 def _resting(value: Any, node: Node, bases: Bases) -> Any:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
-from typing import cast
+from typing import Literal, cast
 
 import numpy as np
 
@@ -29,13 +29,17 @@ from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.press_run import Run
 
 NOTHING = RatingRecord(state="none")
-KINDS: Mapping[str, str] = {"meshes": "mesh", "chains": "chain", "belts": "belt"}
+KINDS: Mapping[str, Literal["mesh", "chain", "belt"]] = {"meshes": "mesh", "chains": "chain", "belts": "belt"}
 
 
 def drive_line(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> DriveLineRecord | None:
     """Return the drive line of a run; None where the parts of the machine are not modelled."""
     parts = run.config.parts
-    return None if parts is None else _DriveLine(parts, run.config.named("drive_train"), run.calculations, checks).record()  # fmt: skip
+    if parts is None:
+        return None
+    found = _DriveLine(parts, run.config.named("drive_train"), run.calculations, checks)
+    shafts = [found.shaft(each) for each in parts.shafts.values()]
+    return DriveLineRecord(shafts=shafts, joins=[found.join(each) for each in parts.joins])
 
 
 @dataclass(frozen=True)
@@ -44,10 +48,6 @@ class _DriveLine:
     train: str | None
     calculations: Mapping[str, Calculation]
     checks: Mapping[str, Sequence[CheckRecord]]
-
-    def record(self) -> DriveLineRecord:
-        shafts = [self._shaft(each) for each in self.parts.shafts.values()]
-        return DriveLineRecord(shafts=shafts, joins=[self._join(each) for each in self.parts.joins])
 
     # What rates a part.
 
@@ -68,7 +68,7 @@ class _DriveLine:
 
     # Where it stands.
 
-    def _shaft(self, shaft: MachineShaft) -> MachineShaftRecord:
+    def shaft(self, shaft: MachineShaft) -> MachineShaftRecord:
         sections = [
             ShaftSectionRecord(start=each.start, end=each.end, diameter=each.diameter, bore=each.bore)
             for each in shaft.sections
@@ -83,10 +83,10 @@ class _DriveLine:
             rating=self._rating(dotted(shaft.path), shaft.name),
         )
 
-    def _join(self, join: Join) -> JoinRecord:
-        sides = ([part.called for part in side] for side in (join.drivers, join.driven))
-        home = {"name": join.name, "kind": KINDS[join.word], "rating": self._rating(dotted(join.path), join.name)}
-        return JoinRecord.model_validate(home | dict(zip(("drivers", "driven"), sides, strict=True)))
+    def join(self, join: Join) -> JoinRecord:
+        drivers, driven = ([part.called for part in side] for side in (join.drivers, join.driven))
+        rates = self._rating(dotted(join.path), join.name)
+        return JoinRecord(name=join.name, kind=KINDS[join.word], drivers=drivers, driven=driven, rating=rates)
 
     def _of_part(self, part: ShaftPart) -> Iterator[PlacedPartRecord]:
         """The part, then its key, its pin and the bearing on that."""

@@ -37,7 +37,7 @@ from diecut_report.mechanism.steps import (
 from diecut_report.quantities.formatting import author_digits, place_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of, missing_checks
-from diecut_report.results.conclusion import RANK, cited_sources, counts, exports, failed_self_tests
+from diecut_report.results.conclusion import RANK, SELF_TEST, cited_sources, counts, exports
 from diecut_report.results.figure_views import figures
 from diecut_report.results.mechanism_record import (
     AbsentPhaseRecord,
@@ -239,7 +239,7 @@ def sections(calc: Calculation) -> list[SectionRecord]:
 
 def require_self_tests(checks: list[CheckRecord]) -> None:
     """Raise SelfTestFailed where the calculation contradicts itself."""
-    if failed := failed_self_tests(checks):
+    if failed := [check for check in checks if check.check_class == SELF_TEST and check.status != "pass"]:
         raise SelfTestFailed(failed)
 
 

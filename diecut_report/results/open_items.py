@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
 
 from diecut_report.config.instances import Instance, Node, Slot
 from diecut_report.config.model import PRESS
@@ -11,13 +10,11 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.references import WHOLE
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
-from diecut_report.config.yaml import KeyPath
-from diecut_report.machine.calculation import Calculation
 from diecut_report.mechanism.inputs import POINTS, Quantity, Varying, flatten
 from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
 from diecut_report.results.carrying_parts import counted, unrated
-from diecut_report.results.conclusion import LEFT, CalculatedCount, judged, summary, unsettled
+from diecut_report.results.conclusion import LEFT, judged, summary, unsettled
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, SummaryRecord
 from diecut_report.results.origins import assumed, input_path, is_default
@@ -45,37 +42,44 @@ def run_summary(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> Summar
         found = found.with_(parts=counted(run.config.parts, run.config.named("drive_train"), checks))
     lost = {*run.errors, *run.skipped} & {*run.config.kinds, *(case.name for case in run.cases)}
     total = len(run.config.kinds) + len(run.cases)
-    return judged(found, CalculatedCount(total, len(lost), bool(run.cases)))
+    return judged(found, total, len(lost), are_compared=bool(run.cases))
 
 
 def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[OpenRecord]:
     """Return all that is open of a run, in the order of ``LEFT``."""
-    owner = run.config.project.prepared_by or ""
+    owner = _owner(run)
     mechanisms = {name: calc.mechanism for name, calc in run.calculations.items()}
     mechanisms |= {case.name: case.comparison.mechanism for case in run.cases}
     doubtful = [name for name, own in mechanisms.items() if plugin_code(own).get("plugin_check") == "failed"]
     found = unsettled(checks, doubtful, owner)
     if run.config.parts is not None:
         found += unrated(run.config.parts, run.config.named("drive_train"), checks, owner)
-    for path, why in unrated_forces(run):
-        found.append(OpenRecord(what="not_rated", path=path, owner=owner, why=why))
-    found += [OpenRecord(what=each.what, path=each.path, owner=owner, why=each.why) for each in open_values(run)]
+    found += [*unrated_forces(run), *open_values(run)]
     order = list(LEFT)
     return sorted(found, key=lambda each: order.index(each.what))
 
 
-def unrated_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
+def _owner(run: Run) -> str:
+    return run.config.project.prepared_by or ""
+
+
+def unrated_forces(run: Run) -> Iterator[OpenRecord]:
     """Yield of each mechanism the curves of force and torque that nothing takes, and of each load the component that it leaves out.
 
     A mechanism that takes a force, a torque or all of another one is a part which rates it, or hands on what it declares as its reactions.
     A mechanism that is calculated alone belongs to no drive line. In a machine of parts they are the ports for which no part stands.
     """
-    if run.config.parts is not None:
-        yield from _ports_without_part(run, run.config.parts)
-        return
+    found = _untaken_forces(run) if run.config.parts is None else _ports_without_part(run, run.config.parts)
+    yield from (OpenRecord(what="not_rated", path=path, owner=_owner(run), why=why) for path, why in found)
+
+
+def _untaken_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
     links = run.config.links.items()
     taken = {(each.instance, each.result) for _, target in links for each in target.single}
-    forces = {name: _forces(calc) for name, calc in run.calculations.items()}
+    forces = {
+        name: [force for force, step in calc.curves.items() if step.output and unit(step.unit).si in FORCES]
+        for name, calc in run.calculations.items()
+    }
     given = {(name, force) for name, own in forces.items() for force in own}
     parts = {
         node[0]
@@ -116,19 +120,7 @@ def _taken_in_part(run: Run) -> Iterator[tuple[str, Phrase]]:
                 yield path, Phrase("takes no {ports} of {name}", ports=", ".join(left), name=name)
 
 
-def _forces(calc: Calculation) -> list[str]:
-    return [name for name, step in calc.curves.items() if step.output and unit(step.unit).si in FORCES]
-
-
-class OpenValue(NamedTuple):
-    """Hold an open value: its path, what it rests on, and why it is open."""
-
-    path: str
-    what: OpenKind
-    why: str
-
-
-def open_values(run: Run) -> Iterator[OpenValue]:
+def open_values(run: Run) -> Iterator[OpenRecord]:
     """Yield the inputs that are assumed, have the value that they would have if nobody typed them, or ask for a basis and have none.
 
     A default of zero has nothing below or above it that would be usual, unless the table of ranges says so.
@@ -137,22 +129,19 @@ def open_values(run: Run) -> Iterator[OpenValue]:
         if instance is None or name not in run.blocks:
             continue
         unranged_keys = unranged(run.config.kinds.get(name, PRESS), _is_alone(run, name))
-        unbounded_keys = _unbounded(run, instance)
+        calc, inputs = run.calculations.get(name), flatten(run.blocks[name])
+        unbounded_keys = unbounded(instance, inputs, run.beside(instance), calc.values) if calc else set()
         for slot in instance.slots:
-            path = input_path(name, slot.key)
             is_bounded = slot.key not in unbounded_keys
-            if what := _rests_on(run, instance, slot, is_bounded=is_bounded):
+            what = _rests_on(run, instance, slot, is_bounded=is_bounded)
+            if what is None:
+                what, why = "assumed", _open_choice(run, instance, slot) or _one_of_curve(run, instance, slot)
+            elif not slot.is_given:
+                why = UNPROVED
+            else:
                 why = unranged_keys.get(slot.name, UNPROVED) if is_bounded else UNBOUNDED
-                yield OpenValue(path, what, why if slot.is_given else UNPROVED)
-            elif why := _open_choice(run, instance, slot) or _one_of_curve(run, instance, slot):
-                yield OpenValue(path, "assumed", why)
-
-
-def _unbounded(run: Run, instance: Instance) -> set[KeyPath]:
-    """The inputs that nothing bounds, though their kind has a row."""
-    if (calc := run.calculations.get(instance.name)) is None:
-        return set()
-    return unbounded(instance, flatten(run.blocks[instance.name]), run.beside(instance), calc.values)
+            if why:
+                yield OpenRecord(what=what, path=input_path(name, slot.key), owner=_owner(run), why=why)
 
 
 def _rests_on(run: Run, instance: Instance, slot: Slot, *, is_bounded: bool) -> OpenKind | None:

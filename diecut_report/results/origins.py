@@ -114,21 +114,19 @@ def number(calc: Calculation, name: str) -> Array | None:
     return row[:, part.index] if part and row is not None and part.index < row.shape[1] else None
 
 
-def phase(calc: Calculation, name: str, target: Target) -> PhaseHandle:
-    """Return a phase as a reference takes it over. Absent where the (first) machine does not have it."""
-    handle = PhaseHandle(calc, name.removeprefix(PREFIX), f"${{{target.path}}}")
-    if not handle.intervals():
-        raise Absent(phrase("does not apply to this machine."))
-    return handle
-
-
 def output(calc: Calculation, name: str, target: Target) -> Any:
-    """Return a result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
+    """Return a result as a reference takes it over: a curve, a phase, a number with its SI unit, or a text.
+
+    Absent where the (first) machine does not have it.
+    """
     if target.is_mechanism:
         return MechanismHandle(calc, target.instance)
     require_facts(calc, name, target)
     if target.phase_unit:
-        return phase(calc, name, target)
+        phase = PhaseHandle(calc, name.removeprefix(PREFIX), f"${{{target.path}}}")
+        if not phase.intervals():
+            raise Absent(phrase("does not apply to this machine."))
+        return phase
     if calc.axis.get(name) in calc.domains:
         return CurveHandle(calc, name)
     numbers = number(calc, name)
@@ -234,8 +232,8 @@ class Bases:
                 yield (instance.name, *slot.key)
 
 
-def input_path(name: str, key: KeyPath) -> str:
-    """Return the path of an input of a mechanism, or of the press, in the configuration."""
+def input_path(name: str, key: KeyPath = ()) -> str:
+    """Return the path of a mechanism or the press, or of an input of it, in the configuration."""
     return ".".join(map(str, (*((PRESS,) if name == PRESS else ("mechanisms", name)), *key)))
 
 

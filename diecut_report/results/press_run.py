@@ -36,7 +36,17 @@ from diecut_report.results.checks import holds
 from diecut_report.results.coherence import TAKEN, Machine, disagreements, note_findings, placed_findings
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, SourceRecord
-from diecut_report.results.origins import Absent, Bases, Provenance, Unavailable, Valueless, Withheld, origin_of, output
+from diecut_report.results.origins import (
+    Absent,
+    Bases,
+    Provenance,
+    Unavailable,
+    Valueless,
+    Withheld,
+    input_path,
+    origin_of,
+    output,
+)
 from diecut_report.results.usual import Beside, Outside, beside, note_usual, outside
 from diecut_report.text.phrases import Phrase, named, phrase
 from diecut_report.time_limit import contained, in_time
@@ -338,7 +348,7 @@ class Run:
 
     def _where_typed(self, instance: Instance, problem: Problem) -> Problem:
         """Return a problem of an input that takes a field of the press by default at that field, which alone is typed."""
-        key = problem.path.removeprefix(f"{_home(instance.name)}.")
+        key = problem.path.removeprefix(f"{input_path(instance.name)}.")
         target = self.config.links.get((instance.name, *key.split(".")))
         press = self.config.instances[PRESS]
         if target is None or not target.is_default or press is None:
@@ -448,7 +458,9 @@ class _FeasibilityRun(Run):
 
     def __init__(self, config: Config, known: Sequence[Problem]) -> None:
         self.known = known
-        self.wrong = {name for name in config.instances for problem in known if _is_within(problem.path, _home(name))}
+        self.wrong = {
+            name for name in config.instances for problem in known if _is_within(problem.path, input_path(name))
+        }
         super().__init__(config, lambda _: None)
 
     def _mechanism(self, name: str) -> None:
@@ -459,7 +471,7 @@ class _FeasibilityRun(Run):
 
     def _referred(self, target: Target) -> Any:
         """Return what a reference stands for; Unavailable where the value there has a problem of its own, for it cannot be read."""
-        path = ".".join((_home(target.instance), *map(str, target.key)))
+        path = input_path(target.instance, target.key)
         faulty = (problem.path for problem in self.known if target.instance in self.wrong)
         if any(_is_within(each, path) or _is_within(path, each) for each in faulty):
             raise Unavailable(target.instance)
@@ -471,7 +483,9 @@ class _FeasibilityRun(Run):
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         inputs = flatten(block)
         given = frozenset(inputs) | texts_given(inputs)
-        if self._is_taken_whole(instance.name):
+        links = [link for link in self.config.links.values() if link.instance == instance.name]
+        # taken whole, or a phase of it: that is more than a few of its results
+        if any(link.is_mechanism or link.phase_unit is not None for link in links):
             return calculate(mechanism, inputs)
         referred = (single for target in self.config.links.values() for single in target.single)
         names = [str(each.result) for each in referred if each.instance == instance.name and each.result]
@@ -485,16 +499,6 @@ class _FeasibilityRun(Run):
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
         """Nothing is printed."""
-
-    def _is_taken_whole(self, name: str) -> bool:
-        """Whether another mechanism takes it, or a phase of it, which is more than a few of its results."""
-        links = self.config.links.values()
-        return any(link.instance == name and (link.is_mechanism or link.phase_unit is not None) for link in links)
-
-
-def _home(name: str) -> str:
-    """Return the key path of the press or a mechanism."""
-    return PRESS if name == PRESS else f"mechanisms.{name}"
 
 
 def _is_within(path: str, home: str) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import codecs
 import json
 from hashlib import sha256
@@ -24,22 +23,8 @@ def encoded(text: str) -> bytes:
     return text.encode(errors="backslashreplace")
 
 
-def config_content(config: CarriedConfigRecord) -> bytes:
-    """Return the configuration's file, byte for byte; its byte order mark, which its text does not hold, shows in its hash."""
-    return _content(config)
-
-
-def table_contents(config: CarriedConfigRecord) -> dict[str, bytes]:
-    """Return the files of the user's own tables, byte for byte, by the names that the configuration gives them."""
-    return {table.file: _content(table) for table in config.materials}
-
-
-def logo_content(config: CarriedConfigRecord) -> dict[str, bytes]:
-    """Return the logo's file by its name; nothing where there is none."""
-    return {config.logo.file: base64.b64decode(config.logo.base64)} if config.logo else {}
-
-
-def _content(file: CarriedConfigRecord | MaterialsFileRecord) -> bytes:
+def source_content(file: CarriedConfigRecord | MaterialsFileRecord) -> bytes:
+    """Return a configuration's or table's file, byte for byte; its byte order mark, which its text does not hold, shows in its hash."""
     content = encoded(file.source_text)
     marked = codecs.BOM_UTF8 + content
     return marked if sha256(marked).hexdigest() == file.sha256 else content

@@ -38,11 +38,6 @@ class VariedNumber:
     present: float | None
     path: str
 
-    @property
-    def is_absent(self) -> bool:
-        """Return whether there is nothing of what is never below zero, such as a bore: it does not grow with the others."""
-        return self.present == 0 and self.meta.ge == 0
-
     def shown(self, value: float) -> float:
         """Return an SI value in the unit of the input."""
         return float(f"{self.meta.parsed_unit.from_si(value):.12g}")

@@ -65,9 +65,9 @@ class Outside:
 
     def given(self, variant: int) -> Phrase:
         """Return what was given: the key's value, or what it makes with others."""
-        value = _shown(float(self.values[min(variant, len(self.values) - 1)]), self.row.unit)
+        value = given_shown(float(self.values[min(variant, len(self.values) - 1)]), self.row.unit)
         named = self.row.of.replace("${", "").replace("}", "") or ".".join(map(str, self.key))
-        return Phrase("{name} = {value}", name=named, value=value)
+        return Phrase("{name} = {value}", name=named, value=with_unit(*value.values()))
 
     @property
     def ranges(self) -> Phrase:
@@ -188,10 +188,6 @@ def _expression(mechanism: Mechanism, of: str) -> Expression:
     units = {name: meta.unit for name, meta in NUMBERS.items()} | {step.id: step.unit for _, step in mechanism.steps}
     units |= {path: meta.unit for path, meta in fields(mechanism.inputs) if isinstance(meta, Quantity)}
     return read_expression(of, lambda name: Name(name, "number", unit(units[name[2:-1]]).si))
-
-
-def _shown(value: float, display: str) -> str:
-    return with_unit(*given_shown(value, display).values())
 
 
 def _ends(ends: tuple[float, float], display: str) -> Phrase:

@@ -182,13 +182,10 @@ class WarmRun(Run):
     @cached_property
     def checks(self) -> dict[str, list[CheckRecord]]:
         """Return the checks of each mechanism in the order of the file, as the results hold them."""
+        known = {name: self.remembered[name].of(self.press.judge) for name in self.calculations}
         names = [name for name in self.config.instances if name != PRESS]
-        return checks_with_origins({name: self._checks(name) for name in names}, cache(self._paths))
-
-    def _checks(self, name: str) -> list[CheckRecord]:
-        return (
-            self.remembered[name].of(self.press.judge) if name in self.calculations else self.self_tests.get(name, [])
-        )
+        own = {name: known.get(name) or self.self_tests.get(name, []) for name in names}
+        return checks_with_origins(own, cache(self._paths))
 
     def _paths(self, name: str) -> dict[str, str]:
         """What the inputs of a mechanism refer to."""

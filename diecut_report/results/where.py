@@ -39,9 +39,9 @@ class FoundPlace:
 
     name: str
     value: str = ""
-    place: str = ""
     symbol: str = ""
     description: str = ""
+    place: str = ""
     formula: str = ""
     source: str = ""
     takes: tuple[FoundPlace, ...] = ()
@@ -87,7 +87,9 @@ class _PlaceFinder:
             message = Phrase("{kind} gives nothing of this name{nearest}", kind=self.calc.mechanism.kind, nearest=near)
             raise UnknownName(Problem(message, f"{self.instance.name}.{name}"))
         compared = tuple(self.check(check) for check in self.checks.values() if {name, step.id} & {*check.named})
-        return self.quantity(step, name, takes=tuple(self._taken(step)), checks=compared)
+        names = taken(step) - {step.id, getattr(step, "unknown", ""), getattr(step, "given", "")}
+        takes = tuple(place for each in sorted(names) for place in self._places(each))
+        return self.quantity(step, name, takes=takes, checks=compared)
 
     def quantity(self, step: Step, name: str, **more: tuple[FoundPlace, ...]) -> FoundPlace:
         """Return the place of what a step gives."""
@@ -95,7 +97,7 @@ class _PlaceFinder:
         function = bound(own).formula.place if isinstance(own, Binding) else ""
         formula = "" if function == step.at else function
         whole, value = f"{self.instance.name}.{name}", self._value(step, name)
-        return FoundPlace(whole, value, step.at, step.symbol, step.description, formula, step.source, **more)
+        return FoundPlace(whole, value, step.symbol, step.description, step.at, formula, step.source, **more)
 
     def input(self, path: str) -> FoundPlace:
         """Return the place where an input is typed, or that it is at its default."""
@@ -106,17 +108,13 @@ class _PlaceFinder:
         place = f"{problem.file}:{problem.line}" if typed else phrase("at its default, or taken from the press")
         symbol = meta.symbol if isinstance(meta, Quantity) else ""
         name, value = f"{self.instance.name}.{INPUTS}{path}", self._input_value(path, typed)
-        return FoundPlace(name, value, place, symbol, meta.description)
+        return FoundPlace(name, value, symbol, meta.description, place)
 
     def check(self, check: Check, *, whole: bool = False) -> FoundPlace:
         """Return the place of a check, with its sides where it is asked for itself."""
         sides = tuple(place for name in check.named for place in self._places(name)) if whole else ()
         name = f"{self.instance.name}.checks.{check.id}"
-        return FoundPlace(name, "", check.at, "", str(check.title), source=check.source, takes=sides)
-
-    def _taken(self, step: Step) -> Iterator[FoundPlace]:
-        for name in sorted(taken(step) - {step.id, getattr(step, "unknown", ""), getattr(step, "given", "")}):
-            yield from self._places(name)
+        return FoundPlace(name, "", "", check.title, check.at, source=check.source, takes=sides)
 
     def _places(self, name: str) -> Iterator[FoundPlace]:
         """The place of what has this name: of an input in a list, of each part; of what is not given, none."""
@@ -186,6 +184,7 @@ def _from_here(place: str) -> str:
 
 def data(found: FoundPlace) -> dict[str, Any]:
     """Return the same as plain data."""
-    own = {key: getattr(found, key) for key in ("name", "value", "symbol", "description", "place", "formula", "source")}
-    more = {"takes": [data(each) for each in found.takes], "checks": [data(each) for each in found.checks]}
-    return {key: str(text) for key, text in own.items() if text} | {key: each for key, each in more.items() if each}
+    parts = {
+        key: [data(part) for part in each] if isinstance(each, tuple) else each for key, each in vars(found).items()
+    }
+    return {key: each for key, each in parts.items() if each}

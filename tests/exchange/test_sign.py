@@ -23,7 +23,7 @@ from page import validate_pdf
 
 from diecut_report.errors import UserError
 from diecut_report.exchange.signatures import signatures
-from diecut_report.exchange.signing import Signing, sign
+from diecut_report.exchange.signing import sign
 from diecut_report.exchange.signing_keys import SigningKey
 from tests.configs import SMALL, saved
 from tests.exchange.forgeries import (
@@ -275,10 +275,9 @@ def test_what_the_judgement_of_a_report_raises_is_no_fault_of_the_pdf(pdf: Path,
     def judge() -> None:
         raise LookupError("of a plugin")
 
-    asked = Signing(pdf, pdf, "checked")
     key = SigningKey(pdf, engineer.private, engineer.certificate)
     with pytest.raises(LookupError, match="of a plugin"):
-        sign(asked, key, lambda _: None, judge)
+        sign(pdf, pdf, key, lambda _: None, judge, "checked")
 
 
 EC_KEY, OWN_KEY = (

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.results.conclusion import CalculatedCount, judged, summary_of
+from diecut_report.results.conclusion import judged, summary_of
 from diecut_report.results.model import OpenRecord, ResultsRecord, SummaryRecord
 from diecut_report.text.translation import said, speaking
 from tests.records import filled
@@ -23,7 +23,7 @@ def summary(**counts: Any) -> SummaryRecord:
         | counts
         | ({"parts": parts} if parts else {})
     )
-    return judged(filled(SummaryRecord, whole), CalculatedCount(3, lost))
+    return judged(filled(SummaryRecord, whole), 3, lost)
 
 
 @pytest.mark.parametrize(

@@ -33,7 +33,7 @@ from diecut_report.results.model import (
     TolerancesRecord,
     TornadoRecord,
 )
-from diecut_report.results.results_file import config_content, encoded, results_text
+from diecut_report.results.results_file import encoded, results_text, source_content
 
 DIGITS = 4
 NUMBER = "1.{n}"  # of a figure: those of mechanisms begin with a letter
@@ -468,6 +468,6 @@ def carried_files(results: ResultsRecord, words: Mapping[str, str]) -> tuple[Car
     """Return the configuration and the results, in the order of their names."""
     text = encoded(results_text(results))
     return (
-        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results.config), "Source"),
+        CarriedFile(CONFIG, "application/yaml", words["configuration"], source_content(results.config), "Source"),
         CarriedFile(RESULTS, "application/json", words["carried_results"], text),
     )

@@ -804,7 +804,7 @@ def test_what_is_found_of_the_parts_is_shown_as_long_as_it_is_so() -> None:
     ]
     found = [{check.id: check.status for check in run.checks["drive_line"]}.get("torque_carried") for run in runs]
     assert found == [None, "fail", None, "fail", None]
-    assert [{path: str(why) for path, why in unrated_forces(run)} for run in (runs[0], runs[-1])] == [
+    assert [{each.path: str(each.why) for each in unrated_forces(run)} for run in (runs[0], runs[-1])] == [
         {},
         {"mechanisms.cross": "no part stands for crank"},
     ]
