@@ -18,10 +18,8 @@ from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.mechanism import Wired
 from diecut_report.quantities.units import Unit, UnitError, decades, number_and_unit, parse_quantity, pretty
 
-FAR, NEAR = (
-    100,
-    10,
-)  # times greater or less than what is usual: a number that is asked about, and one in the unit that may be meant
+FAR = 100  # times greater or less than what is usual: a number that is asked about
+NEAR = 10  # and one in the unit that may be meant
 
 
 def bare_numbers(instance: Instance) -> Iterator[Problem]:
@@ -65,8 +63,7 @@ def _usual(instance: Instance, slot: Slot, meta: Quantity) -> list[float]:
     example = instance.mechanism.example if instance.mechanism else None
     found = list(_numbers(example.inputs, slot.name.split("."), meta)) if example else []
     known = keys_of(instance.model).get(str(slot.key[0])) if len(slot.key) == 1 else None
-    default = known.field.get_default(call_default_factory=True) if known else None
-    return [*found, *_numbers(default, [], meta)]
+    return [*found, *_numbers(known.default if known else None, [], meta)]
 
 
 def _numbers(given: Any, path: list[str], meta: Quantity) -> Iterator[float]:

@@ -22,13 +22,13 @@ def catalogues_for(language: str, kinds: Iterable[str], discovery: Discovery, fi
     except UnknownLanguage as error:
         raise UserError(Problem(Phrase("The language {error}.", error=error), file, path="project.language")) from None
     if language != SOURCE_LANGUAGE:
-        problems = [_incomplete(kind, found, file) for kind in dict.fromkeys(kinds) if built_in(kind)]
-        if told := [each for each in problems if each]:
+        problems = (_incomplete(kind, found, file) for kind in dict.fromkeys(kinds) if built_in(kind))
+        if told := list(filter(None, problems)):
             raise UserError(told)
     return found
 
 
-def spoken_catalogues(discovery: Discovery | None = None) -> Catalogues:
+def spoken_catalogues(discovery: Discovery | None) -> Catalogues:
     """Return those of the language that is spoken."""
     return Catalogues(spoken_language()) if discovery is None else catalogues_of(spoken_language(), discovery)
 

@@ -10,6 +10,7 @@ from typing import Any, Literal, get_args, get_origin
 
 from diecut_report.config.validation import ASSUMED, ModelKey, keys_of
 from diecut_report.config.yaml import resolved
+from diecut_report.declaration.inputs import fault_of
 from diecut_report.mechanism.curve_inputs import CurveInput, PhaseInput
 from diecut_report.mechanism.inputs import Block, Quantity
 from diecut_report.mechanism.mechanism import Mechanism
@@ -40,7 +41,7 @@ def guessed(known: ModelKey) -> Any:
         return [block] if known.is_list else block
     match known.meta:
         case Quantity() as meta:
-            size = next((size for size in SIZES if _is_allowed(meta, size)), None)
+            size = next((size for size in SIZES if not fault_of(meta, size)), None)
             return size if size is None or meta.unit == "1" else f"{size} {meta.unit}"
         case CurveInput(referred=False):
             return list(WAVE)
@@ -69,14 +70,6 @@ def required(model: type[Block]) -> list[str]:
     return [name for name, known in keys_of(model).items() if known.field.is_required()]
 
 
-def _is_allowed(meta: Quantity, size: float) -> bool:
-    try:
-        meta.validate(size)
-    except ValueError:
-        return False
-    return True
-
-
 # Lines of a configuration with a comment beside each, in two columns.
 
 
@@ -88,9 +81,9 @@ LINE_WIDTH, MAX_CODE_WIDTH, MIN_COMMENT_WIDTH = 150, 66, 60  # letters
 class DraftLine:
     """Hold a line of a configuration and what is said of it; one that is ``off`` is a comment itself, to be turned on."""
 
-    indent: int
     code: str
     comment: str = ""
+    indent: int = 0
     off: bool = False
 
     @property
@@ -177,14 +170,9 @@ def _text(text: str, in_braces: bool) -> str:
 OPEN = "…"  # stands for a value that is one's own to give
 
 
-def default(known: ModelKey) -> Any:
-    """Return the default of a key; None where it has none."""
-    return None if known.field.is_required() else known.field.get_default(call_default_factory=True)
-
-
 def sample(known: ModelKey) -> str:
     """Return what stands behind a key that is not given: its default with its unit, else a place to fill."""
-    found, meta = default(known), known.meta
+    found, meta = known.default, known.meta
     if isinstance(meta, Quantity):
         if found is None and meta.press is not None and meta.press.formula is None:
             return f"${{{meta.press.path}}}"
@@ -216,13 +204,15 @@ STEP = 2
 class BlockWriter:
     """Writes the keys of blocks of one kind, explained in the language that is spoken; without a mechanism those of the press."""
 
-    kind: str = ""
     mechanism: Mechanism | None = None
 
-    def lines(self, model: type[Block], data: Mapping[str, Any], path: str = "") -> Iterator[DraftLine]:
-        """Yield the lines of a block: its values, then the keys that it does not have, turned off."""
-        yield from self.given(model, data, path)
-        yield from self.off(model, data, path)
+    def lines(
+        self, model: type[Block], data: Mapping[str, Any], path: str = "", *, is_told: bool = True
+    ) -> Iterator[DraftLine]:
+        """Yield the lines of a block: its values and, where these are explained, the keys that it does not have, turned off."""
+        yield from self.given(model, data, path, is_told=is_told)
+        if is_told:
+            yield from self.off(model, data, path)
 
     def given(
         self, model: type[Block], data: Mapping[str, Any], path: str = "", *, is_told: bool = True
@@ -233,50 +223,34 @@ class BlockWriter:
                 continue
             words = self.words(model, name, data, path) if is_told else ""
             if known.block is None:
-                yield DraftLine(0, f"{name}: {typed(with_basis(known.meta, data[name]))}", words)
+                yield DraftLine(f"{name}: {typed(with_basis(known.meta, data[name]))}", words)
                 continue
-            yield DraftLine(0, f"{name}:", words)
-            own = f"{path}{name}."
-            if known.is_list:
-                yield from shifted(self._parts(known.block, data[name], own, is_told), STEP)
-            else:
-                inner = self.lines if is_told else self._bare
-                yield from shifted(inner(known.block, data[name], own), STEP)
+            yield DraftLine(f"{name}:", words)
+            for number, part in enumerate(data[name] if known.is_list else [data[name]]):  # the first explains all
+                inner = self.lines(known.block, part, f"{path}{name}.", is_told=is_told and number == 0)
+                yield from shifted(_as_part(list(inner)) if known.is_list else inner, STEP)
 
     def off(self, model: type[Block], data: Mapping[str, Any], path: str = "") -> Iterator[DraftLine]:
         """Yield the keys that a block does not have, as comments to be turned on."""
-        for name, known in keys_of(model).items():
+        for name in keys_of(model):
             if name not in data:
-                yield from shifted(self._off(model, name, known, data, path), 0, off=True)
+                yield from shifted(self._off(model, name, data, path), 0, off=True)
 
-    def _off(
-        self, model: type[Block], name: str, known: ModelKey, data: Mapping[str, Any], path: str
-    ) -> Iterator[DraftLine]:
-        words = self.words(model, name, data, path)
+    def _off(self, model: type[Block], name: str, data: Mapping[str, Any], path: str) -> Iterator[DraftLine]:
+        known, words = keys_of(model)[name], self.words(model, name, data, path)
         if known.block is None:
-            yield DraftLine(0, f"{name}: {sample(known)}", words)
+            yield DraftLine(f"{name}: {sample(known)}", words)
             return
-        yield DraftLine(0, f"{name}:", words)
+        yield DraftLine(f"{name}:", words)
         own = f"{path}{name}."
-        keys = keys_of(known.block).items()
-        inner = [line for key, each in keys for line in self._off(known.block, key, each, {}, own)]
+        inner = [line for key in keys_of(known.block) for line in self._off(known.block, key, {}, own)]
         yield from shifted(_as_part(inner) if known.is_list else inner, STEP)
 
-    def _bare(self, model: type[Block], data: Mapping[str, Any], path: str) -> Iterator[DraftLine]:
-        return self.given(model, data, path, is_told=False)
-
-    def _parts(
-        self, model: type[Block], parts: Sequence[Mapping[str, Any]], path: str, is_told: bool
-    ) -> Iterator[DraftLine]:
-        for number, part in enumerate(parts):
-            inner = self.lines if is_told and number == 0 else self._bare
-            yield from _as_part(list(inner(model, part, path)))
-
-    def words(self, model: type[Block], name: str, given: Collection[str], path: str = "") -> str:
+    def words(self, model: type[Block], name: str, given: Collection[str], path: str) -> str:
         """Return what is said of a key of a block; ``given`` are the keys that the block has."""
         known = keys_of(model)[name]
         symbol, described = getattr(known.meta, "symbol", ""), getattr(known.meta, "description", "")
-        meaning = ": ".join(filter(None, (symbol, said(described, self.kind))))
+        meaning = ": ".join(filter(None, (symbol, said(described, self.mechanism.kind if self.mechanism else ""))))
         return "; ".join(filter(None, (meaning, *self._more(model, known, name, given, path))))
 
     def _more(self, model: type[Block], known: ModelKey, name: str, given: Collection[str], path: str) -> Iterator[str]:
@@ -290,7 +264,7 @@ class BlockWriter:
             return
         if others := _others(model, name, given):
             yield say("instead of {keys}", keys=", ".join(others))
-        if default(known) not in (None, []):
+        if known.default not in (None, []):
             yield say("default")
         elif isinstance(meta, Quantity) and meta.press is not None:
             yield say("default: from {path}", path=meta.press.path)
@@ -302,7 +276,7 @@ class BlockWriter:
         if self.mechanism is None:
             return []
         checks = [check for check in self.mechanism.checks if key == check.limit or key in check.needs]
-        return list(dict.fromkeys(said(check.title, self.kind) for check in checks))
+        return list(dict.fromkeys(said(check.title, self.mechanism.kind) for check in checks))
 
 
 def _as_part(lines: Sequence[DraftLine]) -> Iterator[DraftLine]:

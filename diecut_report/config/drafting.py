@@ -185,7 +185,6 @@ class Draft:
     """
 
     text: str
-    mechanisms: tuple[Drafted, ...]
     added: tuple[tuple[Drafted, Drafted], ...]
     guessed: tuple[str, ...]
     open: tuple[str, ...]
@@ -227,7 +226,7 @@ def draft(given: Sequence[str], discovery: Discovery, file: str = "my_press.yaml
     needed = [(each.name, key) for each in mechanisms for key in required(each.mechanism.inputs)]
     lacking = [f"{name}.{key}" for name, key in needed if key not in values[name]]
     text = "\n".join([*_head(mechanisms, file), *_mechanisms(mechanisms, values)]) + "\n"
-    return Draft(text, tuple(mechanisms), tuple(added), tuple(guessed), tuple(lacking))
+    return Draft(text, tuple(added), tuple(guessed), tuple(lacking))
 
 
 # --- text ------------------------------------------------------------------------------------------------------------
@@ -285,7 +284,7 @@ def _mechanisms(mechanisms: Sequence[Drafted], values: Mapping[str, Mapping[str,
             yield ""
         yield from remarks(f"{said(each.mechanism.title, each.kind)}. {said(each.mechanism.summary, each.kind)}", 2)
         yield f"  {each.name}:"
-        writer = BlockWriter(each.kind, each.mechanism)
-        kind = DraftLine(0, f"kind: {typed(each.kind)}")
+        writer = BlockWriter(each.mechanism)
+        kind = DraftLine(f"kind: {typed(each.kind)}")
         body = [kind, *writer.lines(each.mechanism.inputs, values[each.name])]
         yield from laid_out(list(shifted(body, 4)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, Any, Literal, get_args, get_origin
+from typing import Annotated, Any
 
 from pydantic import create_model
 
@@ -22,6 +22,7 @@ from diecut_report.config.validation import (
     keys_of,
     quoted,
     validate,
+    value_at,
 )
 from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem, latin_letters, nearest
@@ -88,10 +89,7 @@ class BlockData:
     ) -> BlockData:
         """Return the same for other data, whose keys ``changed``: what other entries gave before is left out."""
         for key in (given for name in changed for given in self.naming.get(name, ()) if given in self.entries):
-            home: Any = data
-            for part in key[:-1]:
-                home = home[part]
-            home.pop(key[-1], None)
+            value_at(data, key[:-1]).pop(key[-1], None)
         return BlockData.read(model, data, place, self.tables)
 
     @property
@@ -102,23 +100,17 @@ class BlockData:
             found.setdefault(entry.file, []).append(f"{entry.name}: {entry.source}")
         return {file: "; ".join(said) for file, said in found.items()}
 
-    def names(self, key: KeyPath) -> tuple[str, ...]:
-        """Return the names of entries that a key may have."""
-        return self.place.named.get(key, ())
-
     def _take(self, model: type[Block], rule: FromTable, block: dict[str, Any], home: KeyPath) -> None:
         """Put the keys of the entry into the block that names it."""
         self._judge(model, rule)
-        key, known = (*home, rule.key), self.tables.names(rule.table)
+        key, known = (*home, rule.key), tuple(self.tables.entries.get(rule.table, ()))
         self.naming[key] = tuple((*home, own) for own in rule.gives)
-        self.place = replace(self.place, named={**self.place.named, key: tuple(known)})
+        self.place = replace(self.place, named={**self.place.named, key: known})
         given = block.get(rule.key)
         name = given if isinstance(given, str) else self.place.typed(key) if given is not None else None
         entry = self.tables.entries.get(rule.table, {}).get(name or "")
         if entry is None:
-            annotation = keys_of(model)[rule.key].field.annotation
-            has_texts = any(get_origin(part) is Literal for part in (annotation, *get_args(annotation)))
-            if name is not None and not has_texts:  # of which the model judges
+            if name is not None and not _texts(model, rule):  # of which the model judges
                 self.problems.append(self.place.problem(key, _unknown_entry(rule.table, name, known)))
             return
         del block[rule.key]
@@ -133,7 +125,7 @@ class BlockData:
 
     def _judge(self, model: type[Block], rule: FromTable) -> None:
         """Judge all entries of a table by the block that may take them, whether it does or not."""
-        known = {_plain(text): text for text in allowed(keys_of(model)[rule.key].field.annotation, None)}
+        known = {_plain(text): text for text in _texts(model, rule)}
         for entry in self.tables.entries.get(rule.table, {}).values():
             mark = (*entry.path, entry.tree.file, model.__name__, rule.key)
             if mark not in self.tables.judged:
@@ -196,6 +188,11 @@ def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:
     if isinstance(meta, Quantity | CurveInput):
         return meta.unit
     return "1" if isinstance(meta, Text) and "value" in given else ""
+
+
+def _texts(model: type[Block], rule: FromTable) -> tuple[str, ...]:
+    """The texts that a key may have beside the names of entries."""
+    return allowed(keys_of(model)[rule.key].field.annotation, None)
 
 
 def _plain(name: str) -> str:
@@ -295,16 +292,14 @@ class Slot:
 
 def slots(model: type[Block], data: Mapping[str, Any], key: KeyPath = ()) -> Iterator[Slot]:
     """All inputs of a block and of the blocks and lists given in it."""
-    for name, (declared, meta, block, _) in keys_of(model).items():
+    for name, known in keys_of(model).items():
         given, own = data.get(name), (*key, name)
-        value, is_required = given, declared.is_required()
-        if given is None and not is_required:
-            value = declared.get_default(call_default_factory=True)
-        yield Slot(own, meta, value, given is not None, is_required)
+        value = known.default if given is None else given
+        yield Slot(own, known.meta, value, given is not None, known.field.is_required())
         parts = list(enumerate(given)) if isinstance(given, list) else [(None, given)]
-        for index, part in parts if block else []:
-            if block and isinstance(part, dict):
-                yield from slots(block, part, own if index is None else (*own, index))
+        for index, part in parts if known.block else []:
+            if known.block and isinstance(part, dict):
+                yield from slots(known.block, part, own if index is None else (*own, index))
 
 
 class Instance:
@@ -312,11 +307,10 @@ class Instance:
 
     def __init__(
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None,
-        bases: Mapping[KeyPath, Basis] | None = None, own: BlockData | None = None,
+        bases: Mapping[KeyPath, Basis], own: BlockData,
     ) -> None:  # fmt: skip
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
-        self.bases = bases or {}
-        self.own = own  # what comes from the user's own tables
+        self.bases, self.own = bases, own  # what comes from the user's own tables, as it was read
         self.without: frozenset[KeyPath] = frozenset()
         self.derived: frozenset[str] = frozenset()  # inputs taken from partners
 
@@ -446,12 +440,8 @@ def substituted(
     """The data of an instance with what stands in for its references; defaults of the press are left to ``value`` too."""
     data: dict[str, Any] = copied(instance.data)
     for node, target in links.items():
-        if node[0] != instance.name:
-            continue
-        home: Any = data
-        for part in node[1:-1]:
-            home = home[part]
-        home[node[-1]] = value(node, target)
+        if node[0] == instance.name:
+            value_at(data, node[1:-1])[node[-1]] = value(node, target)
     return data
 
 

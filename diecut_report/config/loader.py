@@ -11,7 +11,7 @@ from typing import Any
 from diecut_report.config import instances, yaml
 from diecut_report.config.bare_numbers import bare_numbers
 from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
-from diecut_report.config.model import NAME, PRESS, ConfigDocument, PressBlock, Project, ReportSettings, texts, written
+from diecut_report.config.model import PRESS, ConfigDocument, PressBlock, Project, ReportSettings, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
 from diecut_report.config.parts.expansion import expanded, has_parts
 from diecut_report.config.parts.keys import WORDS
@@ -21,6 +21,7 @@ from diecut_report.config.references import Linker, linked, ordered
 from diecut_report.config.source_hashes import note_same_code, plugin_hash, program_hash
 from diecut_report.config.validation import ConfigPlace, as_typed, declared, quoted, spread_out, validate
 from diecut_report.config.yaml import MAX_BYTES, Tree, read, too_much
+from diecut_report.declaration.inputs import NAME
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal, seeming_latin
 from diecut_report.files import standard_input
 from diecut_report.mechanism.chapters import in_form
@@ -41,23 +42,6 @@ Instances = Mapping[str, Instance | None]
 Kinds = Mapping[str, str]  # of the mechanisms, by their names
 
 
-def taken(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds) -> dict[str, str]:
-    """Return what a block takes from its partners where it gives nothing itself: their names, and references to what they have."""
-    return {key: text for key, text in _offered(mechanism, data, instances, kinds).items() if data.get(key) is None}
-
-
-def overruled(
-    mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds
-) -> Iterator[tuple[str, Phrase]]:
-    """Yield the keys of a block that compares others which are typed in place of what these have, with what is wrong: a verdict must not be typed."""
-    if mechanism.kind not in BY_THEMSELVES:
-        return
-    names = {partner.key for partner in mechanism.partners}
-    for key, reference in _offered(mechanism, data, instances, kinds).items():
-        if key not in names and data.get(key) not in (None, reference):
-            yield key, typed_beside(reference)
-
-
 def typed_beside(reference: str) -> Phrase:
     """Return what is wrong with a value in place of what a block that compares others takes from them."""
     template = "is given here, but {reference} already provides it and is compared with the others. Remove the key; change it there."
@@ -74,7 +58,7 @@ def _offered(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances
     """What the partners of a block have for it: their names, and references."""
     found: dict[str, str] = {}
     for partner in mechanism.partners:
-        name = data.get(partner.key) or only(partner, kinds)
+        name = data.get(partner.key) or only(partner.kinds, kinds)
         if partner_fault(partner, name, kinds) or (instance := instances[str(name)]) is None:
             continue
         known = instance.given | instance.results.keys()
@@ -83,9 +67,9 @@ def _offered(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances
     return found
 
 
-def only(partner: Partner, kinds: Kinds) -> str | None:
-    """Return the only mechanism of a partner's kinds; None where there is none, or where there are several."""
-    found = [name for name, kind in kinds.items() if kind in partner.kinds]
+def only(wanted: Container[str], kinds: Kinds) -> str | None:
+    """Return the only mechanism of these kinds; None where there is none, or where there are several."""
+    found = [name for name, kind in kinds.items() if kind in wanted]
     return found[0] if len(found) == 1 else None
 
 
@@ -162,12 +146,12 @@ class Config:
     links: Mapping[Node, Target]
     order: tuple[Node, ...]
     broken: Mapping[str, PluginError]
-    extensions: Mapping[str, str] = field(default_factory=dict)
-    tables: Mapping[str, Tree] = field(default_factory=dict)
-    report: ReportSettings = field(default_factory=ReportSettings)
-    logo: Logo | None = None
-    parts: MachineParts | None = None
-    lacks_parts: bool = False  # they are not all right, so that the mechanisms lack what they give
+    extensions: Mapping[str, str]
+    tables: Mapping[str, Tree]
+    report: ReportSettings
+    logo: Logo | None
+    parts: MachineParts | None
+    lacks_parts: bool  # they are not all right, so that the mechanisms lack what they give
 
     @property
     def files(self) -> dict[str, str]:
@@ -177,8 +161,7 @@ class Config:
 
     def named(self, kind: str) -> str | None:
         """Return the only mechanism of a kind."""
-        found = [name for name, own in self.kinds.items() if own == kind]
-        return found[0] if len(found) == 1 else None
+        return only((kind,), self.kinds)
 
     def tied(self, node: Node) -> Phrase | None:
         """Return why other values of an input give no other machine by themselves: it and the parts follow from each other."""
@@ -219,12 +202,12 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     made = frozenset(each.name for each in found.elements.made) if found and found.elements else frozenset()
     reader = _ConfigReader(tree, discovery, tables, made)
     linker = linked(reader.instances)
-    order, loops = ordered(reader.instances, linker.links)
+    order, loops = ordered(linker)
     logo, faults = logo_of(tree, find)
     problems = [
         *reader.problems,
         *tables.problems,
-        *_unknown_tables(tables, reader, discovery),
+        *_unknown_tables(reader),
         *faults,
         *linker.problems,
         *_wrong_values(reader, linker),
@@ -244,14 +227,15 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     return config, problems
 
 
-def _unknown_tables(tables: OwnTables, reader: _ConfigReader, discovery: Discovery) -> Iterator[Problem]:
+def _unknown_tables(reader: _ConfigReader) -> Iterator[Problem]:
     """Tables of the user's own that no kind takes: one of another name would stand beside the standard one that is taken in its place."""
     used = {each.mechanism for each in reader.instances.values() if each and each.mechanism}
-    if not set(tables.entries) - _tables_of(used):
+    entries, discovery = reader.tables.entries, reader.discovery
+    if not set(entries) - _tables_of(used):
         return
     known = _tables_of(filter(None, (_declared(discovery, kind) for kind in discovery.origins)))
-    for table in set(tables.entries) - known:
-        first = next(iter(tables.entries[table].values()))
+    for table in set(entries) - known:
+        first = next(iter(entries[table].values()))
         template = "is a table that no kind takes{near}; there are {known}"
         near = nearest(table, known)
         yield ConfigPlace(first.tree).problem(
@@ -304,7 +288,7 @@ class _ConfigReader:
     tree: Tree
     discovery: Discovery
     tables: OwnTables
-    made: frozenset[str] = frozenset()  # calculations that the parts of the machine make
+    made: frozenset[str]  # calculations that the parts of the machine make
     instances: dict[str, Instance | None] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
     broken: dict[str, PluginError] = field(default_factory=dict)
@@ -341,17 +325,20 @@ class _ConfigReader:
         """Add to a block what its partners give it, when these are known."""
         instance = self.instances[name]
         assert instance is not None and instance.mechanism is not None, "it was added when it was read"
-        for partner in instance.mechanism.partners:
-            named = instance.data.get(partner.key)
+        whole, data = instance.mechanism, instance.data
+        for partner in whole.partners:
+            named = data.get(partner.key)
             if named is not None and (fault := partner_fault(partner, named, self.kinds)):
                 self.problems.append(instance.place.problem((partner.key,), fault))
-        known = instance.mechanism, instance.data, self.instances, self.kinds
-        self.problems += [instance.place.problem((key,), words) for key, words in overruled(*known)]
-        instance.take(taken(*known))
-        whole = instance.mechanism
+        offered = _offered(whole, data, self.instances, self.kinds)
+        names = {partner.key for partner in whole.partners}
+        for key, reference in offered.items() if whole.kind in BY_THEMSELVES else ():  # a verdict must not be typed
+            if key not in names and data.get(key) not in (None, reference):
+                self.problems.append(instance.place.problem((key,), typed_beside(reference)))
+        instance.take({key: text for key, text in offered.items() if data.get(key) is None})
         instance.mechanism = without_checks(whole, absent_partners_checks(whole, self.kinds.values(), instance.given))
         note_same_code(instance.mechanism, whole)
-        self._probe(name, self.kinds[name])
+        self._probe(name)
 
     def _add(
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
@@ -385,14 +372,14 @@ class _ConfigReader:
             if mechanism.partners:
                 self.with_partners.append(name)
             else:
-                self._probe(name, kind)
+                self._probe(name)
         except UnknownKind as fault:
             self.problems.append(place.problem(("kind",), seeming_latin(kind) or str(fault)))
         except (DuplicateKind, PluginError) as error:
             self.instances[name] = None
             self.broken[name] = _of_instance(error, kind, name)
 
-    def _probe(self, name: str, kind: str) -> None:
+    def _probe(self, name: str) -> None:
         """Ask the plugin once what it gives with these inputs, so that what is wrong with it shows here."""
         instance = self.instances[name]
         try:
@@ -400,7 +387,9 @@ class _ConfigReader:
             with contained():
                 _ = instance.given, instance.results
         except Exception as cause:
-            raise PluginError(Phrase("its declarations are invalid: {said}", said=said(cause)), kind) from cause
+            raise PluginError(
+                Phrase("its declarations are invalid: {said}", said=said(cause)), self.kinds[name]
+            ) from cause
 
 
 def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> PluginError:
@@ -451,6 +440,3 @@ def _pending(instance: Instance, node: Node, target: Target) -> Any:
     if isinstance(curve, CurveInput):
         return SI(0.0, curve.unit, target.path)  # one value of a list, whose kind the linker has judged
     return Pending(target.path, target.unit, target.is_curve, target.phase_unit, target.is_mechanism)
-
-
-__all__ = ["NAME", "RESERVED", "Config", "load_config", "substituted", "texts"]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report.config.yaml import KeyPath
-from diecut_report.declaration.inputs import of_input
+from diecut_report.declaration.inputs import fault_of, of_input
 from diecut_report.declaration.names import Fault
 from diecut_report.errors import closest, nearest
 from diecut_report.mechanism.inputs import Block, Quantity, fields, nested
@@ -19,8 +18,6 @@ from diecut_report.quantities.units import unit
 from diecut_report.text.catalogues import known
 from diecut_report.text.phrases import Phrase, phrase
 
-NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
-"""What a mechanism, a shaft or a part may be called."""
 PRESS = "press"  # the name of the press in references, beside those of the mechanisms
 DETAILS = ("brief", "standard", "full")  # how much a report holds
 
@@ -150,13 +147,9 @@ def faults(mechanism: Mechanism) -> Iterator[Fault]:
                 yield Fault(of_input(mechanism.inputs, path, mechanism.at), f"input {path}", text)
     example = mechanism.example
     for path, value in example.press.items() if example else ():
-        refused: str = ""
-        try:
-            NUMBERS[f"press.{path}"].validate(value)
-        except KeyError:
-            refused = Phrase("is not a number of the press; it has {numbers}", numbers=", ".join(NUMBERS))
-        except ValueError as fault:
-            refused = str(fault)
+        number = NUMBERS.get(f"press.{path}")
+        unknown = Phrase("is not a number of the press; it has {numbers}", numbers=", ".join(NUMBERS))
+        refused = fault_of(number, value) if number else unknown
         if example and refused:
             yield Fault(example.at, f"example {example.name}", f"press {path} {refused}")
 

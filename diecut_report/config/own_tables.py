@@ -1,4 +1,4 @@
-"""The organisation's logo, which a configuration names (``report: {logo: FILE}``): read from beside it, judged by what it holds."""
+"""Files that a configuration names beside it: tables of the user's own, and the organisation's logo (``report: {logo: FILE}``)."""
 
 from __future__ import annotations
 
@@ -97,10 +97,6 @@ class OwnTables:
                 file = known[entry.name].file
                 self.problems.append(ConfigPlace(tree).problem(entry.path, template, at_key=True, file=file))
             known.setdefault(entry.name, entry)
-
-    def names(self, table: str) -> list[str]:
-        """Return the names of a table's entries."""
-        return list(self.entries.get(table, {}))
 
 
 def _named_file(name: str, fault: str, place: ConfigPlace, key: KeyPath, find: Find | None, missing: str) -> Path:

@@ -166,7 +166,7 @@ PROJECT = "pyproject.toml"
 SOURCES = "src"
 
 
-def announced(folder: Path, group: str) -> dict[str, tuple[str, str]]:
+def _announced(folder: Path) -> dict[str, tuple[str, str]]:
     """Return the kinds that the project of a package announces, each with its module's place and the attribute that is named.
 
     It need not be installed. There are none where the folder is no such project.
@@ -176,7 +176,7 @@ def announced(folder: Path, group: str) -> dict[str, tuple[str, str]]:
         return {}
     try:
         told = tomllib.loads(project.read_text("utf-8", "replace")).get("project", {})
-        found = told.get("entry-points", {}).get(group, {})
+        found = told.get("entry-points", {}).get(GROUP, {})
         places = {kind: str(place).partition(":") for kind, place in found.items()}
     except (tomllib.TOMLDecodeError, AttributeError) as error:
         raise refusal("This project of a package cannot be read: {error}", project, error=error) from None
@@ -249,10 +249,6 @@ class Origin:
     file: Callable[[], Path]  # of the module, when it is loaded
     is_own: bool = False  # of the program itself, whose declarations its tests check
     package: Path | None = None  # the first file of the package that the module is in, where that has more modules
-
-    def code(self) -> Path:
-        """Return the file whose hash is that of all code of the kind, when it is loaded."""
-        return self.package or self.file()
 
 
 class Discovery:
@@ -340,7 +336,7 @@ def _loaded(origin: Origin) -> Mechanism:
         refuse_other_contract(origin.file)
         with in_time():
             found = origin.load()
-        digest = module_hash(origin.code())
+        digest = module_hash(origin.package or origin.file())
     except Exception as cause:
         message = Phrase("it cannot be loaded from {told}: {said}", told=origin.label, said=said(cause))
         raise PluginError(message + beside(origin.file(), cause), origin.kind) from cause
@@ -439,7 +435,7 @@ def in_folder(folder: Path) -> Iterator[Origin]:
     if not folder.is_dir():
         raise refusal("There is no such folder of plugins. Check the name given with --plugins.", folder)
     is_listed = (folder / LIST).is_file()
-    project = {} if is_listed else announced(folder, GROUP)
+    project = {} if is_listed else _announced(folder)
     alone = _listed(folder) if is_listed else {name: (name, "") for name in _names_in(folder)}
     for kind, (name, attribute) in (project or alone).items():
         package = folder / name / "__init__.py"
@@ -457,7 +453,7 @@ def _require_unlike_packages(folders: Iterable[Path]) -> None:
     homes: dict[str, Path] = {}
     for folder in folders:
         is_project = folder.is_dir() and not (folder / LIST).is_file()
-        places = [place for place, _ in announced(folder, GROUP).values()] if is_project else []
+        places = [place for place, _ in _announced(folder).values()] if is_project else []
         for package in {place.removeprefix(f"{SOURCES}/").partition("/")[0] for place in places}:
             if homes.setdefault(package, folder) is not folder:
                 template = "The package {name} is in {other} too; give one of them another name."

@@ -20,7 +20,7 @@ import yaml
 
 from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
 from diecut_report.config.model import PRESS, texts
-from diecut_report.config.validation import ConfigPlace, declared
+from diecut_report.config.validation import ConfigPlace, declared, value_at
 from diecut_report.config.yaml import LOADER, KeyPath, Tree, dotted, parse
 from diecut_report.errors import Problem, UserError, nearest, seeming_latin
 from diecut_report.formulas.condition_parts import Name, read_expression
@@ -267,27 +267,25 @@ def _known(instance: Instance) -> list[str]:
 
 def _varies(data: Any, key: KeyPath) -> bool:
     """Whether something else than a number is written there; what is left out has its default, a number."""
-    for part in key:
-        data = data[part] if isinstance(part, int) or part in data else 0
-    return isinstance(data, dict) or (isinstance(data, str) and ("${" in data or data[:1].isalpha()))
+    given = value_at(data, key)
+    return isinstance(given, dict) or (isinstance(given, str) and ("${" in given or given[:1].isalpha()))
 
 
 def _check_index(path: str, data: Any, key: KeyPath) -> None:
     for part in key:
         if isinstance(part, int) and isinstance(data, list) and part >= len(data):
             raise Unresolved("${{path}}: the list has {count} entries, counted from 0.", path=path, count=len(data))
-        known = part in data if isinstance(data, dict) else isinstance(data, list) and isinstance(part, int)
-        data = data[part] if known else None
+        data = value_at(data, (part,))
 
 
 # The order in which the values and calculations of a config follow from each other, and the loops in it.
 
 
-def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Target]) -> tuple[list[Node], list[Problem]]:
+def ordered(linker: Linker) -> tuple[list[Node], list[Problem]]:
     """The nodes in the order in which they can be known; or, for each loop, a problem that shows the whole of it."""
-    kept, problems = dict(links), list[Problem]()
+    kept, problems = dict(linker.links), list[Problem]()
     while True:
-        sorter: TopologicalSorter[Node] = TopologicalSorter({(name,): () for name in instances})
+        sorter: TopologicalSorter[Node] = TopologicalSorter({(name,): () for name in linker.instances})
         for node, target in kept.items():
             sorter.add(node, *(single.node for single in target.single))
             sorter.add(node[:1], node)
@@ -297,7 +295,7 @@ def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Targe
             loop: list[Node] = error.args[1][:0:-1]  # each refers to the next
             first = next(index for index, node in enumerate(loop) if node in kept)
             loop = loop[first:] + loop[:first]
-            problems.append(_loop_problem(instances, kept, loop))
+            problems.append(_loop_problem(linker.instances, kept, loop))
             del kept[loop[0]]
 
 
@@ -336,11 +334,6 @@ class _Span:
     end: int
     column: int
     in_flow: bool
-
-
-def written(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> str:
-    """Return the text of the file with these scalars, as they are to be typed; UserError as of ``rewritten``."""
-    return rewritten(tree, values, over_references=over_references).text
 
 
 def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> Tree:
@@ -396,10 +389,7 @@ def _spans(text: str) -> dict[tuple[int, int], _Span]:
 def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, value: str) -> tuple[int, int, str]:
     """Where a new key goes: behind the first single value of its block, in a line of its own or, within braces, in the same one."""
     home, key = path[:-1], path[-1]
-    data = tree.data
-    for part in home:  # nothing where there is no block
-        known = part in data if isinstance(data, dict) else isinstance(data, list) and part in range(len(data))
-        data = data[part] if known else None
+    data = value_at(tree.data, home)
     for name in data if isinstance(data, dict) else ():
         before = (*home, name)
         span, key_span = spans.get(tree.position(before)), spans.get(tree.key_position(before))
@@ -419,10 +409,7 @@ def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
     """The new text read, which must differ from the file in these values alone."""
     expected = copy.deepcopy(tree.data)
     for path, value in values.items():
-        home = expected
-        for key in path[:-1]:
-            home = home[key]
-        home[path[-1]] = parse(f"value: {value}\n", tree.file).data["value"]
+        value_at(expected, path[:-1])[path[-1]] = parse(f"value: {value}\n", tree.file).data["value"]
     found = parse(text, tree.file)
     if found.data != expected:
         shared = {tree.position(path) for path in _differing(found.data, expected)}
@@ -450,15 +437,15 @@ def linked(instances: Mapping[str, Instance | None]) -> Linker:
     What a mechanism gives may depend on that, and so whether a reference to it is a curve: it is asked until nothing moves.
     """
     linker = Linker(instances)
-    while _any_moved(instances, linker):
+    while _any_moved(linker):
         linker = Linker(instances)
     return linker
 
 
-def _any_moved(instances: Mapping[str, Instance | None], linker: Linker) -> bool:
+def _any_moved(linker: Linker) -> bool:
     """Lay curves under their own keys, but where that is asked of an instance that has just changed; return whether there were any."""
     moved: set[str] = set()
-    for instance in filter(None, instances.values()):
+    for instance in filter(None, linker.instances.values()):
         asked = (linker.links.get((instance.name, key)) for key in instance.model.curve_keys)
         if not any(target.instance in moved for target in asked if target) and _moved(instance, linker):
             moved.add(instance.name)

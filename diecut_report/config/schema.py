@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import partial
 from typing import Any, get_args, get_origin
 
 from diecut_report.config.instances import DIMENSIONS
-from diecut_report.config.loader import NAME, RESERVED
+from diecut_report.config.loader import RESERVED
 from diecut_report.config.model import PressBlock, Project, ReportSettings
 from diecut_report.config.own_tables import MAX_FILES
 from diecut_report.config.parts.keys import MachineKeys
 from diecut_report.config.parts.reading import MODELS, TAKEN_APART
 from diecut_report.config.validation import BASES, LEAST_REASON, keys_of
+from diecut_report.declaration.inputs import NAME
 from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
 from diecut_report.mechanism.chapters import in_all_units
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
@@ -165,12 +165,12 @@ def _needed(model: type[Block], rule: OneOf) -> Schema:
 
 
 def _key(model: type[Block], name: str, refers: bool) -> Schema:
-    field, meta, inner, is_list = keys_of(model)[name]
+    known = keys_of(model)[name]
+    meta, inner, default = known.meta, known.block, known.default
     if inner:
         block = block_schema(inner, refers)
         described = {"description": meta.description if isinstance(meta, Text) else (inner.__doc__ or "")}
-        return described | ({"type": "array", "maxItems": MAX_PARTS, "items": block} if is_list else block)
-    default = None if field.is_required() else field.get_default(call_default_factory=True)
+        return described | ({"type": "array", "maxItems": MAX_PARTS, "items": block} if known.is_list else block)
     shown = {} if default is None else {"default": default}
     match meta:
         case Quantity():
@@ -192,7 +192,7 @@ def _key(model: type[Block], name: str, refers: bool) -> Schema:
             words = f"{meta.description}. The name of a mechanism."
             return {"description": words, "type": "string", "pattern": f"^{NAME.pattern}$"}
     described = {"description": f"{meta.description}."} if meta else {}
-    allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(field.annotation)
+    allowed = {"enum": list(meta.options)} if isinstance(meta, Text) and meta.options else _text(known.field.annotation)
     if any(rule.key == name for rule in model.from_tables):
         allowed = {"anyOf": [allowed, {"type": "string", "maxLength": MAX_TEXT}]}  # an entry of a table of the user's
     if isinstance(meta, Text):
@@ -232,17 +232,17 @@ def _unit(meta: Quantity | CurveInput) -> str:
     return pretty(meta.unit) or "none (a pure number)"
 
 
-def _with_unit(number: Any, meta: Quantity) -> str:
-    return f"{number} {'' if number in meta.words else pretty(meta.unit)}".rstrip()
-
-
 def _quantity(meta: Quantity, default: Any, refers: bool) -> Schema:
     """A bare number counts in the display unit, so the bounds hold for it as they stand."""
     limits = {BOUNDS[name]: getattr(meta, name) for name in BOUNDS if getattr(meta, name) is not None}
     said = [meta.description, f"Unit: {in_all_units(meta, _unit)}"]
     said += [f"Allowed: {in_all_units(meta, lambda form: form.allowed)}"] if meta.allowed else []
     said += [f"Plausible: {in_all_units(meta, lambda form: form.sizes.told)}"]
-    said += [f"Default: {in_all_units(meta, partial(_with_unit, default))}"] if default is not None else []
+    if default is not None:
+        shown = in_all_units(
+            meta, lambda form: f"{default} {'' if default in form.words else pretty(form.unit)}".rstrip()
+        )
+        said.append(f"Default: {shown}")
     said += [f"Or in {pretty(meta.or_unit)}"] if meta.or_unit else []
     said += [f"Or: {', '.join(meta.words)}"] if meta.words else []
     said += [f"Default: from {meta.press.path}"] if meta.press else []

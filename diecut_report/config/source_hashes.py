@@ -46,9 +46,7 @@ LIBRARIES = tuple(
     for each in {sys.prefix, sys.base_prefix, *map(os.path.realpath, (sys.prefix, sys.base_prefix))}
 )
 _reading: list[list[str]] = []  # of each module that is being loaded, the files that were opened meanwhile
-_read: dict[
-    Path, dict[str, str]
-] = {}  # of each module that was loaded, the tables that it read, with their names in its folder
+_read: dict[Path, dict[str, str]] = {}  # of each module that was loaded, the tables that it read with their names
 _when_loaded: dict[Path, str] = {}  # a module that is loaded stays as it was, whatever becomes of its file
 
 
@@ -87,7 +85,7 @@ def note_check(mechanism: Mechanism, faults: tuple[str, ...]) -> None:
     code.faults = faults if code.faults is None else code.faults
 
 
-def note_plugin(mechanism: Mechanism, digest: str, foreign: Path | None = None) -> None:
+def note_plugin(mechanism: Mechanism, digest: str, foreign: Path | None) -> None:
     """Note the hash of the code that a mechanism and its comparisons come from, and the file of one that is not the program's own.
 
     Of the file its name is kept, with the folder of a package, and not where it lies: that is the business of its user.

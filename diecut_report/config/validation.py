@@ -133,6 +133,11 @@ class ModelKey(NamedTuple):
     block: type[Block] | None
     is_list: bool
 
+    @property
+    def default(self) -> Any:
+        """Return the default of the key; None where it has none."""
+        return None if self.field.is_required() else self.field.get_default(call_default_factory=True)
+
 
 @cache
 def keys_of(model: type[Block]) -> dict[str, ModelKey]:
@@ -162,6 +167,14 @@ def copied(data: Any) -> Any:
     if isinstance(data, dict):
         return {key: copied(part) for key, part in data.items()}
     return [copied(part) for part in data] if isinstance(data, list) else data
+
+
+def value_at(data: Any, path: KeyPath) -> Any:
+    """Return what stands at a path in plain data; None where nothing does."""
+    for part in path:
+        known = part in data if isinstance(data, dict) else isinstance(data, list) and part in range(len(data))
+        data = data[part] if known else None
+    return data
 
 
 def as_typed(model: type[Block], data: Any, place: ConfigPlace) -> Any:

@@ -15,7 +15,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from itertools import islice, pairwise
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -98,10 +98,8 @@ def forbidden_character(text: str) -> str:
 
 def printable(name: str) -> str:
     """Return a name without what no document can show: control and invisible characters, and bytes that are not UTF-8."""
-    shown = (letter.isprintable() and not INVISIBLE.match(letter) for letter in name)
-    return "".join(
-        letter if is_shown else "\N{REPLACEMENT CHARACTER}" for letter, is_shown in zip(name, shown, strict=True)
-    )
+    instead = "\N{REPLACEMENT CHARACTER}"
+    return "".join(each if each.isprintable() and not INVISIBLE.match(each) else instead for each in name)
 
 
 MAX_BYTES = 5_000_000
@@ -454,12 +452,9 @@ def _scalar(value: Any, typed: str | None) -> Any:
 def too_much(tree: Tree) -> list[Problem]:
     """Return what a config holds too much of, in words; the first of them where there are many."""
     found: list[Problem] = []
-    for path, message in _excess(tree.data, ()):
-        if len(found) == MAX_SHOWN:
-            return found
-        line, column = tree.position(path)
+    for path, message in islice(_excess(tree.data, ()), MAX_SHOWN):
         parts = (part if len(part := str(step)) <= MAX_TEXT else f"{part[:40]}…" for step in path)
-        found.append(Problem(message, tree.file, line, column, ".".join(parts)))
+        found.append(Problem(message, tree.file, *tree.position(path), ".".join(parts)))
     return found
 
 

@@ -30,6 +30,8 @@ RULES = (
     inputs.examples_faults,
 )
 
+SOUND = "declarations"  # the folder that remembers which plugins are
+
 __all__ = ["Fault", "faults", "faults_at_load"]
 
 
@@ -39,11 +41,11 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
     One that was found sound before is not judged again until one of its files changes.
     """
     key = "" if shape.faults(mechanism) else code.content(mechanism)
-    if key and code.is_sound(key):
+    if key and code.remembered(SOUND, key) is not None:
         return []
     found = [*faults(mechanism), *code.import_faults(mechanism)]
     if key and not found:
-        code.remember(key)
+        code.remember(SOUND, key)
     return found
 
 
@@ -53,7 +55,7 @@ def faults(mechanism: Mechanism) -> list[Fault]:
     if found:  # nothing can be asked of what is not a formula, or in a unit that is none
         return found
     names = DeclaredNames(mechanism)
-    found = [fault for rule in RULES for fault in rule(mechanism, names)]
+    found = [fault for rule in RULES for fault in rule(names)]
     for comparison in mechanism.comparisons:
         found += faults(comparison.mechanism)
     return list(dict.fromkeys(found))

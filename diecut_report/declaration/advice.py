@@ -13,7 +13,6 @@ from diecut_report.errors import nearest
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Check, Vary
 from diecut_report.mechanism.inputs import Quantity
-from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import ByText
 from diecut_report.mechanism.steps import Require
 from diecut_report.mechanism.steps.table_steps import unlike_units
@@ -21,13 +20,13 @@ from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.phrases import Phrase, named
 
 
-def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the advice of conditions and checks."""
-    for section, step in mechanism.steps:
+    for section, step in names.mechanism.steps:
         if isinstance(step, Require):
             judged = (*taken(step), *step.needs, *section.needs)
             yield from (fault(step, text) for text in _wrong(names, step, judged))
-    for check in mechanism.checks:
+    for check in names.mechanism.checks:
         judged = (*check.named, *check.needs, *check.only_with, *check.founded)
         yield from (fault(check, text) for text in _wrong(names, check, judged))
 

@@ -6,20 +6,20 @@ import ast
 import math
 import re
 from collections.abc import Collection, Iterator
-from functools import lru_cache
+from functools import lru_cache, reduce
 from itertools import pairwise, product
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from diecut_report.declaration.formulas import lacking, pairs
-from diecut_report.declaration.names import DeclaredNames, Fault, Giver, fault, short, told, unknown, world
-from diecut_report.declaration.texts import files_around, own_files, parsed
+from diecut_report.declaration.names import DeclaredNames, Fault, Giver, fault, short, unknown, where
+from diecut_report.declaration.texts import SAID, files_around, own_files, parsed
 from diecut_report.errors import nearest
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.formulas.tree import Node, substitute, symbols
 from diecut_report.mechanism.chapters import MISSING, taken
 from diecut_report.mechanism.checks import Check
-from diecut_report.mechanism.inputs import Key
+from diecut_report.mechanism.inputs import Key, keys
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import ByText, When, bound
 from diecut_report.mechanism.steps import Require, ResultName, Step, Value, has_own_names, names_ahead, read
@@ -130,18 +130,18 @@ def _arguments(node: Node, name: str) -> Iterator[Node]:
 BRACE = re.compile(r"\{[^{}]*\}?|\}")  # what looks as if it were filled in
 
 
-def messages_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def messages_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the messages that name what cannot be printed, keys of no input, and texts that nothing fills in."""
-    for number, (_, step) in enumerate(mechanism.steps):
+    for number, (step, when) in enumerate(names.steps):
         if isinstance(step, Obstacle):
-            for text in unprintable(names, step.message, names.when(number), step.message_places, number):
+            for text in unprintable(names, step.message, when, step.message_places, number):
                 yield fault(step, Phrase("the message names {text}", text=text))
             yield from (fault(step, text) for text in _key(names, step.key))
-    yield from _unfilled(mechanism)
+    yield from _unfilled(names.mechanism)
 
 
 def unprintable(
-    names: DeclaredNames, text: str, when: When, parts: Collection[str] = (), before: int | None = None
+    names: DeclaredNames, text: str, when: When, parts: Collection[str], before: int | None = None
 ) -> Iterator[str]:
     """Yield what is wrong with the ``{ids}`` of a message that is told (before a step) when something is made."""
     for left in BRACE.findall(NAMED.sub("", text)):
@@ -188,40 +188,25 @@ def _unfilled(mechanism: Mechanism) -> Iterator[Fault]:
                 yield fault(declared, Phrase(template, braced=found[0], field=field))
 
 
-PLAIN = (
-    "title",
-    "text",
-    "absent",
-    "description",
-    "method",
-    "otherwise",
-    "demand_label",
-    "limit_label",
-    "at_least_label",
-    "caption",
-)
+PLAIN = sorted(SAID - {"message", "consequence", "words"})  # in which nothing is filled in
 JUDGED = ("number", "row", "curve")
 OF_PARTS = ("part", "next", "index")
 
 
-def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the checks."""
-    made = [(check, when) for check in mechanism.checks for when in _when(names, check)]
+    made = [(check, when) for check in names.mechanism.checks for when in _when(names, check)]
     yield from pairs(names, phrase("another check"), made)
-    for check in mechanism.checks:
+    for check in names.mechanism.checks:
         yield from (fault(check, text) for text in _wrong(names, check))
 
 
 def _when(names: DeclaredNames, check: Check) -> list[When]:
     """When a check is made: what it needs is given, and something gives each of its sides."""
+    own = When(frozenset((*check.needs, *check.only_with)))
     givers = [[giver.when for giver in names.givers(name)] for name in check.named]
-    found = []
-    for chosen in product(*givers):
-        when = When(frozenset((*check.needs, *check.only_with)))
-        for other in chosen:
-            when = when.with_(other)
-        found.append(when)
-    return [when for when in dict.fromkeys(found) if names.world.example(when) is not None]
+    found = dict.fromkeys(reduce(When.with_, chosen, own) for chosen in product(*givers))
+    return [when for when in found if names.world.example(when) is not None]
 
 
 def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
@@ -313,12 +298,12 @@ class Defined(NamedTuple):
     until: float  # the line that gives the name to another one
 
 
-def idle_chapters_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def idle_chapters_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the chapters and families that are filled, and then named nowhere."""
-    for file in own_files(mechanism):
+    for file in own_files(names.mechanism):
         for defined in _definitions(parsed(file)):
             own = [s for s in parsed(file).body if defined.line < s.lineno < defined.until]
-            if any(_fills(s, defined.name) for s in own) and not _is_named(mechanism, file, defined, own):
+            if any(_fills(s, defined.name) for s in own) and not _is_named(names.mechanism, file, defined, own):
                 yield _fault(file, defined)
 
 
@@ -403,37 +388,36 @@ MADE = {
 }
 
 
-def shared_names_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def shared_names_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the steps that hide an input whose value nothing takes then, and names that the engine makes of another step."""
-    inputs = world(mechanism.inputs).keys
-    for number, (_, step) in enumerate(mechanism.steps):
+    inputs = keys(names.mechanism.inputs)
+    for number, (step, when) in enumerate(names.steps):
         if step.id in inputs and step.is_taken:
-            yield from _hidden(names, number, step, inputs[step.id])
-        for name, place, when in _made_otherwise(names, number, step):
-            yield from _made_twice(names, number, step, name, place, when)
+            yield from _hidden(names, step, when, inputs[step.id])
+        for name, place, other in _made_otherwise(names, number, step):
+            yield from _made_twice(names, step, name, place, when.with_(other))
 
 
-def _hidden(names: DeclaredNames, number: int, step: Step, key: Key) -> Iterator[Fault]:
+def _hidden(names: DeclaredNames, step: Step, when: When, key: Key) -> Iterator[Fault]:
     """The step that has the id of an input, where that is given and no step or check takes ``inputs.ID``, or refuses it."""
-    when = names.when(number).with_(When(frozenset((key.path,)) if key.may_be_absent else frozenset()))
+    when = when.with_(When(frozenset((key.path,)) if key.may_be_absent else frozenset()))
     given = names.world.example(when, list(_takers(names, key.path)))
     if given is not None:
-        where = told(given, when.needs | when.lacks)
         template = (
             "has the id of an input, so that what the user gives for {id} counts nowhere{where}; name the step otherwise, "
             'or let a formula take the input as "inputs.{id}"'
         )
-        yield fault(step, Phrase(template, id=step.id, where=Phrase(" {where}", where=where) if where else ""))
+        yield fault(step, Phrase(template, id=step.id, where=where(given, when.needs | when.lacks)))
 
 
 def _takers(names: DeclaredNames, path: str) -> Iterator[When]:
     """When something takes an input itself, not the step of its id."""
-    for number, (_, step) in enumerate(names.mechanism.steps):
+    for step, when in names.steps:
         own = {getattr(step, "given", "")} | ({step.id} if isinstance(step, CurveOverAbscissa) else set())
         own |= {name.removeprefix("inputs.") for name in getattr(step, "holds", ()) if name.startswith("inputs.")}
         refuses = isinstance(step, Require) and step.key == path and path in step.needs
         if f"inputs.{path}" in taken(step) or path in own or refuses:
-            yield names.when(number)
+            yield when
     for check in names.mechanism.checks:
         if f"inputs.{path}" in check.named:
             yield When(frozenset((*check.needs, *check.only_with)))
@@ -447,13 +431,13 @@ def _made_otherwise(names: DeclaredNames, number: int, step: Step) -> Iterator[t
     for name in sorted(made.keys() & names.world.keys.keys()):
         key = names.world.keys[name]
         yield made[name], "", When(frozenset((key.path,)) if key.may_be_absent else frozenset())
-    for other, (_, declared) in enumerate(names.mechanism.steps):
+    for other, (declared, when) in enumerate(names.steps):
         if declared is step or not declared.is_taken:
             continue
         if declared.id in made:
-            yield made[declared.id], declared.at, names.when(other)
+            yield made[declared.id], declared.at, when
         elif other < number:
-            yield from ((made[name], declared.at, names.when(other)) for name in _both_make(made, declared))
+            yield from ((made[name], declared.at, when) for name in _both_make(made, declared))
 
 
 def _both_make(made: dict[str, ResultName], other: Step) -> list[str]:
@@ -462,11 +446,8 @@ def _both_make(made: dict[str, ResultName], other: Step) -> list[str]:
     return [each.name for each in names_ahead(other) if each.role != "value" and each.name in made][:1]
 
 
-def _made_twice(
-    names: DeclaredNames, number: int, step: Step, made: ResultName, place: str, when: When
-) -> Iterator[Fault]:
-    given = names.world.example(names.when(number).with_(when))
-    if given is None:
+def _made_twice(names: DeclaredNames, step: Step, made: ResultName, place: str, both: When) -> Iterator[Fault]:
+    if names.world.example(both) is None:
         return
     what = Phrase("that of another step (at {place})", place=short(place)) if place else phrase("that of an input")
     template = "gives {name} as {made}, and this name is {what}; name one of them otherwise"

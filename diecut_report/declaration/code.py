@@ -1,4 +1,4 @@
-"""Imports of what is not a plugin's: all of the program but its api and its mechanics may change from one version to the next."""
+"""The code of a plugin: what it imports, what its functions ask for beside what they take, which texts it makes, and what was found of it."""
 
 from __future__ import annotations
 
@@ -22,14 +22,17 @@ from typing import Any
 import numpy as np
 
 from diecut_report import __version__, api
-from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, world
+from diecut_report.declaration.names import DeclaredNames, Fault, declared_in
 from diecut_report.declaration.texts import DeclaredText, own_files, parsed
 from diecut_report.files import cache_folder, code_of
 from diecut_report.mechanism.figures import Chart, Drawing
-from diecut_report.mechanism.inputs import fields
+from diecut_report.mechanism.inputs import fields, keys
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.text.phrases import Phrase, named, phrase
+
+# Imports: all of the program but its api and its mechanics may change from one version to the next.
+
 
 PROGRAM = "diecut_report"
 ALLOWED = (f"{PROGRAM}.api", f"{PROGRAM}.mechanics")
@@ -111,10 +114,10 @@ Scope = ChainMap[str, Any]
 Used = tuple[ast.expr, str]  # where something is asked for, and what it is
 
 
-def impure_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def impure_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield what the functions of steps and drawings ask for beside what they take, and the files themselves when they are loaded."""
-    files = {str(file): file for file in own_files(mechanism)}
-    for function in _functions(mechanism, set(files)):
+    files = {str(file): file for file in own_files(names.mechanism)}
+    for function in _functions(names.mechanism, set(files)):
         file, code = files[function.__code__.co_filename], function.__code__
         for node in _definitions(parsed(file), code.co_firstlineno):
             for where, what in _used(node, _scope(function)):
@@ -356,12 +359,11 @@ class _Finder(ast.NodeVisitor):
         self.depth -= 1
 
     def visit_Call(self, node: ast.Call) -> None:
-        if isinstance(node.func, ast.Name) and node.func.id in SILENT_CALLS:
+        name = getattr(node.func, "id", "")
+        if name in SILENT_CALLS:
             return
-        self._note_label(node)
-        if (
-            not self.depth and isinstance(node.func, ast.Name) and node.func.id == "Phrase"
-        ):  # a lambda's, in a declaration
+        self._note_label(node, name)
+        if not self.depth and name == "Phrase":  # a lambda's, in a declaration
             self.found += [text for each in node.args[:1] for text in _spoken(each) if WORDS.search(text)]
         self.visit(node.func)
         for argument in node.args:
@@ -370,9 +372,8 @@ class _Finder(ast.NodeVisitor):
             if keyword.arg not in SILENT_KEYWORDS:
                 self.visit(keyword.value)
 
-    def _note_label(self, node: ast.Call) -> None:
+    def _note_label(self, node: ast.Call, name: str) -> None:
         """Note the words beside what is drawn, which may be a single one."""
-        name = node.func.id if isinstance(node.func, ast.Name) else ""
         if (self.depth or name == "phrase") and name in LABELS:
             said = node.args[LABELS[name] :][:1]
             said += [each.value for each in node.keywords if each.arg in ("label", "text", "lines")]
@@ -460,17 +461,16 @@ def _name(value: ast.expr) -> str:
     return "text"
 
 
-# Which plugins were found sound: by the content of their files, in the user's folder for what can be made again.
+# What the check of a plugin found: by the content of its files, in the user's folder for what can be made again.
 
 
 OWN = Path(__file__).parents[1]
-FOLDER = "declarations"
 
 
 def content(mechanism: Mechanism) -> str:
     """Return the SHA-256 of all that the check of a plugin follows from: its files, its allowed texts, and the check itself."""
     found = hashlib.sha256(__version__.encode())
-    texts = [(key.path, key.texts) for key in world(mechanism.inputs).keys.values()]
+    texts = [(key.path, key.texts) for key in keys(mechanism.inputs).values()]
     found.update(repr((mechanism.kind, texts)).encode())
     check = (file for part in ("declaration", "mechanism", "formulas") for file in (OWN / part).rglob("*.py"))
     for file in sorted({*files(mechanism), *check}):
@@ -478,19 +478,21 @@ def content(mechanism: Mechanism) -> str:
     return found.hexdigest()
 
 
-def is_sound(key: str) -> bool:
-    """Return whether a plugin of this content was found sound before."""
-    folder = cache_folder(FOLDER)
-    return folder is not None and (folder / key).is_file()
+def remembered(folder: str, key: str) -> bytes | None:
+    """Return what was found of a plugin of this content before; None where that is not known."""
+    home = cache_folder(folder)
+    with suppress(OSError):
+        return (home / key).read_bytes() if home else None
+    return None
 
 
-def remember(key: str) -> None:
-    """Note that a plugin of this content is sound; where it cannot be noted it is judged again the next time."""
-    folder = cache_folder(FOLDER)
-    if folder is not None:
-        with suppress(OSError):
-            folder.mkdir(parents=True, exist_ok=True)
-            (folder / key).touch()
+def remember(folder: str, key: str, found: str = "") -> None:
+    """Note what was found of a plugin of this content; where it cannot be noted it is judged again the next time."""
+    home = cache_folder(folder)
+    with suppress(OSError):
+        if home:
+            home.mkdir(parents=True, exist_ok=True)
+            (home / key).write_text(found, "utf-8")
 
 
 def files(mechanism: Mechanism) -> Iterator[Path]:

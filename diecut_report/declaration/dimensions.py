@@ -63,10 +63,9 @@ def angle_hint(found: Found, wanted: Found, part: str = "…") -> str:
 
 def kind_given(formula: Formula, taken: Mapping[str, Found | float]) -> Found:
     """Return the kind of what a formula gives for the kinds (or plain numbers) that its parameters take; KindError where it has none."""
-    numbers = {name: _plain(value) for name, value in taken.items() if isinstance(value, float)}
     constants = {symbol: unit(constant.unit).kind for symbol, constant in formula.constants.items()}
-    kinds = {name: value for name, value in taken.items() if not isinstance(value, float)}
-    return _Walk(constants | kinds | numbers).kind(formula.full_tree)
+    kinds = {name: _plain(value) if isinstance(value, float) else value for name, value in taken.items()}
+    return _Walk(constants | kinds).kind(formula.full_tree)
 
 
 def _plain(value: float) -> Found:

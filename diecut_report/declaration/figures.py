@@ -13,7 +13,6 @@ from diecut_report.declaration.names import KINDS, DeclaredNames, Fault, fault, 
 from diecut_report.errors import nearest
 from diecut_report.formulas.tree import Constant
 from diecut_report.mechanism.figures import Bars, Figure, Panel, Plot, Polar
-from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import When
 from diecut_report.mechanism.steps import PREFIX, ROLES, Abscissa, Phase
 from diecut_report.quantities.units import unit
@@ -22,10 +21,10 @@ from diecut_report.text.phrases import Phrase, named, phrase
 NUMBER, CURVE = frozenset({"number", "row"}), frozenset({"curve"})
 
 
-def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the figures, as far as they are data."""
-    spectra = {spectrum.id: spectrum for spectrum in mechanism.spectra}
-    for figure in mechanism.figures:
+    spectra = {spectrum.id: spectrum for spectrum in names.mechanism.spectra}
+    for figure in names.mechanism.figures:
         of_spectrum = isinstance(figure, Plot) and figure.abscissa in spectra
         for text in () if of_spectrum else _wrong(figure, names):
             yield fault(figure, text)
@@ -119,20 +118,20 @@ PARTS_OF_A_TURN = 360  # of half of one: periods of half a degree, and of all mu
 Known = Mapping[str, list[tuple[int, When, Phase]]]
 
 
-def phases_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def phases_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with phases, and with the speed of an abscissa."""
     known: dict[str, list[tuple[int, When, Phase]]] = {}
-    for number, (_, step) in enumerate(mechanism.steps):
+    for number, (step, when) in enumerate(names.steps):
         texts: Iterator[str] = iter(())
         if isinstance(step, Phase):
-            known.setdefault(step.id.removeprefix(PREFIX), []).append((number, names.when(number), step))
-            texts = _of_phase(step, number, names, known)
+            known.setdefault(step.id.removeprefix(PREFIX), []).append((number, when, step))
+            texts = _of_phase(step, when, names, known)
         elif isinstance(step, Abscissa):
             texts = chain(_of_period(step), _of_speed(step, names) if step.speed else ())
         yield from (fault(step, text) for text in texts)
 
 
-def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> Iterator[str]:
+def _of_phase(step: Phase, when: When, names: DeclaredNames, known: Known) -> Iterator[str]:
     if step.role not in ROLES:
         near, roles = nearest(step.role, ROLES), ", ".join(ROLES)
         yield Phrase("has the role {role}{nearest}; there are {roles}", role=repr(step.role), nearest=near, roles=roles)
@@ -141,7 +140,7 @@ def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> I
     if [bool(step.spans), bool(step.union), bool(step.rest_of)].count(True) != 1:
         yield phrase("needs one of three forms: places it goes between, (start, end), or union=(…), or rest_of=(…)")
     for each in (*step.union, *step.rest_of):
-        yield from _held(step, each, names.when(number), names, known)
+        yield from _held(step, each, when, names, known)
     for bare in (end for span in step.spans for end in span if not isinstance(end, str) and end != 0):
         template = (
             "goes to {place}, a number without a unit; name the input or the step that gives the place, by its id"
@@ -152,7 +151,7 @@ def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> I
     places = [(end, each) for span in step.spans for each in span if isinstance(each, str)]
     period = phrase("has the period {place}, in {units}; its abscissa {abscissa} is in {axis}")
     for template, place in (*places, (period, step.period)):
-        units = {each for giver in names.givers(place) for each in giver.units_when(step.needs)}
+        units = names.units(place, step.needs)
         if units and not any(kind_of(one) == kind_of(other) for one in units for other in axis):
             filling = {"units": named(sorted(units), " or "), "axis": named(sorted(axis), " or ")}
             yield Phrase(template, filling, place=place, abscissa=step.abscissa)
@@ -192,7 +191,7 @@ def _of_period(step: Abscissa) -> Iterator[str]:
 
 def _of_speed(step: Abscissa, names: DeclaredNames) -> Iterator[str]:
     wanted = f"{step.unit}/s"
-    units = {each for giver in names.givers(step.speed) for each in giver.units_when(step.needs)}
+    units = names.units(step.speed, step.needs)
     if units and not any(kind_of(one) == kind_of(wanted) for one in units):
         template = "is run through with {speed}, in {units}; a speed in {wanted} is needed"
         yield Phrase(template, speed=step.speed, units=named(sorted(units), " or "), wanted=wanted)
@@ -201,10 +200,10 @@ def _of_speed(step: Abscissa, names: DeclaredNames) -> Iterator[str]:
 # Spectra: curves over a range of their own have ids of their own, and a number for each place of the range.
 
 
-def spectra_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def spectra_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the spectra."""
     known = {name for name in names.known if names.kinds(name) & {"curve", "abscissa"}}
-    for spectrum in mechanism.spectra:
+    for spectrum in names.mechanism.spectra:
         for curve in (spectrum, *spectrum.lines()):
             subject = Phrase("curve {id}", id=curve.id)
             if curve.id in known:

@@ -25,11 +25,10 @@ from diecut_report.declaration.dimensions import by_id, curve_units, dimensions,
 from diecut_report.declaration.inputs import of_input
 from diecut_report.declaration.names import short, subject
 from diecut_report.declaration.texts import PAPER, own_files, parsed, unlisted
-from diecut_report.files import cache_folder
 from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.chapters import Chapter, form_keys, in_form, in_unit, taken
-from diecut_report.mechanism.inputs import Block, Inputs, fields, nested
+from diecut_report.mechanism.inputs import Block, Inputs, fields, keys
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Text
 from diecut_report.mechanism.steps import Step, Value
@@ -45,7 +44,7 @@ SAID = ("symbol", "unit", "description", "source", "title", "summary", "caption"
 def idle_inputs(mechanism: Mechanism) -> Iterator[str]:
     """Yield the numbers and curves among the inputs that nothing takes or names; a text may be there for the reader alone."""
     used = {name.removeprefix("inputs.").partition("=")[0] for name in _used(mechanism)}
-    used |= {key for keys, singles in _spread(mechanism.inputs) if used.intersection(singles) for key in keys}
+    used |= {key for key, singles in _spread(mechanism.inputs) if used.intersection(singles)}
     told = _told_in_code(own_files(mechanism))
     for path, meta in fields(mechanism.inputs):
         if not isinstance(meta, Text) and path not in used and path.rpartition(".")[2] not in told:
@@ -79,14 +78,11 @@ def named_in(declared: Any) -> Iterator[str]:
                 yield from named_in(getattr(declared, field.name))
 
 
-def _spread(model: type[Block], prefix: str = "") -> Iterator[tuple[set[str], set[str]]]:
+def _spread(model: type[Block]) -> Iterator[tuple[str, set[str]]]:
     """Keys that stand for others, each with those."""
-    for key, singles in model.spread.items():
-        yield {prefix + key}, {prefix + single for single in singles}
-    for name, declared in model.model_fields.items():
-        inner = nested(declared.annotation)
-        if inner:
-            yield from _spread(inner[0], f"{prefix}{name}.")
+    inner = [(f"{key.path}.", key.block) for key in keys(model).values() if key.block]
+    for prefix, block in [("", model), *inner]:
+        yield from ((prefix + key, {prefix + single for single in singles}) for key, singles in block.spread.items())
 
 
 def _told_in_code(files: Iterable[Path]) -> set[str]:
@@ -159,20 +155,16 @@ def faults_of_formulas(mechanism: Mechanism) -> tuple[str, ...]:
 
     What was found is judged again where one of the plugin's files, or the program, has changed. The declarations are sound.
     """
-    home = cache_folder(FOLDER)
-    file = home / code.content(mechanism) if home else None
-    with suppress(OSError, ValueError, TypeError):  # it is judged again
-        known = json.loads(file.read_text("utf-8")) if file else None
+    key = code.content(mechanism)
+    with suppress(ValueError):  # it is judged again
+        known = json.loads(code.remembered(FOLDER, key) or "null")
         if isinstance(known, list) and all(isinstance(each, str) for each in known):
             return tuple(known)
     try:
         found = tuple(dict.fromkeys(by_id(mechanism, text) for form in forms(mechanism) for text in quantities(form)))
     except Exception as cause:  # a formula that cannot be gone through alone
         found = (f"{type(cause).__name__}: {cause}",)
-    if file is not None:
-        with suppress(OSError):
-            file.parent.mkdir(parents=True, exist_ok=True)
-            file.write_text(json.dumps(found), "utf-8")
+    code.remember(FOLDER, key, json.dumps(found))
     return found
 
 

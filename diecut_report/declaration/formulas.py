@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from inspect import signature
 from itertools import chain, combinations
 from typing import Any
 
-from diecut_report.declaration.names import DeclaredNames, Fault, fault, kinds_told, short, told, unknown
+from diecut_report.declaration.names import DeclaredNames, Fault, fault, kinds_told, short, unknown, where
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import taken
-from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Bound, ByText, When, bound
 from diecut_report.mechanism.steps import SilentStep, Step
 from diecut_report.mechanism.steps.protocols import TakenName
@@ -20,33 +19,26 @@ from diecut_report.text.phrases import Phrase, named, phrase
 # Ids: each is given once, and given before it is taken, whatever inputs are given.
 
 
-def order_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def order_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the ids that are doubled, never made, not given, or taken too early."""
-    steps = [(step, names.when(number)) for number, (_, step) in enumerate(mechanism.steps)]
-    yield from pairs(names, phrase("another step"), steps)
+    yield from pairs(names, phrase("another step"), names.steps)
     for another, several in (
-        (phrase("another figure"), mechanism.figures),
-        (phrase("another export"), mechanism.exports),
+        (phrase("another figure"), names.mechanism.figures),
+        (phrase("another export"), names.mechanism.exports),
     ):
         yield from pairs(names, another, [(each, When(frozenset(each.needs))) for each in several])
-    yield from _in_two_chapters(mechanism, names)
-    for number, (_, step) in enumerate(mechanism.steps):
-        when = names.when(number)
+    yield from _in_two_chapters(names)
+    for number, (step, when) in enumerate(names.steps):
         if names.world.example(when) is None:
             yield fault(step, phrase("is never calculated: what it needs and what it lacks are never given together"))
             continue
         if not isinstance(step, SilentStep) and not (step.symbol and step.description):
             yield fault(step, phrase("has no symbol or no description"))
-        for name in sorted(asked(step)):
+        for name in sorted(name for name in taken(step) if name not in step.own_names):
             late = name == getattr(step, "shown_at", "") or step.is_made_late
             text = lacking(names, name, names.without(when, step.instead), None if late else number)
             if text:
                 yield fault(step, Phrase("takes {text}", text=text))
-
-
-def asked(step: Step) -> set[str]:
-    """Return the ids that a step takes from elsewhere."""
-    return {name for name in taken(step) if name not in step.own_names}
 
 
 def lacking(names: DeclaredNames, name: str, when: When, before: int | None = None) -> str:
@@ -70,14 +62,13 @@ def lacking(names: DeclaredNames, name: str, when: When, before: int | None = No
         )
         return Phrase(template, name=name, home=home.path)
     tokens = set().union(*(part for each in (when, *(giver.when for giver in givers)) for part in each))
-    where = told(given, tokens)
     template = "{name}, which nothing gives{where}; give it there too, or leave this out by needs or lacks"
-    return Phrase(template, name=name, where=Phrase(" {where}", where=where) if where else "")
+    return Phrase(template, name=name, where=where(given, tokens))
 
 
-def _in_two_chapters(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def _in_two_chapters(names: DeclaredNames) -> Iterator[Fault]:
     """Steps that stand in two chapters which are both calculated."""
-    for first, second in combinations(mechanism.chapters, 2):
+    for first, second in combinations(names.mechanism.chapters, 2):
         shared = [step for step in second.steps if first is not second and any(step is other for other in first.steps)]
         whens = {s.id: When(frozenset(first.needs + second.needs + s.needs), frozenset(s.lacks)) for s in shared}
         if doubled := [id for id, both in whens.items() if names.world.example(both) is not None]:
@@ -89,7 +80,7 @@ def _in_two_chapters(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fau
             yield fault(second, text)
 
 
-def pairs(names: DeclaredNames, another: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:
+def pairs(names: DeclaredNames, another: str, declared: Iterable[tuple[Any, When]]) -> Iterator[Fault]:
     """Yield the second of two that have one id and can be made together; ``another`` is what messages call the first."""
     by_id: dict[str, list[tuple[Any, When]]] = {}
     for part, when in declared:
@@ -99,21 +90,19 @@ def pairs(names: DeclaredNames, another: str, declared: list[tuple[Any, When]]) 
             both = one.with_(other)
             given = names.world.example(both) if first is not second else None
             if given is not None:
-                where = told(given, both.needs | both.lacks)
                 template = (
                     "has the id of {another} (at {place}), and both are made{where}; name one of them otherwise, "
                     "or let their needs exclude each other"
                 )
-                where = Phrase(" {where}", where=where) if where else ""
-                yield fault(second, Phrase(template, another=another, place=short(first.at), where=where))
+                told = where(given, both.needs | both.lacks)
+                yield fault(second, Phrase(template, another=another, place=short(first.at), where=told))
                 break
 
 
-def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the formulas that cannot be printed, texts without a formula, and what is wrong with what a step takes."""
     seen: set[Formula] = set()
-    for number, (_, step) in enumerate(mechanism.steps):
-        when = names.when(number)
+    for step, when in names.steps:
         for each in step.formulas():
             for link in each.options:
                 if link.formula not in seen:
@@ -162,9 +151,9 @@ def _function_faults(step: Step) -> Iterator[str]:
 # What steps take: a curve where a curve is wanted, a row where a row is, an abscissa, a text with allowed values.
 
 
-def kinds_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def kinds_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the steps that take another kind of thing than they can."""
-    for _, step in mechanism.steps:
+    for _, step in names.mechanism.steps:
         for each in _taken(step):
             kinds = names.kinds(each.name)
             if kinds and not kinds & each.allowed:
@@ -189,9 +178,9 @@ def _taken(step: Step) -> Iterator[TakenName]:
 # Units: what a step takes over as it is has the step's kind of unit.
 
 
-def units_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def units_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the steps in another kind of unit than what they take over."""
-    for number, (_, step) in enumerate(mechanism.steps):
+    for number, (step, _) in enumerate(names.steps):
         own = [step.unit, *(other for _, other in step.units)]
 
         def units(name: str, step: Step = step, number: int = number) -> set[str]:

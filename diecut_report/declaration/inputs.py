@@ -23,7 +23,7 @@ from diecut_report.formulas.formula import FormulaError
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import BOUNDS, Block, Key, Meta, Quantity, Referred, allowed, meta_of, nested
-from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Mechanism, Wired, kinds_named
+from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Wired, kinds_named
 from diecut_report.mechanism.names import Bound, ByText, Text, bound
 from diecut_report.mechanism.steps import Root, Step
 from diecut_report.quantities.plausible import Plausible
@@ -39,18 +39,18 @@ NOT_READ = {"StandardSeries": object, "StandardTable": object, "Chapter": object
 ALLOWED_PLAIN = ("needs", "lacks", "only_with", "asks_for")  # which are told of where tokens are judged
 
 
-def allowed_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def allowed_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield words that are not among the allowed ones, and tolerances that let a machine fail."""
-    for declared in declared_in(mechanism):
+    for declared in declared_in(names.mechanism):
         yield from (fault(declared, text) for text in allowed_wrong(declared))
-    for check in mechanism.checks:
+    for check in names.mechanism.checks:
         if not 0 <= check.tolerance <= MOST_TOLERANCE:
             template = (
                 "has the tolerance {tolerance}, a share of the limit; allowed: 0 to {most} (1 %), for rounding alone; "
                 "put what is allowed into the limit"
             )
             yield fault(check, Phrase(template, tolerance=repr(check.tolerance), most=MOST_TOLERANCE))
-    for _, step in mechanism.steps:
+    for _, step in names.mechanism.steps:
         if isinstance(step, Root) and not 0 < step.tolerance <= MOST_OF_PROOF:
             template = (
                 "has the tolerance {tolerance}, the share by which its left and right may differ; allowed: above 0, to {most}, "
@@ -121,16 +121,16 @@ RESERVED = ("kind",)  # keys of each mechanism in a configuration
 PLAIN = ("builtins", "typing", "types")  # where the classes of plain values stand
 
 
-def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the inputs."""
-    yield from _block(mechanism.inputs, mechanism.at)
+    yield from _block(names.mechanism.inputs, names.mechanism.at)
     keys = names.world.keys
     for key in keys.values():
         forms, place = getattr(key.meta, "units", ()), getattr(key.meta, "at", "")
         texts = [phrase("has other units within a block, where none hold")] if forms and "." in key.path else []
         for text in (*texts, *_forms(forms, keys)):
             yield Fault(place, Phrase("input {path}", path=key.path), text)
-    for _, step in mechanism.steps:
+    for _, step in names.mechanism.steps:
         yield from (fault(step, text) for text in _forms(step.units, keys))
 
 
@@ -309,9 +309,7 @@ def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:
             template = "has the default {default}{nearest}; allowed: {texts}"
             yield Phrase(template, default=repr(default), nearest=nearest(said, texts), texts=", ".join(texts))
         return
-    try:
-        meta.validate(default)
-    except ValueError as why:
+    if why := fault_of(meta, default):
         yield Phrase("the default {why}; change the default or the bounds", why=why)
 
 
@@ -321,9 +319,9 @@ def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:
 YES_OR_NO = ("cmp", "and", "or", "not")
 
 
-def conditions_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def conditions_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield conditions that are numbers, and numbers that are conditions."""
-    for _, step in mechanism.steps:
+    for _, step in names.mechanism.steps:
         for each in step.formulas():
             if each.is_condition:
                 strange = [link.formula.__name__ for link in each.options if not _decides(link, names)]
@@ -371,22 +369,23 @@ def _flag(step: Step, names: DeclaredNames) -> Iterator[str]:
 
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+"""What a mechanism, a shaft or a part may be called."""
 
 
-def examples_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def examples_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the keys of an example that name no input, and the values that an input does not take."""
-    example: Any = mechanism.example
+    example: Any = names.mechanism.example
     if example is None:
         return
     if not isinstance(example, ExampleBlock):
         words = 'has example={example}; write ExampleBlock("name", {"key": "10 mm"})'
-        yield fault(mechanism, Phrase(words, example=repr(example)))
+        yield fault(names.mechanism, Phrase(words, example=repr(example)))
         return
     if not NAME.fullmatch(example.name):
         text = phrase("is not a name of a mechanism: a letter, then letters, digits, _ and - are allowed")
         yield Fault(example.at, Phrase("example {name}", name=repr(example.name)), text)
     subject = Phrase("example {name}", name=example.name)
-    for key, words in _examples_wrong(mechanism.inputs, example.inputs, ""):
+    for key, words in _examples_wrong(names.mechanism.inputs, example.inputs, ""):
         yield Fault(example.at, subject, Phrase("{key} {text}", key=key, text=words))
 
 
@@ -431,7 +430,7 @@ def _refused(meta: Quantity | Text, value: Any) -> str:
     return found[0] if all(found) else ""
 
 
-def fault_of(meta: Quantity | Text, value: Any) -> str:
+def fault_of(meta: Meta, value: Any) -> str:
     """Return why an input does not take a value; empty where it does."""
     try:
         meta.validate(value)

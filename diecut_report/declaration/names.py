@@ -209,6 +209,12 @@ def told(given: Mapping[str, Given], tokens: Iterable[str]) -> str:
     return joined(words, " and ")
 
 
+def where(given: Mapping[str, Given], tokens: Iterable[str]) -> str:
+    """Return the same behind a space, as a part of a sentence."""
+    words = told(given, tokens)
+    return Phrase(" {where}", where=words) if words else ""
+
+
 class Giver(NamedTuple):
     """What gives a name: an input, or a step at a place in the order; when, and what it is."""
 
@@ -239,9 +245,10 @@ class DeclaredNames:
         found.keys |= {name: Key(name) for name in self.mechanism.facts}
         return found
 
-    def when(self, number: int) -> When:
-        """Return when a step is made."""
-        return made_when(*self.mechanism.steps[number])
+    @cached_property
+    def steps(self) -> list[tuple[Step, When]]:
+        """Return the steps in their order, each with when it is made."""
+        return [(step, made_when(chapter, step)) for chapter, step in self.mechanism.steps]
 
     @cached_property
     def known(self) -> dict[str, list[Giver]]:
@@ -250,19 +257,18 @@ class DeclaredNames:
         for key in self.world.keys.values():
             for name in (key.path, f"inputs.{key.path}"):
                 found.setdefault(name, []).append(_input(key))
-        for number, (_, step) in enumerate(self.mechanism.steps):
-            for name, giver in self._given(number, step, found):
+        for number, (step, when) in enumerate(self.steps):
+            for name, giver in self._given(number, step, when, found):
                 found.setdefault(name, []).append(giver)
         return found
 
-    def _given(self, number: int, step: Step, found: dict[str, list[Giver]]) -> Iterator[tuple[str, Giver]]:
+    def _given(self, number: int, step: Step, when: When, found: dict[str, list[Giver]]) -> Iterator[tuple[str, Giver]]:
         def over(*names: str, of_all: bool = False) -> set[tuple[str, str]]:
             """Return the kinds and axes of what runs over something; ``of_all`` also of texts."""
             givers = [giver for name in names for giver in found.get(name, ()) if giver.axis or not of_all]
             own = [giver for giver in givers if of_all or giver.kind in ("curve", "abscissa", "row")]
             return {("curve" if giver.kind == "abscissa" else giver.kind, giver.axis) for giver in own}
 
-        when = self.when(number)
         for kind, axis in step.kinds(over):
             own = None if kind in ("text", "prepared", "list of parts") else step.unit
             yield step.id, Giver(when, kind, axis, own, step, number, step.units)
@@ -279,14 +285,14 @@ class DeclaredNames:
         return self.known.get(name) or list(self._numbered(name))
 
     def _numbered(self, name: str) -> Iterator[Giver]:
-        for number, (_, step) in enumerate(self.mechanism.steps):
+        for number, (step, when) in enumerate(self.steps):
             found = read(name, step) if has_own_names(step) else None
             if found and found.role in ("crossing", "part"):
-                yield Giver(self.when(number), "number", "", step.unit, step, number)
+                yield Giver(when, "number", "", step.unit, step, number)
 
-    def units(self, name: str) -> set[str]:
-        """Return the units that a quantity may have."""
-        return {each for giver in self.givers(name) for each in giver.units_when(())}
+    def units(self, name: str, needs: Iterable[str] = ()) -> set[str]:
+        """Return the units that a quantity may have where these inputs are given."""
+        return {each for giver in self.givers(name) for each in giver.units_when(needs)}
 
     def without(self, when: When, given: str) -> When:
         """Return when something is made while an input is not given."""

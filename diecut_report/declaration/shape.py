@@ -109,9 +109,9 @@ Defined = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 MEANT = {"overload", "setter", "getter", "deleter", "register"}  # by which a name is defined again on purpose
 
 
-def doubled_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def doubled_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield functions, classes and fields that are defined twice at one level of a file, and keys that stand twice in a table."""
-    for file in sorted(file for file in files(mechanism) if file.suffix == ".py"):
+    for file in sorted(file for file in files(names.mechanism) if file.suffix == ".py"):
         yield from _twice(file, parsed(file))
         yield from _keys_twice(file, parsed(file))
 

@@ -13,11 +13,11 @@ from typing import Any, NamedTuple, get_args
 
 from diecut_report.declaration.formulas import lacking
 from diecut_report.declaration.inputs import of_input
-from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, fault, short, unknown, world
+from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, fault, short, unknown
 from diecut_report.errors import nearest
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.figures import Spectrum
-from diecut_report.mechanism.inputs import POINTS, Block, Quantity, meta_of, nested
+from diecut_report.mechanism.inputs import POINTS, Block, Quantity, keys
 from diecut_report.mechanism.mechanism import Comparison, CurveTable, Mechanism, Profile
 from diecut_report.mechanism.names import When
 from diecut_report.mechanism.steps import Case, SilentStep, Step, has_own_names, names_ahead, numbered_symbol
@@ -55,17 +55,14 @@ def is_text(text: str) -> bool:
     return WORD.search(PLACE.sub(" ", text)) is not None
 
 
-def inputs_texts(model: type[Block], prefix: str = "") -> Iterator[DeclaredText]:
+def inputs_texts(model: type[Block]) -> Iterator[DeclaredText]:
     """Yield what inputs are, and in words what texts they may be."""
-    for name, field in model.model_fields.items():
-        meta, inner = meta_of(model, name), nested(field.annotation)
-        if meta is not None:
-            yield DeclaredText(meta.description, f"input {prefix}{name}")
-            known = (*getattr(meta, "options", ()), *getattr(meta, "words", ()), *_literals(field.annotation))
+    for key in keys(model).values():
+        if key.meta is not None:
+            yield DeclaredText(key.meta.description, f"input {key.path}")
+            known = (*getattr(key.meta, "options", ()), *getattr(key.meta, "words", ()), *_literals(key.annotation))
             own = (text for text in known if text.isidentifier() and text.islower())
-            yield from (DeclaredText(worded(text), f"{text}, a text of {prefix}{name}") for text in own)
-        if inner:
-            yield from inputs_texts(inner[0], f"{prefix}{name}.")
+            yield from (DeclaredText(worded(text), f"{text}, a text of {key.path}") for text in own)
 
 
 def _literals(annotation: Any) -> Iterator[str]:
@@ -118,9 +115,9 @@ def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
 TOKENS = ("needs", "lacks", "only_with", "asks_for", "sized_unless", "scaled_by")
 
 
-def token_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def token_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the tokens that can never hold."""
-    for declared in declared_in(mechanism):
+    for declared in declared_in(names.mechanism):
         for field in TOKENS:
             tokens = getattr(declared, field, None) or ()
             if isinstance(tokens, str) and field != "scaled_by":
@@ -131,7 +128,7 @@ def token_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
                 None, (_told(names, token) for token in ((tokens,) if isinstance(tokens, str) else tokens))
             ):
                 yield fault(declared, Phrase("{field} names {text}", field=field, text=text))
-        for fact in sorted(mechanism.facts.intersection(getattr(declared, "lacks", ()))):
+        for fact in sorted(names.mechanism.facts.intersection(getattr(declared, "lacks", ()))):
             yield fault(declared, Phrase("lacks names the fact {fact}; a fact can only be needed", fact=fact))
 
 
@@ -170,32 +167,33 @@ PAPER = re.compile(r"(?:^|; ?)(?:(\d{3,})|([^\W\d_]+\d+))\b(?! series)")
 """What looks like the id of a paper, unlike a standard (ISO 281), an author or a series (R40 series)."""
 
 
-def document_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def document_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield what names a source or a quantity that there is none of."""
-    yield from _sources(mechanism)
-    yield from _titles(mechanism, names)
-    for first, second in combinations(mechanism.sources, 2):
+    yield from _sources(names.mechanism)
+    yield from _titles(names)
+    for first, second in combinations(names.mechanism.sources, 2):
         if first.id == second.id:
             template = "has the id of another source (at {place}); give it another"
             yield fault(second, Phrase(template, place=short(first.at)))
-    yield from _errata(mechanism, names)
-    for name in mechanism.key_results:
+    yield from _errata(names)
+    for name in names.mechanism.key_results:
         text = _key_result(names, name)
         if text:
-            yield Fault(mechanism.at, "key_results", text)
-    for name in mechanism.reactions:
+            yield Fault(names.mechanism.at, "key_results", text)
+    for name in names.mechanism.reactions:
         if not any(giver.kind == "curve" for giver in names.givers(name)):
-            yield Fault(mechanism.at, "reactions", Phrase("{name} is not a curve", name=name))
-    yield from _exports(mechanism, names)
-    for comparison in mechanism.comparisons:
-        yield from (fault(comparison, text) for text in _comparison(mechanism, names, comparison))
+            yield Fault(names.mechanism.at, "reactions", Phrase("{name} is not a curve", name=name))
+    for profile in names.mechanism.exports:
+        yield from (fault(profile, text) for text in _export(profile, names))
+    for comparison in names.mechanism.comparisons:
+        yield from (fault(comparison, text) for text in _comparison(names, comparison))
 
 
-def _errata(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def _errata(names: DeclaredNames) -> Iterator[Fault]:
     """Errata of sources that are not listed, and those that touch what there is not."""
-    known = [source.id for source in mechanism.sources]
-    silent = {step.id for _, step in mechanism.steps if isinstance(step, SilentStep)}
-    for erratum in mechanism.errata:
+    known = [source.id for source in names.mechanism.sources]
+    silent = {step.id for _, step in names.mechanism.steps if isinstance(step, SilentStep)}
+    for erratum in names.mechanism.errata:
         if erratum.source not in known:
             template = "is of no listed source{nearest}; listed: {known}"
             yield fault(erratum, Phrase(template, nearest=nearest(erratum.source, known), known=", ".join(known)))
@@ -204,9 +202,9 @@ def _errata(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
                 yield fault(erratum, Phrase("touches {unknown}", unknown=unknown(name, names.known)))
 
 
-def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def _titles(names: DeclaredNames) -> Iterator[Fault]:
     """Chapters of one title that may stand in one report."""
-    for first, second in combinations(mechanism.chapters, 2):
+    for first, second in combinations(names.mechanism.chapters, 2):
         both = When(frozenset(first.needs + second.needs))
         if first.title == second.title and names.world.example(both) is not None:
             template = "has the title of another chapter (at {place}); give it another, or put their steps into one"
@@ -242,11 +240,6 @@ def _key_result(names: DeclaredNames, name: str) -> str:
     return Phrase("{name} is a curve; name an extreme of it", name=name) if is_curve else ""
 
 
-def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
-    for profile in mechanism.exports:
-        yield from (fault(profile, text) for text in _export(profile, names))
-
-
 def _export(profile: Profile, names: DeclaredNames) -> Iterator[str]:
     if isinstance(profile, CurveTable):
         if [names.kinds(name) for name in profile.columns] != [{"abscissa"}]:
@@ -268,12 +261,12 @@ def _export(profile: Profile, names: DeclaredNames) -> Iterator[str]:
         yield Phrase("writes curves over {axes}; give each its own export", axes=named(sorted(axes), " and over "))
 
 
-def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparison) -> Iterator[str]:
-    keys = world(comparison.mechanism.inputs).keys
+def _comparison(names: DeclaredNames, comparison: Comparison) -> Iterator[str]:
+    known = keys(comparison.mechanism.inputs)
     for key, (kind, name) in comparison.takes.items():
-        if key not in keys:
-            yield Phrase("fills {key}, which is not an input of it{nearest}", key=key, nearest=nearest(key, keys))
-        if kind == mechanism.kind and not names.givers(name):
+        if key not in known:
+            yield Phrase("fills {key}, which is not an input of it{nearest}", key=key, nearest=nearest(key, known))
+        if kind == names.mechanism.kind and not names.givers(name):
             yield Phrase("takes {unknown} in {kind}", unknown=unknown(name, names.known), kind=kind)
     for name, declared in comparison.mechanism.inputs.model_fields.items():
         if declared.is_required() and name not in comparison.takes:
@@ -305,23 +298,23 @@ class Printed(NamedTuple):
         return self.step.id if self.step else self.name
 
 
-def symbol_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+def symbol_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield the second of two quantities with one symbol, and those in LaTeX; texts, and what only takes another over, may share it."""
     by_symbol: dict[str, list[Printed]] = {}
-    for symbol, each in chain(_whole(mechanism, names), _single(mechanism, names)):
+    for symbol, each in chain(_whole(names), _single(names)):
         by_symbol.setdefault(symbol, []).append(each)
         if letters := NO_SYMBOLS.intersection(symbol):
             template = (
                 "has the symbol {symbol} with {letters}; a symbol is plain text, not LaTeX: write α_1, F_max, [σ]"
             )
-            yield _of(mechanism, each, Phrase(template, symbol=symbol, letters=" ".join(sorted(letters))))
+            yield _of(names.mechanism, each, Phrase(template, symbol=symbol, letters=" ".join(sorted(letters))))
     told: set[tuple[str, str]] = set()
     for symbol, alike in by_symbol.items():
         for one, other in combinations(alike, 2):
             pair = one.giver, other.giver
             if one.name != other.name and pair not in told and _clash(names, one, other):
                 told.add(pair)  # of two rows with many parts the first that are alike
-                yield _alike(mechanism, symbol, *((other, one) if other.is_points else (one, other)))
+                yield _alike(names.mechanism, symbol, *((other, one) if other.is_points else (one, other)))
 
 
 def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> Fault:
@@ -340,24 +333,24 @@ def _of(mechanism: Mechanism, each: Printed, text: str) -> Fault:
     return Fault(of_input(mechanism.inputs, each.name, each.at), Phrase("input {path}", path=each.name), text)
 
 
-def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
+def _whole(names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
     """Yield the symbols that are declared."""
     for key in names.world.keys.values():
         if isinstance(key.meta, Quantity) and key.meta.symbol:
             when, is_points = names.known[key.path][0].when, key.meta is POINTS
             yield key.meta.symbol, Printed(key.path, key.meta.at, when, is_points=is_points)
-    for number, (_, step) in enumerate(mechanism.steps):
+    for step, when in names.steps:
         if step.symbol and step.printed and not isinstance(step, SilentStep) and names.kinds(step.id) != {"text"}:
-            yield step.symbol, Printed(step.id, step.at, names.when(number), step)
+            yield step.symbol, Printed(step.id, step.at, when, step)
 
 
-def _single(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
+def _single(names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
     """Yield the symbols of parts and crossings that formulas may take by names of their own."""
-    for number, (_, step) in enumerate(mechanism.steps):
+    for step, when in names.steps:
         if step.symbol and has_own_names(step):
             for each in names_ahead(step):
                 if each.role in ("part", "crossing"):
-                    yield numbered_symbol(step, each.number), Printed(each.name, step.at, names.when(number), step)
+                    yield numbered_symbol(step, each.number), Printed(each.name, step.at, when, step)
 
 
 def _clash(names: DeclaredNames, one: Printed, other: Printed) -> bool:

@@ -397,8 +397,7 @@ class Run:
         self._store(instance, mechanism_results(calculation, self._provenance(instance)))
 
     def _store(self, instance: Instance, found: MechanismRecord) -> None:
-        own = instance.own.sources if instance.own else {}
-        tables = [SourceRecord(id=file, citation=citation) for file, citation in own.items()]
+        tables = [SourceRecord(id=file, citation=citation) for file, citation in instance.own.sources.items()]
         self.results[instance.name] = found.with_(sources=[*found.sources, *tables])
 
     def _compare(self, case: Found) -> None:

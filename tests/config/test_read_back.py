@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
-from diecut_report.config.references import as_file, written
+from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.yaml import KeyPath, load, parse
 from diecut_report.errors import UserError
 from diecut_report.press import Press
@@ -156,11 +156,11 @@ last: 1"""
 def test_one_value_changes_and_nothing_else(path: KeyPath, value: str, old: str, new: str, line_end: str) -> None:
     text = TEXT.replace("\n", line_end)
     assert text.count(old := old.replace("\n", line_end)) == 1
-    assert written(parse(text, "f"), {path: value}) == text.replace(old, new.replace("\n", line_end))
+    assert rewritten(parse(text, "f"), {path: value}).text == text.replace(old, new.replace("\n", line_end))
 
 
 def test_several_values_at_once() -> None:
-    made = written(parse(TEXT, "f"), {("plain",): "1 mm", ("last",): "22", ("parts", 1, "size"): "333"})
+    made = rewritten(parse(TEXT, "f"), {("plain",): "1 mm", ("last",): "22", ("parts", 1, "size"): "333"}).text
     assert parse(made, "f").data == parse(TEXT, "f").data | {
         "plain": "1 mm",
         "last": 22,
@@ -179,19 +179,19 @@ def test_several_values_at_once() -> None:
 )
 def test_what_cannot_be_written_is_refused_in_words(path: KeyPath, words: str) -> None:
     with pytest.raises(UserError) as error:
-        written(parse(TEXT, "f"), {path: "9"})
+        rewritten(parse(TEXT, "f"), {path: "9"})
     assert words in str(error.value)
 
 
 def test_of_several_values_that_one_is_named_which_cannot_be_written() -> None:
     with pytest.raises(UserError) as error:
-        written(parse(TEXT, "f"), {("plain",): "1 mm", ("anchored",): "9", ("last",): "2"})
+        rewritten(parse(TEXT, "f"), {("plain",): "1 mm", ("anchored",): "9", ("last",): "2"})
     assert str(error.value).startswith("f:4:11: anchored: stands in a part that an anchor")
 
 
 def test_the_published_press_differs_in_one_line_alone() -> None:
     tree = load(EXAMPLE)
-    made = written(tree, {("mechanisms", "drive", "crank_length", "value"): "110 mm"})
+    made = rewritten(tree, {("mechanisms", "drive", "crank_length", "value"): "110 mm"}).text
     changed = [line for line in difflib.ndiff(tree.text.splitlines(), made.splitlines()) if line[0] in "+-"]
     assert [line.split(":", 1)[1].strip() for line in changed] == [
         "{value: 100 mm, basis: assumed}",
@@ -203,5 +203,5 @@ def test_a_byte_order_mark_is_kept(tmp_path: Path) -> None:
     file = tmp_path / "a.yaml"
     file.write_bytes(codecs.BOM_UTF8 + b"a: 1\r\n")
     tree = load(file)
-    assert as_file(tree, written(tree, {("a",): "2"})) == codecs.BOM_UTF8 + b"a: 2\r\n"
+    assert as_file(tree, rewritten(tree, {("a",): "2"}).text) == codecs.BOM_UTF8 + b"a: 2\r\n"
     assert hashlib.sha256(as_file(tree, tree.text)).hexdigest() == tree.sha256

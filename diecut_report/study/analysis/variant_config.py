@@ -13,7 +13,7 @@ from diecut_report.config import yaml
 from diecut_report.config.own_tables import KEY as LOGO
 from diecut_report.config.own_tables import OWN_TABLES_KEY as TABLES
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
-from diecut_report.config.references import as_file, written
+from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.yaml import KeyPath, Scalar, Tree, printable, resolved, with_values
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.quantities.formatting import as_typed
@@ -98,7 +98,7 @@ def taken_config(directory: Path, variant: int, discovery: Discovery, digits: in
     with opened(directory) as stored:
         found, study = _variant(stored, variant, discovery), printable(stored.description.study.file)
     values = {place: _typed(value, column, digits) for place, (column, value) in found.values.items()}
-    text = f"# Variant {variant} of {study}\n" + written(found.base, values, over_references=True)
+    text = f"# Variant {variant} of {study}\n" + rewritten(found.base, values, over_references=True).text
     return TakenConfig(as_file(found.base, text), found.status, found.governing, dict(found.beside.values()))
 
 

@@ -100,7 +100,7 @@ def varied_input(base: Config, path: str) -> Input:
 
 
 def _with_entries(instance: Instance, key: KeyPath, annotation: Any) -> Any:
-    names = instance.own.names(key) if instance.own else ()
+    names = instance.place.named.get(key, ())
     known = [part for part in (annotation, *get_args(annotation)) if get_origin(part) is Literal]
     return Literal[(*(text for part in known for text in get_args(part)), *names)] if names else annotation
 
@@ -188,7 +188,7 @@ def with_values(base: Config, values: Mapping[Input, Any]) -> tuple[Config, list
     """
     instances = {name: _changed(instance, values) for name, instance in base.instances.items()}
     linker = Linker(instances)
-    order, loops = ordered(instances, linker.links)
+    order, loops = ordered(linker)
     changed = replace(base, instances=instances, links=linker.links, order=tuple(order))
     return changed, [*linker.problems, *loops, *_typed_beside(base, values), *_wrong_keys(changed, values)]
 
@@ -204,7 +204,7 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
         _put(data, key, value)
     declared_as = instance.mechanism.inputs if instance.mechanism else PressBlock
     place, bases, taken = instance.place, instance.bases, instance.own
-    if taken and not taken.naming.keys().isdisjoint(own):
+    if not taken.naming.keys().isdisjoint(own):
         taken = taken.anew(declared_as, data, own, place)
         data, place, bases = taken.data, taken.place, {**bases, **taken.bases}
     model = in_form(declared_as, [key for key, value in data.items() if value is not None])
