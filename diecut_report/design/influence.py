@@ -34,7 +34,7 @@ from diecut_report.results.model import (
 )
 from diecut_report.results.warm_press import WarmPress
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
-from diecut_report.text.translation import decimal_sign, localised, said, say, spoken_language
+from diecut_report.text.translation import localised, said, say, spoken_language
 
 Distribution = Literal["normal", "uniform"]
 MOST_CHECKS = 5  # governing checks that are looked at where nothing is asked
@@ -377,13 +377,16 @@ def _plain(found: ChanceRecord) -> dict[str, Any]:
 
 def page(found: Sequence[Tornado], drawn: TolerancesRecord | None, name: str) -> str:
     """Return the same as one HTML file without scripts or network, with a figure for each number."""
-    from diecut_report.report.figures.charts import tornado
+    from diecut_report.report.figures.by_type import render
+    from diecut_report.report.model import TornadoFigure
     from diecut_report.report.pages import html as report_html
+    from diecut_report.report.text import Catalogue
 
-    parts = []
+    parts, words = [], Catalogue(spoken_language())
     for index, (asked, each) in enumerate((each, each.record) for each in found):
         told = say("Influence of inputs on {asked}", asked=each.name)
-        figure = tornado(each.today, each.bars, told, f"tornado-{index}", decimal_sign()).text if each.bars else ""
+        drawn_as = TornadoFigure(told, each.today, each.bars)
+        figure = render(drawn_as, {}, words, f"tornado-{index}").text if each.bars else ""
         template = "In {unit}; blue: input increased; brown: input decreased; ×: cannot exist; line: present value."
         caption = say(template, unit=pretty(each.unit) or phrase("a fraction"))
         parts += [

@@ -51,8 +51,7 @@ from diecut_report.text.translation import said, speaking
 
 
 Data = Mapping[str, Any]
-PLAIN, ISO, DSTU = "plain", "iso7200", "dstu2104"
-DRAFT, RELEASED = "draft", "released"
+ISO, DSTU, RELEASED = "iso7200", "dstu2104", "released"
 FIELDS = (
     "title", "document_number", "revision", "date", "organisation", "department", "document_type", "prepared_by",
     "checked_by", "norm_checked_by", "approved_by",
@@ -134,7 +133,6 @@ class ReportDocument:
 
     @property
     def press(self) -> PressRecord:
-        """The press."""
         return self.results.press
 
     @property
@@ -144,12 +142,10 @@ class ReportDocument:
 
     @property
     def config(self) -> ConfigRecord:
-        """The configuration."""
         return self.results.config
 
     @property
     def status(self) -> str:
-        """The verdict."""
         return self.results.status
 
     @cached_property
@@ -183,9 +179,8 @@ class ReportDocument:
     def governing(self) -> CheckRow | None:
         """The check that governs the whole."""
         named = self.results.governing
-        return next(
-            (row for row in self.checks if named and (row.mechanism, row.id) == (named.mechanism, named.check)), None
-        )
+        found = (row for row in self.checks if named and (row.mechanism, row.id) == (named.mechanism, named.check))
+        return next(found, None)
 
     @property
     def sources(self) -> list[tuple[str, str]]:
@@ -232,7 +227,6 @@ class ReportDocument:
 
     @property
     def title(self) -> str:
-        """The project's title."""
         return str(self.project["title"])
 
 

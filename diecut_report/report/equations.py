@@ -279,9 +279,8 @@ class Typesetter:
         """The formula as MathML."""
         key = latex, display
         if key not in self._mathml:
-            if (
-                len(latex) > SHALLOW
-            ):  # this refuses what is nested so deep that the other library would overrun its stack
+            if len(latex) > SHALLOW:
+                # this refuses what is nested so deep that the other library would overrun its stack
                 self.outline(latex, display=display)
             self._mathml[key] = self._core.convert_with_local_state(latex, displaystyle=display)
         return self._mathml[key]

@@ -67,7 +67,6 @@ class Linear:
 
     # what forms say in their own way
     def number(self, text: str) -> str:
-        """A number's text."""
         return quantity(text, "1", self.decimal)
 
     def quantity(self, text: str, unit: str) -> str:
@@ -83,7 +82,6 @@ class Linear:
         return f"{left}{text}{right}"
 
     def name(self, function: str) -> str:
-        """A function's name."""
         return NAMES.get(function, function)
 
     def called(self, function: str, argument: str) -> str:
@@ -95,11 +93,9 @@ class Linear:
         return f"{before}{text}{behind}"
 
     def root(self, inner: Piece) -> Piece:
-        """A square root."""
         return Piece(f"√{inner.text if inner.level == ATOM else self.bracket(inner.text)}", POWER)
 
     def fraction(self, over: Piece, under: Piece) -> Piece:
-        """A fraction."""
         upper = over.text if over.level >= PRODUCT or (over.negative and over.level > SUM) else self.bracket(over.text)
         lower = under.text if under.level >= CALL else self.bracket(under.text)
         return Piece(f"{upper}/{lower}", PRODUCT, over.negative and over.level >= PRODUCT, over.digit, fraction=True)

@@ -12,15 +12,15 @@ from markupsafe import Markup
 
 from diecut_report.quantities.units import pretty
 from diecut_report.report.chapters.printed_tables import PartsTable, PrintedTable
-from diecut_report.report.chapters.value_tables import RecordTable, ValueRow
+from diecut_report.report.chapters.value_tables import RecordTable, ValueRow, place_of
 from diecut_report.report.equations import Equation
 from diecut_report.report.symbols import SymbolRow, symbol
-from diecut_report.report.text import is_words, joined, number, quantity, value_in_words
+from diecut_report.report.text import is_words, joined, number, value_in_words
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism_record import AbsentRecord, ItemRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import MovedBarRecord
 
-ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
+STATUSES = ("fail", "warn", "pass", "not_checked")  # of checks, in their order
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,6 @@ class CheckRow:
     id: str
     mechanism: str
     chapter: str
-    chapter_title: str
     anchor: str
     title: str
     status: str
@@ -111,7 +110,7 @@ class CheckRow:
     def order(self) -> tuple[int, bool, float]:
         """By what the checks of a report are sorted: what fails first, then the most utilised, what shows no reserve last."""
         known = self.ratio if self.ratio is not None else -math.inf if self.status == "pass" else math.inf
-        return ORDER[self.status], self.is_sized or self.is_presumed, -known
+        return STATUSES.index(self.status), self.is_sized or self.is_presumed, -known
 
 
 @dataclass(frozen=True)
@@ -248,17 +247,13 @@ class JudgedPart:
         return self._worst("function")
 
     def _worst(self, *classes: str) -> CheckRow | None:
-        every = (row for each in self.chapters for row in each.checks)
-        return min(
-            (row for row in every if row.is_made and row.check_class in classes),
-            key=lambda row: row.order,
-            default=None,
-        )
+        every = (row for each in self.chapters for row in each.checks if row.is_made and row.check_class in classes)
+        return min(every, key=lambda row: row.order, default=None)
 
     @property
     def counts(self) -> list[int]:
         """How many checks fail, warn, pass, and are not made."""
-        return [sum(each.count(status) for each in self.chapters) for status in ("fail", "warn", "pass", "not_checked")]
+        return [sum(each.count(status) for each in self.chapters) for status in STATUSES]
 
     @property
     def face(self) -> str:
@@ -277,33 +272,28 @@ def judged_parts(chapters: Iterable[PrintedChapter]) -> list[JudgedPart]:
 
 def quantity_row(row: QuantityRecord, decimal: str, description: str = "", names: Collection[str] = ()) -> QuantityRow:
     """A quantity of the results as a row of a table; another description may stand for its own."""
-    shown, at = row.display, row.at
-    place = Markup("")
-    if at:
-        place = symbol(at.symbol) + f" = {quantity(at.text, at.unit, decimal)}"
-    text = number(value_in_words(row, names), decimal)
+    shown = row.display
     return QuantityRow(
         description=description or row.description,
         symbol=symbol(row.symbol),
-        value=text,
+        value=number(value_in_words(row, names), decimal),
         unit=pretty(shown.unit),
         source=row.source,
-        at=place,
+        at=place_of(row.at, decimal),
         key=row.path,
         wordy=is_words(shown.text) and not pretty(shown.unit),
         changed=row.before,
     )
 
 
-def rests(row: QuantityRecord, words: Mapping[str, str]) -> list[str]:
-    """What an input rests on and what is noted of it, in words; nothing where it is only given."""
-    basis = row.basis or "given"
-    return [part for part in (words[basis] if basis != "given" else "", row.note) if part]
+def basis_of(row: QuantityRecord, words: Mapping[str, str]) -> str:
+    """What an input rests on, in words; nothing where it is only given."""
+    return words[row.basis] if row.basis and row.basis != "given" else ""
 
 
 def rested(shown: QuantityRow, row: QuantityRecord, words: Mapping[str, str]) -> QuantityRow:
     """The row of an input with what it rests on beside where it comes from, and with its note."""
-    basis = words[row.basis] if (row.basis or "given") != "given" else ""
+    basis = basis_of(row, words)
     origin = "" if basis and row.origin == "given" else shown.origin
     return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.note)
 

@@ -88,10 +88,7 @@ def rounded(values: Any, digits: int = Y_DIGITS) -> list[float | None]:
 Points = NDArray[Any]
 KEPT = ("shape", "role", "closed", "anchor")  # of a shape, where it has them
 AIR = 0.03  # around all that is ever drawn, of its greater side
-LETTER, WIDE = (
-    0.024,
-    0.56,
-)  # the size of labels, of that side, and how wide a letter of them is in the mean, of that size
+LETTER, WIDE = 0.024, 0.56  # the size of labels, of that side; how wide a letter is in the mean, of that size
 
 
 def moving_data(
@@ -190,20 +187,18 @@ SAFE = str.maketrans({mark: f"\\u{ord(mark):04x}" for mark in "<>&\u2028\u2029"}
 
 def reader_data(material: Material) -> str:
     """Return all that the page's scripts use as JSON, in which no character opens or closes anything of HTML."""
-    pool, figures, moving = ReaderRows(), {}, []
-    calculated = dict(parts(material.said))
-    drawn = [
-        (part.name, *each)
-        for part in material.document.chapters
-        for each in part.figures
-        if each[0] in material.figures
-    ]
-    for name, number, figure in drawn:
-        if figure.type in READ and (made := _figure(name, figure, calculated[name].curves, material.words, pool)):
+    pool, figures = ReaderRows(), {}
+    calculated, chapters = dict(parts(material.said)), material.document.chapters
+    every = [(calculated[part.name].curves, part.name, *each) for part in chapters for each in part.figures]
+    drawn = [each for each in every if each[2] in material.figures]
+    for curves, name, number, figure in drawn:
+        if figure.type in READ and (made := _figure(name, figure, curves, material.words, pool)):
             figures[number] = made
-    for name, number, figure in drawn:
-        if figure.moving:
-            moving.append(moving_data(name, number, figure.title, figure.moving, calculated[name].curves, pool))
+    moving = [
+        moving_data(name, number, figure.title, figure.moving, curves, pool)
+        for curves, name, number, figure in drawn
+        if figure.moving
+    ]
     data = {
         "decimal": material.words["decimal"],
         "rows": pool.rows,

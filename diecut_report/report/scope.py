@@ -158,10 +158,7 @@ def no_compiler() -> Iterator[None]:
 # Files that are written beside a report, by what the results say of them.
 
 
-ENDINGS = ("dxf", "csv")
-
-
 def suffixes(instance: str, export: ExportRecord) -> dict[str, str]:
     """What follows the report's name in the names of an export's files, by their endings: ``feeder.cam_1.dxf``; a table has no drawing."""
-    endings = ENDINGS[1:] if export.type == "table" else ENDINGS
+    endings = ("csv",) if export.type == "table" else ("dxf", "csv")
     return {ending: f"{instance}.{export.id}.{ending}" for ending in endings}

@@ -153,9 +153,8 @@ def symbol_rows(mechanism: MechanismRecord) -> list[SymbolRow]:
     used = set(used_symbols(mechanism.sections))
     printed = {item.id for section in mechanism.sections for item in section.items if item.id}
     known: dict[str, QuantityRecord | CurveRecord] = {}
-    for _, row in sorted(
-        _quantities(mechanism), key=lambda each: each[0] not in printed
-    ):  # what a step prints, before a chart's curves
+    # what a step prints, before a chart's curves
+    for _, row in sorted(_quantities(mechanism), key=lambda each: each[0] not in printed):
         if row.symbol in used and any(map(str.isalpha, row.symbol)):
             known.setdefault(row.symbol, row)
     return [_row(known[name]) for name in sorted(known, key=_order)]
@@ -290,10 +289,15 @@ def _parts(word: str, width: float, face: str) -> list[str]:
     return parts
 
 
+def font_file(face: str) -> Path:
+    """Return the file of one of the report's own fonts."""
+    return Path(import_module("diecut_report.templates").__path__[0]) / "fonts" / f"{face}.ttf"
+
+
 @cache
 def font(face: str) -> TTFont:
     """Return one of the report's own fonts."""
-    return TTFont(Path(import_module("diecut_report.templates").__path__[0]) / "fonts" / f"{face}.ttf")
+    return TTFont(font_file(face))
 
 
 def _named(letter: str, face: str) -> str:

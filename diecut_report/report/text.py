@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from diecut_report.quantities.formatting import ABOVE, shown
@@ -38,7 +38,7 @@ ENGLISH: dict[str, str] = {
     "doubtful_plugin": "The formulas of the plugin of {kind} have faults: do not rely on its results.",
     "count_pass": "{n} pass", "count_rated": "{rated} of {carrying} parts with a method of calculation are rated",
     "governing": "Governing", "no_checks": "There are no checks.",
-    "reserve": "margin {margin}", "beyond": "{margin} beyond the limit", "self_test": "self-test", "missing": "Not given",
+    "reserve": "margin {margin}", "beyond": "{margin} beyond the limit", "missing": "Not given",
     "self_tests": "{n} self-tests of the calculation hold.",
     "sized": "Sized to its limit by the program; the only margin left is in the input factors", "sized_short": "sized to its limit",
     "class_safety": "safety",
@@ -107,7 +107,7 @@ ENGLISH: dict[str, str] = {
     "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
     "since": "Branch taken", "method": "Method", "residual": "relation satisfied to {residual}", "checked_to": "verified to {residual}",
     "residual_rounded": "relation satisfied to machine precision", "checked_to_rounded": "verified to machine precision",
-    "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
+    "series": "Series", "looked_up": "From “{table}” for {choice}",
     "figure": "Figure", "fig": "Fig.", "table": "Table", "formula": "Formula",
     "as_formula": "as ({number})", "as_formula_with": "as ({number}) with {letters}", "letter_for": "{new} for {old}",
     "as_chapter": "Formulas, assumptions and symbols are as in chapter {letter}; numbers in brackets refer to its formulas.",
@@ -119,7 +119,7 @@ ENGLISH: dict[str, str] = {
     "dxf": "{title} in mm: polylines through {n} points each on the layers PROFILE and PITCH_CURVE, the axis on CENTER",
     "dxf_profile": "{title} in mm: a polyline through {n} points on the layer PROFILE, the axis on CENTER",
     "csv": "{title} as a table of {n} rows: {columns}",
-    "zero_everywhere": "{names}: 0 everywhere.", "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
+    "zero_everywhere": "{names}: 0 everywhere.", "positive": "positive", "negative": "negative",
     # changes
     "changes_since": "Changes since {name}", "changes_since_revision": "Changes since revision {name}",
     "changes_of": "Changes from {old} to {new}", "before": "Before", "after": "Now",
@@ -329,16 +329,16 @@ def translated(results: ResultsRecord, catalogues: Catalogues) -> ResultsRecord:
     for data in results.calculated.values():
         catalogues.of(data.kind)
     words, project = _translator(catalogues), results.project
-    rest, changes = _MechanismTexts(words, ""), results.changes
+    rest, changes = _texts_of(words), results.changes
     lines = [line.with_(date=_date(line.date)) for line in project.revisions]
-    left = [each.with_texts(rest.text) for each in results.summary.open]
+    left = [each.with_texts(rest) for each in results.summary.open]
     return results.with_(
         summary=results.summary.with_(open=left),
         project=project.with_(date=_date(project.date), revisions=lines),
-        press=results.press.with_texts(rest.text),
+        press=results.press.with_texts(rest),
         mechanisms={name: _mechanism(words, data, results) for name, data in results.mechanisms.items()},
         comparisons={name: _mechanism(words, data, results) for name, data in results.comparisons.items()},
-        comparisons_left_out=results.comparisons_left_out and results.comparisons_left_out.with_texts(rest.text),
+        comparisons_left_out=results.comparisons_left_out and results.comparisons_left_out.with_texts(rest),
         changes=changes and translated_changes(changes, catalogues),
     )
 
@@ -347,7 +347,7 @@ def translated_changes(changes: ChangesRecord, catalogues: Catalogues) -> Change
     """Return the changes as they are printed in the language of the catalogues, which know the kinds of both sides."""
     if catalogues.language == SOURCE_LANGUAGE:
         return changes
-    found = changes.with_texts(_MechanismTexts(_translator(catalogues), "").text)
+    found = changes.with_texts(_texts_of(_translator(catalogues)))
     old, new = (side.with_(date=_date(side.date)) for side in (found.old, found.new))
     return found.with_(old=old, new=new)
 
@@ -356,8 +356,8 @@ def figure_translated(
     figure: FigureRecord, curves: Mapping[str, CurveRecord], kind: str, catalogues: Catalogues
 ) -> tuple[FigureRecord, dict[str, CurveRecord]]:
     """Return a figure of a mechanism of this kind with the curves that it shows, in the language of the catalogues."""
-    texts = _MechanismTexts(_translator(catalogues), kind)
-    return figure.with_texts(texts.text), {name: curve.with_texts(texts.text) for name, curve in curves.items()}
+    texts = _texts_of(_translator(catalogues), kind)
+    return figure.with_texts(texts), {name: curve.with_texts(texts) for name, curve in curves.items()}
 
 
 def _translator(catalogues: Catalogues) -> Translator:
@@ -373,29 +373,28 @@ def _date(given: str | None) -> str | None:
 def _mechanism(words: Translator, data: MechanismRecord, results: ResultsRecord) -> MechanismRecord:
     kinds = [results.mechanisms[name].kind for name in data.between]
     home = kinds[-1] if kinds and all(map(built_in, kinds)) else data.kind
-    texts = _MechanismTexts(words, data.kind, given_names(data, results.mechanisms), home)
-    return data.with_texts(texts.text)
+    return data.with_texts(_texts_of(words, data.kind, given_names(data, results.mechanisms), home))
 
 
-class _MechanismTexts:
-    """Translates the texts of one mechanism, but the names that its configuration gives; ``home`` is the kind of its sources."""
+def _texts_of(
+    words: Translator, kind: str = "", names: frozenset[str] = frozenset(), home: str = ""
+) -> Callable[[TextRole, str], str]:
+    """Return what translates the texts of one mechanism, but the names that its configuration gives; ``home`` is the kind of its sources."""
 
-    def __init__(self, words: Translator, kind: str, names: frozenset[str] = frozenset(), home: str = "") -> None:
-        self.words, self.kind, self.names, self.home = words, kind, names, home or kind
-
-    def text(self, role: TextRole, text: str) -> str:
-        """Return a text in the language, by what it is."""
+    def translate(role: TextRole, text: str) -> str:
         if role is TextRole.SOURCE:
-            return self.words.source(text, self.home)
+            return words.source(text, home or kind)
         if role is TextRole.PAPER:
-            return self.words.paper(text, self.home)
+            return words.paper(text, home or kind)
         if role is TextRole.TEXT:
-            return self.words.said(text, self.kind)
-        if text in self.names:
+            return words.said(text, kind)
+        if text in names:
             return text
         if role is TextRole.DRAWN:  # what is not translated has at least its numbers in the language's form
-            return self.words.numbers(self.words.said(text, self.kind))
-        return self.words.known(worded(text), self.kind) or self.words.said(text, self.kind)
+            return words.numbers(words.said(text, kind))
+        return words.known(worded(text), kind) or words.said(text, kind)
+
+    return translate
 
 
 # Papers that plugins call by a number of their own, by their place in the report's list of sources: 002 eq. 6 as [2] eq. 6.

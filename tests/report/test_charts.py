@@ -14,7 +14,7 @@ from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.charts import _of_curves, _of_lines, diagrams
 from diecut_report.report.figures.charts import chart as sheet_of
 from diecut_report.report.figures.diagram import STROKES, Diagram, legend
-from diecut_report.report.figures.labels import LabelLayout, PanelData, pieces
+from diecut_report.report.figures.labels import SIZE, LabelLayout, PanelData, pieces
 from diecut_report.report.figures.style import SizesSize, overlap, text_size
 from diecut_report.report.text import Catalogue
 from diecut_report.results.figure_record import FigureRecord, LevelRecord, PlotPanelRecord
@@ -70,7 +70,7 @@ def test_texts_keep_clear_of_each_other_and_inside(build: Any) -> None:
         names = LabelLayout(each, 430, 150)
         boxes = []
         for text in names.texts:
-            wide, high = (side / 2 for side in text_size(text.text, text.size))
+            wide, high = (side / 2 for side in text_size(text.text, SIZE))
             assert text.x - wide >= 0 and text.x + wide <= 430 and text.y - high >= 0 and text.y + high <= 150, text
             boxes.append((text.x - wide, text.y - high, text.x + wide, text.y + high))
         assert sum(overlap(one, other) for one, other in combinations(boxes, 2)) == 0
@@ -84,7 +84,7 @@ def test_notes_keep_clear_of_lines(build: Any) -> None:
         for text in names.texts:
             if text.solid or text.text == "absorbed energy 75 J":  # on its line, or in its area
                 continue
-            wide, high = (side / 2 for side in text_size(text.text, text.size))
+            wide, high = (side / 2 for side in text_size(text.text, SIZE))
             assert not ((np.abs(points[:, 0] - text.x) < wide) & (np.abs(points[:, 1] - text.y) < high)).any(), text
 
 

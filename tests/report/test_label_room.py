@@ -18,7 +18,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.press import Press
 from diecut_report.report.chapters.steps import placed, rows_of
 from diecut_report.report.figures.by_type import DRAW
-from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line, Note, PanelData, SpanData
+from diecut_report.report.figures.labels import AWAY, SIZE, Across, LabelLayout, Line, Note, PanelData, SpanData
 from diecut_report.report.figures.style import SizesSize, styled, text_size, wrapped
 from diecut_report.report.text import Catalogue, translated
 from diecut_report.results.figure_record import FigureRecord
@@ -90,8 +90,8 @@ Drawn = tuple[FigureRecord, Mapping[str, CurveRecord], SizesSize]
 def _drawn(results: ResultsRecord, *, paired: bool) -> Iterator[Drawn]:
     for part in (part for part in results.calculated.values() if part.figures):
         for row in rows_of(placed("A", part), paired=paired):
-            size = SizesSize.HALF if len(row.figures) > 1 else SizesSize.LOW if paired else SizesSize.LARGE
-            yield from ((e.figure, part.curves, size) for e in row.figures if not e.figure.error)
+            size = SizesSize.HALF if len(row) > 1 else SizesSize.LOW if paired else SizesSize.LARGE
+            yield from ((e.figure, part.curves, size) for e in row if not e.figure.error)
 
 
 def _every(results: ResultsRecord, *, paired: bool, language: str = "en") -> list[str]:
@@ -131,8 +131,8 @@ def test_a_diagram_of_many_lines_is_as_wide_as_the_sheet() -> None:
         filled(MechanismRecord, {"figures": [chart("x", "x", [panel("y", "N", over, lines=lines)])] * 2})
         for lines in (few, many)
     )
-    assert [len(row.figures) for row in rows_of(placed("A", narrow), paired=True)] == [2]
-    assert [len(row.figures) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
+    assert [len(row) for row in rows_of(placed("A", narrow), paired=True)] == [2]
+    assert [len(row) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
 
 
 def _layout(
@@ -189,7 +189,7 @@ def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
                      verticals=[Note(0.54, 0.0, "return too short"), Note(0.6, 0.0, "no return")])  # fmt: skip
     curve = np.concatenate(layout.lines)
     for text in layout.texts:
-        wide, high = text_size(text.text, text.size)
+        wide, high = text_size(text.text, SIZE)
         assert not ((np.abs(curve[:, 0] - text.x) < wide / 2) & (np.abs(curve[:, 1] - text.y) < high / 2)).any()
     assert len(layout.texts) + len(layout.told) == 3
 
@@ -217,8 +217,8 @@ def test_a_diagram_with_many_names_is_as_wide_as_the_sheet() -> None:
     few = panel("y", "N", ("Angle", "φ", "deg"), verticals=[{"x": 0.5, "label": "contact"}] * 3)
     many = few | {"marks": [{"x": 0.5, "y": 0.5, "label": "greatest"}]}
     narrow, wide = (filled(MechanismRecord, {"figures": [chart("x", "x", [each])] * 2}) for each in (few, many))
-    assert [len(row.figures) for row in rows_of(placed("A", narrow), paired=True)] == [2]
-    assert [len(row.figures) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
+    assert [len(row) for row in rows_of(placed("A", narrow), paired=True)] == [2]
+    assert [len(row) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
 
 
 @pytest.mark.usefixtures("style")
@@ -253,7 +253,7 @@ def test_a_name_does_not_cover_other_marks() -> None:
     layout = _layout([Line(148 * np.cos(turn), 86 * np.sin(turn), "")], reach=148.0, marks=marks)
     points = np.array([layout.frame.points(note.x, note.y) for note in marks])
     for text in layout.texts:
-        wide, high = text_size(text.text, text.size)
+        wide, high = text_size(text.text, SIZE)
         assert not ((np.abs(points[:, 0] - text.x) < wide / 2) & (np.abs(points[:, 1] - text.y) < high / 2)).any()
 
 

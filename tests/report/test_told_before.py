@@ -197,14 +197,14 @@ def placed(at: int, **more: Any) -> Placed:
 def test_two_figures_near_each_other_stand_side_by_side_at_the_second() -> None:
     one, two, far = placed(0), placed(1), placed(9)
     rows = rows_of([one, two, far], paired=True)
-    assert [(row.place.section, len(row.figures)) for row in rows] == [(1, 2), (9, 1)]
-    assert [len(row.figures) for row in rows_of([one, two], paired=False)] == [1, 1]
+    assert [(row[-1].place.section, len(row)) for row in rows] == [(1, 2), (9, 1)]
+    assert [len(row) for row in rows_of([one, two], paired=False)] == [1, 1]
 
 
 def test_bars_schemes_and_long_legends_have_the_whole_width() -> None:
     wide = (placed(1, type="bars"), placed(1, schematic=True), placed(1, panels=[{"lines": [{"label": "x" * 200}]}]))
     for each in wide:
-        assert [len(row.figures) for row in rows_of([placed(0), each], paired=True)] == [1, 1]
+        assert [len(row) for row in rows_of([placed(0), each], paired=True)] == [1, 1]
 
 
 def test_what_only_names_its_formula_is_named_alike_in_the_next_chapter() -> None:

@@ -136,7 +136,7 @@ class _Filler:
         self._head("inputs")
         ChapterInputs(part, self.words, self.tables, self.told).fill(mechanism.inputs)
         part.figures = [(each.number, each.figure) for each in self.placed]
-        part.pairs = tuple(tuple(each.number for each in row.figures) for row in self.rows if len(row.figures) > 1)
+        part.pairs = tuple(tuple(each.number for each in row) for row in self.rows if len(row) > 1)
         part.sections = [
             self.steps.section(index, section, self._head("", section.title))
             for index, section in enumerate(mechanism.sections)
@@ -240,13 +240,13 @@ class _Filler:
                 words = self.words.say("not_written", title=export.title, error=export.error)
                 yield File(f"{self.stem}.{self.part.name}.{export.id}", words)
                 continue
-            told = {
-                "n": len(mechanism.curves[export.abscissa].values),
-                "columns": ", ".join([export.abscissa, *export.columns]),
-            }
+            count, columns = (
+                len(mechanism.curves[export.abscissa].values),
+                ", ".join([export.abscissa, *export.columns]),
+            )
             for ending, suffix in suffixes(self.part.name, export).items():
                 key = "dxf_profile" if ending == "dxf" and len(export.columns) <= 2 else ending
-                yield File(f"{self.stem}.{suffix}", self.words.say(key, title=export.title, **told))
+                yield File(f"{self.stem}.{suffix}", self.words.say(key, title=export.title, n=count, columns=columns))
 
     def _check(self, check: CheckRecord) -> CheckRow:
         governing = f"{check.title}, {check.part_name}" if check.part_name else self._nth(check.title, check.part)
@@ -255,7 +255,6 @@ class _Filler:
             id=check.id,
             mechanism=self.part.name,
             chapter=self.part.letter,
-            chapter_title=self.part.title,
             anchor=f"c-{self.part.letter}-{check.id}",
             title=governing,
             status=check.status,

@@ -9,17 +9,17 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from hashlib import sha256
-from itertools import groupby
 from typing import NamedTuple, TypeVar
 
 from markupsafe import Markup
 
 from diecut_report.quantities.formatting import number_text
+from diecut_report.report.chapters.printed_tables import DASH
 from diecut_report.report.model import CheckRow, TornadoFigure, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, joined, number, quantity
 from diecut_report.results.conclusion import VALUES
-from diecut_report.results.mechanism_record import ItemRecord, MechanismRecord, QuantityRecord
+from diecut_report.results.mechanism_record import CheckRecord, ItemRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
     ChanceRecord,
     ChangedCheckRecord,
@@ -145,7 +145,6 @@ def _told(value: float | None, unit: str, words: Catalogue) -> str:
 # The changes between two results documents with printed numbers, ready for a page, a report or a terminal.
 
 
-DASH = "–"
 MOST_PER_CENT = 1000
 SHORT = 12  # of a hash
 
@@ -256,47 +255,38 @@ def _used(side: CheckSideRecord | None, decimal: str) -> str:
 
 def marked(results: ResultsRecord) -> ResultsRecord:
     """Return results whose rows know what stood there before, where the results report what changed; else as they are."""
-    if not results.changes:
+    changes = results.changes
+    if not changes:
         return results
-    marks = Marks(results.changes)
-    press = results.press.with_(fields=[marks.row(row.path, row) for row in results.press.fields])
-    mechanisms = {name: marks.mechanism(name, data) for name, data in results.mechanisms.items()}
-    return results.with_(press=press, mechanisms=mechanisms)
+    before = {row.path: _value(row.old) for row in (*changes.inputs, *changes.outputs)}
+    statuses = {f"{row.mechanism}.{row.id}": _status_before(row.old) for row in changes.checks}
 
-
-Row = TypeVar("Row", QuantityRecord, ItemRecord)
-
-
-class Marks:
-    """What stood before at each place that changed, in words for a mark in the margin."""
-
-    def __init__(self, changes: ChangesRecord) -> None:
-        self.quantities = {row.path: _value(row.old) for row in (*changes.inputs, *changes.outputs)}
-        self.checks = {(row.mechanism, row.id): _status_before(row.old) for row in changes.checks}
-
-    def row(self, path: str, row: Row) -> Row:
-        """Return a row of the results, with what stood there before."""
-        return row.marked(self.quantities[path]) if path in self.quantities else row
-
-    def mechanism(self, name: str, data: MechanismRecord) -> MechanismRecord:
-        """Return the results of a mechanism, with what stood there before."""
+    def mechanism(name: str, data: MechanismRecord) -> MechanismRecord:
         return data.with_(
-            inputs={key: self.row(f"{name}.{key}", row) for key, row in data.inputs.items()},
-            outputs={key: self.row(f"{name}.{key}", row) for key, row in data.outputs.items()},
-            checks=[
-                check.marked(self.checks[name, check.id]) if (name, check.id) in self.checks else check for check in data.checks
-            ],
+            inputs={key: _marked(row, f"{name}.{key}", before) for key, row in data.inputs.items()},
+            outputs={key: _marked(row, f"{name}.{key}", before) for key, row in data.outputs.items()},
+            checks=[_marked(check, f"{name}.{check.id}", statuses) for check in data.checks],
             sections=[
-                section.with_(items=[self.row(f"{name}.{item.id}", item) for item in section.items])
+                section.with_(items=[_marked(item, f"{name}.{item.id}", before) for item in section.items])
                 for section in data.sections
             ],
-        )  # fmt: skip
+        )
+
+    press = results.press.with_(fields=[_marked(row, row.path, before) for row in results.press.fields])
+    return results.with_(
+        press=press, mechanisms={name: mechanism(name, data) for name, data in results.mechanisms.items()}
+    )
+
+
+Row = TypeVar("Row", QuantityRecord, ItemRecord, CheckRecord)
+
+
+def _marked(row: Row, path: str, before: Mapping[str, str]) -> Row:
+    return row.marked(before[path]) if path in before else row
 
 
 def _status_before(side: CheckSideRecord | None) -> str:
-    if side is None:
-        return DASH
-    return f"{side.status.replace('_', ' ')} {_used(side, '.')}".rstrip()
+    return DASH if side is None else f"{side.status.replace('_', ' ')} {_used(side, '.')}".rstrip()
 
 
 # The line of page 1 on what comes of the advice of all failing checks together.
@@ -339,9 +329,8 @@ def machine_facts(results: ResultsRecord, words: Catalogue) -> list[tuple[str, s
     rate = fields.get("press.productivity")
     found = [(rate.description, _shown(rate, words))] if rate else []
     found += [(words["sheet_format"], " × ".join(sheet))] if sheet else []
-    found += (
-        [(words["board"], _shown(fields["press.sheet.thickness"], words))] if "press.sheet.thickness" in fields else []
-    )
+    board = fields.get("press.sheet.thickness")
+    found += [(words["board"], _shown(board, words))] if board else []
     rows = (_first(results, names) for names in (RATES, *FACTS))
     found += [(f"{row.description} ({name})", _shown(row, words)) for name, row in filter(None, rows)]
     return [(label, text) for label, text in found if text]
@@ -383,14 +372,13 @@ def open_groups(results: ResultsRecord, words: Catalogue) -> list[OpenGroup]:
 
 
 def _reasoned(results: ResultsRecord, words: Catalogue, values: list[OpenRecord]) -> Iterator[tuple[str, str, str]]:
-    first = list(dict.fromkeys((each.what, each.why) for each in values))
-    for (what, why), run in groupby(
-        sorted(values, key=lambda one: first.index((one.what, one.why))), lambda one: (one.what, one.why)
-    ):
-        *others, last = run
-        for each in (*others, last):
+    reasons: dict[tuple[str, str], list[OpenRecord]] = {}
+    for each in values:
+        reasons.setdefault((each.what, each.why), []).append(each)
+    for (what, why), same in reasons.items():
+        for each in same:
             _, key, row = _input(results, each.path)
-            yield key, _shown(row, words) if row else "", f"{words[what]}: {why}" if each is last else ""
+            yield key, _shown(row, words) if row else "", f"{words[what]}: {why}" if each is same[-1] else ""
 
 
 class NotCovered(NamedTuple):

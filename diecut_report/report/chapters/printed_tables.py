@@ -36,11 +36,8 @@ class PrintedTable:
         if any(decimals(text) is None and not is_power(text) and text not in (DASH, "") for text in texts):
             return "named" if index in self._first else "words"
         _, letter, unit = self.columns[index]
-        return (
-            "nth"
-            if index in self._first and texts == [str(nth) for nth in range(1, len(texts) + 1)] and not (letter or unit)
-            else ""
-        )
+        is_counted = texts == [str(nth) for nth in range(1, len(texts) + 1)] and not (letter or unit)
+        return "nth" if is_counted and index in self._first else ""
 
     @property
     def _first(self) -> tuple[int, ...]:

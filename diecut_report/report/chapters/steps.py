@@ -69,11 +69,7 @@ def _place(figure: FigureRecord, given: Mapping[str, Place], last: Place) -> Pla
     return max(place for place in places if place.section == section)
 
 
-class Row(NamedTuple):
-    """A figure, or two side by side, and the place that they follow."""
-
-    place: Place
-    figures: tuple[Placed, ...]
+Row = tuple[Placed, ...]  # a figure, or two side by side in the place of the second
 
 
 def rows_of(figures: list[Placed], *, paired: bool) -> list[Row]:
@@ -83,13 +79,13 @@ def rows_of(figures: list[Placed], *, paired: bool) -> list[Row]:
     for each in figures:
         is_narrow = paired and _is_narrow(each.figure)
         if waiting and is_narrow and each.place.section - waiting.place.section <= NEAR:
-            found.append(Row(each.place, (waiting, each)))
+            found.append((waiting, each))
             waiting = None
             continue
-        found += [Row(waiting.place, (waiting,))] if waiting else []
+        found += [(waiting,)] if waiting else []
         waiting = each if is_narrow else None
-        found += [] if waiting else [Row(each.place, (each,))]
-    return found + ([Row(waiting.place, (waiting,))] if waiting else [])
+        found += [] if waiting else [(each,)]
+    return found + ([(waiting,)] if waiting else [])
 
 
 def _is_narrow(figure: FigureRecord) -> bool:
@@ -108,7 +104,7 @@ def _labels(*parts: Sequence[Any]) -> list[str]:
 
 def row_item(row: Row) -> Item:
     """A figure, or two, among the steps."""
-    items = [Item("figure", number=n, title=each.title, caption=each.caption) for _, n, each in row.figures]
+    items = [Item("figure", number=n, title=each.title, caption=each.caption) for _, n, each in row]
     return items[0] if len(items) == 1 else Item("pair", pair=tuple(items))
 
 
@@ -162,7 +158,7 @@ class PrintedSteps:
         return PrintedSection(heading, text, _gathered(steps), shown)
 
     def _figures(self, place: Place) -> list[_PrintedStep]:
-        return [_PrintedStep(row_item(row)) for row in self.figures if row.place == place]
+        return [_PrintedStep(row_item(row)) for row in self.figures if row[-1].place == place]
 
     def _step(self, item: ItemRecord, notes: set[str]) -> Iterator[_PrintedStep]:
         if item.type == "note":

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import zip_longest
 from typing import Any, Literal, NamedTuple, TypeVar
 
@@ -16,7 +17,7 @@ from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.chapters.printed_tables import PartsTable, PrintedColumn, PrintedTable, TableCell
 from diecut_report.report.chapters.repetition import Parts
 from diecut_report.report.chapters.value_tables import MOST_PARTS, RecordTable, record_rows
-from diecut_report.report.model import QuantityRow, rests, utilisation
+from diecut_report.report.model import QuantityRow, basis_of, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, displayed, is_words, number, value_in_words
 from diecut_report.results.mechanism_record import (
@@ -133,8 +134,8 @@ def taken_groups(rows: Iterable[tuple[str, QuantityRow]]) -> list[TakenGroup]:
     groups = []
     for home, own in found.items():
         bases = {row.origin for row in own}
-        alike = [replace(row, origin="") for row in own] if len(bases) == 1 else own
-        groups.append(TakenGroup(home, own[0].origin if len(bases) == 1 else "", alike))
+        basis = bases.pop() if len(bases) == 1 else ""
+        groups.append(TakenGroup(home, basis, [replace(row, origin="") for row in own] if basis else own))
     return groups
 
 
@@ -270,10 +271,8 @@ class Tables:
         every = [(phase, interval) for phase in members for interval in phase.display.intervals]
         is_timed = unit(display).kind != unit("ms").kind and any(interval.time for _, interval in every)
         heads = {"phase": "", "role": "", "from": pretty(display), "to": pretty(display), "length": pretty(display)}
-        columns = [
-            (self.words[key], Markup(""), shown)
-            for key, shown in (heads | ({"time": "ms"} if is_timed else {})).items()
-        ]
+        heads |= {"time": "ms"} if is_timed else {}
+        columns = [(self.words[key], Markup(""), shown) for key, shown in heads.items()]
         rows = []
         for phase, each in every:
             ends = [each.begin, each.to, each.length, *([each.time] if is_timed else [])]
@@ -290,18 +289,15 @@ class Tables:
         """Inputs of repeated parts: of a few the parts side by side, of many a line for each."""
         if len(parts.numbers) > MOST_PARTS or not parts.listed:
             return [*self.of_parts(parts, given=True)]
-        heads, rows = record_rows(parts, self._cell, self._origin)
+        heads, rows = record_rows(parts, partial(self._cell, given=True))
         title = self.lists.get(parts.family, "")
         return [RecordTable(self._number(), title, parts.family, heads, rows)] if rows else []
 
     def of_parts(self, parts: Parts, *, given: bool) -> list[PartsTable]:
         """Quantities of repeated parts: inputs (``given``) tell their keys and where they come from, results their sources."""
-        told = self._origin if given else lambda _: ""
-        return [self._parts(parts, columns, told, given) for columns in shared_out(list(parts.heads))]
+        return [self._parts(parts, columns, given) for columns in shared_out(list(parts.heads))]
 
-    def _parts(
-        self, parts: Parts, heads: list[tuple[str, QuantityRecord]], told: Callable[[QuantityRecord], str], given: bool
-    ) -> PartsTable:
+    def _parts(self, parts: Parts, heads: list[tuple[str, QuantityRecord]], given: bool) -> PartsTable:
         columns = [
             PrintedColumn(row.description, symbol(row.symbol), pretty(row.display.unit),
                    key=quantity if given else "", source=row.source)
@@ -310,7 +306,7 @@ class Tables:
         lines = []
         for part in parts.numbers:
             rows = [parts.columns[quantity].get(part) for quantity, _ in heads]
-            lines.append((str(part), [self._cell(row[1], told) if row else TableCell("–") for row in rows]))
+            lines.append((str(part), [self._cell(row[1], given) if row else TableCell("–") for row in rows]))
         family = parts.family if parts.listed else f"{parts.family}_{parts.numbers[0]} … {parts.numbers[-1]}"
         title = self.lists.get(parts.family, columns[0].title if len(columns) == 1 else "")
         return PartsTable(self._number(), title, family, columns, lines)
@@ -340,13 +336,13 @@ class Tables:
         share = utilisation(part.utilisation, part.status, self.decimal)
         return [*sides, TableCell(share), TableCell(self.words[part.status], wordy=True)]
 
-    def _cell(self, row: QuantityRecord, told: Callable[[QuantityRecord], str]) -> TableCell:
-        text = row.display.text
-        return TableCell(number(value_in_words(row), self.decimal), told(row), is_words(text), row.before)
+    def _cell(self, row: QuantityRecord, given: bool) -> TableCell:
+        text, note = number(value_in_words(row), self.decimal), self._origin(row) if given else ""
+        return TableCell(text, note, is_words(row.display.text), row.before)
 
     def _origin(self, row: QuantityRecord) -> str:
         """What is to be said of an input: where it comes from, and what it rests on."""
-        return "; ".join(filter(None, (self._from(row), *rests(row, self.words))))
+        return "; ".join(filter(None, (self._from(row), basis_of(row, self.words), row.note)))
 
     def _from(self, row: QuantityRecord) -> str:
         """Where it comes from: that it is a default, what it refers to, how it was typed in another unit."""

@@ -12,7 +12,7 @@ from diecut_report.report.chapters.printed_tables import DASH, TableCell
 from diecut_report.report.chapters.repetition import Parts, Reference
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, in_words, number, quantity
-from diecut_report.results.mechanism_record import ItemRecord, QuantityRecord
+from diecut_report.results.mechanism_record import ItemRecord, PlaceRecord, QuantityRecord
 from diecut_report.text.phrases import NAMING
 
 
@@ -39,19 +39,22 @@ class ValueRow:
         return Markup(words.say(key, number=number, letters=letters))  # words of the catalogue, and symbols
 
 
+def place_of(at: PlaceRecord | None, decimal: str) -> Markup:
+    """Return the place at which a value is taken, as it is printed beside it; nothing where there is none."""
+    return symbol(at.symbol) + f" = {quantity(at.text, at.unit, decimal)}" if at else Markup("")
+
+
 def value_row(
     item: ItemRecord, step: str, refers: Reference | None, note: str, decimal: str, names: Collection[str] = ()
 ) -> ValueRow:
     """A step of the results in one line."""
-    at = item.at
-    place = symbol(at.symbol) + f" = {quantity(at.text, at.unit, decimal)}" if at else Markup("")
     result = item.outcome
     return ValueRow(
         number=step,
         description=item.description,
         symbol=symbol(item.symbol),
         value=quantity(in_words(result.text, names), result.unit, decimal),
-        at=place,
+        at=place_of(item.at, decimal),
         source="" if refers else item.source,
         refers=refers.number if refers else "",
         letters=tuple((symbol(new), symbol(old)) for new, old in refers.letters) if refers else (),
@@ -103,14 +106,8 @@ class RecordTable:
         return any(row.note for row in self.rows)
 
 
-Origin = Callable[[QuantityRecord], str]
-"""What says where a value comes from."""
-
-
-def record_rows(
-    parts: Parts, cell: Callable[[QuantityRecord, Origin], TableCell], told: Origin
-) -> tuple[list[str], list[RecordRow]]:
-    """Return the heads of the columns and the lines; ``told`` says where a value comes from."""
+def record_rows(parts: Parts, cell: Callable[[QuantityRecord], TableCell]) -> tuple[list[str], list[RecordRow]]:
+    """Return the heads of the columns and the lines, each value as a cell."""
     heads = [str(number) for number in parts.numbers]
     lines = []
     for head, first in parts.heads:
@@ -119,7 +116,7 @@ def record_rows(
         if len(names) == len(given):
             heads = list(names)
         else:
-            lines.append((head, first, [cell(each[1], told) if each else TableCell(DASH) for each in given]))
+            lines.append((head, first, [cell(each[1]) if each else TableCell(DASH) for each in given]))
     return heads, [_row(*line, heads) for line in lines]
 
 

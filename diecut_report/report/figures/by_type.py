@@ -11,7 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from diecut_report.report.chapters.drive_line import DriveLineFigure
-from diecut_report.report.figures.charts import bars, chart, polar, tornado_of
+from diecut_report.report.figures.charts import bars, chart, polar, tornado
 from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.drive_line import front_view, linked, side_view
 from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, plain, styled, text_size
@@ -20,7 +20,7 @@ from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism_record import CurveRecord
 
 DRAW: dict[str, Callable[..., Figure]] = {
-    "plot": chart, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing, "tornado": tornado_of,
+    "plot": chart, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing, "tornado": tornado,
     "front_view": front_view, "side_view": side_view,
 }  # fmt: skip
 DENSITY = 200  # points an inch

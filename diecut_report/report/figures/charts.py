@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import partial
 from itertools import zip_longest
 from typing import Any
 
@@ -11,7 +10,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
-from numpy.typing import NDArray
 
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, to_display, unit
@@ -25,9 +23,7 @@ from diecut_report.report.figures.style import (
     MM,
     WIDTHS,
     SizesSize,
-    Svg,
     canvas,
-    drawn,
     marked,
     plain,
     text_size,
@@ -44,9 +40,7 @@ from diecut_report.results.figure_record import (
     PlotPanelRecord,
 )
 from diecut_report.results.mechanism_record import CurveRecord
-from diecut_report.results.model import MovedBarRecord
 
-Array = NDArray[Any]
 LEFT, RIGHT, TOP = 46.0, 10.0, 6.0  # points
 FOOT, NAMED_FOOT = 8.0, 34.0  # below a diagram: without and with its numbers and their title
 HEIGHTS = {  # of a diagram, by the number of diagrams; more share a page
@@ -318,17 +312,9 @@ ROW, HEAD, TORNADO_FOOT = 17.0, 14.0, 24.0  # points
 LOWERED = "#b06a2c"
 
 
-def tornado(today: float, bars: Sequence[MovedBarRecord], told: str, key: str, decimal: str) -> Svg:
-    """Return the bars, with the input lowered and raised, about today's value."""
-    return drawn(partial(_tornado, today, bars, decimal), told, key)
-
-
-def tornado_of(figure: TornadoFigure, _curves: Any, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
-    """Draw a figure of a report's chapter on influence."""
-    return _tornado(figure.today, figure.bars, words["decimal"])
-
-
-def _tornado(today: float, bars: Sequence[MovedBarRecord], decimal: str) -> Figure:
+def tornado(figure: TornadoFigure, _curves: Any, words: Catalogue, _size: SizesSize = SizesSize.LARGE) -> Figure:
+    """Draw the bars, with the input lowered and raised, about today's value."""
+    today, bars = figure.today, figure.bars
     height = HEAD + TORNADO_FOOT + ROW * len(bars)
     sheet = canvas(WIDTH, height)
     names = max(text_size(bar.name)[0] for bar in bars) + 10
@@ -342,7 +328,7 @@ def _tornado(today: float, bars: Sequence[MovedBarRecord], decimal: str) -> Figu
             else:
                 axes.plot(today, place, "x", color=colour)
     axes.set_yticks(places, [bar.name for bar in bars], va="center_baseline")
-    axes.xaxis.set_major_formatter(lambda value, _: number(number_text(value), decimal))
+    axes.xaxis.set_major_formatter(lambda value, _: number(number_text(value), words["decimal"]))
     axes.set_ylim(-0.6, len(bars) - 0.4)
     axes.axvline(today, color=INK, linewidth=0.8)
     axes.grid(visible=False, axis="y")

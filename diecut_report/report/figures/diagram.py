@@ -51,11 +51,8 @@ LEVELS: tuple[Any, ...] = (  # unlike the strokes of the lines, beside which the
 UPRIGHT = (0, (4, 2.5))
 MARKS = "os^Dv<>pPX"
 HEAD, TITLE, ROW = 20.0, 17.0, 12.6  # points above a diagram: its head, in it the title, each row of a legend above it
-HANDLE, BESIDE, BETWEEN = (
-    2.6,
-    0.8,
-    1.6,
-)  # of a legend, in font sizes: its strokes, the room behind them, between columns
+# of a legend, in font sizes: its strokes, the room behind them, between columns
+HANDLE, BESIDE, BETWEEN = 2.6, 0.8, 1.6
 OF_HANDLE = (HANDLE + BESIDE) * SIZE + 8  # beside a text of a legend, points
 APART, ABOVE = 24.0, 11.0  # the least room for a number at an axis, points
 
@@ -130,7 +127,7 @@ class Diagram:
             if text.leader:
                 ends = np.reshape(text.leader, (2, 2)) / (self.frame.width, self.frame.height)
                 axes.plot(*ends.T, color=SOFT, linewidth=0.5, transform=axes.transAxes, zorder=4)
-            axes.text(*place, text.text, transform=axes.transAxes, ha="center", va="center", size=text.size,
+            axes.text(*place, text.text, transform=axes.transAxes, ha="center", va="center", size=SIZE,
                       color=INK, zorder=6, bbox=halo)  # fmt: skip
 
     def _title(self) -> str:

@@ -27,6 +27,7 @@ from diecut_report.report.figures.style import (
     Labels,
     SizesSize,
     canvas,
+    in_lines,
     marked,
     overlap,
     sampled,
@@ -87,9 +88,9 @@ def _round(shape: Round, start: float, end: float) -> Array:
     return points
 
 
-def circular(start: float, end: float) -> Array:
+def circular(start: float, end: float, fewest: int = 16, in_radian: int = 40) -> Array:
     """Points on the unit circle from angle to angle (rad), close enough to look round."""
-    angles = np.linspace(start, end, max(16, int(abs(end - start) * 40)))
+    angles = np.linspace(start, end, max(fewest, int(abs(end - start) * in_radian)))
     points: Array = np.column_stack([np.cos(angles), np.sin(angles)])
     return points
 
@@ -151,7 +152,6 @@ class Scale(NamedTuple):
 
     @property
     def both(self) -> Array:
-        """Across and upwards."""
         return np.array([self.across, self.upwards])
 
     @property
@@ -213,19 +213,9 @@ def folded(text: str, width: float, size: float = FONT_SIZE) -> list[str]:
     for breaks in _BREAKS:
         parts = breaks.split(text)
         if len(parts) > 1:
-            return [line for part in _gathered(parts, width, size) for line in folded(part, width, size)]
+            lines = in_lines(parts, lambda longer: text_size(marked(longer), size)[0] <= width)
+            return [line for part in lines for line in folded(part, width, size)]
     return [text]
-
-
-def _gathered(parts: list[str], width: float, size: float) -> list[str]:
-    lines = [parts[0]]
-    for part in parts[1:]:
-        longer = f"{lines[-1]} {part}"
-        if text_size(marked(longer), size)[0] <= width:
-            lines[-1] = longer
-        else:
-            lines.append(part)
-    return lines
 
 
 # A sheet to draw on: what all shapes of a drawing have in common, and the texts, which find their places at last.
@@ -321,6 +311,22 @@ def scale_bar(axes: Axes, corner: Place, scale: float, unit_shown: str, words: C
     return left, bottom - 3, right + 5 + text_size(text, 8)[0], bottom + 8
 
 
+def bounds(boxes: Sequence[Box]) -> Box:
+    """Return the box about all boxes."""
+    (left, bottom), (right, top) = np.min(boxes, axis=0)[:2], np.max(boxes, axis=0)[2:]
+    return left, bottom, right, top
+
+
+def cut_to(axes: Axes, box: Box, margin: float) -> Array:
+    """Cut the sheet that axes fill to a box with a margin, and return its size, in points."""
+    left, bottom, right, top = box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin
+    axes.set_xlim(left, right)
+    axes.set_ylim(bottom, top)
+    size: Array = np.array([right - left, top - bottom])
+    axes.figure.set_size_inches(*size / 72)  # type: ignore[union-attr]
+    return size
+
+
 class Shapes:
     """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
 
@@ -350,14 +356,10 @@ class Shapes:
             write(labels)
         self.boxes += labels.taken
         if not self.schematic and pretty(self.unit):
-            corner = min(box[0] for box in self.boxes), min(box[1] for box in self.boxes) - 16
-            self.boxes.append(scale_bar(self.axes, corner, self.scale.round, self.unit, self.words))
-        left, bottom, right, top = (pick(box[i] for box in self.boxes) for i, pick in enumerate((min, min, max, max)))
-        left, bottom, right, top = left - 4, bottom - 4, right + 4, top + 4
-        self.axes.set_xlim(left, right)
-        self.axes.set_ylim(bottom, top)
-        self.sheet.set_size_inches((right - left) / 72, (top - bottom) / 72)
-        self.crowded += 50 * float(np.maximum([right - left, top - bottom] - PAGE, 0.0).sum())
+            left, bottom, *_ = bounds(self.boxes)
+            self.boxes.append(scale_bar(self.axes, (left, bottom - 16), self.scale.round, self.unit, self.words))
+        size = cut_to(self.axes, bounds(self.boxes), 4)
+        self.crowded += 50 * float(np.maximum(size - PAGE, 0.0).sum())
         self.crowded += sum(overlap(one, other) for one, other in combinations(self.solid, 2))
 
     def _labels(self) -> Labels:

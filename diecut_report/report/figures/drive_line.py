@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from functools import partial
 from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 
 from diecut_report.report.chapters.drive_line import LOW, MIDDLE, TONES, DriveLineFigure, Key
 from diecut_report.report.figures import labels
-from diecut_report.report.figures.drawing import DASH_DOT, hatching, scale_bar, strokes
+from diecut_report.report.figures.drawing import DASH_DOT, bounds, circular, cut_to, hatching, scale_bar, strokes
 from diecut_report.report.figures.style import (  # fmt: skip
     INK,
     MM,
@@ -46,6 +47,7 @@ SMALL = 6.8  # points of the letters of parts
 WIDTH = 172 * MM
 ORDER, STROKES, EDGE = 1e-3, 1e-4, 2e-4  # from part to part, and what lies over its area
 LEGEND_ROW, PATCH = 12.0, 14.0  # points
+_round = partial(circular, fewest=8, in_radian=14)  # as close as a sketch needs
 
 
 class ViewSheet:
@@ -107,16 +109,10 @@ class ViewSheet:
 
     def finish(self, scale: float) -> Figure:
         """Draw the legend with a bar of the scale below all, and cut the sheet to what is on it."""
-        left, bottom, right, _ = self._bounds()
+        left, bottom, right, _ = bounds(self.boxes)
         self._legend(left, bottom - 14, max(right - left, 0.6 * WIDTH), scale)
-        left, bottom, right, top = self._bounds()
-        self.axes.set_xlim(left - 3, right + 3)
-        self.axes.set_ylim(bottom - 3, top + 3)
-        self.sheet.set_size_inches((right - left + 6) / 72, (top - bottom + 6) / 72)
+        cut_to(self.axes, bounds(self.boxes), 3)
         return self.sheet
-
-    def _bounds(self) -> Box:
-        return tuple(pick(box[i] for box in self.boxes) for i, pick in enumerate((min, min, max, max)))  # type: ignore[return-value]
 
     def _legend(self, left: float, top: float, width: float, scale: float) -> None:
         bar = scale_bar(self.axes, (left, top - 1.5), scale, "mm", self.words)
@@ -302,13 +298,6 @@ class _Front:
 
         every = [*labels.near(float(own[0]), float(own[1]), size)]
         return [place for place in every if is_near(place)] or every
-
-
-def _round(start: float, end: float) -> Array:
-    """Points on the unit circle from angle to angle, as close as a sketch needs."""
-    angles = np.linspace(start, end, max(8, int(abs(end - start) * 14)))
-    points: Array = np.column_stack([np.cos(angles), np.sin(angles)])
-    return points
 
 
 def _shaft_radius(shaft: MachineShaftRecord) -> float:
@@ -542,11 +531,8 @@ def linked(svg: Svg, figure: DriveLineFigure) -> Svg:
         look_of = ' class="band"' if kind in ("belt", "chain") else ""
         inner = f"<title>{escape(look.text)}</title>{found[2]}"
         # the table below has the same links for a keyboard
-        return (
-            f'<a href={quoteattr(look.link)} tabindex="-1"{look_of}>{inner}</a>'
-            if look.link
-            else f"<g{look_of}>{inner}</g>"
-        )
+        opened, closed = (f'a href={quoteattr(look.link)} tabindex="-1"', "a") if look.link else ("g", "g")
+        return f"<{opened}{look_of}>{inner}</{closed}>"
 
     text = _PART.sub(placed, svg.text).replace('role="img"', 'role="group" class="drive-line"', 1)
     return svg._replace(text=text)

@@ -264,7 +264,6 @@ class LabelText(NamedTuple):
     x: float
     y: float
     text: str
-    size: float = SIZE
     soft: bool = False
     solid: bool = False
     leader: Box | None = None
@@ -340,15 +339,15 @@ class LabelLayout:
         for kind in ("marks", "levels", "verticals"):
             for index, note in enumerate(getattr(panel, kind)):
                 x, y = map(float, frame.points(note.x, note.y))
-                size, of, places = (
-                    text_size(note.text, SIZE),
-                    None,
-                    beside_level(y, frame.width, text_size(note.text, SIZE)),
-                )
+                size = text_size(note.text, SIZE)
+                places: Iterator[Place]
                 if kind == "marks":
-                    of, places = (x, y), chain(around(x, y), anywhere(x, y, (frame.width, frame.height), size))
+                    places = chain(around(x, y), anywhere(x, y, (frame.width, frame.height), size))
                 elif kind == "verticals":
                     places = beside_vertical(x, frame.width, frame.height, size)
+                else:
+                    places = beside_level(y, frame.width, size)
+                of = (x, y) if kind == "marks" else None
                 if note.text and not self._write(note.text, places, of, IN_THE_WAY):
                     yield kind, index
 

@@ -8,9 +8,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager
 from enum import Enum
 from functools import cache, partial
-from importlib import import_module
 from itertools import groupby
-from pathlib import Path
 from typing import Any, NamedTuple
 from xml.sax.saxutils import escape
 
@@ -24,7 +22,7 @@ from matplotlib.font_manager import FontProperties, fontManager, get_font, ttfFo
 from matplotlib.textpath import TextToPath
 from numpy.typing import NDArray
 
-from diecut_report.report.symbols import SYMBOL
+from diecut_report.report.symbols import SYMBOL, font_file
 from diecut_report.report.text import tidy
 
 # How figures measure and write their texts: each text is measured once, by its letters at one size, for all figures of a process.
@@ -170,9 +168,8 @@ def drawn(build: Callable[[], Figure], title: str, key: str) -> Svg:
 def styled(key: str) -> AbstractContextManager[None]:
     """Draw within with the settings of all figures, and with the report's fonts, by which matplotlib measures texts."""
     if not any(entry.name == "Report Sans" for entry in fontManager.ttflist):
-        folder = Path(import_module("diecut_report.templates").__path__[0]) / "fonts"
         for name in ("report-sans-regular", "report-symbols"):
-            fontManager.addfont(folder / f"{name}.ttf")
+            fontManager.addfont(font_file(name))
     settings: dict[Any, Any] = {
         "svg.fonttype": "none", "svg.hashsalt": key, "font.family": "Report Sans", "font.size": FONT_SIZE,
         "mathtext.fontset": "custom", "mathtext.rm": "Report Sans", "mathtext.it": "Report Symbols",
@@ -258,14 +255,20 @@ def text_size(text: str, size: float = FONT_SIZE) -> tuple[float, float]:
 
 def wrapped(text: str, width: float, size: float = FONT_SIZE) -> str:
     """Return a text in lines no wider than so many points, broken between words; a longer word stands on a line of its own."""
+    lines = in_lines(WORDS.findall(text), lambda longer: text_size(longer, size)[0] <= width)
+    return "\n".join(_with_company(lines, size))
+
+
+def in_lines(parts: Iterable[str], has_room: Callable[[str], bool]) -> list[str]:
+    """Gather parts of a text into lines, each as long as it has room; a part without room stands on a line of its own."""
     lines: list[str] = []
-    for word in WORDS.findall(text):
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and text_size(longer, size)[0] <= width:
+    for part in parts:
+        longer = f"{lines[-1]} {part}" if lines else part
+        if lines and has_room(longer):
             lines[-1] = longer
         else:
-            lines.append(word)
-    return "\n".join(_with_company(lines, size))
+            lines.append(part)
+    return lines
 
 
 def _with_company(lines: list[str], size: float) -> list[str]:

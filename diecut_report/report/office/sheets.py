@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from diecut_report.quantities.units import pretty, to_display
 from diecut_report.report.context import Material
+from diecut_report.report.model import STATUSES
 from diecut_report.report.scope import parts, scope
 from diecut_report.report.text import Catalogue, significant
 from diecut_report.report.text import parts as sheet_parts
@@ -116,12 +117,10 @@ PROJECT = {
     "organisation": "organisation",
     "department": "department",
 }
-STATUSES = ("fail", "warn", "pass", "not_checked")
 DIGITS = 6  # of a curve's greatest value
 SHARE = "0.0%"
-QUANTITY = (
-    "mechanism path description symbol value unit si_value si_unit"  # heads of `_quantity`, its mechanism and key
-)
+# heads of `_quantity`, its mechanism and key
+QUANTITY = "mechanism path description symbol value unit si_value si_unit"
 
 
 def sheets(material: Material) -> list[WorkSheet]:

@@ -153,9 +153,9 @@ class WordBody:
 
     def formula(self, equation: Equation) -> None:
         """An equation that can be edited, in one or several lines."""
-        *lines, last = office_math(equation, self.math)
-        for index, line in enumerate([*lines, last]):
-            self.say(line, "FormulaRow" if index else "Formula", keep=index < len(lines))
+        lines = office_math(equation, self.math)
+        for index, line in enumerate(lines, 1):
+            self.say(line, "Formula" if index == 1 else "FormulaRow", keep=index < len(lines))
 
     def figure(self, number: str, title: str, caption: str) -> None:
         """A figure above its caption; where it could not be drawn, why."""

@@ -9,7 +9,7 @@ from markupsafe import Markup
 from diecut_report.report.chapters.front import ChangedCheck, ChangedRow, PrintedChanges
 from diecut_report.report.chapters.value_tables import RecordTable
 from diecut_report.report.document import REVISION, ReportDocument, former, machine_named
-from diecut_report.report.model import CheckRow, Heading, PrintedChapter, QuantityRow
+from diecut_report.report.model import STATUSES, CheckRow, Heading, PrintedChapter, QuantityRow
 from diecut_report.report.office.word_body import MARKS, WordBody
 from diecut_report.report.office.wordml import (
     FIELD_END,
@@ -30,9 +30,6 @@ from diecut_report.report.symbols import own_words, prose
 from diecut_report.report.text import joined
 
 # What stands before the chapters of a DOCX: title block, contents, summary with the verdict, changes.
-
-
-STATUSES = ("fail", "warn", "pass", "not_checked")
 
 
 FACTS = (("document", "document_number"), ("revision", "revision"), ("date", "date"))
@@ -273,14 +270,8 @@ def chapter(body: WordBody, part: PrintedChapter, document: ReportDocument) -> N
     told = " ".join(filter(None, (part.record.kind, part.record.plugin_version)))
     body.say(key(part.name) + run(f" · {told} · ") + body.status(part.face))
     if part.lost:
-        lost = (
-            "skipped_text"
-            if part.record.status == "skipped"
-            else "failed_comparison"
-            if part.between
-            else "failed_text"
-        )
-        body.say(bold(words[lost]))
+        failed = "failed_comparison" if part.between else "failed_text"
+        body.say(bold(words["skipped_text" if part.record.status == "skipped" else failed]))
         body.tell(part.record.error)
         return
     _given(body, part)

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 FONT, MONO = "Arial", "Courier New"
 ACCENT, SOFT, PALE = "0B5C8F", "66717D", "E9EDF1"
 LANGUAGES = {"en": "en-GB", "uk": "uk-UA"}
-MM = 56.7  # twentieths of a point
 HEADINGS = (15, 12.5, 11, 10)  # points
 _BORDERS = "".join(
     f'<w:{side} w:val="single" w:sz="4" w:space="0" w:color="C3CAD1"/>' for side in ("top", "bottom", "insideH")

@@ -17,9 +17,9 @@ from types import BuiltinFunctionType, FunctionType, MethodType
 from typing import Any
 
 from jinja2 import (
-    BaseLoader,
     Environment,
     FileSystemLoader,
+    FunctionLoader,
     StrictUndefined,
     TemplateNotFound,
     TemplateSyntaxError,
@@ -101,10 +101,8 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
 
     def is_safe_callable(self, obj: Any) -> bool:
         """Return whether a template may call an object."""
-        if isinstance(
-            obj, (Macro, LoopContext, BlockReference, Joiner, Undefined)
-        ):  # the last one raises its own message
-            return True
+        if isinstance(obj, (Macro, LoopContext, BlockReference, Joiner, Undefined)):
+            return True  # the last one raises its own message
         owner = getattr(obj, "__self__", None)
         return self._is_listed(obj) or getattr(obj, "__name__", "") in _names(owner)
 
@@ -182,7 +180,14 @@ class HouseStyle:
 
     def environment(self, programs: Path, filters: Filters, functions: Collection[Callable[..., Any]]) -> Environment:
         """Return what fills templates, the firm's before the program's: they may call these functions, and ``picture``."""
-        environment = TemplateSandbox([*functions, self._picture], loader=_HouseLoader(self, programs), **OPTIONS)
+        program = FileSystemLoader(programs)
+
+        def load(name: str) -> tuple[str, str | None, Callable[[], bool] | None]:
+            if name in self.templates:
+                return self.templates[name], self.path(name), lambda: True
+            return program.get_source(environment, name.removeprefix(OWN))
+
+        environment = TemplateSandbox([*functions, self._picture], loader=FunctionLoader(load), **OPTIONS)
         environment.filters.update(filters)
         environment.globals["picture"] = self._picture
         return environment
@@ -196,19 +201,6 @@ class HouseStyle:
     def path(self, name: str) -> str:
         """The file of a template."""
         return str(Path(self.folder) / name)
-
-
-class _HouseLoader(BaseLoader):
-    """Finds a template in the firm's folder, else in the program's; ``program/NAME`` is always the program's."""
-
-    def __init__(self, house: HouseStyle, programs: Path) -> None:
-        self.house, self.programs = house, FileSystemLoader(programs)
-
-    def get_source(self, environment: Environment, template: str) -> tuple[str, str | None, Callable[[], bool] | None]:
-        """Return a template's text and its file."""
-        if template in self.house.templates:
-            return self.house.templates[template], self.house.path(template), lambda: True
-        return self.programs.get_source(environment, template.removeprefix(OWN))
 
 
 def problems(house: HouseStyle, programs: Path) -> list[Problem]:

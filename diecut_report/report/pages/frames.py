@@ -16,7 +16,7 @@ from diecut_report.report.text import Catalogue
 
 PAD = 0.9  # millimetres between a line and a text
 LABEL = 2.2  # height of a label in its box
-LABEL_SIZE, LEAST = 5.5, 4.5  # points
+LEAST = 4.5  # points of the letters of a text
 SIDE = 0.18  # half a line's width
 _DATE = re.compile(r"\d\d(?P<year>\d\d)-(?P<month>\d\d)-(?P<day>\d\d)")  # as it is typed, and as Ukrainian prints it
 _UKRAINIAN = re.compile(r"(?P<day>\d\d)\.(?P<month>\d\d)\.\d\d(?P<year>\d\d)")

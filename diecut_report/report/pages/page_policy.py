@@ -13,7 +13,7 @@ from typing import Any
 from diecut_report.errors import Problem, UserError
 from diecut_report.text.phrases import Phrase, phrase
 
-HTML, SVG = "http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"
+HTML = "http://www.w3.org/1999/xhtml"
 RUNNING = {
     "script", "iframe", "frame", "frameset", "link", "object", "embed", "applet", "portal", "base", "animate", "set", "noscript", "template",
 }  # fmt: skip
@@ -140,6 +140,3 @@ def _fetched_by_tokens(every: Iterable[Any]) -> Iterator[tuple[str, int]]:
             open_lists.append((iter(token.arguments), name))
         else:
             open_lists.append((iter(getattr(token, "content", None) or ()), within))
-
-
-# The print page as WeasyPrint takes it: read by expat where it is well-formed, since reading HTML by its rules takes a tenth of a report.

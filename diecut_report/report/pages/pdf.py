@@ -7,6 +7,7 @@ import gc
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 from markupsafe import Markup, escape
@@ -19,7 +20,7 @@ from diecut_report.report.model import Item
 from diecut_report.report.pages.frames import sheet_blocks, waiting_figures
 from diecut_report.report.pages.html import Screen, filled
 from diecut_report.report.pages.page_engine import Attachment, URLFetcher, block_layout, read_page, told_of_page
-from diecut_report.report.pages.pdf_archive import Archive
+from diecut_report.report.pages.pdf_archive import complete
 from diecut_report.report.pages.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pages.pdf_math import Letters, Picture
 
@@ -107,7 +108,7 @@ def sheets(material: Material) -> bytes:
     ):  # WeasyPrint's own file
         content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
             pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False,
-            finisher=Archive(material.words, paper.letters, paper.formulas),
+            finisher=partial(complete, words=material.words, letters=paper.letters, formulas=paper.formulas),
             attachments=[
                 # the type of a file is that of its address, not what the system takes its ending for
                 Attachment(url=file.address, url_fetcher=fetcher, name=file.name, description=file.description,

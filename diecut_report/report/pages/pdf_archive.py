@@ -28,50 +28,42 @@ ACCESSIBLE = (
 """That a document is PDF/UA-1, and what that property is, as PDF/A wants it declared."""
 
 
-class Archive:
-    """Completes a document as it is written (the page engine's ``finisher``)."""
+def complete(document: Any, pdf: Any, words: Mapping[str, str], letters: Letters, formulas: Collection[str]) -> None:
+    """Complete a document as it is written (the page engine's ``finisher``); ``pdf`` holds its objects."""
+    _declare_accessible(pdf)
+    shared = _object(pdf, _object(pdf, pdf.page_references[0])["Resources"])  # one and the same for all sheets
+    add_font(pdf, _object(pdf, shared["Font"]))
+    letters.add_forms(pdf, shared["XObject"])
+    pdf.catalog["AF"] = Array(dict.fromkeys(pdf.catalog["AF"]))
+    for number, page in enumerate(document.pages):
+        for name in SIGNERS:
+            if ANCHOR + name in page.anchors:
+                _add_field(pdf, name, f"{words['signature']}: {words[name]}", number, page)
+    for each in pdf.objects:
+        # the page engine knows pictures of formulas as figures, with the formula as their text
+        told = each.get("Alt") if isinstance(each, Dictionary) and each.get("S") == "/Figure" else None
+        if told is not None and told.string in formulas:
+            each["S"] = "/Formula"
+    say_once(pdf)
 
-    def __init__(self, words: Mapping[str, str], letters: Letters, formulas: Collection[str] = ()) -> None:
-        self.words, self.letters, self.formulas = words, letters, formulas
 
-    def __call__(self, document: Any, pdf: Any) -> None:
-        """Complete a document, of which ``pdf`` holds the objects."""
-        _declare_accessible(pdf)
-        shared = _object(pdf, _object(pdf, pdf.page_references[0])["Resources"])  # one and the same for all sheets
-        add_font(pdf, _object(pdf, shared["Font"]))
-        self.letters.add_forms(pdf, shared["XObject"])
-        pdf.catalog["AF"] = Array(dict.fromkeys(pdf.catalog["AF"]))
-        for number, page in enumerate(document.pages):
-            for name in SIGNERS:
-                if ANCHOR + name in page.anchors:
-                    self._field(pdf, name, number, page)
-        for (
-            each
-        ) in pdf.objects:  # the page engine knows pictures of formulas as figures, with the formula as their text
-            told = each.get("Alt") if isinstance(each, Dictionary) and each.get("S") == "/Figure" else None
-            if told is not None and told.string in self.formulas:
-                each["S"] = "/Formula"
-        say_once(pdf)
-
-    def _field(self, pdf: Any, name: str, number: int, page: Any) -> None:
-        x1, y1, x2, y2 = (each * POINT for each in page.anchors[ANCHOR + name])
-        height = page.height * POINT
-        box = x1 + INSET, height - y2 + INSET, x2 - INSET, height - y1 - INSET
-        empty = Stream(
-            [], {"Type": "/XObject", "Subtype": "/Form", "BBox": Array((0, 0, box[2] - box[0], box[3] - box[1]))}
-        )
-        pdf.add_object(empty)
-        sheet = pdf.page_references[number]
-        told = f"{self.words['signature']}: {self.words[name]}"
-        field = Dictionary({
-            "Type": "/Annot", "Subtype": "/Widget", "FT": "/Sig", "T": String(name), "TU": String(told), "F": PRINTED,
-            "Rect": Array(box), "P": sheet, "AP": Dictionary({"N": empty.reference}),
-        })  # fmt: skip
-        pdf.add_object(field)
-        _tag(pdf, field, sheet)
-        _object(pdf, sheet).setdefault("Annots", Array()).append(field.reference)
-        form = pdf.catalog.setdefault("AcroForm", Dictionary({"Fields": Array()}))
-        form["Fields"].append(field.reference)
+def _add_field(pdf: Any, name: str, told: str, number: int, page: Any) -> None:
+    x1, y1, x2, y2 = (each * POINT for each in page.anchors[ANCHOR + name])
+    height = page.height * POINT
+    box = x1 + INSET, height - y2 + INSET, x2 - INSET, height - y1 - INSET
+    size = Array((0, 0, box[2] - box[0], box[3] - box[1]))
+    empty = Stream([], {"Type": "/XObject", "Subtype": "/Form", "BBox": size})
+    pdf.add_object(empty)
+    sheet = pdf.page_references[number]
+    field = Dictionary({
+        "Type": "/Annot", "Subtype": "/Widget", "FT": "/Sig", "T": String(name), "TU": String(told), "F": PRINTED,
+        "Rect": Array(box), "P": sheet, "AP": Dictionary({"N": empty.reference}),
+    })  # fmt: skip
+    pdf.add_object(field)
+    _tag(pdf, field, sheet)
+    _object(pdf, sheet).setdefault("Annots", Array()).append(field.reference)
+    form = pdf.catalog.setdefault("AcroForm", Dictionary({"Fields": Array()}))
+    form["Fields"].append(field.reference)
 
 
 def _declare_accessible(pdf: Any) -> None:

@@ -81,10 +81,20 @@ class _SvgOperators:
     def children(self, node: ElementTree.Element, style: Style) -> None:
         """Draw what an element holds."""
         for child in node:
-            way = _WAYS.get(child.tag)
-            if way is None:
-                raise NotDrawn(child.tag)
-            way(self, child, _styled(child, style))
+            own = _styled(child, style)
+            match child.tag.removeprefix(SVG):
+                case "g" | "a":
+                    self.group(child, own)
+                case "path":
+                    self.path(child, own)
+                case "use":
+                    self.use(child, own)
+                case "text":
+                    self.text(child, own)
+                case "title" | "defs":
+                    pass  # what is named is drawn where it is used
+                case tag:
+                    raise NotDrawn(tag)
 
     def group(self, node: ElementTree.Element, style: Style) -> None:
         """Draw a group within its clip and transform."""
@@ -125,21 +135,6 @@ class _SvgOperators:
         if shape.tag == f"{SVG}path":
             return f"{_route(shape.get('d', ''))} W n "
         return " ".join(shape.get(key, "0") for key in ("x", "y", "width", "height")) + " re W n "
-
-    def nothing(self, _node: ElementTree.Element, _style: Style) -> None:
-        """Draw nothing: it is named, and used elsewhere."""
-
-
-_NAMED = {
-    "g": "group",
-    "a": "group",
-    "path": "path",
-    "use": "use",
-    "text": "text",
-    "title": "nothing",
-    "defs": "nothing",
-}
-_WAYS = {f"{SVG}{tag}": getattr(_SvgOperators, way) for tag, way in _NAMED.items()}
 
 
 def _styled(node: ElementTree.Element, style: Style) -> Style:
