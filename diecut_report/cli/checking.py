@@ -49,7 +49,9 @@ from diecut_report.config import yaml
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import Tree
 from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, own_fault, refusal
+from diecut_report.files import write_all
 from diecut_report.results.conclusion import summary_of
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import ResultsRecord
@@ -58,7 +60,6 @@ from diecut_report.text.phrases import Counted, Phrase, cell, phrase
 from diecut_report.text.translation import localised, said, say, say_counted, speaking, spoken_language
 
 if TYPE_CHECKING:
-    from diecut_report.config.yaml import Tree
     from diecut_report.study.comparison import MachineComparison, Verdict
     from diecut_report.study.execution.dry_run import DryRun
     from diecut_report.study.machines import CheckedMachine
@@ -77,7 +78,6 @@ class JudgedFile:
     is_fault: bool = False  # of the program, which its problem says
     broken: tuple[PluginError, ...] = ()
     tried: DryRun | None = None
-    data: dict[str, Any] = field(default_factory=dict)
 
     @property
     def code(self) -> int:
@@ -144,13 +144,13 @@ def _study(shown: str, tree: Tree, discovery: Discovery, tries: bool) -> JudgedF
         return JudgedFile(shown, broken=(error,))
     if not tries:
         return JudgedFile(shown)
-    from diecut_report.study.execution.dry_run import data, dry_run
+    from diecut_report.study.execution.dry_run import dry_run
     from diecut_report.study.execution.study_run import refuse_empty
 
     refuse_empty(study)
     found = dry_run(study)
     broken = tuple(PluginError(why, kind) for kind, why in found.measured.broken.items())
-    return JudgedFile(shown, broken=broken, tried=found, data=data(found))
+    return JudgedFile(shown, broken=broken, tried=found)
 
 
 def _tell(found: JudgedFile, *, alone: bool) -> None:
@@ -166,17 +166,18 @@ def _tell(found: JudgedFile, *, alone: bool) -> None:
 
 def _data(found: JudgedFile) -> dict[str, Any]:
     problems = [asdict(problem) | {"message": str(problem.message)} for problem in found.problems]
-    told = {"file": found.shown, "status": STATES[found.code], "problems": problems}
-    return told | {"broken": [str(error) for error in found.broken]} | ({"study": found.data} if found.data else {})
+    told: dict[str, Any] = {"file": found.shown, "status": STATES[found.code], "problems": problems}
+    told["broken"] = [str(error) for error in found.broken]
+    if found.tried is not None:
+        from diecut_report.study.execution.dry_run import data
+
+        told["study"] = data(found.tried)
+    return told
 
 
 WITHOUT_RESULTS = ("bad", "impossible", "fault")
-COLOURED = {
-    "bad": "error",
-    "impossible": "error",
-    "fault": "error",
-    "conditional": "warn",
-}  # states with the colour of another one
+# states with the colour of another one
+COLOURED = {"bad": "error", "impossible": "error", "fault": "error", "conditional": "warn"}
 WORDS = {
     "pass": phrase("pass"),
     "conditional": phrase("conditional"),
@@ -201,7 +202,7 @@ def _exit_code(verdicts: Sequence[str], is_strict: bool) -> int:
     return CHECK_FAILED if "fail" in verdicts or (is_strict and "conditional" in verdicts) else PASSED
 
 
-def verdict_lines(results: ResultsRecord, discovery: Discovery | None = None) -> list[Line]:
+def verdict_lines(results: ResultsRecord, discovery: Discovery) -> list[Line]:
     """Return the checks that do not pass, in words, the worst first, and the verdict on all; in the language that is spoken.
 
     ``discovery`` knows where plugins of others have their words.
@@ -361,7 +362,6 @@ class NamedMachines:
 
     def _write(self, folder: Path, name: str, formats: Sequence[str]) -> None:
         """Write the comparison in the language that is asked for, else in that of all projects."""
-        from diecut_report.files import write_all
         from diecut_report.study import comparison_pages as pages
         from diecut_report.study.machines import language_of
 

@@ -43,13 +43,15 @@ from diecut_report.cli.output import (
     tell_written,
     without_output,
 )
-from diecut_report.cli.study import told_plugins
+from diecut_report.cli.study import told_broken, told_slow
+from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.references import as_file
+from diecut_report.quantities.units import UnitError, parse_quantity
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, say
 
 if TYPE_CHECKING:
-    from diecut_report.config.loader import Config
     from diecut_report.design.inputs import DesignInput
     from diecut_report.design.machines import ProvedMachine
     from diecut_report.press import Press
@@ -222,7 +224,6 @@ def influence(
 
 def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
     from diecut_report.design.inputs import varied_input
-    from diecut_report.quantities.units import UnitError, parse_quantity
 
     def wrong(words: str) -> click.BadParameter:
         return click.BadParameter(words, param_hint="--tolerance")
@@ -283,7 +284,6 @@ def _end(design: DesignInput, given: str | None, option: str) -> float | None:
 
 def _give(told: str, press: Press, machine: ProvedMachine | None, target: Path | None) -> None:
     """Write the machine that was found, and tell of it: to standard error where ``-`` sends the machine to standard output."""
-    from diecut_report.config.references import as_file
     from diecut_report.design.machines import write_config
 
     if target == DASH:
@@ -357,6 +357,6 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
     tell_written(outcome.written)
     inform(outcome.notes)
     search = outcome.search
-    slow = {kind: why for kind, why in search.slow.items() if kind not in search.broken}
-    tell(told_plugins(slow, search.broken, search.store.state.get("doubtful") or {}, outcome.broken_reports))
+    tell(told_slow(search.slow, search.broken))
+    tell(told_broken(search.broken, search.store.state.get("doubtful") or {}, outcome.broken_reports))
     return PLUGIN_BROKE if outcome.is_broken else PASSED if outcome.is_found else CHECK_FAILED

@@ -44,6 +44,7 @@ from diecut_report.cli.output import (
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import Problem, UserError, refusal
+from diecut_report.results.model import ChangesRecord, ResultsRecord
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
 from diecut_report.text.translation import said, say, speaking, spoken_language
 
@@ -51,7 +52,6 @@ if TYPE_CHECKING:
     from diecut_report.exchange.carried import CarriedResults
     from diecut_report.exchange.verification import Agreement, Found, Verification
     from diecut_report.report.pages.firm_templates import HouseStyle
-    from diecut_report.results.model import ChangesRecord, ResultsRecord
 
 
 SHOWN = 20  # differences that are told

@@ -66,6 +66,7 @@ from diecut_report.cli.study import batch, take, variants
 from diecut_report.config.model import DETAILS
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Unwritable, UserError, refusal
+from diecut_report.results.model import results_schema
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, say, speak, speaking
@@ -146,30 +147,26 @@ def run() -> NoReturn:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; its exit code. What a user can fix is reported on standard error."""
     with speaking(SOURCE_LANGUAGE):  # what a command chooses holds for it alone
-        return _run(arguments)
-
-
-def _run(arguments: Sequence[str] | None) -> int:
-    try:
-        speak(of_environment())
-        return int(program.main(arguments, prog_name="diecut-report", standalone_mode=False) or PASSED)
-    except click.Abort:
-        return INTERRUPTED
-    except click.ClickException as error:
-        tell(usage(error))
-        return BAD_INPUT
-    except UserError as error:
-        tell_problems(error.problems)
-        return UNWRITABLE if isinstance(error, Unwritable) else BAD_INPUT
-    except PluginError as error:
-        tell([str(error)])
-        return PLUGIN_BROKE
-    except Exception:
-        template = (
-            "This is a fault of diecut-report itself. Please report it with the lines above and the configuration."
-        )
-        tell([*traceback.format_exc().splitlines(), phrase(template)])
-        return FAULT
+        try:
+            speak(of_environment())
+            return int(program.main(arguments, prog_name="diecut-report", standalone_mode=False) or PASSED)
+        except click.Abort:
+            return INTERRUPTED
+        except click.ClickException as error:
+            tell(usage(error))
+            return BAD_INPUT
+        except UserError as error:
+            tell_problems(error.problems)
+            return UNWRITABLE if isinstance(error, Unwritable) else BAD_INPUT
+        except PluginError as error:
+            tell([str(error)])
+            return PLUGIN_BROKE
+        except Exception:
+            template = (
+                "This is a fault of diecut-report itself. Please report it with the lines above and the configuration."
+            )
+            tell([*traceback.format_exc().splitlines(), phrase(template)])
+            return FAULT
 
 
 # --- options ---------------------------------------------------------------------------------------------------------
@@ -295,8 +292,6 @@ def schema(kind: str | None, discovery: Discovery) -> int:
         emit_json(study_schema())
         return PASSED
     if kind == "results":
-        from diecut_report.results.model import results_schema
-
         emit_json(results_schema())
         return PASSED
     found, broken = {}, {}

@@ -11,13 +11,13 @@ import click
 from diecut_report.cli.output import tell
 from diecut_report.config.loader import SHOWN, load_standard_input
 from diecut_report.config.model import DETAILS
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree, as_text, parse
 from diecut_report.errors import nearest, refusal
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import say
 
 if TYPE_CHECKING:
-    from diecut_report.config.plugins import Discovery
     from diecut_report.press import Source
     from diecut_report.report.pages.firm_templates import HouseStyle
 

@@ -20,17 +20,19 @@ from unicodedata import category
 import click
 from click.shell_completion import CompletionItem
 
+from diecut_report.config.catalogues import spoken_catalogues
+from diecut_report.config.loader import Config, examined
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import INVISIBLE
 from diecut_report.errors import MAX_SHOWN, PluginError, Problem, Unwritable, UserError
+from diecut_report.files import reason, write_all
+from diecut_report.mechanism.inputs import Quantity
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, languages
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import know_all_plugins, said, say, say_counted, speak, spoken_language
 
 if TYPE_CHECKING:
     from rich.status import Status
-
-    from diecut_report.config.loader import Config
 
 
 # What is being done, shown on a terminal that wants moving signs once it has taken longer than a second.
@@ -136,8 +138,6 @@ def _title(discovery: Discovery, kind: str) -> str | None:
 
 def _config(context: click.Context) -> Iterator[Config]:
     """The configuration that the command names before, as far as it can be read; nothing where it cannot."""
-    from diecut_report.config.loader import examined
-
     # behind an option without its value, which is being typed, click has not made parameters of the words before
     given = [context.params.get("config"), *context.args]
     file = next((Path(path) for path in given if path and Path(path).is_file()), None)
@@ -154,8 +154,6 @@ def _config(context: click.Context) -> Iterator[Config]:
 
 
 def _numbers(config: Config) -> Iterator[str]:
-    from diecut_report.mechanism.inputs import Quantity
-
     for name, instance in config.instances.items():
         for slot in instance.slots if instance else ():
             if isinstance(slot.meta, Quantity) and (slot.is_given or slot.value is not None):
@@ -212,11 +210,8 @@ def language_option(command: Command) -> Command:
 
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
-INTERRUPTED, FAULT, UNWRITABLE = (
-    130,
-    70,
-    74,
-)  # as shells and sysexits have it: Ctrl-C, a fault of the program, of writing
+# as shells and sysexits have it: Ctrl-C, a fault of the program, of writing
+INTERRUPTED, FAULT, UNWRITABLE = 130, 70, 74
 COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "not_checked": "36", "pass": "32"}
 MAX_MESSAGE, MESSAGE_END = 2_000, 500  # of a message, and of its end where it is longer
 # what may make a terminal do something, end a line, show a text as another one, or stand in it unseen
@@ -304,9 +299,9 @@ def emit_lines(lines: Iterable[str]) -> bool:
     return emit(as_lines(lines))
 
 
-def emit_json(data: Any, indent: int = 2) -> None:
+def emit_json(data: Any) -> None:
     """What was asked for as JSON."""
-    emit(as_json(data, indent))
+    emit(as_json(data))
 
 
 def as_json(data: Any, indent: int = 2) -> str:
@@ -319,8 +314,6 @@ def emit_or_write(text: str, target: Path | None, keep: Path | None = None) -> N
     if target is None:
         emit(text)
         return
-    from diecut_report.files import write_all
-
     write_all({target: text.encode(errors="backslashreplace")}, keep, through=True)
 
 
@@ -337,8 +330,6 @@ def emit(text: str) -> bool:
         _close_output()
         return False
     except OSError as error:
-        from diecut_report.files import reason
-
         _close_output()
         template = "Standard output cannot be written: {reason}"
         raise Unwritable(Problem(Phrase(template, reason=reason(error)))) from error
@@ -481,9 +472,8 @@ def coloured(text: str, status: str) -> str:
 def _known(context: click.Context, _: click.Parameter, folders: tuple[Path, ...]) -> Discovery:
     """What knows the kinds of these folders, whose plugins speak by catalogues of their own."""
     discovery = Discovery(folders)
+    # asks all plugins, which English does not need
     if folders and spoken_language() != SOURCE_LANGUAGE and not context.resilient_parsing:
-        from diecut_report.config.catalogues import spoken_catalogues  # with all plugins, which English does not need
-
         speak(spoken_language(), spoken_catalogues(discovery))
     return discovery
 

@@ -36,6 +36,7 @@ from diecut_report.config import yaml
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery, DuplicateKind
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
+from diecut_report.files import write_all
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 from diecut_report.text.translation import said, say, speaking, spoken_language
 
@@ -231,8 +232,6 @@ def _write_pages(
     pages: Mapping[str, bytes], asked: Path | None, configs: tuple[Path, ...], *, is_single: bool, is_shown: bool
 ) -> None:  # fmt: skip
     """Write each chapter into the file that is named, or into one of its own in a folder; where none is named a temporary folder."""
-    from diecut_report.files import write_all
-
     place = asked or Path(mkdtemp(prefix="diecut-report-"))
     is_file = asked and is_single and not asked.is_dir()
     files = {place if is_file else place / f"{kind}.html": page for kind, page in pages.items()}

@@ -41,6 +41,7 @@ from diecut_report.cli.output import (
     tell,
 )
 from diecut_report.config.plugins import Discovery
+from diecut_report.files import write_all
 from diecut_report.results.conclusion import told_faults
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import say
@@ -97,7 +98,7 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
         tell([Phrase(template, folder=target)])
         return INTERRUPTED
     inform(_outcome_lines(outcome, target))
-    tell(told_plugins({}, outcome.broken, outcome.doubtful, outcome.broken_reports))
+    tell(told_broken(outcome.broken, outcome.doubtful, outcome.broken_reports))
     is_failed = outcome.is_failed or (strict and (bool(outcome.doubtful) or is_doubtful(target)))
     return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if is_failed else PASSED
 
@@ -117,17 +118,20 @@ def _outcome_lines(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named or [phrase("none")]), dropped, ".")
     if outcome.has_none:
         yield phrase("No variant can exist; the summary gives the reasons. Vary other inputs, or within other limits.")
-    is_broken = outcome.broken if outcome.is_broken else {}
-    yield from told_plugins({kind: why for kind, why in outcome.slow.items() if kind not in is_broken}, {}, {}, {})
+    yield from told_slow(outcome.slow, outcome.broken if outcome.is_broken else {})
     yield from outcome.notes
 
 
-def told_plugins(
-    slow: Mapping[str, str], broken: Mapping[str, str], doubtful: Mapping[str, Any], broken_reports: Mapping[str, str]
-) -> Iterator[str]:
-    """Tell by their kinds which plugins were slow, which broke, and which have faults in their formulas."""
+def told_slow(slow: Mapping[str, str], broken: Mapping[str, str]) -> Iterator[str]:
+    """Tell by their kinds which plugins were slow, but for those that broke."""
     template = "{kind} does not support arrays and was calculated variant by variant, which is slow: {why}"
-    yield from (Phrase(template, kind=kind, why=phrase(why)) for kind, why in slow.items())
+    yield from (Phrase(template, kind=kind, why=phrase(why)) for kind, why in slow.items() if kind not in broken)
+
+
+def told_broken(
+    broken: Mapping[str, str], doubtful: Mapping[str, Any], broken_reports: Mapping[str, str]
+) -> Iterator[str]:
+    """Tell by their kinds which plugins broke, and which have faults in their formulas."""
     broke = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
     yield from (Phrase(broke, kind=repr(kind), why=phrase(why)) for kind, why in broken.items())
     yield from (line for kind, faults in doubtful.items() for line in told_faults(kind, faults))
@@ -165,7 +169,6 @@ def variants(folder: Path, where: str | None, sort: str | None, top: int | None,
              transpose: bool, form: str, file: Path | None, units: str | None, separator: str | None, decimal: str | None,
              discovery: Discovery) -> int:  # fmt: skip
     """Query the stored variants of a study."""
-    from diecut_report.files import write_all
     from diecut_report.study.analysis.answers import Notation, answer, answer_workbook, unfinished
     from diecut_report.study.analysis.query import Request
     from diecut_report.study.storage.state import refuse_sources
@@ -206,7 +209,6 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
 @common
 def take(variant: str, file: Path, digits: int | None, discovery: Discovery) -> int:
     """Write a variant of a study as a configuration: the study's base with that variant's values, comments kept."""
-    from diecut_report.files import write_all
     from diecut_report.study.analysis.variant_config import taken_config
     from diecut_report.study.storage.state import refuse_sources
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,12 +17,20 @@ from diecut_report.design.advised import (
     advised,
     changeable_choices,
     conflict_of,
-    follows_from_none,
     scattered,
     with_choices,
 )
 from diecut_report.design.inputs import DesignInput, changeable, is_fixed, named_input, nothing_free, untried
-from diecut_report.design.machines import MOST, ChangedMachines, Enough, ProvedMachine, Spent, downstream, proved
+from diecut_report.design.machines import (
+    MOST,
+    ChangedMachines,
+    Enough,
+    ProvedMachine,
+    Spent,
+    downstream,
+    proved,
+    upstream,
+)
 from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.press import Press
@@ -212,7 +220,8 @@ def mended(press: Press, *, free: Iterable[str] = (), keep: Iterable[str] = (), 
         raise UserError(Problem(nothing_free(config, {*only, *kept}), config.tree.file))
     touched, count = {asked.instance for asked in free_ones}, len(inputs) + len(choices)
     left_out = () if named else untried(config, touched, {each.path for each in free_ones} | kept)
-    if unreached := tuple(name for name in failing if follows_from_none(config, name, touched)):
+    reached = {name: upstream(config, [name.split(".")[0]]) for name in failing}
+    if unreached := tuple(name for name in failing if reached[name].isdisjoint(touched)):
         conflict = CheckConflict(unreached, is_proved=True)  # no search can mend it
         return Mended(before, left=failing, conflict=conflict, free=count, untried=left_out)
     run = ChangedMachines(config, inputs, begun, Spent(most), press.tell)
@@ -248,7 +257,7 @@ def _shortest(before: ProvedMachine, path: MendingPath) -> Mended:
     """The machine that passes with what is needed alone, and with few digits; proved."""
     run = path.run
     for name in run.choices:
-        without = run.with_choices({other: chosen for other, chosen in run.choices.items() if other != name})
+        without = replace(run, choices={other: chosen for other, chosen in run.choices.items() if other != name})
         if without(path.share[None]).passes.all():
             run = without
     share, typed = rounded(run, fewer(run, path.share))
@@ -310,7 +319,7 @@ def data(found: Mended) -> dict[str, Any]:
         "failing": list(found.before.failing),
         "changes": [dict(zip(("name", "before", "after", "share"), each, strict=True)) for each in changes],
         "size": found.size,
-        "machine": machine and {"status": machine.status, "governing": machine.governing, "warnings": list(machine.checks("warn"))},
+        "machine": machine and {"status": machine.run.status, "governing": machine.governing, "warnings": list(machine.checks("warn"))},
         "left": list(found.left),
         "conflict": why and {"checks": list(why.checks), "proved": why.is_proved, "least": why.is_least},
         "free": found.free,
@@ -386,7 +395,6 @@ def _without(found: Mended) -> Iterator[Phrase]:
 
 
 def _conflict(found: CheckConflict) -> Iterator[Phrase]:
-    """What is proved of it, and what is not."""
     count, checks = len(found.checks), ", ".join(found.checks)
     if found.is_proved:
         one = "proved: {checks} does not depend on any free input and fails for all of their values"

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Container, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.design.inputs import DesignInput, given_numbers, is_form, named_input, untied
-from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, Chosen, VariedMachines, upstream, varied
+from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, Chosen, VariedMachines, varied
 from diecut_report.errors import PluginError, UserError
 from diecut_report.formulas import Array
 from diecut_report.quantities.formatting import with_unit
@@ -121,7 +121,7 @@ UNFIT = 1e6  # of a machine that cannot be
 
 @dataclass
 class MendingPath:
-    """Hold where the search is: the changes as shares of today's values, what that machine's checks say, and how far it went.
+    """Hold where the search is: the changes as shares of today's values, and what that machine's checks say.
 
     ``among``: only these checks are to hold, whatever the others do; None for all.
     """
@@ -132,7 +132,6 @@ class MendingPath:
     made: VariedMachines = field(init=False)
     sizes: dict[str, float] = field(init=False)
     merit: float = field(init=False)
-    steps: int = 0
 
     def __post_init__(self) -> None:
         self.made = self.run(self.share[None])
@@ -154,13 +153,12 @@ class MendingPath:
     def go(self, *, until_it_holds: bool = False) -> None:
         """Take steps as long as they make the machine better, or the changes smaller; or only until all holds."""
         scale, tries = 1.0, 0
-        while self.steps < STEPS and tries < TRIES and not (until_it_holds and self.passes):
+        for step in range(1, STEPS + 1):
+            if tries == TRIES or (until_it_holds and self.passes):
+                break
             before, had_passed = self.merit, self.passes
-            self.run.tell(
-                Phrase("correcting: step {step}, failing checks: {n}", step=self.steps + 1, n=len(self.failing))
-            )
+            self.run.tell(Phrase("correcting: step {step}, failing checks: {n}", step=step, n=len(self.failing)))
             self._step(scale)
-            self.steps += 1
             least = SMALLEST if self.among is None else FEASIBLE
             is_better = self.merit < before - least * max(before, 1e-9)
             tries = 0 if is_better else tries + 1
@@ -350,11 +348,6 @@ def scattered(inputs: int) -> Array:
     return draws.choice(WIDTHS, (SCATTERED, 1)) * draws.uniform(-1, 1, (SCATTERED, inputs))
 
 
-def follows_from_none(config: Config, check: str, free: Collection[str]) -> bool:
-    """Return whether the mechanism of a check follows from none of those whose inputs are free: all their values leave it as it is."""
-    return upstream(config, [check.split(".")[0]]).isdisjoint(free)
-
-
 # Inputs that take one of some values (texts, yes/no, whole numbers, numbers of a list), tried where a change of sizes alone mends nothing.
 #
 # One after the other is given each of its values, with the sizes as they were reached and as they are today; the best is kept, and from
@@ -401,7 +394,7 @@ def _changed(path: MendingPath, choices: Choices) -> Iterator[tuple[float, Mendi
     for name, (design, values) in choices.items():
         run.tell(Phrase("trying the values of {input}", input=name))
         for text, cost in values.items():
-            chosen = run.with_choices({**run.choices, name: (design, text)})
+            chosen = replace(run, choices={**run.choices, name: (design, text)})
             for share in places:
                 other = MendingPath(chosen, share)
                 yield other.merit + cost, other

@@ -65,12 +65,10 @@ class DesignQuestion:
     @property
     def told(self) -> str:
         """Return it as it may be typed."""
-        asked = self.quantity
-        return (
-            f"{self.kind} {asked.name}"
-            if self.is_extreme
-            else f"{asked.name} {self.kind} {told(self.value, asked.unit, 6)}"
-        )
+        name = self.quantity.name
+        if self.is_extreme:
+            return f"{self.kind} {name}"
+        return f"{name} {self.kind} {told(self.value, self.quantity.unit, 6)}"
 
 
 def question(config: Config, text: str) -> DesignQuestion:
@@ -272,5 +270,5 @@ def data(answer: Answer) -> dict[str, Any]:
         "jumps": list(answer.jumps),
         "always": list(answer.always),
         "nearest": answer.nearest and answer.nearest.data,
-        "machine": machine and {"status": machine.status, "governing": machine.governing, "failing": list(machine.failing)},
+        "machine": machine and {"status": machine.run.status, "governing": machine.governing, "failing": list(machine.failing)},
     }  # fmt: skip

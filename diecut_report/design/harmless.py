@@ -20,7 +20,7 @@ from diecut_report.formulas import Array
 from diecut_report.results.conclusion import VALUES
 from diecut_report.results.model import OpenRecord, ResultsRecord
 from diecut_report.results.open_items import UNPROVED
-from diecut_report.standards.ranges import UsualRange, range_of
+from diecut_report.standards.ranges import range_of
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
 from diecut_report.study.execution.variant_rows import STATUS, verdicts
@@ -28,11 +28,8 @@ from diecut_report.text.phrases import Phrase, phrase
 
 SHARE = 0.1  # of a value for which no range is known, downwards and upwards
 STILL = 1e-9  # of a slack, by which rounding alone moves it
-LEFT_OUT = tuple(
-    2**k for k in range(8)
-)  # how many of those that change a check together are taken out, strongest first
-
-
+# how many of those that change a check together are taken out, strongest first
+LEFT_OUT = tuple(2**k for k in range(8))
 UNTRIED = phrase(
     "it is not one number of the configuration, parts of the machine are made with it, or its mechanism takes no arrays, "
     "so no other value was tried"
@@ -75,19 +72,18 @@ class Trial:
     @staticmethod
     def of(config: Config, item: OpenRecord, design: DesignInput, reached: Mapping[str, frozenset[str]]) -> Trial:
         """Return a trial of a value within what its declaration allows; of a whole number the whole numbers of its range."""
-        home = design.asked.instance
+        home, present = design.asked.instance, design.present or 0.0
+        low, high = sorted((present * (1 - SHARE), present * (1 + SHARE)))
         usual = range_of(config.kinds.get(home, PRESS), design.key)
-        low, high = _usual(design.present or 0.0, usual)
-        least, most = design.bounds
-        ends = np.clip([low, high], least, most)
-        ends = np.where(
-            design.allows(ends), ends, (ends + (design.present or 0.0)) / 2
-        )  # an end that is not of the range
+        if usual is not None and not usual.of:  # a ratio bounds no key by itself
+            low, high = usual.usual
+        ends = np.clip([low, high], *design.bounds)
+        ends = np.where(design.allows(ends), ends, (ends + present) / 2)  # an end that is not of the range
         if design.is_whole:
             ends = np.array([np.ceil(low - STILL), np.floor(high + STILL)])
         if len(listed := design.listed):
             within = listed[(listed >= low) & (listed <= high)]
-            ends = np.array([within.min(initial=design.present or 0.0), within.max(initial=design.present or 0.0)])
+            ends = np.array([within.min(initial=present), within.max(initial=present)])
         return Trial(item, design, float(ends[0]), float(ends[1]), reached[home])
 
     @property
@@ -99,13 +95,6 @@ class Trial:
     def is_still(self) -> bool:
         """Return whether no other value is usual."""
         return self.low == self.present == self.high
-
-
-def _usual(present: float, usual: UsualRange | None) -> tuple[float, float]:
-    if usual is not None and not usual.of:  # a ratio bounds no key by itself
-        return usual.usual
-    low, high = sorted((present * (1 - SHARE), present * (1 + SHARE)))
-    return low, high
 
 
 def apart(sets: Iterable[frozenset[str]]) -> list[list[int]]:
@@ -223,10 +212,6 @@ class Corner:
         """Return the corner with these trials at their present values."""
         return replace(self, order=self.order[~np.isin(self.order, list(trials))])
 
-    def after(self, first: int) -> Corner:
-        """Return the corner without so many of the strongest."""
-        return replace(self, order=self.order[first:])
-
     def values(self, present: Array) -> Array:
         """Return the values of all trials there, shape (trials,)."""
         found = present.copy()
@@ -289,7 +274,10 @@ class OpenValueTrials:
             if not failing:
                 return found
             fewer = {
-                (name, k): asked[name].after(k) for name in failing for k in LEFT_OUT if k < len(asked[name].order)
+                (name, k): replace(asked[name], order=asked[name].order[k:])
+                for name in failing
+                for k in LEFT_OUT
+                if k < len(asked[name].order)
             }
             changing = self._changing(effects, fewer)
             for name in failing:

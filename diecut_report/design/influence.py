@@ -58,11 +58,6 @@ class InputEffect:
         """Return how far the number moves at most, on a side where there is a machine; 0 where there is none on either."""
         return float(np.nanmax(np.abs([self.low - present, self.high - present, 0.0])))
 
-    @property
-    def is_impossible(self) -> bool:
-        """Return whether there is no machine with less, or with more of the input."""
-        return math.isnan(self.low) or math.isnan(self.high)
-
 
 @dataclass(frozen=True)
 class Tornado:
@@ -141,9 +136,8 @@ def tornados(
             )
             raise UserError(Problem(Phrase(template, asked=number.name), config.tree.file, path="--of"))
     left = 0 if defaults else sum(1 for each in standing if each.present and each.asked.path not in own)
-    tied = len(
-        {config.tree.position(each.stands) for each in given if each not in free}
-    )  # one number may stand for several inputs
+    # one number may stand for several inputs
+    tied = len({config.tree.position(each.stands) for each in given if each not in free})
     return [replace(_tornado(made, each, inputs, ends), at_default=left, tied=tied) for each in asked]
 
 
@@ -214,14 +208,12 @@ def _tornado(
     bars = [InputEffect(each, *pair, *beside) for each, pair, beside in zip(inputs, ends, sides, strict=True)]
     moving = [each for each in bars if each.reach(present) > STILL * abs(present)]
     moving.sort(key=lambda each: -each.reach(present))
-    impossible = tuple(each for each in bars if each not in moving and each.is_impossible)
-    reason = next((why for why in _errors(made, bars.index(impossible[0])) if why), "") if impossible else ""
+    impossible = tuple(each for each in bars if each not in moving and np.isnan([each.low, each.high]).any())
+    reason = ""
+    if impossible:
+        first = 1 + 2 * bars.index(impossible[0])  # the machine with less of it, then the one with more
+        reason = next(filter(None, made.errors[first : first + 2]), "")
     return Tornado(asked, present, tuple(moving), len(bars) - len(moving) - len(impossible), impossible, reason)
-
-
-def _errors(made: VariedMachines, index: int) -> Array:
-    """Why there is no machine with less, and none with more of the input of this place."""
-    return made.errors[1 + 2 * index : 3 + 2 * index]
 
 
 def within_tolerances(
@@ -398,10 +390,8 @@ def page(found: Sequence[Tornado], drawn: TolerancesRecord | None, name: str) ->
     parts += [f"<p>{html.escape(said(each))}</p>" for each in _left_out(found, "--defaults")]
     if drawn is not None:
         parts += [f"<h2>{say('Tolerances')}</h2>", _block(_tolerances(drawn))]
-    title, faces = (
-        html.escape(say("What matters: {file}", file=name)),
-        report_html._font_faces(tuple(report_html.FACES.items())),
-    )
+    title = html.escape(say("What matters: {file}", file=name))
+    faces = report_html._font_faces(tuple(report_html.FACES.items()))
     return PAGE.format(title=title, body="\n".join(parts), faces=faces, version=__version__, language=spoken_language())
 
 
@@ -453,7 +443,6 @@ def misnamed(config: Config) -> list[Problem]:
 
 
 def _sizes(config: Config, asked: InfluenceSettings) -> dict[DesignInput, float]:
-    """All inputs that scatter, and how far."""
     sizes = [_tolerance(config, name, str(size)) for name, size in (asked.tolerances or {}).items()]
     return _placed(config, ("tolerances",), lambda: by_input(sizes))
 

@@ -17,7 +17,6 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
-from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import POINTS, Quantity
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Text
@@ -77,7 +76,7 @@ class DesignInput:
     def options(self) -> tuple[str, ...]:
         """Return the values of a text or yes/no, as they are typed; none of a number, or where it may be any text."""
         meta = self.asked.meta
-        return () if isinstance(meta, Quantity) else tuple(meta.options) or tuple(_options(self.asked.annotation))
+        return () if isinstance(meta, Quantity) else tuple(meta.options) or tuple(allowed_texts(self.asked.annotation))
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -263,14 +262,15 @@ def _typed_unit(typed: str | None, meta: Quantity | Text) -> str:
         return meta.unit
 
 
-def _options(annotation: Any) -> Iterator[str]:
+def allowed_texts(annotation: Any) -> Iterator[str]:
+    """Yield the few texts that an annotation allows; none where it takes any."""
     if annotation is bool:
         yield from ("true", "false")
     elif get_origin(annotation) is Literal:
         yield from (text for text in get_args(annotation) if isinstance(text, str))
     else:
         for part in get_args(annotation):
-            yield from _options(part)
+            yield from allowed_texts(part)
 
 
 # What may be named by ``--free`` beside what is free by itself: for messages that say what to do.
@@ -306,14 +306,11 @@ def demanded(mechanism: Mechanism) -> frozenset[str]:
 
     A size of a part that is held against a bound, such as a width, is not one: other checks follow from it.
     """
-    sides = [_sides(check) for check in mechanism.checks]
+    named = [(check.demand, check.limit, check.at_least) for check in mechanism.checks]
+    sides = [{side for side in own if isinstance(side, str)} for own in named]
     given = set().union(*sides) - {step.id for _, step in mechanism.steps}
     reached = {name: _reached(mechanism, name) for name in given}
     return frozenset(name for name in given if all(name in own for own in sides if reached[name] & own))
-
-
-def _sides(check: Check) -> set[str]:
-    return {side for side in (check.demand, check.limit, check.at_least) if isinstance(side, str)}
 
 
 def _reached(mechanism: Mechanism, name: str) -> set[str]:
@@ -337,7 +334,7 @@ FIXED_BASES = ("standard", "catalogue", "measured")
 
 
 def changeable(
-    config: Config, free: Sequence[DesignInput], keep: Container[str], advised: Iterable[DesignInput] = ()
+    config: Config, free: Sequence[DesignInput], keep: Container[str], advised: Iterable[DesignInput]
 ) -> list[DesignInput]:
     """Return the numbers that may be changed: the ``free`` ones, else sizes, angles and ratios, and what is advised, but for those paths.
 

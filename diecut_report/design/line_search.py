@@ -191,7 +191,7 @@ def _crossed(function: Function, x: Array, values: Array, present: float | None)
     """The places between these numbers alone."""
     places: list[float] = []
     jumps: list[float] = []
-    for run in _existing(values):
+    for run in runs(np.isfinite(values)):
         own, known = x[run], values[run]
         for each in crossings(function, own, known):
             (jumps if each.is_jump else places).append(each.at)
@@ -226,7 +226,7 @@ def _about_the_nearest(function: Function, x: Array, values: Array) -> Array:
     return np.array(tried)
 
 
-def _existing(values: Array) -> list[slice]:
-    """The runs of neighbours that all have a value."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], np.isfinite(values), [False]]).astype(int)))
+def runs(holds: Array) -> list[slice]:
+    """Return the runs of neighbours that all hold."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
     return [slice(int(first), int(last)) for first, last in zip(edges[::2], edges[1::2], strict=True)]

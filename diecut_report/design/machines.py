@@ -254,10 +254,6 @@ class ChangedMachines:
         """Return the changes of today's machine: none."""
         return np.zeros(len(self.inputs))
 
-    def with_choices(self, choices: Mapping[str, Chosen]) -> ChangedMachines:
-        """Return the same with these choices in the place of its own."""
-        return replace(self, choices=choices)
-
 
 # One machine of a configuration with values written into its text, read again and calculated by itself, as its report would.
 
@@ -279,10 +275,6 @@ class ProvedMachine:
         """Return its checks of a status by name: ``drive.crank_torque``."""
         found = ((f"{name}.{each.id}", each) for name, own in self.run.checks.items() for each in own)
         return {name: each for name, each in found if each.status == status and each.check_class != SELF_TEST}
-
-    @property
-    def status(self) -> str:
-        return self.run.status
 
     @property
     def failing(self) -> tuple[str, ...]:

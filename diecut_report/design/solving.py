@@ -11,7 +11,7 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.design.answers import Answer, DesignQuestion, FoundValue, Range, Role, question
 from diecut_report.design.inputs import DesignInput
-from diecut_report.design.line_search import Function, crossings, greatest, looked_closer, roots, without_gaps
+from diecut_report.design.line_search import Function, crossings, greatest, looked_closer, roots, runs, without_gaps
 from diecut_report.design.machines import VariedMachines, impossible, narrowed, proved, varied
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.formulas import Array
@@ -73,7 +73,7 @@ NEAR = 60  # machines about the best one, as far as its neighbours
 
 
 def solved(
-    press: Press, asked: str, design: DesignInput, *, passing: bool = False, low: float | None = None, high: float | None = None
+    press: Press, asked: str, design: DesignInput, *, passing: bool, low: float | None, high: float | None
 ) -> Answer:  # fmt: skip
     """Return the values of an input with which a question is answered; with ``passing`` only those with which no check fails.
 
@@ -208,15 +208,14 @@ class _RangeSearch:
         return np.minimum(held, made.least_slack) if self.passing else np.where(made.exists, held, np.nan)
 
     def _ranges(self, x: Array, held: Array) -> list[Range]:
-        """The ranges of values where it holds."""
         refined: dict[float, float] = {}
         if not self.design.is_stepped:
             x, held = looked_closer(self._held, x, held)
             x, held = without_gaps(self._held, x, held)
             refined = {each.at: each.inside for each in crossings(self._held, x, held, PASSING_CLOSE)}
         places: list[tuple[float, Role]] = []
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], held >= 0, [False]]).astype(int)))
-        for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+        for run in runs(held >= 0):
+            first, last = run.start, run.stop - 1
             low = _between(refined, x[first - 1], x[first], x[first]) if first else x[first]
             high = _between(refined, x[last], x[last + 1], x[last]) if last + 1 < len(x) else x[last]
             places += [(float(low), "lower"), (float(high), "upper")]
@@ -279,7 +278,6 @@ class _RangeSearch:
         return self._nearest_first([min(ends, key=lambda each: abs(each.value - present)) for ends in ranges])
 
     def _nearest(self, x: Array, made: VariedMachines, y: Array) -> FoundValue | None:
-        """The value that comes nearest to what is asked."""
         away = np.abs(y - self.question.value) if self.question.kind == "=" else -self.holds(made, y)
         away = np.where(made.exists & np.isfinite(away), away, np.inf)
         if not np.isfinite(away).any():

@@ -14,7 +14,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.design.inputs import DesignInput, require_untied
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
-from diecut_report.errors import Problem, refusal
+from diecut_report.errors import refusal
 from diecut_report.live.session import LiveMachine, LiveSession
 from diecut_report.quantities.plausible import plausible
 from diecut_report.quantities.units import unit
@@ -25,7 +25,7 @@ from diecut_report.report.text import Catalogue, figure_translated, quantity, ti
 from diecut_report.results.checks import NOT_CHECKED
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import shown_figures
-from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, QuantityRecord
+from diecut_report.results.mechanism_record import CheckRecord, QuantityRecord
 from diecut_report.results.press_run import Tell
 from diecut_report.study.execution.press_batch import untold
 from diecut_report.text.phrases import phrase
@@ -48,14 +48,13 @@ def page_data(session: LiveSession) -> Data:
         "serial": session.serial,
         "file": session.file.name,
         "edits": dict(session.edits),
-        "faults": [_fault(problem) for problem in session.faults[:MAX_FAULTS]],
+        "faults": [
+            {"text": said(each.message), "line": each.line, "column": each.column, "path": each.path}
+            for each in session.faults[:MAX_FAULTS]
+        ],
         "more_faults": max(0, len(session.faults) - MAX_FAULTS),
         "machine": None if machine is None or start is None else _machine(machine, start, session.edits),
     }
-
-
-def _fault(problem: Problem) -> Data:
-    return {"text": said(problem.message), "line": problem.line, "column": problem.column, "path": problem.path}
 
 
 def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str]) -> Data:
@@ -78,28 +77,17 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
     instance = machine.config.instances[name]
     assert instance is not None, "a machine with a broken plugin is not shown"
     run = machine.run
-    kind = instance.mechanism.kind if instance.mechanism else ""
-    own = {
+    mechanism, is_there = instance.mechanism, name in run.calculations
+    kind = mechanism.kind if mechanism else ""
+    before = {check.id: check for check in start.run.checks.get(name, ())}
+    return {
+        "name": name,
+        "title": said(mechanism.title, kind) if mechanism else said(phrase("Press")),
+        "skipped": mechanism is not None and not is_there,
         "inputs": [
             _input(each, kind, start, edits) if each.asked.unit is not None else _choice(each, kind, start, edits)
             for each in _inputs(name, machine)
-        ]
-    }
-    if instance.mechanism is None:
-        return own | {
-            "name": name,
-            "title": said(phrase("Press")),
-            "checks": [],
-            "outputs": [],
-            "figures": [],
-            "skipped": False,
-        }
-    is_there = name in run.calculations
-    before = {check.id: check for check in start.run.checks.get(name, ())}
-    return own | {
-        "name": name,
-        "title": said(instance.mechanism.title, kind),
-        "skipped": not is_there,
+        ],
         "checks": [_check(each, kind, before.get(each.id)) for each in run.checks.get(name, ()) if each.check_class != "numerical"],
         "outputs": list(_outputs(name, kind, machine, start)) if is_there else [],
         "figures": [_text(title, kind) for title in run.figure_titles(name)] if is_there else [],
@@ -111,14 +99,13 @@ def _text(text: object, kind: str) -> str:
 
 
 def _inputs(name: str, machine: LiveMachine) -> list[DesignInput]:
-    every = [*machine.inputs.values(), *machine.choices.values()]
-    own = (each for each in every if each.asked.instance == name)
+    own = (each for each in machine.inputs.values() if each.asked.instance == name)
     return sorted(own, key=lambda each: machine.config.tree.position(each.stands))
 
 
 def _choice(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
-    first = start.choices.get(asked.name)
-    return _named(asked, asked.asked.meta, kind) | {
+    first = start.inputs.get(asked.name)
+    return _named(asked, kind) | {
         "unit": "",
         "typed": edits.get(asked.name) or asked.written,
         "start": first.written if first else "",
@@ -131,7 +118,7 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
     low, high = slider(asked)
     own = unit(asked.unit)
     first = start.inputs.get(asked.name)
-    return _named(asked, asked.meta, kind) | {
+    return _named(asked, kind) | {
         "unit": "" if asked.unit == "1" else asked.unit,
         "value": _plain(own.from_si(asked.present)),
         "typed": edits.get(asked.name) or asked.typed(asked.present),
@@ -142,7 +129,8 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
     }
 
 
-def _named(asked: DesignInput, meta: Any, kind: str) -> Data:
+def _named(asked: DesignInput, kind: str) -> Data:
+    meta = asked.asked.meta
     text = _text(meta.description, kind)
     return {"name": asked.name, "path": asked.asked.path, "text": text, "symbol": meta.symbol}
 
@@ -153,15 +141,10 @@ def slider(asked: DesignInput) -> tuple[float, float]:
     least, greatest = asked.bounds
     if asked.is_whole:
         return max(value - WHOLE_REACH, least), min(value + WHOLE_REACH, greatest)
-    reach = REACH * abs(value) or REACH * plausible_step(asked)
+    reach = REACH * (abs(value) or math.sqrt(math.prod(plausible(asked.meta.unit).ends)))
     low, high = value - reach, value + reach
     is_open = least == 0 < value  # a length above zero: zero itself is none
     return (max(low, least) if not is_open else max(low, value / 100)), min(high, greatest)
-
-
-def plausible_step(asked: DesignInput) -> float:
-    """Return the size (SI) by which an input that is zero now may move."""
-    return math.sqrt(math.prod(plausible(asked.meta.unit).ends))
 
 
 def _plain(number: float) -> float:
@@ -241,36 +224,25 @@ class Pictures:
         """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
         if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figure_titles(mechanism)):
             raise refusal("There is no figure {n} of {name}.", n=index, name=repr(mechanism))
-        figure = _pictures_of_run_shown(machine, mechanism, index)
+        declared = shown_figures(machine.run.calculations[mechanism])[index]
+        # a chart to which this machine gives no panel is not among them, though its title is told
+        figure = next((each for each in machine.run.figures(mechanism) if each.id == declared.id), None)
+        if figure is None:
+            raise refusal("{title}: nothing to show for this machine.", title=declared.title)
         known = self._drawn.get((mechanism, index))
         if known is None or known[0] is not figure:
-            known = figure, _drawn(*_in_words(machine, mechanism, figure), mechanism, index)
+            known = figure, _drawn(machine, figure, mechanism, index)
             self._drawn[mechanism, index] = known
         return known[1]
 
 
-def _pictures_of_run_shown(machine: LiveMachine, mechanism: str, index: int) -> FigureRecord:
-    """The figure; a chart to which this machine gives no panel is not among them, though its title is told."""
-    declared = shown_figures(machine.run.calculations[mechanism])[index]
-    found = next((figure for figure in machine.run.figures(mechanism) if figure.id == declared.id), None)
-    if found is None:
-        raise refusal("{title}: nothing to show for this machine.", title=declared.title)
-    return found
-
-
-def _in_words(
-    machine: LiveMachine, mechanism: str, figure: FigureRecord
-) -> tuple[FigureRecord, dict[str, CurveRecord]]:
-    curves, catalogues = machine.run.curves(mechanism), catalogues_spoken()
-    if catalogues is None:
-        return figure, curves
-    return figure_translated(figure, curves, machine.run.calculations[mechanism].mechanism.kind, catalogues)
-
-
-def _drawn(figure: FigureRecord, curves: Mapping[str, CurveRecord], mechanism: str, index: int) -> Data:
+def _drawn(machine: LiveMachine, figure: FigureRecord, mechanism: str, index: int) -> Data:
     from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
-    words = Catalogue(spoken_language())
+    words, curves = Catalogue(spoken_language()), machine.run.curves(mechanism)
+    if catalogues := catalogues_spoken():
+        kind = machine.run.calculations[mechanism].mechanism.kind
+        figure, curves = figure_translated(figure, curves, kind, catalogues)
     try:
         if figure.type in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
             return {"plot": readings}
@@ -366,7 +338,7 @@ def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
     the name of each mechanism before it is calculated; what it raises ends the run.
     """
     asked = machine.inputs.get(name)
-    if asked is None:
+    if asked is None or asked.asked.unit is None:
         raise refusal("{name} is not a number that the file gives.", name=repr(name))
     require_untied(machine.config, asked)
     places = _places(asked)

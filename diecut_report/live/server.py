@@ -28,7 +28,7 @@ from watchfiles import awatch
 
 from diecut_report.errors import PluginError, UserError, refusal
 from diecut_report.live.page import Pictures, assets, effect, page, page_data
-from diecut_report.live.session import LiveMachine, LiveReports, LiveSession, in_time
+from diecut_report.live.session import MEDIA_TYPES, NAME, LiveMachine, LiveReports, LiveSession, in_time
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, say
@@ -54,9 +54,8 @@ class LiveApplication:
         self.session = session
         self.pictures, self.reports = Pictures(), LiveReports(folders, language)
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="live")
-        self._streams: set[asyncio.Event] = (
-            set()
-        )  # one of each: a condition that streams share hangs where one is cancelled
+        # one event of each stream: a condition that streams share hangs where one is cancelled
+        self._streams: set[asyncio.Event] = set()
         self._told = -1, b""
         self._is_reading = False
         self._waiting = 0  # how much is to be done that a hand waits for
@@ -174,16 +173,17 @@ class LiveApplication:
         return Response(status_code=404) if found is None else Response(found.content, media_type=found.media_type)
 
     async def _view(self, request: Request) -> Response:
+        return await self._picture(request, self.pictures.view)
+
+    async def _figure(self, request: Request) -> Response:
+        mechanism = request.path_params["mechanism"]
+        return await self._picture(request, lambda machine, index: self.pictures.figure(machine, mechanism, index))
+
+    async def _picture(self, request: Request, draw: Callable[[LiveMachine, int], dict[str, Any]]) -> Response:
         index = request.path_params["index"]
         if not re.fullmatch("[0-9]{1,9}", index):
             return Response(status_code=404)
-        return await self._of_machine(lambda machine: self.pictures.view(machine, int(index)))
-
-    async def _figure(self, request: Request) -> Response:
-        mechanism, index = request.path_params["mechanism"], request.path_params["index"]
-        if not re.fullmatch("[0-9]{1,9}", index):
-            return Response(status_code=404)
-        return await self._of_machine(lambda machine: self.pictures.figure(machine, mechanism, int(index)))
+        return JSONResponse(await self._done(self._of_last(lambda machine: draw(machine, int(index)))))
 
     async def _effect(self, request: Request) -> Response:
         """An effect is a whole run of many machines: it gives way to all else, and ends where its page looks at another."""
@@ -202,9 +202,6 @@ class LiveApplication:
                 return JSONResponse(found.result())
         return Response(status_code=503)
 
-    async def _of_machine(self, make: Callable[[LiveMachine], dict[str, Any]]) -> Response:
-        return JSONResponse(await self._done(self._of_last(make)))
-
     def _of_last(self, make: Callable[[LiveMachine], dict[str, Any]]) -> Callable[[], dict[str, Any]]:
 
         def made() -> dict[str, Any]:
@@ -214,17 +211,20 @@ class LiveApplication:
 
         return made
 
-    def _document(self, machine: LiveMachine) -> ResultsRecord:
-        with in_time(self.session.file):
-            return machine.run.document()
-
     async def _report(self, request: Request) -> Response:
         machine = self.session.machine
         if machine is None:
             return Response(say("There is no machine to report yet; see the errors in the file."), 409)
-        results = await self._done(lambda: self._document(machine))
-        made = await self.reports.made(results, request.path_params["form"])
-        return Response(made.content, media_type=made.media_type, headers=made.headers)
+
+        def document() -> ResultsRecord:
+            with in_time(self.session.file):
+                return machine.run.document()
+
+        results = await self._done(document)
+        form = request.path_params["form"]
+        content = await self.reports.made(results, form)
+        headers = {"content-disposition": f'inline; filename="{NAME}.{form}"'}
+        return Response(content, media_type=MEDIA_TYPES[form], headers=headers)
 
     async def _change(self, request: Request) -> Response:
         given = await _sent(request)
@@ -306,7 +306,8 @@ class Guard:
             return
         status = self._refusal(scope)
         if status:
-            await _guard_refused(send, status)
+            await send({"type": "http.response.start", "status": status, "headers": [(b"content-length", b"0")]})
+            await send({"type": "http.response.body", "body": b""})
             return
         inner = {**scope, "path": scope["path"][len(self.token) + 1 :] or "/", "raw_path": None}
         body = _BoundedBody(receive, scope["method"])
@@ -351,11 +352,6 @@ class _BoundedBody:
     def _broken_off(self) -> Message:
         self.is_whole = self.is_broken_off = True
         return {"type": "http.disconnect"}
-
-
-async def _guard_refused(send: Send, status: int) -> None:
-    await send({"type": "http.response.start", "status": status, "headers": [(b"content-length", b"0")]})
-    await send({"type": "http.response.body", "body": b""})
 
 
 def _with_headers(send: Send, body: _BoundedBody) -> Send:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from diecut_report.config import yaml
 from diecut_report.config.loader import Config
@@ -34,13 +34,12 @@ MAX_EDITS = 1_000
 
 @dataclass(frozen=True)
 class LiveMachine:
-    """Hold a machine that could be calculated: the file that it was read from, its configuration, its inputs and choices by name, and its run."""
+    """Hold a machine that could be calculated: the file that it was read from, its configuration, its run, and its inputs by name."""
 
     tree: Tree
     config: Config
     run: WarmRun
     inputs: Mapping[str, DesignInput]
-    choices: Mapping[str, DesignInput]
 
 
 class LiveSession:
@@ -87,7 +86,6 @@ class LiveSession:
         self._calculate()
 
     def _forget_written(self) -> None:
-        """Forget the changes that stand in the file."""
         if self.tree is not None:
             in_file = {name: self.tree.typed(self._places[name]) for name in self.edits}
             self.edits = {
@@ -107,12 +105,13 @@ class LiveSession:
 
     def change(self, changes: Mapping[str, str]) -> None:
         """Take values of the page, as typed, by the names of their inputs; UserError where one is not a value of its input."""
-        machine = self._changeable()
+        if (machine := self.machine) is None:
+            raise refusal("Nothing can be changed before the file can be calculated.", self.file)
         taken = {name: self._judged(machine, name, typed.strip()) for name, typed in changes.items()}
         if len(self.edits.keys() | taken.keys()) > MAX_EDITS:
             raise refusal("At most {n} numbers can be changed before they are written to the file.", n=MAX_EDITS)
         for name, typed in taken.items():
-            self._places[name] = (machine.inputs.get(name) or machine.choices[name]).stands
+            self._places[name] = machine.inputs[name].stands
             if name not in self.edits:  # by what the page shows, which the file may not be any more
                 self._items[name] = _items(machine.tree, self._places[name])
                 self._typed[name] = machine.tree.typed(self._places[name])
@@ -154,17 +153,12 @@ class LiveSession:
             raise refusal(template, self.file, names=", ".join(moved))
         return {self._places[name]: typed for name, typed in self.edits.items()}
 
-    def _changeable(self) -> LiveMachine:
-        if self.machine is None:
-            raise refusal("Nothing can be changed before the file can be calculated.", self.file)
-        return self.machine
-
     def _judged(self, machine: LiveMachine, name: str, typed: str) -> str:
-        if name in machine.choices:
-            return _chosen(machine.choices[name], typed)
         asked = machine.inputs.get(name)
         if asked is None:
             raise refusal("{name} is not a number that the file gives.", name=repr(name))
+        if asked.asked.unit is None:
+            return _chosen(asked, typed)
         try:
             if len(typed) > MAX_TYPED_LENGTH:
                 raise UnitError("has more than {n} letters", n=MAX_TYPED_LENGTH)
@@ -206,9 +200,8 @@ class LiveSession:
         for error in run.errors.values():
             raise error
         _require_shown(run)
-        return LiveMachine(
-            tree, config, run, typed_in(tree, given_numbers(config)), typed_in(tree, given_choices(config))
-        )
+        given = [*given_numbers(config), *given_choices(config)]
+        return LiveMachine(tree, config, run, typed_in(tree, given))
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)
@@ -274,20 +267,12 @@ def _require_shown(run: WarmRun) -> None:
             raise PluginError(said(cause), calculation.mechanism.kind, name) from cause
 
 
-# LiveReports of a live machine, made by a process of their own, so that the page goes on while the sheets are set.
+# Reports of a live machine, made by a process of their own, so that the page goes on while the sheets are set.
 
 
 MEDIA_TYPES = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
 NAME = "report"
 REPORT_SECONDS = 900.0  # for a report; while one is made the next waits
-
-
-class MadeReport(NamedTuple):
-    """Hold a report as a browser takes it."""
-
-    content: bytes
-    media_type: str
-    headers: dict[str, str]
 
 
 class LiveReports:
@@ -297,7 +282,7 @@ class LiveReports:
         self.folders, self.language = folders, language
         self._one = asyncio.Lock()
 
-    async def made(self, results: ResultsRecord, form: str) -> MadeReport:
+    async def made(self, results: ResultsRecord, form: str) -> bytes:
         """Return the report of these results as ``html`` or ``pdf``; UserError in the words of the command where it cannot be made."""
         if form not in MEDIA_TYPES:
             raise refusal(
@@ -305,28 +290,17 @@ class LiveReports:
             )
         async with self._one:
             with tempfile.TemporaryDirectory(prefix="diecut-report-") as folder:
-                content = await self._rendered(Path(folder), encoded(results_text(results)), form)
-        return MadeReport(content, MEDIA_TYPES[form], {"content-disposition": f'inline; filename="{NAME}.{form}"'})
+                return await self._rendered(Path(folder), encoded(results_text(results)), form)
 
     async def _rendered(self, folder: Path, results: bytes, form: str) -> bytes:
         (folder / f"{NAME}.json").write_bytes(results)
         options = [part for place in self.folders for part in ("--plugins", str(place.absolute()))]
         options += ["--language", self.language] if self.language else []
-        command = [
-            sys.executable,
-            "-P",
-            "-m",
-            "diecut_report",
-            "render",
-            f"{NAME}.json",
-            "-o",
-            "made",
-            "--format",
-            form,
-            "--quiet",
-        ]
-        process = await asyncio.create_subprocess_exec(*command, *options, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
-                                                       stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE)  # fmt: skip
+        command = f"-P -m diecut_report render {NAME}.json -o made --format {form} --quiet".split()
+        process = await asyncio.create_subprocess_exec(
+            sys.executable, *command, *options, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
+            stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
+        )  # fmt: skip
         try:
             async with asyncio.timeout(REPORT_SECONDS):
                 _, told = await process.communicate()

@@ -9,9 +9,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, overload
+from typing import Any, ClassVar, Self, TypeVar, overload
 
+import numpy as np
 from markupsafe import Markup
+from numpy.typing import NDArray
 
 from diecut_report.errors import ConfigError, Problem, UnknownName, nearest
 from diecut_report.files import write_all
@@ -20,16 +22,9 @@ from diecut_report.report.scope import STANDARD
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, PhaseRecord, ShownRecord
 from diecut_report.results.record import CheckClass, CheckStatus, Record
-from diecut_report.scripting.values import QuantityValue, notebook_page, told_in
+from diecut_report.scripting.values import Printable, QuantityValue, notebook_page, told_in
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from diecut_report.scripting.values import Printable
-
 
 PartT = TypeVar("PartT")
 SHOWN = 20  # known names that a message lists
@@ -274,8 +269,6 @@ class CurveResult(OfRecord):
     @cached_property
     def values(self) -> NDArray[np.float64]:
         """Return the values in the SI unit; they cannot be changed."""
-        import numpy as np
-
         values = np.array(self.record.values, dtype=float)
         values.setflags(write=False)
         return values
@@ -290,8 +283,6 @@ class CurveResult(OfRecord):
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
         """Return the values for NumPy, in the SI unit."""
-        import numpy as np
-
         return np.array(self.values, dtype=dtype) if copy or dtype else self.values
 
     def __repr__(self) -> str:

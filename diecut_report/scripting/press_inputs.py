@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any, Literal, get_args, get_origin
+from typing import Any
 
 from diecut_report.config.instances import Instance, Slot
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.validation import GIVEN, Basis
 from diecut_report.config.yaml import KeyPath
+from diecut_report.design.inputs import allowed_texts
 from diecut_report.errors import ConfigError, Problem
 from diecut_report.mechanism.curve_inputs import InOtherUnit
 from diecut_report.mechanism.inputs import Quantity
@@ -108,21 +109,12 @@ def _input(config: Config, instance: Instance, slot: Slot) -> PressInput:
     value = None if is_followed else _value(path, slot, instance.value(slot.key))
     rests, described = basis.basis, meta.description if meta else ""
     if not isinstance(meta, Quantity):
-        choices = ", ".join(_choices(config, path))
-        return PressInput(path, kind, value, typed, "1", choices, "", described, rests, basis.note)
+        choices: list[str] = []
+        with suppress(UnknownPath):  # of a key that cannot be varied
+            choices += allowed_texts(find_input(config, whole_path(path)).annotation)
+        return PressInput(path, kind, value, typed, "1", ", ".join(choices), "", described, rests, basis.note)
     rests = rests or (GIVEN if typed else "")
     return PressInput(path, kind, value, typed, meta.unit, meta.allowed, meta.symbol, described, rests, basis.note)
-
-
-def _choices(config: Config, path: str) -> list[str]:
-    """The texts that an input may have; none where it takes any."""
-    try:
-        annotation = find_input(config, whole_path(path)).annotation
-    except UnknownPath:  # of a key that cannot be varied
-        return []
-    kinds = (annotation, *get_args(annotation))
-    texts = [text for kind in kinds if get_origin(kind) is Literal for text in get_args(kind)]
-    return texts or (["true", "false"] if bool in kinds else [])
 
 
 def _value(path: str, slot: Slot, value: Any) -> QuantityValue | None:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 from diecut_report.config.loader import Config
 from diecut_report.config.model import DETAILS
 from diecut_report.config.plugins import Discovery
+from diecut_report.design.findings import findings
 from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName, nearest
 from diecut_report.exchange.rendering import document
 from diecut_report.files import write_all
@@ -332,11 +333,8 @@ class Results(NamedParts[MechanismResults]):
 
     def _rendered(self, form: str, asked: AskedReport) -> tuple[bytes, list[Lost]]:
         data = self._printable.in_language()
-        if (
-            self.config is not None and not self.errors
-        ):  # what of the assumed values matters, and what comes of the advice
-            from diecut_report.design.findings import findings
-
+        # what of the assumed values matters, and what comes of the advice
+        if self.config is not None and not self.errors:
             data = findings(self.config, data, lambda _: None)
         made = document(asked.noted(data), (form,), self._printable.discovery, lambda _: None, self._data.config.file)
         return made.contents[form], made.lost

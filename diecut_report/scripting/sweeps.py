@@ -81,10 +81,8 @@ class SweepTable(Tabular):
         return f"<{len(self)} machines ({told}); {len(self.columns)} columns: {', '.join(list(self.columns)[:4])}, …>"
 
     def _repr_html_(self) -> str:
-        words, names = (
-            Catalogue(SOURCE_LANGUAGE),
-            [name for name in self.columns if ".checks." not in name and name != "error"],
-        )
+        words = Catalogue(SOURCE_LANGUAGE)
+        names = [name for name in self.columns if ".checks." not in name and name != "error"]
         names = names if len(names) <= COLUMNS else [*names[: COLUMNS - 2], *names[-2:]]
         units = {name: self.columns[name].display or self.columns[name].unit for name in names}
         rows = list(

@@ -194,9 +194,8 @@ def scalar(given: Any, path: str) -> float | int | bool | str:
         return given
     if isinstance(given, QuantityValue):
         return given.value if given.unit == "1" else f"{given.value!r} {given.unit}"
-    if hasattr(given, "magnitude") and hasattr(
-        given, "units"
-    ):  # of pint; its unit in the short form is read back as the same one
+    # of pint; its unit in the short form is read back as the same one
+    if hasattr(given, "magnitude") and hasattr(given, "units"):
         number, own = scalar(given.magnitude, path), f"{given.units:~C}"
         return float(number) if own == "" else f"{number!r} {own}"
     if hasattr(given, "item") and not _is_array(given):  # a number of NumPy
@@ -248,14 +247,12 @@ def told_in(language: str | None, *, without_places: bool = False) -> Iterator[N
         yield
     except UserError as error:
         own = type(error) if isinstance(error, UnknownName | Unwritable) else ConfigError
-        raise own(_translated(error.problems, language or SOURCE_LANGUAGE, without_places)) from error.__cause__
-
-
-def _translated(problems: tuple[Problem, ...], language: str, without_places: bool) -> Iterator[Problem]:
-    with speaking(language, None if language == SOURCE_LANGUAGE else of_all_plugins(language)):
-        for problem in problems:
-            told = replace(problem, message=said(problem.message))
-            yield replace(told, file="", line=None, column=None) if without_places else told
+        language = language or SOURCE_LANGUAGE
+        with speaking(language, None if language == SOURCE_LANGUAGE else of_all_plugins(language)):
+            problems = [replace(each, message=said(each.message)) for each in error.problems]
+        if without_places:
+            problems = [replace(each, file="", line=None, column=None) for each in problems]
+        raise own(problems) from error.__cause__
 
 
 def known_language(language: str | None) -> str | None:
@@ -269,12 +266,9 @@ def known_language(language: str | None) -> str | None:
 # What a notebook shows: the very texts, formulas and figures of a report, as HTML without scripts, on light and on dark paper.
 
 
-TEMPLATE = "notebook.html.j2"
-
-
 def notebook_page(part: str, words: Catalogue, **given: object) -> str:
     """Return a part of the notebook's template."""
-    return filled_page(TEMPLATE, part=part, t=words, **given)
+    return filled_page("notebook.html.j2", part=part, t=words, **given)
 
 
 # Results as documents and notebooks are made of them.

@@ -20,7 +20,7 @@ from diecut_report.config.plugins import Discovery, Origin, said
 from diecut_report.declaration import faults, faults_at_load
 from diecut_report.declaration.dimensions import at_place, by_id
 from diecut_report.declaration.formula_checks import doubts, forms, idle_inputs, printing, quantities
-from diecut_report.errors import Problem, UserError, refusal
+from diecut_report.errors import Problem, UserError
 from diecut_report.files import content, write_all
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible, Unproven
@@ -85,12 +85,11 @@ class TriedRule:
     def short_list(self) -> tuple[str, ...]:
         """Return the first faults, and how many more there are."""
         left = len(self.faults) - MAX_LISTED
-        notes, faults = (
-            Counted(left, "{n} more note", "{n} more notes"),
-            Counted(left, "{n} more fault", "{n} more faults"),
-        )
-        more = [notes if self.status == "note" else faults] if left > 0 else []
-        return (*self.faults[:MAX_LISTED], *more)
+        if left <= 0:
+            return self.faults
+        notes = Counted(left, "{n} more note", "{n} more notes")
+        faults = Counted(left, "{n} more fault", "{n} more faults")
+        return (*self.faults[:MAX_LISTED], notes if self.status == "note" else faults)
 
 
 def rule(id: str, summary: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:
@@ -413,12 +412,6 @@ def check_contract(
 
 
 MAX_CATALOGUE_BYTES = 10_000_000  # bytes of a catalogue
-
-
-def refuse_own(origin: Origin) -> None:
-    """Refuse to write into catalogues of the program itself: UserError says why."""
-    if origin.is_own:
-        raise refusal("{kind} comes with the program, whose catalogues are made by its own tool.", kind=origin.kind)
 
 
 def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatalogue]:

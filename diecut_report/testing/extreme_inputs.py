@@ -81,17 +81,6 @@ def input_of(path: KeyPath) -> str:
     return dotted(path[2:])
 
 
-def alone_with_its_needs(config: Config, name: str) -> dict[str, Any]:
-    """Return the plain data of a configuration with one of its mechanisms, and those that it refers to."""
-    data, needed, size = json.loads(json.dumps(config.tree.data, default=str)), {name}, 0
-    while len(needed) > size:
-        size = len(needed)
-        targets = [target for node, target in config.links.items() if node[0] in needed]
-        needed |= {each.instance for target in targets for each in target.single}
-    data["mechanisms"] = {own: block for own, block in data["mechanisms"].items() if own in needed}
-    return dict(data)
-
-
 def with_value(config: Mapping[str, Any], key: KeyPath, value: Any, unit: str = "1") -> str:
     """Return a configuration with another value as a text; a number with its unit, so that nobody asks which one is meant."""
     changed = json.loads(json.dumps(config))
@@ -141,8 +130,12 @@ class TriedExtremes:
 
     @cached_property
     def data(self) -> dict[str, Any]:
-        """Return the configuration of the machine alone, with what it refers to."""
-        return alone_with_its_needs(self.config, self.name)
+        """Return the plain data of the configuration with the machine alone, and the mechanisms that it refers to."""
+        from diecut_report.design.machines import upstream  # with studies, which no other rule needs
+
+        data, needed = json.loads(json.dumps(self.config.tree.data, default=str)), upstream(self.config, [self.name])
+        own = {name: block for name, block in data["mechanisms"].items() if name in needed}
+        return {**data, "mechanisms": own}
 
     @cached_property
     def cases(self) -> tuple[list[tuple[KeyPath, Extreme, str]], int]:

@@ -290,8 +290,7 @@ def calculate(
 
 
 def configured(
-    mechanism: Mechanism, inputs: Keys, press: Keys | None = None, others: Mapping[str, Keys] | None = None,
-    plugins: Iterable[str | Path] = (),
+    mechanism: Mechanism, inputs: Keys, press: Keys | None, others: Mapping[str, Keys] | None, plugins: Iterable[str | Path]
 ) -> Press:  # fmt: skip
     """Return the press of one machine; UserError with all that is wrong with it."""
     blocks = {**(others or {}), mechanism.kind: {"kind": mechanism.kind, **inputs}}

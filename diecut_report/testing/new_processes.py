@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -85,14 +85,11 @@ def _by_id(record: Data) -> Data:
     """Each quantity, check and figure of a mechanism's results by its id; all else by its field."""
     found: Data = {}
     for field, part in record.items():
-        is_listed = isinstance(part, list) and all(isinstance(each, dict) and "id" in each for each in part)
-        named = (
-            part.items()
-            if isinstance(part, dict)
-            else [(each["id"], each) for each in part]
-            if is_listed
-            else [(field, part)]
-        )
+        named: Iterable[tuple[str, Any]] = [(field, part)]
+        if isinstance(part, dict):
+            named = part.items()
+        elif isinstance(part, list) and all(isinstance(each, dict) and "id" in each for each in part):
+            named = [(each["id"], each) for each in part]
         for id, each in named:
             found.setdefault(id, []).append(each)  # a check may have the name of what it compares
     return found

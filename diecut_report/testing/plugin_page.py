@@ -15,7 +15,7 @@ from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, in_fo
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.press import Press
-from diecut_report.testing.contract import WORST_LAST, ContractTest, TriedRule, refuse_own, write_missing
+from diecut_report.testing.contract import WORST_LAST, ContractTest, TriedRule, write_missing
 from diecut_report.text.phrases import Counted, Phrase, joined
 from diecut_report.text.po_files import ChangedCatalogue
 from diecut_report.text.translation import said
@@ -176,8 +176,8 @@ def checked(
     """
     origin = known.origins[kind][0]
     found = CheckedPlugin(kind, origin.label)
-    if write_po:
-        refuse_own(origin)
+    if write_po and origin.is_own:
+        raise refusal("{kind} comes with the program, whose catalogues are made by its own tool.", kind=kind)
     try:
         known.extend()
         found.mechanism = known.mechanism(kind)

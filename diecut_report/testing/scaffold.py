@@ -27,7 +27,7 @@ LIKE = ("parts", "motion", "selection")
 TABLES = {"selection": "sizes.csv"}  # those that have a table beside the plugin
 
 
-def scaffold(name: str, folder: Path, *, as_package: bool, like: str = "parts") -> list[Path]:
+def scaffold(name: str, folder: Path, *, as_package: bool, like: str) -> list[Path]:
     """Write a new mechanism into a folder that is not there yet; UserError in words where the name or the folder cannot be.
 
     Returns the files, the plugin's module first.

@@ -236,13 +236,8 @@ def parted(name: str, text: str) -> tuple[str, str]:
     return number.replace("−", "-"), unit.strip()
 
 
-def rounding(printed: str) -> float:
-    """Return half a unit of the last printed digit."""
-    mantissa, _, exponent = printed.lower().partition("e")
-    decimals = len(mantissa.partition(".")[2])
-    return float(0.5 * 10.0 ** (int(exponent or 0) - decimals))
-
-
 def rounds_to(value: float, printed: str) -> bool:
-    """Return whether a value rounds to a printed number."""
-    return abs(value - float(printed)) <= rounding(printed) * (1 + 1e-9)
+    """Return whether a value rounds to a printed number: half a unit of its last digit lies between them at most."""
+    mantissa, _, exponent = printed.lower().partition("e")
+    last_digit: float = 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+    return abs(value - float(printed)) <= 0.5 * last_digit * (1 + 1e-9)

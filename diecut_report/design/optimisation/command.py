@@ -129,16 +129,14 @@ def run(
             stored = open_ones.enter_context(opened(directory))
         shown.doing(phrase("the front, machine by machine"))
         found = result(study, search.store, stored, where)
-        chosen = _chosen(found, reports)
+        chosen = _chosen(found, search.store, reports)
         notes, broken = write_chosen(chosen, search.store, where, agreed=agreed, tell=shown.doing)
         shown.doing(phrase("the page of the optimisation"))
         csv = _csv(directory, found)
         files = _files(found, csv, where)
         write_all(files, keep=directory / state.STATE)
-        told = tuple(lines(found))
-        plain = data(found)
-        notes = (*notes, *untranslated(study, where))
-    return OptimiseOutcome(told, plain, csv, tuple(files), search, broken, notes, found.conflict is None)
+        told, notes = tuple(lines(found)), (*notes, *untranslated(study, where))
+        return OptimiseOutcome(told, data(found), csv, tuple(files), search, broken, notes, found.conflict is None)
 
 
 def _asked(file: Path | None, directory: Path, where: Where) -> Study:
@@ -190,27 +188,22 @@ def _csv(directory: Path, found: OptimisationResult) -> str:
 # --- full reports ----------------------------------------------------------------------------------------------------
 
 
-def _chosen(found: OptimisationResult, reports: Sequence[str]) -> Chosen:
+def _chosen(found: OptimisationResult, store: Store, reports: Sequence[str]) -> Chosen:
     """The machines that get a full report: those of the command, and those of the study's own key."""
-    own = _of_study(found)
+    own = _of_study(found, store)
     numbers = list(dict.fromkeys(number for name in reports for number in _named(found, name)))
     if not numbers:
         return own
-    asked = wanted(
-        replace(found.study, reports=replace(found.study.reports, which="ids", ids=tuple(numbers))), _store(found)
-    )
+    reports_of = replace(found.study.reports, which="ids", ids=tuple(numbers))
+    asked = wanted(replace(found.study, reports=reports_of), store)
     return Chosen(tuple(sorted({*own.variants, *asked.variants})), (*own.notes, *asked.notes))
 
 
-def _store(found: OptimisationResult) -> Store:
-    return Store.open(found.stored.folder)
-
-
-def _of_study(found: OptimisationResult) -> Chosen:
+def _of_study(found: OptimisationResult, store: Store) -> Chosen:
     """The machines that the study asks reports of; the best ones are those of the front."""
     reports, front = found.study.reports, found.front
     if reports.which != "best":
-        return wanted(found.study, _store(found))
+        return wanted(found.study, store)
     columns = {goal.column.name: front.values[:, n] for n, goal in enumerate(front.objectives)}
     goals = [(goal.column.name, goal.is_less) for goal in front.objectives]
     if not len(front.variants):

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from pymoo.indicators.hv import HV
 
 from diecut_report.design.optimisation.run import VIOLATION, Recheck, asked_of, present_values, rechecked
 from diecut_report.design.optimisation.search import gene, is_alike
@@ -79,10 +80,7 @@ def known(stored: Stored) -> TriedMachines:
     goals = objectives(stored)
     asked = [f"CAST({goal.column.sql} AS DOUBLE)" for goal in goals]
     inputs = [column.sql for column in stored.varied]
-    names = ["variant", "status", "governing", VIOLATION.name, *asked, *inputs]
-    labelled = ", ".join(f"{name} AS c{n}" for n, name in enumerate(names))
-    found = stored.connection.execute(f"SELECT {labelled} FROM v ORDER BY variant").fetchnumpy()
-    columns = [filled(found[f"c{n}"]) for n in range(len(names))]
+    columns = _columns(stored, ["variant", "status", "governing", VIOLATION.name, *asked, *inputs])
     costs = np.column_stack(columns[4 : 4 + len(goals)]).astype(float) * signs(goals)
     given = {column.name: values for column, values in zip(stored.varied, columns[4 + len(goals) :], strict=True)}
     return TriedMachines(columns[0], columns[1], columns[2], columns[3].astype(float), costs, given)
@@ -93,8 +91,15 @@ def signs(goals: Sequence[StoredObjective]) -> Array:
     return np.array([1.0 if goal.is_less else -1.0 for goal in goals])
 
 
-def filled(values: Any) -> Array:
-    """Return a column of DuckDB as an array; what is missing is NaN, or nothing."""
+def _columns(stored: Stored, terms: Sequence[str]) -> list[Array]:
+    """What each of these terms of SQL gives for all machines, in their order."""
+    labelled = ", ".join(f"{term} AS c{n}" for n, term in enumerate(terms))
+    found = stored.connection.execute(f"SELECT {labelled} FROM v ORDER BY variant").fetchnumpy()
+    return [_filled(found[f"c{n}"]) for n in range(len(terms))]
+
+
+def _filled(values: Any) -> Array:
+    """A column of DuckDB as an array; what is missing is NaN, or nothing."""
     if not isinstance(values, np.ma.MaskedArray):
         return np.asarray(values)
     if values.dtype.kind == "f":
@@ -182,15 +187,13 @@ MOST = 200  # demands that are looked through: those that fail most
 
 @dataclass(frozen=True)
 class Conflict:
-    """Hold the demands (checks, constraints) that none of so many calculated machines holds together, and the nearest machine.
+    """Hold the demands (checks, constraints) that none of the calculated machines holds together, and the nearest machine.
 
     ``nearest`` is None where no machine could be calculated; ``failing`` are the demands that it breaks, each with its utilisation
     (NaN where it has none). ``reason`` is why most of the machines cannot exist.
     """
 
     together: tuple[str, ...]
-    calculated: int
-    errors: int
     nearest: int | None
     failing: tuple[tuple[str, float], ...]
     reason: str
@@ -203,10 +206,8 @@ def conflict(study: Study, stored: Stored, there: TriedMachines) -> Conflict:
     numbers, violations = there.variants[exists], there.violations[exists]
     place = int(np.argmin(violations)) if len(violations) else None
     failing = () if place is None else tuple(_failing(stored, demands, place, int(numbers[place])))
-    return Conflict(
-        _together(demands), len(numbers), int(np.sum(~exists)),
-        None if place is None else int(numbers[place]), failing, _reason(stored),
-    )  # fmt: skip
+    nearest = None if place is None else int(numbers[place])
+    return Conflict(_together(demands), nearest, failing, _reason(stored))
 
 
 def _broken(study: Study, stored: Stored) -> dict[str, Array]:
@@ -214,15 +215,12 @@ def _broken(study: Study, stored: Stored) -> dict[str, Array]:
     checks = list(stored.checks) if asked_of(study).is_passing else []
     found: dict[str, Array] = {}
     if checks:
-        names = ", ".join(f"{stored.checks[check][1].sql} = 'fail' AS c{n}" for n, check in enumerate(checks))
-        columns = stored.connection.execute(f"SELECT {names} FROM v ORDER BY variant").fetchnumpy()
-        found = {check: np.ma.filled(columns[f"c{n}"], False).astype(bool) for n, check in enumerate(checks)}
+        columns = _columns(stored, [f"{stored.checks[check][1].sql} = 'fail'" for check in checks])
+        found = {check: failed.astype(bool) for check, failed in zip(checks, columns, strict=True)}
     for constraint in study.constraints:
         if constraint.outputs:
-            names = ", ".join(f"{quoted(name)} AS c{n}" for n, name in enumerate(constraint.paths))
-            columns = stored.connection.execute(f"SELECT {names} FROM v ORDER BY variant").fetchnumpy()
-            rows = {name: filled(columns[f"c{n}"]) for n, name in enumerate(constraint.paths)}
-            found[constraint.text] = constraint.shortfall(rows) > 0
+            rows = zip(constraint.paths, _columns(stored, list(map(quoted, constraint.paths))), strict=True)
+            found[constraint.text] = constraint.shortfall(dict(rows)) > 0
     telling = sorted((name for name, broken in found.items() if broken.any()), key=lambda name: -int(found[name].sum()))
     return {name: found[name] for name in telling[:MOST]}
 
@@ -367,8 +365,6 @@ def progress(there: TriedMachines, rows: int, chunk: int) -> SearchProgress:
 
 def _volumes(there: TriedMachines, allowed: Array, ends: list[int]) -> Iterator[float]:
     """The volume after each generation, as a share of the last."""
-    from pymoo.indicators.hv import HV
-
     fronts: list[Array] = []
     front, begin = np.empty((0, there.costs.shape[1])), 0
     for end in ends:
@@ -381,12 +377,9 @@ def _volumes(there: TriedMachines, allowed: Array, ends: list[int]) -> Iterator[
     volumes = []
     for costs in ((each - low) / size for each in fronts):
         inside = costs[(costs < BEYOND).all(axis=1)]
-        some = (
-            inside[np.linspace(0, len(inside) - 1, PROGRESS_MOST).astype(int)]
-            if len(inside) > PROGRESS_MOST
-            else inside
-        )
-        volumes.append(float(volume(some)) if len(some) else 0.0)
+        if len(inside) > PROGRESS_MOST:
+            inside = inside[np.linspace(0, len(inside) - 1, PROGRESS_MOST).astype(int)]
+        volumes.append(float(volume(inside)) if len(inside) else 0.0)
     yield from (own / volumes[-1] if len(each) else float("nan") for own, each in zip(volumes, fronts, strict=True))
 
 

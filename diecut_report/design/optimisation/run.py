@@ -49,11 +49,8 @@ VIOLATION = ResultColumn(
 )
 TOGETHER = 256  # machines of a piece, whatever number of processes there is: equal pieces give equal bytes
 MOST, LEAST = 10.0, 1e-3  # that a check adds which fails by far, or by next to nothing
-NO_VALUE, NO_MACHINE, NOT_TRIED = (
-    1e3,
-    1e4,
-    2e4,
-)  # without an objective; that cannot exist; that break a constraint on inputs
+# of machines without an objective; that cannot exist; that break a constraint on inputs
+NO_VALUE, NO_MACHINE, NOT_TRIED = 1e3, 1e4, 2e4
 
 
 @dataclass(frozen=True)
@@ -122,7 +119,8 @@ def evaluate(study: Study, piece: GenerationPiece) -> Tried:
     rows = calculate_rows(study.base, {study.inputs[p]: v for p, v in values.items()}, len(left), study.curves)
     known = {**values, **rows.columns}
     violation = _violation(study, rows, known)
-    kept = {name: column for name, column in rows.columns.items() if _is_kept(study, name)}
+    wanted = {*(rows.columns if study.outputs is None else study.outputs), *study.curves}
+    kept = {name: column for name, column in rows.columns.items() if CHECKS in name or name in wanted}
     inputs = {path: np.asarray(v, dtype=float if isinstance(v, np.ndarray) else object) for path, v in values.items()}
     found = {"variant": piece.start + left} | inputs | kept | {VIOLATION.name: violation}
     found |= {JUDGED.name: rows.verdict, "status": rows.status, "governing": rows.governing, "error": rows.errors}
@@ -169,10 +167,6 @@ def failing(known: Mapping[str, Array], count: int) -> Array:
             beyond = np.clip(np.nan_to_num(used, nan=MOST, posinf=MOST), LEAST, MOST)
             found += np.where(known[name] == "fail", beyond, 0.0)
     return found
-
-
-def _is_kept(study: Study, name: str) -> bool:
-    return study.outputs is None or CHECKS in name or name in study.outputs or name in study.curves
 
 
 def joined(tried: Sequence[Tried]) -> Tried:
@@ -254,7 +248,6 @@ def _loaded(directory: Path, plugins: tuple[str, ...], names: tuple[str, ...]) -
 
 
 def _alone(place: MachinePlace, some: SomeMachines) -> list[Recheck]:
-    """Calculate machines, each by itself."""
     with opened(place.directory) as stored:
         return [_compared(place, stored, variant) for variant in some.variants]
 
@@ -274,7 +267,7 @@ def _compared(place: MachinePlace, stored: Stored, variant: int) -> Recheck:
         for name, one in zip(place.names, values, strict=False)
     ]
     share, name = max(apart, default=(0.0, ""))
-    return Recheck(variant, status, machine.status, name if share else "", share)
+    return Recheck(variant, status, machine.run.status, name if share else "", share)
 
 
 def _numbers(machine: ProvedMachine) -> dict[str, float]:
@@ -403,7 +396,6 @@ class SearchRun:
             self.search.tell(tried.costs, tried.violations)
 
     def _calculated(self, start: int, values: Mapping[str, Values]) -> Tried:
-        """Calculate a generation, its pieces side by side."""
         pieces = results(self.engine, evaluate, generation_pieces(start, values))
         tried = joined([found for _, found in sorted(pieces, key=lambda each: int(each[0].start))])
         self.slow |= tried.slow

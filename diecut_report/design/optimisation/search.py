@@ -71,11 +71,9 @@ class Gene:
         if self.kind == "share":
             return self.variable.quantile(np.asarray(codes, dtype=float))
         numbers = np.asarray(codes, dtype=float).astype(int)
-        return (
-            ChoiceVariable(self.path, self.options).at(numbers)
-            if self.options
-            else min(self.ends) + numbers.astype(float)
-        )
+        if self.options:
+            return ChoiceVariable(self.path, self.options).at(numbers)
+        return min(self.ends) + numbers.astype(float)
 
     def code(self, value: Any) -> Any:
         """Return the code of a value; None for one that is not among those that are searched."""
@@ -87,11 +85,9 @@ class Gene:
             return None
         if self.kind != "share":
             return round(value - min(self.ends))
-        return (
-            float(np.log(value / first) / np.log(last / first))
-            if self.variable.log
-            else (value - first) / (last - first)
-        )
+        if self.variable.log:
+            return float(np.log(value / first) / np.log(last / first))
+        return (value - first) / (last - first)
 
 
 def is_alike(one: Any, other: Any) -> bool:
