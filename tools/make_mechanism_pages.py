@@ -16,7 +16,7 @@ from diecut_report.mechanism.figures import SpectrumLine
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, meta_of, nested
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import OneOf, Text
-from diecut_report.mechanism.steps import SILENT, Crossings, Reduction, Step
+from diecut_report.mechanism.steps import Crossings, Reduction, SilentStep, Step
 from diecut_report.quantities.units import pretty, unit
 
 PAGES = Path(__file__).parents[1] / "docs" / "mechanisms"
@@ -139,7 +139,7 @@ def output_rows(mechanism: Mechanism) -> Iterator[OutputRow]:
     """Yield what is told of each output, and of each curve of a spectrum."""
     seen: set[str] = set()
     for section, step in mechanism.steps:
-        if step.output and not isinstance(step, SILENT) and step.id not in seen:
+        if step.output and not isinstance(step, SilentStep) and step.id not in seen:
             seen.add(step.id)
             needs = ", ".join(f"`{n}`" for n in dict.fromkeys((*section.needs, *step.needs)))
             yield _output(_id(step), step, in_all_units(step, _si), needs)

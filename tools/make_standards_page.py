@@ -7,9 +7,9 @@ from itertools import starmap
 from pathlib import Path
 
 from diecut_report.quantities.units import pretty
-from diecut_report.standards import DATA, Column, standard_ids, standard_series, standard_series_by, standard_table
+from diecut_report.standards import DATA, standard_ids, standard_series, standard_series_by, standard_table
 from diecut_report.standards.ranges import EVERY, SOURCES, range_table
-from diecut_report.standards.tables import StandardSeries, StandardTable
+from diecut_report.standards.tables import Column, StandardSeries, StandardTable
 
 PAGE = Path(__file__).parents[1] / "docs" / "standards.md"
 RANGES = PAGE.with_name("plausible-values.md")

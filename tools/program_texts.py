@@ -16,7 +16,7 @@ from diecut_report.cli.main import program
 from diecut_report.config.model import PressBlock, Project
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.texts import inputs_texts, is_text
-from diecut_report.machine.printing import items, page
+from diecut_report.machine.printing import page
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.steps import Accumulated, Derivative, pick, reduction, root, rows, table_steps
@@ -30,7 +30,7 @@ from diecut_report.text.translation import CITATION, EQUATIONS, PAPER
 
 ROOT = Path(__file__).parents[1]
 CONSTANTS = (root.METHOD, reduction.SEARCHED, reduction.INTEGRATED, Accumulated.METHOD, Derivative.METHOD,
-             page.EQUAL_TERMS, items.TO_ROUNDING, "True", "False", *pick.SERIES_WORDS.values(),
+             page.EQUAL_TERMS, page.TO_ROUNDING, "True", "False", *pick.SERIES_WORDS.values(),
              table_steps.AS_GIVEN, rows.AMONG, mechanism.IDLE,
              origins.FOLLOWS, *checks.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
              "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -47,7 +48,7 @@ def judged(node: Node, value_of: ValueOf, count: int) -> JudgedRows:
     return JudgedRows(*(np.array(np.broadcast_to(each, (count,)), dtype=bool) for each in found))
 
 
-# --- conditions ------------------------------------------------------------------------------------------------------
+# Conditions.
 
 
 def _condition(node: Node, value_of: ValueOf) -> JudgedRows:
@@ -125,7 +126,7 @@ def _like(texts: Array, pattern: str) -> JudgedRows:
     return JudgedRows(known & found.reshape(texts.shape), known & ~found.reshape(texts.shape))
 
 
-# --- numbers ---------------------------------------------------------------------------------------------------------
+# Numbers.
 
 
 def numbers(node: Node, value_of: ValueOf) -> Array:
@@ -160,10 +161,7 @@ def _power(base: Array, exponent: Array) -> Array:
 
 def _called(name: str, given: list[Array]) -> Array:
     function = NUMERIC[{"min": "minimum", "max": "maximum"}.get(name, name)]
-    found = given[0] if name in ("min", "max") else function(given[0])
-    for each in given[1:]:
-        found = function(found, each)
-    return _finite(found)
+    return _finite(reduce(function, given) if name in ("min", "max") else function(*given))
 
 
 # How far rows are from a condition that does not hold: what a search follows to where it does.

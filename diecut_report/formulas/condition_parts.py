@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import chain
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 
@@ -30,6 +30,7 @@ from diecut_report.formulas.condition_tree import (
     TextLiteral,
     Truth,
     names,
+    operands,
 )
 from diecut_report.formulas.conditions import (
     ALLOWED,
@@ -40,10 +41,11 @@ from diecut_report.formulas.conditions import (
     alike,
     calculation,
     parsed,
-    parsed_words,
+    tokens,
     told_kind,
     without_angle,
 )
+from diecut_report.formulas.tree import BINARY, COMPARE
 from diecut_report.quantities.units import Kind, UnitError, number_and_unit, parse_quantity, pretty, unit
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.phrases import joined as joined_phrases
@@ -143,7 +145,7 @@ def contrary(node: Node, place: int) -> ConditionPart:
     return ConditionPart(Not(node), "condition", place)
 
 
-# --- comparisons -----------------------------------------------------------------------------------------------------
+# Comparisons.
 
 
 def compared(signs: Sequence[str], parts: Sequence[ConditionPart]) -> ConditionPart:
@@ -173,7 +175,7 @@ def like(text: ConditionPart, pattern: ConditionPart) -> ConditionPart:
     return ConditionPart(Like(text.node, pattern.node.value), "condition", text.place)
 
 
-# --- arithmetic ------------------------------------------------------------------------------------------------------
+# Arithmetic.
 
 
 def calculated(sign: str, left: ConditionPart, right: ConditionPart) -> ConditionPart:
@@ -222,13 +224,11 @@ def raised(base: ConditionPart, power: ConditionPart) -> ConditionPart:
     node = Power(base.node, power.node)
     if base.kind == NUMBER:
         return ConditionPart(node, "quantity", base.place, bare=base.bare and power.bare, loose=True)
-    exponent = _constant(power.node)
-    if exponent is None or not abs(exponent) <= MAX_EXPONENT:
+    if constant is None or not abs(constant) <= MAX_EXPONENT:
         template = "the exponent of {shown} must be a number between -{max_exponent} and {max_exponent}."
         raise ConditionError(template, power.place, shown=base.shown, max_exponent=MAX_EXPONENT)
-    return ConditionPart(
-        node, "quantity", base.place, tuple(round(exponent * share, 9) for share in base.kind), loose=True
-    )
+    kind = tuple(round(constant * share, 9) for share in base.kind)
+    return ConditionPart(node, "quantity", base.place, kind, loose=True)
 
 
 def _constant(node: Node) -> float | None:
@@ -255,7 +255,7 @@ def called(name: str, given: Sequence[ConditionPart], place: int) -> ConditionPa
     return made
 
 
-# --- kinds -----------------------------------------------------------------------------------------------------------
+# Kinds.
 
 
 def _alike(left: ConditionPart, right: ConditionPart, sign: str) -> ConditionPart:
@@ -269,9 +269,9 @@ def _alike(left: ConditionPart, right: ConditionPart, sign: str) -> ConditionPar
         if alike(left.kind, right.kind):
             common = right if left.bare else left
             return common if left.kind == right.kind else replace(common, kind=without_angle(common.kind))
-        raise ConditionError("{unlike}; {sign} needs the same kind on both sides.", right.place, unlike=_unlike(left, right), sign=sign)  # fmt: skip
-    is_loose = left.loose or right.loose
-    if left.kind == right.kind or (is_loose and without_angle(left.kind) == without_angle(right.kind)):
+    elif left.kind == right.kind or (
+        (left.loose or right.loose) and without_angle(left.kind) == without_angle(right.kind)
+    ):
         return right if left.bare else left
     raise ConditionError("{unlike}; {sign} needs the same kind on both sides.", right.place, unlike=_unlike(left, right), sign=sign)  # fmt: skip
 
@@ -311,10 +311,6 @@ def _kind(part: ConditionPart) -> str:
 MAX_DEPTH = 100  # levels of a tree
 Find = Callable[[str], Name]
 """What a name stands for; ConditionError in words where it stands for nothing."""
-_ARITHMETIC: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
-_SIGNS: dict[type[ast.cmpop], str] = {
-    ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!=",
-}  # fmt: skip
 
 
 def read(given: str, known: Collection[str], find: Find, example: str) -> Node:
@@ -322,7 +318,7 @@ def read(given: str, known: Collection[str], find: Find, example: str) -> Node:
 
     ``known`` names are taken whole whatever they are made of, and may stand in double quotes; ``find`` says what a name is.
     """
-    whole = parsed(given, known)
+    whole = parsed(tokens(given, known))
     part = ConditionReader(whole, find).part(whole.body, 0)
     return condition(part, Phrase("a comparison is needed, such as {example}", example=example))
 
@@ -354,7 +350,7 @@ class ConditionReader:
                 return joined(word, nodes, self._place(at))  # type: ignore[arg-type]
             case ast.BinOp(op=ast.Pow(), left=base, right=power):
                 return raised(self.part(base, depth + 1), self.part(power, depth + 1))
-            case ast.BinOp(op=op) if type(op) in _ARITHMETIC:
+            case ast.BinOp():
                 return self._calculated(at, depth)
             case ast.Call(func=ast.Name() as function, args=given):
                 name = self._function(function)
@@ -371,7 +367,7 @@ class ConditionReader:
         template = "{shown} does not fit here; use brackets. Allowed: {allowed}."
         return ConditionError(template, word.place, shown=word.shown, allowed=ALLOWED)
 
-    # --- names, numbers, texts ---
+    # Names, numbers, texts.
 
     def _leaf(self, at: ast.Name) -> ConditionPart:
         word = self.whole.word(at)
@@ -395,7 +391,7 @@ class ConditionReader:
             raise ConditionError(template, word.place, text=repr(word.text), near=near, functions=", ".join(FUNCTIONS))
         return word.text
 
-    # --- arithmetic ---
+    # Arithmetic.
 
     def _signed(self, at: ast.UnaryOp, depth: int) -> ConditionPart:
         """Signs and ``not``, each time all that stand before each other, so that they make no depth."""
@@ -417,25 +413,24 @@ class ConditionReader:
     def _calculated(self, at: ast.BinOp, depth: int) -> ConditionPart:
         """A chain of + and - or of * and /, from left to right without a recursion for each."""
         group = (ast.Add, ast.Sub) if isinstance(at.op, ast.Add | ast.Sub) else (ast.Mult, ast.Div)
-        rest, left = list[tuple[str, ast.expr]](), at.left
-        rest.append((_ARITHMETIC[type(at.op)], at.right))
+        rest, left = list[tuple[str, ast.expr]](), cast(ast.expr, at)
         while isinstance(left, ast.BinOp) and isinstance(left.op, group):
-            rest.append((_ARITHMETIC[type(left.op)], left.right))
+            rest.append((BINARY[type(left.op)], left.right))
             left = left.left
         made = self.part(left, depth + 1)
         for sign, right in reversed(rest):
             made = calculated(sign, made, self.part(right, depth + 1))
         return made
 
-    # --- comparisons ---
+    # Comparisons.
 
     def _compared(self, left: ast.expr, ops: list[ast.cmpop], others: list[ast.expr], depth: int) -> ConditionPart:
         def inner(at: ast.expr) -> ConditionPart:
             return self.part(at, depth + 1)
 
         match ops, others:
-            case _ if all(type(op) in _SIGNS for op in ops):
-                return compared([_SIGNS[type(op)] for op in ops], [inner(at) for at in (left, *others)])
+            case _ if all(type(op) in COMPARE for op in ops):
+                return compared([COMPARE[type(op)] for op in ops], [inner(at) for at in (left, *others)])
             case [ast.Is() | ast.IsNot() as op], [_]:
                 made = ConditionPart(Missing(inner(left).node), "condition", self._place(left))
             case [ast.Is() | ast.IsNot() as op, ast.Is()], [low, high]:
@@ -525,7 +520,7 @@ class Expression:
 def read_expression(text: str, find: Find) -> Expression:
     """Read an expression; ConditionError in words, with the place, for what it may not say. ``find`` says what a reference is."""
     try:
-        whole = parsed_words(calculation(text))
+        whole = parsed(calculation(text))
         made = quantity(ConditionReader(whole, find, exact=True).part(whole.body, 0))
     except ConditionError as fault:
         text_of_fault: str = fault.words  # which tells of conditions
@@ -539,8 +534,8 @@ def read_expression(text: str, find: Find) -> Expression:
 
 def _faults(node: Node, value_of: Callable[[str], Any]) -> Iterator[str]:
     """Yield what has no value in a tree, the innermost first."""
-    for inner in _inner(node):
-        yield from _faults(inner, value_of)
+    for part in operands(node):
+        yield from _faults(part, value_of)
     match node:
         case Chain(_, rest):
             if any(sign == "/" and numbers(part, value_of) == 0.0 for sign, part in rest):
@@ -549,16 +544,3 @@ def _faults(node: Node, value_of: Callable[[str], Any]) -> Iterator[str]:
             yield phrase("divides by zero")
         case Call("sqrt", (of,)) if numbers(of, value_of) < 0.0:
             yield phrase("takes the root of a number below zero")
-
-
-def _inner(node: Node) -> Iterator[Node]:
-    match node:
-        case Chain(first, rest):
-            yield first
-            yield from (part for _, part in rest)
-        case Power(base, exponent):
-            yield from (base, exponent)
-        case Negative(of):
-            yield of
-        case Call(_, of):
-            yield from of

@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
+from functools import reduce
 from typing import Any, Literal
 
 from diecut_report.formulas.tree import Node as FormulaNode
 
-# --- values ----------------------------------------------------------------------------------------------------------
+# Values.
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ class Call:
     of: tuple[Node, ...]
 
 
-# --- conditions ------------------------------------------------------------------------------------------------------
+# Conditions.
 
 
 @dataclass(frozen=True)
@@ -152,13 +153,20 @@ def names(node: Node) -> tuple[str, ...]:
     return tuple(dict.fromkeys(_names(node)))
 
 
-def _names(part: Node | tuple[Any, ...]) -> Iterator[str]:
-    if isinstance(part, ColumnName):
-        yield part.name
-        return
-    for inner in part if isinstance(part, tuple) else (getattr(part, field.name) for field in fields(part)):
-        if isinstance(inner, tuple | Node):
-            yield from _names(inner)
+def _names(node: Node) -> Iterator[str]:
+    if isinstance(node, ColumnName):
+        yield node.name
+    for part in operands(node):
+        yield from _names(part)
+
+
+def operands(part: Node | tuple[Any, ...]) -> Iterator[Node]:
+    """Yield the nodes that a node joins, in order."""
+    for each in part if isinstance(part, tuple) else (getattr(part, field.name) for field in fields(part)):
+        if isinstance(each, Node):
+            yield each
+        elif isinstance(each, tuple):
+            yield from operands(each)
 
 
 # The tree of an expression as the tree of a formula, so that it may stand within one.
@@ -189,7 +197,5 @@ def _called(name: str, given: list[FormulaNode]) -> FormulaNode:
     """The least and the greatest take two at a time in formulas."""
     if name in ("abs", "sqrt"):
         return FormulaNode("call", (name, *given))
-    found = given[0]
-    for each in given[1:]:
-        found = FormulaNode("call", ({"min": "minimum", "max": "maximum"}[name], found, each))
-    return found
+    of_two = {"min": "minimum", "max": "maximum"}[name]
+    return reduce(lambda one, other: FormulaNode("call", (of_two, one, other)), given)

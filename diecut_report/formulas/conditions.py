@@ -20,6 +20,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import NoReturn
 
 from diecut_report.quantities.units import DIMENSIONS, Kind, Unit, kind_name, si_text, unit
@@ -199,18 +200,10 @@ class Parsed:
         return self.words[bisect_right(self.starts, at.col_offset) - 1]
 
 
-def parsed(given: str, known: Collection[str]) -> Parsed:
-    """Parse a condition; ConditionError in words, with the place, for what is not a condition by its words alone."""
-    return parsed_words(tokens(given, known))
-
-
-def parsed_words(words: Sequence[Token]) -> Parsed:
-    """Parse what was split into words already."""
+def parsed(words: Sequence[Token]) -> Parsed:
+    """Parse the words of a condition; ConditionError in words, with the place, for what is not one by its words alone."""
     pieces = _GrammarWriter(words).pieces()
-    starts, at = [], 0
-    for piece in pieces:
-        starts.append(at)
-        at += len(piece) + 1
+    starts = [0, *accumulate(len(piece) + 1 for piece in pieces[:-1])]
     return Parsed(ast.parse(" ".join(pieces), mode="eval").body, words, starts)
 
 
@@ -314,8 +307,7 @@ class _GrammarWriter:
             return self._null()
         negated = "not " if self._is("not") else ""
         if negated:
-            self.written.append("")
-            self.at += 1
+            self._write("")
             if not self._is("in", "between", "like"):
                 raise ConditionError("'in', 'between' or 'like' is missing after 'not'.", self.next.place)
         if self._is("between"):

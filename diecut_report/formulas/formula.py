@@ -6,7 +6,7 @@ import ast
 import inspect
 import linecache
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from decimal import Decimal
 from functools import cached_property
 from textwrap import dedent
@@ -56,10 +56,14 @@ def body(code: CodeType) -> list[ast.stmt]:
     lines = linecache.getlines(code.co_filename)
     if not lines:
         raise Unreadable(phrase("there is no such file"))
-    return [_returned(code, lines)] if code.co_name == LAMBDA else _definition(code, lines).body
+    if code.co_name != LAMBDA:
+        return _definition(code, lines)
+    span = _span(code)  # the instructions of a lambda tell where it begins and ends, also among others on one line
+    value = _number(code) if span is None else _expression(code, lines, *span)
+    return [ast.copy_location(ast.Return(value), value)]
 
 
-def _definition(code: CodeType, lines: list[str]) -> ast.FunctionDef:
+def _definition(code: CodeType, lines: list[str]) -> list[ast.stmt]:
     first, last = code.co_firstlineno, max(line for *_, line in code.co_lines() if line)
     for end in range(last, len(lines) + 1):  # brackets may close below the last line that does something
         try:
@@ -68,15 +72,8 @@ def _definition(code: CodeType, lines: list[str]) -> ast.FunctionDef:
             continue
         definition = found.body[0]
         if isinstance(definition, ast.FunctionDef):
-            return definition
+            return definition.body
     raise Unreadable(phrase("its lines are not a function"))
-
-
-def _returned(code: CodeType, lines: list[str]) -> ast.Return:
-    """What a lambda returns: its instructions tell where it begins and ends, also among others on one line."""
-    span = _span(code)
-    value = _number(code) if span is None else _expression(code, lines, *span)
-    return ast.copy_location(ast.Return(value), value)
 
 
 def _span(code: CodeType) -> tuple[Place, Place] | None:
@@ -118,31 +115,15 @@ def _between(lines: list[str], begin: Place, end: Place) -> str:
     return b"".join(chosen).decode()
 
 
-def place(function: Callable[..., Any]) -> str:
-    """Return ``file:line`` of a function."""
-    code = inspect.unwrap(function).__code__
-    return f"{code.co_filename}:{code.co_firstlineno}"
-
-
-def perhaps_named(function: Callable[..., Any], kind: type) -> Iterator[Any]:
-    """Give the values of a type that a function may name, as globals or by way of a module, at no cost.
+def perhaps_named(function: Callable[..., Any]) -> Iterator[Formula]:
+    """Give the formulas that a function may name, as globals or by way of a module, at no cost.
 
     They may be too many: of ``np.sqrt`` the code tells no more than that both names stand in it.
     """
     space, names = function.__globals__, function.__code__.co_names
     spaces = [space, *(vars(space[name]) for name in names if isinstance(space.get(name), ModuleType))]
     for each in spaces:
-        yield from (each[name] for name in names if isinstance(each.get(name), kind))
-
-
-def given_to(function: Callable[..., Any], args: tuple[Any, ...], named: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what each parameter of a function is given by a call, by position, by name or by default, in their order.
-
-    Raises TypeError in words where the call does not fit.
-    """
-    call = inspect.signature(function).bind(*args, **named)
-    call.apply_defaults()
-    return call.arguments
+        yield from (each[name] for name in names if isinstance(each.get(name), Formula))
 
 
 # What to write instead of what a formula cannot hold: Python that takes one machine alone, functions that are not NumPy's.
@@ -203,7 +184,7 @@ class Formula:
         seen: list[Formula] = []
         pending = [self]
         while pending:
-            seen += (here := list(perhaps_named(pending.pop()._function, Formula)))
+            seen += (here := list(perhaps_named(pending.pop()._function)))
             pending += [each for each in here if seen.count(each) == 1]
         if self in seen:
             self.reading()  # which knows for certain
@@ -218,7 +199,8 @@ class Formula:
     @property
     def place(self) -> str:
         """Return where it is written, as ``file:line``."""
-        return place(self._function)
+        code = inspect.unwrap(self._function).__code__
+        return f"{code.co_filename}:{code.co_firstlineno}"
 
     @property
     def tree(self) -> Node:
@@ -366,13 +348,15 @@ class _BodyReader:
         if len(named) < len(at.keywords):
             raise self._refuse(at)
         try:
-            given = given_to(callee._function, args, named)
+            given = inspect.signature(callee._function).bind(*args, **named)
         except TypeError as error:
             raise FormulaError(
                 f"{self._place(at)}: formula {self.owner.__name__} calls {callee.__name__}: {error}"
             ) from None
+        given.apply_defaults()
         self.constants |= reading.constants
-        nodes = {name: part if isinstance(part, Node) else Node("num", (repr(part),)) for name, part in given.items()}
+        parts = given.arguments.items()
+        nodes = {name: part if isinstance(part, Node) else Node("num", (repr(part),)) for name, part in parts}
         by_name = callee.printed_as and not self.full
         return Node("apply", (FormulaName(callee), *nodes.values())) if by_name else substitute(reading.tree, nodes)
 

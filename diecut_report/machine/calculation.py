@@ -12,8 +12,7 @@ import numpy as np
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.machine.curve_samples import CurveSampler, SampledCurve
-from diecut_report.machine.numerics.curves import MANY, Curves, several
+from diecut_report.machine.numerics.curves import MANY, Curves, CurveSampler, several
 from diecut_report.machine.numerics.domain import Domain, Inside, PieceSeries, RecentPlaces, SharedPlaces
 from diecut_report.machine.numerics.samples import SampleCache
 from diecut_report.mechanism.chapters import in_form, taken
@@ -22,8 +21,9 @@ from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, tex
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared, Written, bound
 from diecut_report.mechanism.steps import Abscissa, FromCurve, ResultName, Step, named, names_ahead, numbered_symbol
-from diecut_report.mechanism.steps.protocols import Impossible, ImpossibleTogether
-from diecut_report.quantities.formatting import author_digits, easy_unit, shown
+from diecut_report.mechanism.steps.protocols import Impossible as Impossible
+from diecut_report.mechanism.steps.protocols import ImpossibleTogether as ImpossibleTogether
+from diecut_report.quantities.formatting import easy_unit
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase
 
@@ -103,20 +103,10 @@ def axis_unit(declared: str, heights: Iterable[float]) -> str:
     return easy_unit(max(known), declared) if known else declared
 
 
-def _unit_of(calc: Calculation, name: str, declared: str, value: float) -> str:
-    return calc.chosen_units.of(name, declared) or easy_unit(value, declared)
-
-
-def step_shown(calc: Calculation, step: Step, value: float) -> dict[str, str]:
-    """Return a number that a step gives as text, in its unit."""
-    display = _unit_of(calc, step.id, step.unit, value)
-    return shown(value, display, author_digits(value, display, step.digits))
-
-
 def number_unit(calc: Calculation, name: str, declared: Step | Quantity, value: float) -> str:
     """Return the unit of a number inside of a formula: what is typed stands as it was typed."""
     is_typed = name not in calc.values and name not in calc.curves
-    return declared_unit(calc, name, declared.unit) if is_typed else _unit_of(calc, name, declared.unit, value)
+    return declared_unit(calc, name, declared.unit) if is_typed else unit_for(calc, name, declared.unit, [value])
 
 
 # What declares a quantity of a calculation: the step that gives it, or the input; of one crossing or part and their number what follows from it.
@@ -174,7 +164,9 @@ def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, st
     return step
 
 
-Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
+Found = tuple[
+    Array, Array, Array
+]  # of an extreme: value, place, middle of its smooth piece; each of shape (variants, 1)
 
 
 class Unproven(Exception):
@@ -295,8 +287,7 @@ class Calculation:
 
     def __getitem__(self, name: str) -> Array:
         """A number of all variants, shape (variants, 1) or (variants, parts)."""
-        found: Array = self.values[name] if name in self.values else self.inputs[name.removeprefix("inputs.")]
-        return found
+        return self.values[name] if name in self.values else self.inputs[name.removeprefix("inputs.")]
 
     @property
     def possible(self) -> Array:
@@ -321,11 +312,7 @@ class Calculation:
         """Return a curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
         if self.count >= MANY and rows is not None and middle.shape == (len(x), 1):
             return Curves(self, self.axis[curve], [curve], middle[:, 0], rows).at(x)[0]
-        return self.sampler(curve, x, middle, rows).over(curve)
-
-    def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> CurveSampler:
-        """Return all curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
-        return CurveSampler(self, self.axis[curve], x, middle, rows)
+        return CurveSampler(self, self.axis[curve], x, middle, rows).over(curve)
 
     def sampler_of(
         self, axis: str, x: Array, middle: Array, rows: Array | None, inside: Inside | None = None
@@ -379,20 +366,7 @@ class Calculation:
 
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
-        own = self.row_of.get(name, name)
-        return self.names.declared(own, self)
-
-
-__all__ = [
-    "Calculation",
-    "CurveHandle",
-    "CurveSampler",
-    "Impossible",
-    "ImpossibleTogether",
-    "SampledCurve",
-    "Side",
-    "Unproven",
-]
+        return self.names.declared(self.row_of.get(name, name), self)
 
 
 # Whether a curve of a mechanism that was calculated twice is the same to the last bit: all that it follows from is then.

@@ -241,7 +241,7 @@ class MechanismHandle(TakenWhole):
 
     def number(self, name: str) -> float | None:
         found = self.numbers(name)
-        own = np.nan if found is None else float(self._own(found)[0])
+        own = np.nan if found is None else _of_row(found, self.row)
         return None if np.isnan(own) else own
 
     def numbers(self, name: str) -> Array | None:
@@ -251,11 +251,7 @@ class MechanismHandle(TakenWhole):
 
     def parts(self, name: str) -> tuple[float, ...]:
         found = self.calculation.values.get(name)
-        return () if found is None else tuple(float(value) for value in self._own(found))
-
-    def _own(self, values: Array) -> Array:
-        found: Array = values[self.row if len(values) > 1 else 0]
-        return found
+        return () if found is None else tuple(map(float, found[self.row if len(found) > 1 else 0]))
 
     def texts(self, name: str) -> tuple[str, ...]:
         return tuple(str(text) for text in self.calculation.inputs.get(name, ()))
@@ -268,7 +264,7 @@ class MechanismHandle(TakenWhole):
         return CurveHandle(self.calculation, name) if name in self.calculation.curves else None
 
     def period(self, abscissa: str = "") -> float:
-        return float(self._own(self.calculation.domains[abscissa or self._first()].period)[0])
+        return _of_row(self.calculation.domains[abscissa or self._first()].period, self.row)
 
     def speed(self, abscissa: str = "") -> float | None:
         return speed_of(self.calculation, abscissa or self._first(), self.row)

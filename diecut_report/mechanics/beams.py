@@ -11,12 +11,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from diecut_report.formulas import Array
 from diecut_report.formulas.formula import formula
 from diecut_report.formulas.tree import GRAVITY, as_number
 
-Array = NDArray[Any]
 SAME_PLACE = 1e-9  # m, within which two places are one
 LUMPS = 8  # of each piece's mass
 
@@ -209,12 +208,9 @@ def critical(
     at, mass = np.concatenate([places, middles]), np.concatenate([masses, own])
     fine = np.sort(np.concatenate([x, middles]), axis=0)
     along = np.take_along_axis(stiffness, piece_of(x, (fine[:-1] + fine[1:]) / 2), axis=0)
-    return _critical(influence(fine, along, at, supports), mass.T, _signs(at, supports).T)
-
-
-def _signs(at: Array, supports: Supports) -> Array:
-    """Forces that bend the beam into its first form: upwards between the supports, downwards on overhangs."""
-    return np.where((at < supports.first) | (at > supports.second), -1.0, 1.0)
+    # forces that bend the beam into its first form: upwards between the supports, downwards on overhangs
+    signs = np.where((at < supports.first) | (at > supports.second), -1.0, 1.0)
+    return _critical(influence(fine, along, at, supports), mass.T, signs.T)
 
 
 def _critical(influences: Array, mass: Array, sign: Array) -> Critical:

@@ -192,8 +192,7 @@ def _pairs(row: Array) -> Array:
 
 def _beside(point: Array, start: Array, heading: Array) -> Array:
     """Distances of points from the lines of the runs, positive on the left, shape (variants, runs, points)."""
-    found: Array = ((point - start[:, :, None]) * np.conj(heading)[:, :, None]).imag
-    return found
+    return ((point - start[:, :, None]) * np.conj(heading)[:, :, None]).imag
 
 
 def _size(x: Array, y: Array) -> Array:

@@ -63,8 +63,7 @@ def _between(state: Array, least: Array) -> Array:
     xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
     trusted = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
     share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
-    found: Array = np.clip(np.where(trusted, share, 0.5), least, 1 - least)
-    return found
+    return np.clip(np.where(trusted, share, 0.5), least, 1 - least)
 
 
 # Places in many brackets at once by looking closer and closer: for what is no smooth function.
@@ -120,8 +119,7 @@ def looks(
 
 @cache
 def _even(parts: int) -> Array:
-    found: Array = np.linspace(0, 1, parts + 1)
-    return found
+    return np.linspace(0, 1, parts + 1)
 
 
 def vertex(places: Array, values: Array) -> Array:

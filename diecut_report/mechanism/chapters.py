@@ -17,7 +17,7 @@ from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, meta_of
 from diecut_report.mechanism.names import placed
 from diecut_report.mechanism.steps import Step, Steps
-from diecut_report.mechanism.steps.naming import prefixed, taken, with_texts
+from diecut_report.mechanism.steps.naming import prefixed, taken
 
 MISSING = "{missing}"  # in the words of a chapter that is left out: the keys that are not given
 
@@ -74,13 +74,7 @@ def _formed(model: type[Block], given: frozenset[str]) -> type[Block]:
         if other is not meta:
             told = (other if part is meta else part for part in declared.metadata)
             changed[name] = (Annotated[declared.annotation, *told], ... if declared.is_required() else declared.default)
-    formed: type[Block] = create_model(model.__name__, __base__=model, __module__=model.__module__, **changed)
-    return formed
+    return create_model(model.__name__, __base__=model, __module__=model.__module__, **changed)
 
 
-def settled(step: Step, given: frozenset[str]) -> Step:
-    """Return the step with the formulas that a text chooses, where the text is known, and with the unit that holds then."""
-    return with_texts(in_unit(step, given), given)
-
-
-__all__ = ["Chapter", "Steps", "in_all_units", "in_form", "in_unit", "prefixed", "settled", "taken"]
+__all__ = ["Chapter", "Steps", "in_all_units", "in_form", "in_unit", "prefixed", "taken"]

@@ -12,13 +12,14 @@ from typing import Any, TypeVar
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.mechanism.chapters import Chapter, settled
+from diecut_report.mechanism.chapters import Chapter, in_unit
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit
 from diecut_report.mechanism.figures import Figure, Spectrum
 from diecut_report.mechanism.inputs import Inputs, fields, keys, list_inputs, rules
 from diecut_report.mechanism.names import Curve, Misdeclared, When, placed
 from diecut_report.mechanism.steps import Fact, Phase, SilentStep, Step, names_ahead, read
+from diecut_report.mechanism.steps.naming import with_texts
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase
 
@@ -59,8 +60,7 @@ class RowsOf:
         return self._own(self.curve.rate)
 
     def _own(self, table: Array) -> Array:
-        found: Array = table[self.rows] if len(table) > 1 else table
-        return found
+        return table[self.rows] if len(table) > 1 else table
 
 
 def of_machine(value: Any, row: int, count: int) -> Any:
@@ -302,10 +302,12 @@ class Mechanism:
 
     @of_given
     def active(self, given: frozenset[str]) -> tuple[tuple[Chapter, Step], ...]:
-        """Return the steps that take part when these optional inputs (and texts, as ``key=value``) are given."""
-        return tuple(
-            (chapter, settled(step, given)) for chapter, step in self.steps if made_when(chapter, step).holds(given)
-        )
+        """Return the steps that take part when these optional inputs (and texts, as ``key=value``) are given.
+
+        They have the unit that holds then, and the formulas that the texts choose.
+        """
+        held = ((chapter, step) for chapter, step in self.steps if made_when(chapter, step).holds(given))
+        return tuple((chapter, with_texts(in_unit(step, given), given)) for chapter, step in held)
 
     def steps_by_id(self, given: frozenset[str]) -> dict[str, Step]:
         """Return those steps by their ids, in a new dictionary."""

@@ -48,23 +48,16 @@ def easy_unit(value: float, declared: str) -> str:
     if "N" in family and math.isfinite(value) and not is_nothing(value, "N"):
         return next(name for name, most in FORCES if abs(value) < most)
     number = abs(value) / factor
-    if (
-        not family
-        or not math.isfinite(number)
-        or number == 0
-        or EASY_FROM <= number < EASY_BELOW
-        or is_nothing(value, declared)
-    ):
+    is_easy = EASY_FROM <= number < EASY_BELOW or (number < EASY_FROM and _is_short(number))
+    if not family or not math.isfinite(number) or number == 0 or is_easy or is_nothing(value, declared):
         return declared
     if number < EASY_FROM:
-        if _is_short(number):
-            return declared
-        smaller = [each for each in family if unit(each).factor < factor]
-        fitting = (each for each in reversed(smaller) if abs(value) / unit(each).factor >= EASY_FROM)
-        return next(fitting, smaller[0] if smaller else declared)
-    greater = [each for each in family if unit(each).factor > factor]
-    fitting = (each for each in greater if abs(value) / unit(each).factor < EASY_BELOW)
-    return next(fitting, greater[-1] if greater else declared)
+        others = [each for each in reversed(family) if unit(each).factor < factor]
+        fitting = (each for each in others if abs(value) / unit(each).factor >= EASY_FROM)
+    else:
+        others = [each for each in family if unit(each).factor > factor]
+        fitting = (each for each in others if abs(value) / unit(each).factor < EASY_BELOW)
+    return next(fitting, others[-1] if others else declared)
 
 
 @cache
@@ -85,11 +78,6 @@ def is_nothing(value: float, unit_text: str) -> bool:
     if own.text == "1":
         return abs(value) < ROUNDED
     return (own.si in NEVER_SMALL or own.text == "%") and abs(value) < NOTHING * own.factor
-
-
-def is_rounding(value: float, unit_text: str) -> bool:
-    """Return whether an SI value would be zero but for the rounding of the computer, so that the place of an extreme says nothing."""
-    return value != 0 and is_nothing(value, unit_text)
 
 
 def finest_step(unit_text: str) -> float | None:
@@ -115,7 +103,8 @@ def finest(unit_text: str) -> tuple[int, int] | None:
 
 
 DIGITS = 4
-PLACE_DIGITS = 6  # of a place on an abscissa, at most
+PLACE_DIGITS = LISTED_DIGITS = 6  # of a place on an abscissa, at most; of a number in a list
+MOST_DIGITS = 17  # that say all of a number
 EXACT = 1e-12  # relative: the rounding of the computer
 TYPED = 12  # digits: a number with no more of them is one that somebody typed
 NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")  # what a message names: ``{id}``, rounded by ``{id:up}``
@@ -188,11 +177,11 @@ def place_shown(value: float, unit_text: str, more: int = 0) -> dict[str, str]:
     return shown(value, unit_text, min(meant_digits(value, unit_text, PLACE_DIGITS) + more, PLACE_DIGITS))
 
 
-def listed_text(value: float, unit_text: str, digits: int = 6) -> str:
+def listed_text(value: float, unit_text: str) -> str:
     """Return an SI value among others of a column: to the step that can be made or measured, so that all have as many decimals."""
     number, step = value / unit(unit_text).factor, finest_step(unit_text)
     if step is None:
-        return number_text(number, digits)
+        return number_text(number, LISTED_DIGITS)
     text = f"{number:.{max(-math.floor(math.log10(step) + EXACT), 0)}f}"
     short = text.rstrip("0").rstrip(".") if "." in text else text
     return "0" if short == "-0" else short
@@ -205,7 +194,7 @@ def given_shown(value: float, unit_text: str) -> dict[str, str]:
     return {"text": short, "unit": unit_text} if is_typed else shown(value, unit_text)
 
 
-def shown_digits(value: float, unit_text: str, digits: int = DIGITS) -> int:
+def shown_digits(value: float, unit_text: str, digits: int) -> int:
     """Return with how many significant digits an SI value is shown, of which so many are asked for."""
     return meant_digits(value, unit_text, UNIT_DIGITS.get(unit_text, digits)) if digits == DIGITS else digits
 

@@ -235,11 +235,8 @@ def times(one: Kind | None, other: Kind | None, power: float = 1) -> Kind | None
 
 def si_text(kind: Kind) -> str:
     """The coherent SI unit of a kind, made of base units where it has no name of its own."""
-    family = _family(kind)
-    return str(family["si"]) if family else _si_text(kind)
-
-
-def _si_text(kind: Kind) -> str:
+    if family := _family(kind):
+        return str(family["si"])
     powers = [(base, exponent) for base, exponent in zip(BASE_UNITS, kind, strict=True) if exponent]
     above = [_power(base, exponent) for base, exponent in powers if exponent > 0]
     below = [_power(base, -exponent) for base, exponent in powers if exponent < 0]
@@ -315,17 +312,13 @@ def parse_quantity(value: int | float | str, unit_text: str) -> float:
 def _parse_text(text: str, unit_text: str) -> float:
     wanted = unit(unit_text)
     number, own = number_and_unit(text, wanted)
-    given = wanted if own in ("", wanted.text) else _own_unit(own, wanted)
+    try:
+        given = unit(own) if own else wanted
+    except UnitError as error:
+        raise UnitError(_and_needed(error, wanted)) from None
     if given.kind != wanted.kind:
         raise _unfit(text.strip(), Phrase("is {kind}", kind=phrase(kind_name(given))), wanted)
     return _finite(given.to_si(number), _shortened(text))
-
-
-def _own_unit(text: str, wanted: Unit) -> Unit:
-    try:
-        return unit(text)
-    except UnitError as error:
-        raise UnitError(_and_needed(error, wanted)) from None
 
 
 def _unfit(text: str, fault: str, wanted: Unit | None) -> UnitError:

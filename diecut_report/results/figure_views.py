@@ -15,7 +15,7 @@ from pydantic import ValidationError
 from diecut_report.config.plugins import said
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, axis_unit
-from diecut_report.machine.curve_samples import CurveSampler
+from diecut_report.machine.numerics.curves import CurveSampler
 from diecut_report.machine.numerics.domain import Domain
 from diecut_report.machine.printing.substitution import printed
 from diecut_report.machine.steps.run import varied, varied_curves

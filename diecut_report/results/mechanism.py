@@ -13,7 +13,7 @@ from diecut_report.config.source_hashes import plugin_code
 from diecut_report.machine import mechanism as listings
 from diecut_report.machine.calculation import Calculation, Unproven, declared_unit, unit_for
 from diecut_report.machine.mechanism import intervals, period_of, phases_of, speed_of
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps import soundness
 from diecut_report.machine.steps.soundness import require_whole
 from diecut_report.mechanics.timing.intervals import Interval, composed
@@ -22,11 +22,11 @@ from diecut_report.mechanism.figures import Spectrum, SpectrumLine
 from diecut_report.mechanism.inputs import list_titles
 from diecut_report.mechanism.steps import (
     PREFIX,
-    SILENT,
     Crossings,
     Phase,
     Reduction,
     ResultName,
+    SilentStep,
     Step,
     count_name,
     named,
@@ -314,7 +314,7 @@ def _with_keys(calc: Calculation, outputs: Quantities) -> Quantities:
 
 def _numbers_of(calc: Calculation, step: Step) -> Quantities:
     """The numbers that a step gives."""
-    if step.id not in calc.values or isinstance(step, SILENT):
+    if step.id not in calc.values or isinstance(step, SilentStep):
         return {}
     found = _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
     return {name: QuantityRecord(**each) for name, each in found.items()}

@@ -13,7 +13,8 @@ import numpy as np
 from diecut_report.declaration.names import world
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.steps.run import needed, recalculated
+from diecut_report.machine.steps.needed import needed
+from diecut_report.machine.steps.run import recalculated
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import Quantity, list_inputs

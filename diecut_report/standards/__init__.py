@@ -30,19 +30,8 @@ from diecut_report.standards.files import (
     form_of,
     table_beside,
 )
-from diecut_report.standards.tables import (
-    Column,
-    StandardFault,
-    StandardSeries,
-    StandardTable,
-    own_series,
-    own_table,
-    sources_told,
-)
+from diecut_report.standards.tables import Column, StandardSeries, StandardTable
 from diecut_report.text.phrases import Phrase, phrase
-
-__all__ = ["Column", "StandardFault", "StandardSeries", "StandardTable", "own_series", "own_table", "sources_told", "standard_ids",
-           "standard_series", "standard_series_by", "standard_table", "table_beside"]  # fmt: skip
 
 DATA = Path(__file__).with_name("data")
 

@@ -6,7 +6,7 @@ import csv
 import json
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -242,8 +242,18 @@ class _Values(_Keys):
     range: Range
 
     @model_validator(mode="after")
-    def _fit(self) -> Self:
-        _judge_order(self.values, self.range)
+    def _ascend(self) -> Self:
+        """Raise ValueError unless the values ascend from the first end of the range to the last."""
+        if not self.values:
+            raise ValueError(phrase("has no values"))
+        for before, after in pairwise(self.values):
+            if not before < after:
+                template = "must ascend without repetition, but {after} follows {before}"
+                raise ValueError(Phrase(template, after=format(after, "g"), before=format(before, "g")))
+        if [self.values[0], self.values[-1]] != self.range:
+            ends = zip(("first", "last", "low", "high"), (self.values[0], self.values[-1], *self.range), strict=True)
+            told = {name: f"{value:g}" for name, value in ends}
+            raise ValueError(Phrase("runs from {first} to {last}, but its range is {low} to {high}", told))
         return self
 
 
@@ -272,20 +282,6 @@ class NamedData(StandardData):
 
 AnyData = ListedData | TableData | NamedData
 FORMS: dict[str, type[AnyData]] = {"values": ListedData, "table": TableData, "by": NamedData}
-
-
-def _judge_order(values: Sequence[float], limits: list[float]) -> None:
-    """Raise ValueError unless values ascend from the first limit to the last."""
-    if not values:
-        raise ValueError(phrase("has no values"))
-    for before, after in pairwise(values):
-        if not before < after:
-            template = "must ascend without repetition, but {after} follows {before}"
-            raise ValueError(Phrase(template, after=format(after, "g"), before=format(before, "g")))
-    if [values[0], values[-1]] != limits:
-        ends = zip(("first", "last", "low", "high"), (values[0], values[-1], *limits), strict=True)
-        told = {name: f"{value:g}" for name, value in ends}
-        raise ValueError(Phrase("runs from {first} to {last}, but its range is {low} to {high}", told))
 
 
 @cache

@@ -5,7 +5,7 @@ One table, ``data/ranges.yaml``, holds them for all kinds that come with the pro
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated
@@ -123,13 +123,6 @@ def range_of(kind: str, path: str) -> UsualRange | None:
     Of several rows it is the one that bounds the key itself.
     """
     return min(ranges_of(kind).get(path, ()), key=lambda row: bool(row.of), default=None)
-
-
-def reasons_without(kind: str) -> Iterator[tuple[str, str]]:
-    """Yield the keys of a kind that have no row, each with the reason."""
-    for group in range_table().without:
-        for key in (*group.keys.get(EVERY, ()), *group.keys.get(kind, ())):
-            yield key, group.reason
 
 
 @cache

@@ -14,7 +14,7 @@ from diecut_report.declaration.dimensions import dimensions
 from diecut_report.formulas.formula import Formula, FormulaError, evaluate
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.numerics.curves import Program
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.report.equations import Equations, Typesetter
 from diecut_report.report.mathematics import Latex, Linear

@@ -11,7 +11,7 @@ import pytest
 from diecut_report.api import POINTS, Annotated, Block, Chapter, Drawing, Inputs, Mechanism, Quantity, Text
 from diecut_report.declaration import faults
 from diecut_report.machine.calculation import Impossible, Unproven
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.results.figure_views import figures
 

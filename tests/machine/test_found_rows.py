@@ -14,7 +14,7 @@ from diecut_report.declaration import faults
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.machine import mechanism as listings
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.mechanism.names import Misdeclared

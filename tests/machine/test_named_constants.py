@@ -10,7 +10,7 @@ import pytest
 from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Quantity
 from diecut_report.formulas.formula import formula
 from diecut_report.formulas.tree import Node
-from diecut_report.machine.printing.conversions import definitions
+from diecut_report.machine.printing.page import definitions
 from diecut_report.machine.printing.substitution import _constant, _quantity
 from diecut_report.machine.steps.run import calculate
 from diecut_report.results.mechanism import mechanism_results

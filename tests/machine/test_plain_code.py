@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report.api import Block, Chapter, Inputs, Mechanism, Quantity
 from diecut_report.machine.calculation import Calculation, Impossible
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.names import Misdeclared
 

@@ -16,7 +16,7 @@ from diecut_report.api import Annotated, Chapter, Constant, Inputs, Mechanism, Q
 from diecut_report.formulas.formula import Formula
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.calculation import Unproven
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.printing.substitution import bounded
 from diecut_report.machine.steps.run import calculate
 

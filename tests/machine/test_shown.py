@@ -11,7 +11,7 @@ import pytest
 from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
-from diecut_report.machine.printing.items import items, section_items
+from diecut_report.machine.printing.page import items, section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.report.chapters.chapters import chapter as chapter_of

@@ -11,11 +11,11 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.mechanism.chapters import prefixed, taken
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.steps import (
-    SILENT,
     Breakpoints,
     Crossings,
     Reduction,
     ResultName,
+    SilentStep,
     Step,
     named,
     names_ahead,
@@ -81,7 +81,7 @@ def test_names_go_round(mechanism: Mechanism) -> None:
 @pytest.mark.parametrize("mechanism", [*_built_in(), pytest.param(LOOP, id="loop")])
 def test_what_steps_take_is_given(mechanism: Mechanism) -> None:
     """A step whose name another one takes with an ending is found as its giver."""
-    steps = {step.id: step for _, step in mechanism.steps if not isinstance(step, SILENT)}
+    steps = {step.id: step for _, step in mechanism.steps if not isinstance(step, SilentStep)}
     ahead = {each.name: each.id for step in steps.values() for each in names_ahead(step)} | {
         name: name for name in steps
     }

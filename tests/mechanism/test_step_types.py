@@ -12,7 +12,7 @@ import pytest
 from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
 from diecut_report.declaration import faults
 from diecut_report.declaration.formula_checks import check_mechanism
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps import Step, Steps, form

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report.config.plugins import Discovery
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.printing.substitution import printed
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.mechanism import Mechanism

@@ -10,7 +10,7 @@ import pytest
 
 import diecut_report as dr
 from diecut_report.cli.main import main
-from diecut_report.mechanism.steps import SILENT
+from diecut_report.mechanism.steps import SilentStep
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")
@@ -177,7 +177,7 @@ def test_no_output_of_a_kind_is_hidden_by_what_all_mechanisms_have() -> None:
         step.id
         for kind in DISCOVERY.origins
         for _, step in DISCOVERY.mechanism(kind).steps
-        if not isinstance(step, SILENT)
+        if not isinstance(step, SilentStep)
     }
     assert len(outputs) > 500 and outputs & common == set()
 

@@ -14,7 +14,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.mechanism.inputs import Quantity, fields
 from diecut_report.quantities.units import unit
-from diecut_report.standards.ranges import range_of, ranges_of, reasons_without
+from diecut_report.standards.ranges import EVERY, range_of, range_table, ranges_of
 
 DISCOVERY = Discovery()
 KINDS = tuple(DISCOVERY.origins)
@@ -43,9 +43,10 @@ ROWS = [(kind, path) for kind in (PRESS, *KINDS) for path in ranges_of(kind)]
 
 @pytest.mark.parametrize("kind", [PRESS, *KINDS])
 def test_every_quantity_key_has_a_row_or_a_reason_for_none_and_not_both(kind: str) -> None:
-    listed = Counter([*ranges_of(kind), *dict(reasons_without(kind))])
+    without = {key for group in range_table().without for of in (EVERY, kind) for key in group.keys.get(of, ())}
+    listed = Counter([*ranges_of(kind), *without])
     keys = quantities(kind).keys()
-    own = set(ranges_of(kind)) | {key for key, _ in reasons_without(kind) if key in keys or key != "n_points"}
+    own = set(ranges_of(kind)) | {key for key in without if key in keys or key != "n_points"}
     assert [key for key in keys if listed[key] != 1] == []
     assert own <= keys, "a row or reason of a key that the kind does not have"
 

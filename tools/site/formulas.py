@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report.formulas.tree import Node, transform
-from diecut_report.machine.printing.conversions import definitions
+from diecut_report.machine.printing.page import definitions
 from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Bound, ByText, Written, bound

@@ -78,8 +78,7 @@ class BranchCondition:
 
     def value(self, part: Node, known: Known, x: Array) -> Array:
         """Return a part of the formula at places."""
-        found: Array = np.broadcast_to(evaluate(part, partial(self._leaf, known)), x.shape).astype(float, copy=False)
-        return found
+        return np.broadcast_to(evaluate(part, partial(self._leaf, known)), x.shape).astype(float, copy=False)
 
     def _leaf(self, known: Known, leaf: Node) -> Any:
         name = self.link.names.get(leaf.args[0])

@@ -1,9 +1,10 @@
-"""Curves at given places, in blocks that stay in the processor's cache; compiled where there is much to compute."""
+"""Curves at given places of their abscissa: each computed once from those that it takes, or compiled, in blocks, where there is much to compute."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import lru_cache
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,8 +13,112 @@ from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, FormulaError, FormulaName
 from diecut_report.formulas.tree import NUMERIC, Node
 from diecut_report.machine.numerics.domain import CalculatedMachines, Inside
-from diecut_report.mechanism.names import Binding, bound
+from diecut_report.mechanism.names import Bound, Written, bound
 from diecut_report.mechanism.steps import Choice, Step, Value
+
+
+class CurveSampler:
+    """Give curves at given places of their abscissa; each is computed once.
+
+    ``inside`` are the middles of all pieces (rows, pieces) and which of them each place lies in, where there are more places than pieces.
+    """
+
+    def __init__(
+        self,
+        owner: CalculatedMachines,
+        axis: str,
+        x: Array,
+        middle: Array,
+        rows: Array | None,
+        inside: Inside | None = None,
+    ) -> None:
+        self.owner, self.axis, self.x, self.mid, self.inside = owner, axis, x, middle, inside
+        self.rows = rows if owner.count > 1 else None  # a single machine's numbers broadcast to all rows
+        self.known: dict[str, Array] = {axis: x}
+
+    def __getitem__(self, name: str) -> Array:
+        found = self.known.get(name)
+        if found is None:
+            found = self.known[name] = self._compute(name)
+        return found
+
+    def over(self, name: str) -> Array:
+        """Return a curve, or a number, at each of the places."""
+        found = self[name]
+        if np.shape(found) == self.x.shape:
+            return found
+        return np.broadcast_to(found, np.broadcast_shapes(np.shape(found), np.shape(self.x)))
+
+    def _compute(self, name: str) -> Array:
+        step = self.owner.curves.get(name)
+        if step is None:
+            number = self.owner[name]
+            return number if self.rows is None else number[self.rows]
+        return step.curve(self)
+
+    def of_pieces(self, name: str) -> Array:
+        """Return a flag of the pieces, at their middles."""
+        if self._present is not None:
+            pieces, own = self._present
+            found: Array = pieces.over(name)[0].take(own)
+            return found
+        if self.inside is None:
+            return self._at_middles[name]
+        return np.take_along_axis(self._at_middles.over(name), self.inside[1], axis=1)
+
+    @cached_property
+    def _present(self) -> tuple[CurveSampler, Array] | None:
+        """What gives the flags of all present pieces of a single machine, each computed once, and which of these each place lies in.
+
+        None of many machines, and where a place lies in a piece that is not there any more.
+        """
+        if self.owner.count > 1:
+            return None
+        pieces = self.owner.of_pieces(self.axis)
+        own = pieces.mid[0].searchsorted(self.mid)
+        return (pieces, own) if np.array_equal(pieces.mid[0].take(own, mode="clip"), self.mid) else None
+
+    @cached_property
+    def _at_middles(self) -> CurveSampler:
+        middles = self.mid if self.inside is None else self.inside[0]
+        return CurveSampler(self.owner, self.axis, middles, middles, self.rows)
+
+    def apply(self, part: Written) -> Array:
+        """Return what a formula gives at the places."""
+        link = part if type(part) is Bound else bound(part)
+        known = self.known
+        taken = [n if isinstance(n, float) else known[n] if n in known else self[n] for n in link.takes]
+        found: Array = link.formula.function(*taken)
+        return found
+
+
+# A curve that is given as a list of values.
+
+
+@dataclass(frozen=True)
+class SampledCurve:
+    """Hold a curve given as equally spaced values over one period; between them it runs straight."""
+
+    numbers: tuple[float, ...]
+
+    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
+        """Return values at shares of the period, of any shape (all variants have the same curve, which has no jumps)."""
+        places = np.arange(len(self.numbers) + 1) / len(self.numbers)
+        found: Array = np.interp(share % 1, places, [*self.numbers, self.numbers[0]])
+        return found
+
+    @property
+    def breakpoints(self) -> Array:
+        return np.arange(len(self.numbers))[None, :] / len(self.numbers)
+
+    joints = breakpoints
+    cycle = "list"  # of values, over whatever takes it
+    rate = np.zeros((1, 1))  # which nothing tells
+
+    def gain(self, rows: Array | None) -> Array:
+        """Return nothing: the curve closes."""
+        return np.zeros((1, 1))
+
 
 # Many curves of one abscissa as one function: their formulas' trees joined, with every common term computed once.
 #
@@ -65,7 +170,7 @@ class Program:
         returned, into = (tuple(results), ()) if at_middle else ((), tuple(results))
         self.points = self._function(POINTS, given, returned, into)
 
-    # --- joining the trees ---------------------------------------------------------------------------------------------
+    # Joining the trees.
 
     def _quantity(self, name: str | float) -> str:
         if not isinstance(name, str):
@@ -94,7 +199,7 @@ class Program:
         return self._leaf("curve", name)
 
     def _formula(self, part: Any) -> str:
-        link = bound(_binding(part))
+        link = bound(part)
         known = {parameter: self._quantity(name) for parameter, name in link.names.items()}
         return self._tree(link.formula, known)
 
@@ -154,7 +259,7 @@ class Program:
         over = self._term("+", self._constant(1.0), self._term("*", tangent, tangent))
         return tangent, self._term("/", self._constant(2.0), over)
 
-    # --- terms, each once ----------------------------------------------------------------------------------------------
+    # Terms, each once.
 
     def _constant(self, value: float) -> str:
         return repr(float(value)) if value >= 0 else f"({float(value)!r})"
@@ -215,16 +320,10 @@ class Program:
         return run
 
 
-def _binding(part: Any) -> Binding:
-    assert not isinstance(part, str), "a curve has no texts"
-    found: Binding = part
-    return found
-
-
 def _has_tree(part: Any) -> bool:
     """Whether a formula can be read; one that cannot is called as it is."""
     try:
-        return bound(_binding(part)).formula.tree is not None
+        return bound(part).formula.tree is not None
     except FormulaError:
         return False
 
@@ -287,7 +386,7 @@ class Curves:
         self.program: Program | None = None
         if calc.count >= MANY:
             self.program = _program(calc, axis, self.wanted, at_middle=False)
-            self.numbers = _Columns(_numbers(calc, self.program))
+            self.numbers = _numbers(calc, self.program)
             self.pieces = _Columns(self._of_pieces(self.program, flags) if self.program.carried[PIECES] else ())
 
     def at(self, x: Array, rows: Array | slice = slice(None)) -> list[Array]:
@@ -348,7 +447,7 @@ def flags_of(calc: CalculatedMachines, axis: str, names: tuple[str, ...], middle
     if not names:
         return []
     own, places = _program(calc, axis, names, at_middle=True), middle[:, None]
-    numbers = _Columns(_numbers(calc, own)).of(variant)
+    numbers = _numbers(calc, own).of(variant)
     found = own.points(*_given(calc, axis, own, places, places, variant), *numbers)
     return [np.broadcast_to(flag, places.shape) for flag in found]
 
@@ -377,10 +476,9 @@ def _program(calc: CalculatedMachines, axis: str, wanted: tuple[str, ...], *, at
     return program(tuple(calc.curves.items()), axis, wanted, at_middle)
 
 
-def _numbers(calc: CalculatedMachines, of: Program) -> list[Any]:
+def _numbers(calc: CalculatedMachines, of: Program) -> _Columns:
     """What depends on numbers alone, a row for each machine."""
-    found: list[Any] = list(of.numbers(*(calc[leaf.name] for leaf in of.leaves[NUMBERS].values())))
-    return found
+    return _Columns(of.numbers(*(calc[leaf.name] for leaf in of.leaves[NUMBERS].values())))
 
 
 def _given(calc: CalculatedMachines, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:

@@ -24,8 +24,7 @@ SAME = 1e-13  # share of the period within which two breakpoints are one
 @cache
 def shares(intervals: int) -> Array:
     """Return the search grid in a piece from 0 to 1: Chebyshev–Lobatto points, ends included."""
-    found: Array = (1 - np.cos(np.pi * np.arange(intervals + 1) / intervals)) / 2
-    return found
+    return (1 - np.cos(np.pi * np.arange(intervals + 1) / intervals)) / 2
 
 
 @cache
@@ -178,8 +177,7 @@ class Domain:
 
     def middle_piece_of(self, x: Array, rows: Array | None = None) -> Array:
         """Return which piece that is, (rows, points)."""
-        found: Array = np.minimum(piece_of(_of(self.edges, rows), x), _of(self._pieces[2], rows))
-        return found
+        return np.minimum(piece_of(_of(self.edges, rows), x), _of(self._pieces[2], rows))
 
     def placed(self, share: Array, middle: Array, rows: Array | None) -> tuple[Array, Array, Inside | None]:
         """Return places and the middles of their pieces for shares of the period (rows, points), each in the piece of its middle.

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.calculation import Calculation, Found
 from diecut_report.machine.numerics.curves import MANY, Curves
 from diecut_report.machine.numerics.domain import SMALLEST
 from diecut_report.machine.numerics.samples import CachedPieces
@@ -138,7 +138,6 @@ SMOOTH = 1e-12  # share of a curve's size by which it may be off this polynomial
 
 
 Wanted = tuple[str, float]  # a curve, and 1 for its greatest or -1 for its least value
-Found = tuple[Array, Array, Array]  # value, place, middle of the smooth piece; each of shape (variants, 1)
 
 
 class Candidates(NamedTuple):
@@ -320,8 +319,7 @@ def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candid
             for curve in np.flatnonzero(np.bincount(which)):
                 own = np.flatnonzero(which == curve)
                 values[own] = of(int(curve)).at(x[own], rows[own] - starts[curve])[0][:, 0]
-        chosen: Array = turned[rows] * values
-        return chosen
+        return turned[rows] * values
 
     return depths
 

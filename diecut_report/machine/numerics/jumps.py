@@ -18,9 +18,8 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.curve_samples import CurveSampler
 from diecut_report.machine.numerics.conditions import BranchCondition, CurveConditions, conditions_of, is_flag
-from diecut_report.machine.numerics.curves import BLOCK, MANY, flags_of
+from diecut_report.machine.numerics.curves import BLOCK, MANY, CurveSampler, flags_of
 from diecut_report.machine.numerics.domain import shares
 from diecut_report.mechanics import numerics
 

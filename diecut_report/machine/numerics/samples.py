@@ -59,14 +59,12 @@ class CachedPieces:
 
     def gauss(self, order: int, row: Rows) -> Array:
         """Return the Gauss–Legendre points of these pieces, (rows, points)."""
-        found: Array = self.middle[row][:, None] + self.width[row][:, None] * (nodes_of(order)[0] / 2)
-        return found
+        return self.middle[row][:, None] + self.width[row][:, None] * (nodes_of(order)[0] / 2)
 
     def inside(self, x: Array, row: Rows) -> Array:
         """Return places (rows, points) of these pieces, moved inwards from the very ends."""
         step = self.margin[row][:, None]
-        found: Array = np.clip(x, self.left[row][:, None] + step, self.right[row][:, None] - step)
-        return found
+        return np.clip(x, self.left[row][:, None] + step, self.right[row][:, None] - step)
 
     def of_variants(self, reduce: np.ufunc, values: Array) -> Array:
         """Return values of pieces (rows,) or (rows, points) joined to one a variant, shape (variants, 1); NaN where there is no piece."""

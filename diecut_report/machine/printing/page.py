@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import unicodedata
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.tree import Node
+from diecut_report.formulas.formula import Formula, FormulaName
+from diecut_report.formulas.tree import Node, symbols, transform, walk
 from diecut_report.machine import mechanism
-from diecut_report.machine.calculation import Calculation, Unproven, declared_unit, step_shown, unit_for
-from diecut_report.machine.curve_samples import CurveSampler
+from diecut_report.machine.calculation import Calculation, Unproven, declared_unit, unit_for
+from diecut_report.machine.numerics.curves import CurveSampler
 from diecut_report.machine.numerics.domain import Domain
-from diecut_report.machine.printing.conversions import bridged, conversions, definitions
 from diecut_report.machine.printing.substitution import (
     BetweenRows,
     Contradiction,
     Elsewhere,
     Substitution,
     contradicted,
+    formula_unit,
     printed,
 )
 from diecut_report.mechanism.names import Bound, bound
@@ -27,10 +29,15 @@ from diecut_report.mechanism.steps import Abscissa, Choice, Interpolated, PartNa
 from diecut_report.mechanism.steps.protocols import Item
 from diecut_report.mechanism.steps.value import FormulaStep
 from diecut_report.quantities.formatting import (
+    DIGITS,
+    MOST_DIGITS,
+    UNIT_DIGITS,
     author_digits,
     given_shown,
     number_text,
     place_shown,
+    rounded,
+    shortest,
     shown,
     with_unit,
 )
@@ -67,7 +74,8 @@ class Page:
 
     def result(self, step: Step, value: float) -> Item:
         """Return a number that a step gives as text, in its unit."""
-        return step_shown(self.calc, step, value)
+        display = unit_for(self.calc, step.id, step.unit, [value])
+        return shown(value, display, author_digits(value, display, step.digits))
 
     def printed(self, name: str) -> str:
         """Return a quantity as one would say it."""
@@ -198,7 +206,7 @@ class Page:
         """Return a formula in symbols, with numbers in, and its result."""
         calc, axis = self.calc, self.calc.axis.get(step.id)
         target = self.value_at(step.id, axis)
-        result = step_shown(calc, step, target)
+        result = self.result(step, target)
         own = None if axis is None or axis in calc.domains else self._shown_part(step.id)
         marked = self._marks(axis, elsewhere)
 
@@ -250,8 +258,7 @@ class Page:
     def _names(self, step: Step) -> Sequence[str] | None:
         """The names of the parts that a row runs over, where its list has them: by the step's own, else by its list's names."""
         if step.named_by:
-            names: Sequence[str] | None = self.calc.inputs.get(step.named_by)
-            return names
+            return self.calc.inputs.get(step.named_by)
         home = self.calc.axis.get(step.id, "")
         for key in NAMING:
             given = [str(each or "") for each in self.calc.inputs.get(f"{home}.{key}", ())]
@@ -344,3 +351,125 @@ def negated(condition: Node) -> Node:
         return Node("not", (condition,))
     sign, *sides = condition.args
     return Node("cmp", (OPPOSITE[sign], *sides))
+
+
+# What stands beside a printed formula: definitions of the formulas that it calls, and what leads from its units to those of a reader.
+
+
+def definitions(tree: Node) -> list[dict[str, Any]]:
+    """Return the definition of each formula that a tree calls by name, each once: what is defined, and as what."""
+    found: dict[str, Formula] = {}
+    for formula in _called(tree):
+        found.setdefault(formula.printed_as, formula)
+    pairs, constants = [], dict[str, Any]()
+    for formula in found.values():
+        head = Node("apply", (formula.printed_as, *(Node("sym", (name,)) for name in formula.parameters)))
+        pairs.append((transform(head, _in_letters), transform(formula.tree, _in_letters)))
+        own = set(symbols(formula.tree)) - set(formula.parameters)
+        constants |= {symbol: value for symbol, value in formula.constants.items() if symbol in own}
+    for symbol, value in constants.items():
+        pairs.append((Node("sym", (symbol,)), Node("qty", (shortest(value, MOST_DIGITS), value.unit))))
+    return [{"defined": head.to_json(), "as": tree.to_json()} for head, tree in pairs]
+
+
+def _called(tree: Node) -> Iterator[Formula]:
+    for node in walk(tree):
+        match node:
+            case Node("apply", (FormulaName(formula=formula), *_)):
+                yield formula
+                yield from _called(formula.tree)
+
+
+def _in_letters(leaf: Node) -> Node:
+    """A parameter that is named after a Greek letter as that letter: alpha is α."""
+    name = leaf.args[0] if leaf.op == "sym" else ""
+    try:
+        return Node("sym", (unicodedata.lookup(f"GREEK SMALL LETTER {name.upper()}"),)) if name.isalpha() else leaf
+    except KeyError:
+        return leaf
+
+
+# What leads from the units of a formula's numbers to those that a reader knows: rad/s to r/min, s to h, rad to degrees.
+
+
+GIVES_ANGLES = ("arcsin", "arccos", "arctan", "arctan2")  # whose value is read in degrees as it stands
+
+
+def bridged(substitution: Substitution, numeric: Node | None, target: float, result: Item) -> Item:
+    """Return the result in the unit that the formula's numbers give it, where it is printed in another one (``bridge``)."""
+    inside = formula_unit(result["unit"])
+    if inside == result["unit"] or substitution.is_copy or substitution.in_degrees:
+        return {}
+    calls = {node.args[0] for node in walk(substitution.part.formula.tree) if node.op == "call"}
+    in_rad = numeric is not None and any(node.op == "qty" and node.args[1] == "rad" for node in walk(numeric))
+    if unit(inside).si == "rad" and not calls.isdisjoint(GIVES_ANGLES) and not in_rad:
+        return {}
+    return {"bridge": shown(target, inside, max(DIGITS, len(result["text"].strip("-0").replace(".", ""))))}
+
+
+def conversions(substitution: Substitution, numeric: Node | None) -> Item:
+    """Return for each quantity that stands in a formula in another unit than its own how the one follows from the other."""
+    found = list(_conversions(substitution)) if numeric is not None and not substitution.is_copy else []
+    return {"conversions": found} if found else {}
+
+
+def _conversions(substitution: Substitution) -> Iterator[Item]:
+    calc = substitution.calc
+    for name, inside in substitution.numbers.items():
+        display = substitution.display(name)
+        if unit(display).si == "rad" or formula_unit(display) == display or inside.args[1] == display:
+            continue
+        declared, value = calc.step_or_input(name), substitution.value_of(name)
+        told = given_shown(value, display)
+        if isinstance(declared, Step):
+            told = shown(value, display, declared.digits)
+            if display in UNIT_DIGITS:
+                told = {"text": number_text(float(rounded(value, display))), "unit": display}
+        again = {"text": number_text(value / unit(inside.args[1]).factor, DIGITS), "unit": inside.args[1]}
+        yield {"symbol": declared.symbol, "shown": told, "converted": again}
+
+
+# The calculation as it is printed: for each step an item with its formula, the numbers in it and the result.
+
+
+TO_ROUNDING = "0 to machine precision"
+
+
+def section_items(calc: Calculation) -> list[Item]:
+    """Return the chapters of the calculation with their items, for the first (only) machine."""
+    page = Page(calc)
+    chapters: dict[str, Item] = {}
+    for section, step in calc.mechanism.active(calc.given):
+        chapter = chapters.setdefault(section.title, {"title": section.title, "text": section.text, "items": []})
+        chapter["items"] += _once(chapter["items"], [*_with_rounding(calc, items(calc, step))])
+        if step.is_shown_at_place and calc.axis.get(step.id) in calc.domains:
+            place = page.shown(calc.axis[step.id])
+            chapter["shown"] = [*(at for at in chapter.get("shown", []) if at != place), place]
+    return [chapter for chapter in chapters.values() if chapter["items"]]
+
+
+def items(calc: Calculation, step: Step) -> list[Item]:
+    """Return what is printed of a step (nothing of breakpoints and requirements)."""
+    if not step.printed:
+        return []
+    row = calc.values[step.id][0] if step.exists is not None and step.id in calc.values else None
+    if row is not None and row.dtype.kind in "fc" and np.isnan(row).all():
+        text = Phrase("{title}: does not apply to this machine.", title=phrase(step.description))
+        return [step.head() | {"type": "note", "text": text}]
+    return step.items(Page(calc))
+
+
+def _with_rounding(calc: Calculation, items: Iterable[Item]) -> Iterator[Item]:
+    for item in items:
+        is_zero = item.get("result", {}).get("text") == "0" and item["id"] not in calc.axis and "note" not in item
+        yield item | {"note": TO_ROUNDING} if is_zero and calc[item["id"]][0, 0] else item
+
+
+def _once(before: list[Item], new: list[Item]) -> list[Item]:
+    """New items; of numbers taken one after another from a table of several columns the first alone names its sources."""
+    last = before[-1] if before else {}
+    for item in new:
+        is_again = item["type"] == last.get("type") == "lookup" and "column" in item
+        if is_again and (item["table"], item["key"]) == (last["table"], last["key"]):
+            item.pop("note")
+    return new

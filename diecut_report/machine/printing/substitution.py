@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from diecut_report.formulas.formula import evaluate
-from diecut_report.formulas.tree import APPLY, NUMERIC, Node, transform, walk
+from diecut_report.formulas.tree import APPLY, COMPARE, LEAVES, NUMERIC, Node, transform, walk
 from diecut_report.machine.calculation import declared_unit, number_unit, unit_for
 from diecut_report.mechanism.names import Bound, bound
 from diecut_report.mechanism.steps import Interpolated, Step, Words, plain_code
 from diecut_report.quantities.formatting import (
     DIGITS,
+    MOST_DIGITS,
     NAMED,
     author_digits,
     easy_unit,
@@ -48,9 +49,8 @@ if TYPE_CHECKING:
 
 
 LAST_PLACES = 4 * 2.0**-53  # what an operation, or a number read in another unit, may be off by, of its value
-LEAVES = ("num", "sym", "qty")
 OPERATIONS: dict[str, Callable[..., Any]] = {**APPLY, **NUMERIC}
-COMPARISONS = frozenset(("<", "<=", ">", ">=", "==", "!="))
+COMPARISONS = frozenset(COMPARE.values())
 INTEGERS = 2.0**53  # below which an integer of a formula is exact
 
 
@@ -184,7 +184,6 @@ def _value(name: str, place: Sequence[float]) -> float:
         return math.inf
 
 
-MOST_DIGITS = 17
 QUANTITY = re.compile(r"(\d+(?:\.\d+)?) (\S+)")  # a constant that is named by what it is: 254 mm
 PURE_NOTHING = 1e-12  # a pure number that is but the rounding of the computer: a residual
 TRUSTED = 8  # digits up to which a number that is but the rounding of the computer stands as 0

@@ -11,9 +11,9 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible, ImpossibleTogether, Unproven
-from diecut_report.machine.curve_samples import SampledCurve
 from diecut_report.machine.mechanism import MechanismHandle, PhaseHandle
 from diecut_report.machine.numerics import extremes, roots_integrals
+from diecut_report.machine.numerics.curves import SampledCurve
 from diecut_report.machine.numerics.domain import Domain
 from diecut_report.machine.printing.substitution import filled
 from diecut_report.machine.steps import needed as needs
@@ -316,7 +316,7 @@ def varied_curves(
     if again is None:
         return x, dict.fromkeys(names, np.full(points, np.nan))
     places = np.minimum(x, np.nextafter(period, 0))[None, :]
-    curves = again.sampler(names[0], places, again.domains[axis].middle_of(places))
+    curves = again.sampler_of(axis, places, again.domains[axis].middle_of(places), None)
     return x, {name: np.broadcast_to(curves[name], places.shape)[0] for name in names}
 
 
@@ -353,6 +353,3 @@ def _asked_again(
     single = (name for name, value in calc.values.items() if value.shape == (1, 1) and value.dtype != object)
     numbers = frozenset(name for name in single if name not in calc.axis)
     return needed_again(calc.mechanism, given, tuple(names), frozenset(changed), numbers)
-
-
-__all__ = ["needed", "recalculated", "varied", "varied_curves", "with_sampled_curves"]

@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.formula import formula
 from diecut_report.formulas.tree import Node, substitute, written
 from diecut_report.machine.calculation import Calculation, Side, Unproven
 from diecut_report.machine.numerics import extremes, jumps
 from diecut_report.machine.numerics.conditions import BranchCondition
 from diecut_report.machine.numerics.domain import shares
 from diecut_report.machine.numerics.jumps import JumpFault
+from diecut_report.mechanics.common import difference
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.names import bind
 from diecut_report.mechanism.steps import Choice, Fact, Step, Value, read
@@ -218,12 +217,6 @@ def _sharpest(calc: Calculation, curve: str) -> float:
 # Checks on curves: the place of the abscissa where each goes furthest beyond its limit, or comes nearest to it.
 
 
-@formula
-def excess(demand: Any, limit: Any) -> Any:
-    """Return how far a demand is beyond its limit."""
-    return demand - limit
-
-
 def searched(calc: Calculation) -> Iterator[tuple[Value, Array]]:
     """Search the checks on curves; give what stands for each, and how far it is from being proved, shape (variants, 1)."""
     for check in calc.mechanism.checks:
@@ -247,10 +240,10 @@ def _stand_ins(check: Check) -> tuple[Value, ...]:
 
     def sides(pair: tuple[str | float, ...]) -> dict[str, str | float]:
         in_si = (side if isinstance(side, str) else side * factor for side in pair)
-        return dict(zip(("demand", "limit"), in_si, strict=True))
+        return dict(zip(("quantity", "less"), in_si, strict=True))
 
     return tuple(
-        Value(f"checks.{check.id}.{i}", "", "1", check.title, bind(excess, **sides(pair)), output=False)
+        Value(f"checks.{check.id}.{i}", "", "1", check.title, bind(difference, **sides(pair)), output=False)
         for i, pair in enumerate(check.pairs)
     )
 

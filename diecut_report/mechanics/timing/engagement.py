@@ -218,8 +218,7 @@ def _periodic_starts(load: PieceRows, gains: Array, decay: Array, tau: Array) ->
     gain, left = _run_through(gain, left)
     first = gain[:, -1:] / -np.expm1(-1 / tau)[:, None]
     begins = np.concatenate([first, gain + left * first], axis=1)
-    found: Array = begins[load.machine, place]
-    return found
+    return begins[load.machine, place]
 
 
 def _run_through(gain: Array, left: Array) -> tuple[Array, Array]:

@@ -66,7 +66,9 @@ def productivity_limit(interlocks: Sequence[Interlock], period: float, span: flo
     """Return the largest productivity with the line's offset free in [0, span); interlocks without it stand as they are."""
     fixed = fixed_productivity_limit([each for each in interlocks if each.moved is None], period)
     free = _free_limit([each for each in interlocks if each.moved is not None], period, span)
-    return _stricter(fixed, free)
+    if "angles_decide" in (fixed.reason, free.reason):
+        return ProductivityLimit(None, "angles_decide")
+    return _limit(min(inf if each.value is None else each.value for each in (fixed, free)))
 
 
 def fixed_productivity_limit(interlocks: Sequence[Interlock], period: float) -> ProductivityLimit:
@@ -84,12 +86,6 @@ def fixed_productivity_limit(interlocks: Sequence[Interlock], period: float) -> 
 
 def _limit(least: float) -> ProductivityLimit:
     return ProductivityLimit(least) if isfinite(least) else ProductivityLimit(None, "no_time_margin")
-
-
-def _stricter(one: ProductivityLimit, other: ProductivityLimit) -> ProductivityLimit:
-    if "angles_decide" in (one.reason, other.reason):
-        return ProductivityLimit(None, "angles_decide")
-    return _limit(min(inf if each.value is None else each.value for each in (one, other)))
 
 
 def _free_limit(interlocks: Sequence[Interlock], period: float, span: float) -> ProductivityLimit:

@@ -37,6 +37,14 @@ Function = Callable[[Array, Array, Array], Array]
 """Of places (rows, points), the middles (rows, 1) of the smooth pieces that they lie in, and the machine (rows,) of each row."""
 
 
+def smooth_pieces(breakpoints: Array, least: int) -> tuple[Array, Array, Array]:
+    """Return machine, start and end of at least so many pieces of [0, 1] between the breakpoints (machines, places) of many machines."""
+    even = np.broadcast_to(np.linspace(0, 1, least + 1), (len(breakpoints), least + 1))
+    edges = np.sort(np.concatenate([np.nan_to_num(breakpoints, nan=1.0), even], axis=1), axis=1)
+    machine, piece = np.nonzero(np.diff(edges, axis=1) > NARROW)
+    return machine, edges[machine, piece], edges[machine, piece + 1]
+
+
 @dataclass(frozen=True, eq=False)
 class PieceRows:
     """Hold pieces (pieces,) of the curves of ``count`` machines over [0, 1]: machine, start and width, and the series (pieces, 20).
@@ -53,14 +61,11 @@ class PieceRows:
     @classmethod
     def of(cls, function: Function, breakpoints: Array, pieces: int) -> PieceRows:
         """Return a function of many machines that is smooth between its breakpoints (machines, places), in at least so many pieces."""
-        count = len(breakpoints)
-        even = np.broadcast_to(np.linspace(0, 1, pieces + 1), (count, pieces + 1))
-        edges = np.sort(np.concatenate([np.nan_to_num(breakpoints, nan=1.0), even], axis=1), axis=1)
-        machine, piece = np.nonzero(np.diff(edges, axis=1) > NARROW)
-        low, width = edges[machine, piece], np.diff(edges, axis=1)[machine, piece]
+        machine, low, high = smooth_pieces(breakpoints, pieces)
+        width = high - low
         places = low[:, None] + width[:, None] * (NODES + 1) / 2
         values = function(places, (low + width / 2)[:, None], machine)
-        return cls(count, machine, low, width, np.broadcast_to(values, places.shape) @ TO_SERIES.T)
+        return cls(len(breakpoints), machine, low, width, np.broadcast_to(values, places.shape) @ TO_SERIES.T)
 
     @cached_property
     def values(self) -> Array:
@@ -139,12 +144,10 @@ class PieceRows:
     @property
     def rms(self) -> Array:
         """Return the root mean square of each machine's curve (Gauss–Legendre)."""
-        found: Array = np.sqrt(self._added(self.values**2 @ WEIGHTS / 2))
-        return found
+        return np.sqrt(self._added(self.values**2 @ WEIGHTS / 2))
 
     def _added(self, means: Array) -> Array:
-        found: Array = np.bincount(self.machine, means * self.width, self.count)
-        return found
+        return np.bincount(self.machine, means * self.width, self.count)
 
     @property
     def excess(self) -> PieceRows:
@@ -161,8 +164,7 @@ class PieceRows:
     @property
     def range(self) -> Array:
         """Return the greatest less the least value of each machine's curve."""
-        found: Array = self.largest - self.least
-        return found
+        return self.largest - self.least
 
     @property
     def largest(self) -> Array:
@@ -193,13 +195,8 @@ class PieceRows:
         return tops
 
 
-# What is read from curves over a turn of many machines at once: where they change their sign, and their range.
-#
-# A curve is a function of places (rows, points), the middles (rows, 1) of the smooth pieces that they lie in, and the machine
-# (rows,) of each row; places are shares of the turn.
+# What is read from curves over a turn of many machines at once, places being shares of it: where they change their sign, and their range.
 
-
-Curve = Callable[[Array, Array, Array], Array]
 
 TURN_SAMPLES_PIECES = 16  # of a turn, at least
 TURN_SAMPLES_COUNT = 12  # Gauss–Legendre places in a piece
@@ -212,17 +209,12 @@ TURN_SAMPLES_LOOKS = 4  # each makes a bracket narrower by 1/16, or by 1/8 about
 class TurnSamples:
     """Hold a curve of many machines over a turn; ``breakpoints`` (machines, places) are shares where it is not smooth, NaN for none."""
 
-    curve: Curve
+    curve: Function
     breakpoints: Array
 
     @cached_property
     def _pieces(self) -> tuple[Array, Array, Array]:
-        """Machine, start and end of each piece."""
-        count = len(self.breakpoints)
-        even = np.broadcast_to(np.linspace(0, 1, TURN_SAMPLES_PIECES + 1), (count, TURN_SAMPLES_PIECES + 1))
-        edges = np.sort(np.concatenate([np.nan_to_num(self.breakpoints, nan=1.0), even], axis=1), axis=1)
-        machine, piece = np.nonzero(np.diff(edges, axis=1) > NARROW)
-        return machine, edges[machine, piece], edges[machine, piece + 1]
+        return smooth_pieces(self.breakpoints, TURN_SAMPLES_PIECES)
 
     @cached_property
     def _places(self) -> tuple[Array, Array]:
@@ -295,7 +287,7 @@ class ShaftCurve:
     ``turns`` are those of the line for each of the main shaft, ``offset`` (machines, 1) the main-shaft angle (rad) of its zero.
     """
 
-    function: Curve
+    function: Function
     breakpoints: Array
     turns: Fraction
     offset: Array

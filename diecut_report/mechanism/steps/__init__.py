@@ -10,25 +10,20 @@ from typing import Any
 
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps.abscissa import Abscissa, Breakpoints
-from diecut_report.mechanism.steps.base import SILENT, Options, ResultName, SilentStep, Step, StepCondition, form
+from diecut_report.mechanism.steps.base import Options, ResultName, SilentStep, Step, StepCondition, form
 from diecut_report.mechanism.steps.choice import Case, Choice, case
 from diecut_report.mechanism.steps.code_curves import ComputedCurve, PartCurves
-from diecut_report.mechanism.steps.computed import Computed
-from diecut_report.mechanism.steps.crossings import Crossings
-from diecut_report.mechanism.steps.fact import Fact
+from diecut_report.mechanism.steps.computed import Computed, Words
 from diecut_report.mechanism.steps.from_curve import CurvePeriod, FromCurve, MadeCurve
 from diecut_report.mechanism.steps.interpolated import Interpolated
 from diecut_report.mechanism.steps.lookup import Lookup
-from diecut_report.mechanism.steps.part_names import PartNames, PartTable
 from diecut_report.mechanism.steps.phase import PREFIX, ROLES, Phase
 from diecut_report.mechanism.steps.pick import Pick
 from diecut_report.mechanism.steps.prepared import Cell, ListedColumn, Listing, Prepared
-from diecut_report.mechanism.steps.reduction import Operation, Reduction
-from diecut_report.mechanism.steps.require import Clash, Require
+from diecut_report.mechanism.steps.reduction import Crossings, Reduction
+from diecut_report.mechanism.steps.require import Clash, Fact, Require
 from diecut_report.mechanism.steps.result_names import (
     CROSSING_COLUMNS,
-    MOST_NAMED,
-    Pattern,
     count_name,
     has_own_names,
     named,
@@ -41,10 +36,9 @@ from diecut_report.mechanism.steps.result_names import (
     result_names,
 )
 from diecut_report.mechanism.steps.root import Root
-from diecut_report.mechanism.steps.rows import Neighbour, Part, Running, Total
+from diecut_report.mechanism.steps.rows import Neighbour, Part, PartNames, PartTable, Running, Total
 from diecut_report.mechanism.steps.series import Accumulated, Derivative
 from diecut_report.mechanism.steps.value import Value
-from diecut_report.mechanism.steps.words import Words
 from diecut_report.text.phrases import Phrase
 
 

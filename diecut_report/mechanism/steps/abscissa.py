@@ -48,7 +48,7 @@ class Abscissa(QuantityStep):
     speed: str = field(default="", kw_only=True)
 
     TAKES: ClassVar[dict[str, Kinds]] = {"points": NUMBER, "period": NUMBER, "speed": NUMBER, "shown_at": ANY}
-    NUMBERS: ClassVar[tuple[str, ...]] = ("period",)
+    NUMBERS = ("period",)
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("abscissa", self.id)}

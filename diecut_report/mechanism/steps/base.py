@@ -345,6 +345,3 @@ class SilentStep(Step):
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         """Return nothing."""
         return set()
-
-
-SILENT = SilentStep

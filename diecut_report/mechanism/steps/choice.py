@@ -124,8 +124,7 @@ class Choice(FormulaStep):
         calc.branch[self.id] = np.select(held, [np.full_like(last, i) for i in range(len(held))], last)
         values = (each.value for each in self.cases)
         taken = [np.full(last.shape, v, dtype=object) if isinstance(v, str) else calc.apply(v) for v in values]
-        found: Array = np.choose(calc.branch[self.id], taken)
-        return found
+        return np.choose(calc.branch[self.id], taken)
 
     def shown_formula(self, page: StepPrinter, elsewhere: bool) -> Written:
         taken = self.cases[page.case_taken(self, elsewhere)].value

@@ -67,8 +67,7 @@ class ComputedCurve(QuantityStep):
         return {each.id: each for each in made}
 
     def curve(self, sampler: Any) -> Array:
-        found: Array = self.function(sampler.owner.inputs[self.of], sampler.x, sampler.mid, sampler.rows)
-        return found
+        return self.function(sampler.owner.inputs[self.of], sampler.x, sampler.mid, sampler.rows)
 
     def items(self, page: StepPrinter) -> list[Item]:
         at = page.shown(self.abscissa)
@@ -97,7 +96,7 @@ class PartCurves(SilentStep):
     joints: Callable[[Any], Array] | None = field(default=None, kw_only=True)
 
     TAKES: ClassVar[dict[str, Kinds]] = FROM_OBJECT
-    is_taken: ClassVar[bool] = True
+    is_taken = True
 
     @property
     def called(self) -> Called:

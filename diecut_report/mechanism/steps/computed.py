@@ -1,4 +1,4 @@
-"""A number, a row or a text that plain code finds."""
+"""What plain code finds: a number, a row or a text; and texts for messages."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from diecut_report.mechanism.steps import plain_code
-from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.protocols import PLAIN, Item, Kinds, StepEngine, StepPrinter
+from diecut_report.mechanism.steps.base import Over, QuantityStep, SilentStep
+from diecut_report.mechanism.steps.protocols import PLAIN, SAID, Item, Kinds, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.value import answer
 
 
@@ -31,7 +31,7 @@ class Computed(QuantityStep):
     is_text: bool = field(default=False, kw_only=True)
 
     TAKES: ClassVar[dict[str, Kinds]] = {"takes": PLAIN}
-    may_be_absent: ClassVar[bool] = True
+    may_be_absent = True
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("text", "")} if self.is_text else {("row", self.over)} if self.over else {("number", "")}
@@ -69,3 +69,24 @@ class Computed(QuantityStep):
         )
         chosen = {"chosen": True} if self.lacks else {}  # in the place of an input that may be given
         return [self.head() | {"type": "found", "relation": None, "method": self.method, "result": result} | chosen]
+
+
+@dataclass(frozen=True, eq=False)
+class Words(SilentStep):
+    """Declare a text made by plain code, for messages (``{id}``): ``function`` takes the numbers (SI) and texts ``takes`` of one machine.
+
+    It is made only where a message or a drawing asks for it. With ``each_part`` the function gives a tuple: a text for each part of a row.
+    """
+
+    function: Callable[..., str | tuple[str, ...]]
+    takes: tuple[str, ...]
+    each_part: bool = field(default=False, kw_only=True)
+    output: bool = field(default=True, kw_only=True)
+
+    TAKES: ClassVar[dict[str, Kinds]] = {"takes": SAID}
+    is_taken = True
+    is_run = False
+    is_made_late = True
+
+    def kinds(self, over: Over) -> set[tuple[str, str]]:
+        return {("text", "")}

@@ -16,10 +16,10 @@ from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, Reading, formula
 from diecut_report.formulas.tree import Constant, Node, substitute
+from diecut_report.mechanics.common import difference
 from diecut_report.mechanism.names import Misdeclared, Written, bind, bound
 from diecut_report.mechanism.steps.protocols import ANY, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.table_steps import (
-    MOST_DIGITS,
     SAME,
     column_title,
     key_faults,
@@ -29,18 +29,12 @@ from diecut_report.mechanism.steps.table_steps import (
     unlike_units,
 )
 from diecut_report.mechanism.steps.value import Value
-from diecut_report.quantities.formatting import DIGITS, number_text, with_unit
+from diecut_report.quantities.formatting import DIGITS, MOST_DIGITS, number_text, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.standards.tables import Column, StandardFault, StandardTable
 from diecut_report.text.phrases import Phrase, phrase
 
 ROUNDING = 1e-12  # of the table's range: beyond its ends by no more is rounding
-
-
-@formula
-def difference(x: Any, row: Any) -> Any:
-    """Return how far a quantity is beyond a row of a table."""
-    return x - row
 
 
 @formula
@@ -178,7 +172,7 @@ class Interpolated(Value):
     def corners(self) -> tuple[Value, ...]:
         """Return curves that cross zero where ``of`` crosses an inner row of the table, so that this one has a corner there."""
         return tuple(
-            Value(f"{self.id}@{number}", "", self.unit, "", bind(difference, x=self.of, row=float(row)))
+            Value(f"{self.id}@{number}", "", self.unit, "", bind(difference, quantity=self.of, less=float(row)))
             for number, row in enumerate(self.between.x[1:-1], 1)
         )
 

@@ -26,7 +26,6 @@ from diecut_report.mechanism.steps.protocols import (
 )
 from diecut_report.mechanism.steps.table_steps import (
     AS_GIVEN,
-    MOST_DIGITS,
     SAME,
     TableStep,
     as_given,
@@ -39,7 +38,7 @@ from diecut_report.mechanism.steps.table_steps import (
     sources,
     unlike_units,
 )
-from diecut_report.quantities.formatting import number_text, si, with_unit
+from diecut_report.quantities.formatting import MOST_DIGITS, number_text, si, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.standards.tables import Column, StandardFault, StandardTable
 from diecut_report.text.phrases import Phrase, phrase

@@ -34,7 +34,7 @@ class Phase(SilentStep):
     period: str = field(default="", kw_only=True)
 
     TAKES: ClassVar[dict[str, Kinds]] = {"abscissa": AN_ABSCISSA, "period": NUMBER, "spans": ANY}
-    is_run: ClassVar[bool] = False
+    is_run = False
 
     @classmethod
     def of(

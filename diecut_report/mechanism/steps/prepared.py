@@ -20,7 +20,7 @@ class HoldingStep(SilentStep):
     function: Callable[..., Any]
     holds: tuple[str, ...]
 
-    is_taken: ClassVar[bool] = True
+    is_taken = True
 
     def takes_ids(self) -> Iterator[TakenName]:
         yield from (TakenName("holds", name, HELD) for name in self.holds)
@@ -94,7 +94,7 @@ class Listing(HoldingStep):
     taken: str = ""
 
     TAKES: ClassVar[dict[str, Kinds]] = {"taken": ANY}
-    is_run: ClassVar[bool] = False
+    is_run = False
 
     def items(self, page: StepPrinter) -> list[Item]:
         return page.listing(self)

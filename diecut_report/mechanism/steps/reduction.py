@@ -1,4 +1,4 @@
-"""One number of a curve: an extreme, a mean, an integral."""
+"""What is found on a curve: one number of it, an extreme, a mean, an integral; and the places where it changes its sign."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from diecut_report.mechanism.steps.base import QuantityStep, ResultName
+from diecut_report.mechanism.steps.base import Over, QuantityStep, ResultName
 from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Kinds, Names, StepEngine, StepPrinter
-from diecut_report.mechanism.steps.result_names import place_name
-from diecut_report.quantities.formatting import is_rounding
+from diecut_report.mechanism.steps.result_names import count_name, place_name, result_names
+from diecut_report.quantities.formatting import is_nothing
 from diecut_report.quantities.units import Kind, times
-from diecut_report.text.phrases import Phrase
+from diecut_report.text.phrases import Phrase, phrase
 
 Operation = Literal["max", "min", "abs_max", "range", "mean", "rms", "integral"]
 SIGNS = {"max": (1.0,), "min": (-1.0,), "abs_max": (1.0, -1.0), "range": (1.0, -1.0)}
@@ -93,8 +93,50 @@ class Reduction(QuantityStep):
             "residual": page.residual(self),
         }
         if self.operation == "integral":
-            item["over"] = page.place(axis, float(calc.domains[axis].period_of(None)[0, 0]))
+            item["over"] = page.place(axis, float(calc.domains[axis].period[0, 0]))
         place = place_name(self.id)
-        if place in calc.values and not is_rounding(value, self.unit):
+        if place in calc.values and (value == 0 or not is_nothing(value, self.unit)):  # that of rounding says nothing
             item["at"] = page.place(axis, float(calc[place][0, 0]))
         return [item]
+
+
+@dataclass(frozen=True, eq=False)
+class Crossings(QuantityStep):
+    """Declare all places where the curve ``of`` changes its sign, between the breakpoints known so far and at them.
+
+    Their number differs from machine to machine; as outputs they are ``ID_count``, ``ID_1``, ``ID_2`` …
+    """
+
+    of: str
+
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": A_CURVE}
+    is_counted = True
+
+    def kinds(self, over: Over) -> set[tuple[str, str]]:
+        return {("crossings", "")}
+
+    def beside(self) -> Iterator[ResultName]:
+        yield ResultName(count_name(self.id), self.id, "count")
+
+    @property
+    def asked_curve(self) -> str:
+        return self.of
+
+    def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
+        yield from ((axis, units(axis)) for axis in sorted(names.axes(self.of)))
+
+    def run(self, calc: StepEngine) -> None:
+        places, residual = calc.crossings(self.of)
+        calc.values[self.id] = places
+        calc.values[count_name(self.id)] = np.isfinite(places).sum(axis=1, keepdims=True)
+        names = [each for each in result_names(self, places.shape[1]) if each.role == "crossing"]
+        calc.values |= {each.name: places[:, [each.index]] for each in names}
+        calc.prove(self, residual)
+
+    def items(self, page: StepPrinter) -> list[Item]:
+        places = [float(x) for x in page.calc[self.id][0] if x == x]
+        if places:
+            return [page.table_of_places(self, places)]
+        return [
+            self.head() | {"type": "note", "text": Phrase("{title}: there is none.", title=phrase(self.description))}
+        ]

@@ -1,4 +1,4 @@
-"""What must hold for a machine to be possible."""
+"""What must hold for a machine to be possible, and facts that other steps stand on."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Require(Obstacle):
     advise: tuple[AdviceWay, ...] = ()
 
     FORMULAS: ClassVar[dict[str, Kinds]] = {"condition": ROW}
-    message_places: ClassVar[tuple[str, ...]] = ("part", "next", "index")
+    message_places = ("part", "next", "index")
 
     def can_be_judged(self, known: Collection[str]) -> bool:
         return all(name in known for name in bound(self.condition).takes if isinstance(name, str))
@@ -70,7 +70,7 @@ class Clash(Obstacle):
     message: str
 
     TAKES: ClassVar[dict[str, Kinds]] = {"takes": ROW}
-    message_places: ClassVar[tuple[str, ...]] = ("part", "other", "index")
+    message_places = ("part", "other", "index")
 
     def run(self, calc: StepEngine) -> None:
         rows = plain_code.taken(calc, self.takes)
@@ -78,3 +78,29 @@ class Clash(Obstacle):
         for variant in np.flatnonzero((others >= 0).any(axis=1)):
             part = int(np.argmax(others[variant] >= 0))
             self.report(calc, int(variant), {"part": part + 1, "other": int(others[variant, part]) + 1, "index": part})
+
+
+@dataclass(frozen=True, eq=False)
+class Fact(SilentStep):
+    """Declare what other steps stand on: they name its id among their ``needs``, as they do with an input.
+
+    Where the condition does not hold for a machine, they are left out for it, and what refers to them is not calculated;
+    ``words`` say why. A check that stands on it is then not checked for want of the first key of ``lacks``, with which the fact is not asked.
+    """
+
+    condition: Written
+    words: str
+
+    is_taken = True
+    FORMULAS: ClassVar[dict[str, Kinds]] = {"condition": ROW}
+
+    def run(self, calc: StepEngine) -> None:
+        """Mark which variants do not meet it; where none does, the steps that need it take no part.
+
+        Where some do, the numbers of the others mean nothing: these variants are to be calculated by themselves.
+        """
+        missed: Array = calc.apply(self.condition)[:, 0] == 0
+        if missed.any():
+            calc.withheld[self.id] = missed
+            if missed[calc.possible].all():
+                calc.withdraw(self.id)

@@ -20,7 +20,7 @@ class SeriesStep(QuantityStep):
     of: str
 
     TAKES: ClassVar[dict[str, Kinds]] = {"of": A_CURVE}
-    is_shown_at_place: ClassVar[bool] = True
+    is_shown_at_place = True
     OPERATION: ClassVar[str]
     METHOD: ClassVar[str]
 
@@ -56,10 +56,8 @@ class SeriesStep(QuantityStep):
 class Accumulated(SeriesStep):
     """Declare a curve: the running integral of the curve ``of`` over its abscissa, from the abscissa's start."""
 
-    OPERATION: ClassVar[str] = "accumulated"
-    METHOD: ClassVar[str] = (
-        "Chebyshev series between the breakpoints, integrated; its final value is compared with Gauss–Legendre quadrature"
-    )
+    OPERATION = "accumulated"
+    METHOD = "Chebyshev series between the breakpoints, integrated; its final value is compared with Gauss–Legendre quadrature"
 
     def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:
         yield Phrase("the integral of {curve}", curve=self.of), times(of(self.of), of(axis(self.of))), of(self.id)
@@ -72,10 +70,8 @@ class Accumulated(SeriesStep):
 class Derivative(SeriesStep):
     """Declare a curve: the derivative of the curve ``of`` by its abscissa, within the smooth pieces."""
 
-    OPERATION: ClassVar[str] = "derivative"
-    METHOD: ClassVar[str] = (
-        "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other points"
-    )
+    OPERATION = "derivative"
+    METHOD = "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other points"
 
     def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:
         yield Phrase("the derivative of {curve}", curve=self.of), times(of(self.of), of(axis(self.of)), -1), of(self.id)

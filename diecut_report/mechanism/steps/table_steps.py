@@ -20,7 +20,6 @@ from diecut_report.standards.tables import Column, StandardSeries, StandardTable
 from diecut_report.text.phrases import Phrase, phrase
 
 SAME = 1e-9  # relative difference within which a number is that of a row
-MOST_DIGITS = 17
 AS_GIVEN = "as given"
 
 

@@ -30,9 +30,9 @@ class FormulaStep(QuantityStep):
     """
 
     per_piece: bool = field(default=False, kw_only=True)
-    is_formula: ClassVar[bool] = True
-    is_shown_at_place: ClassVar[bool] = True
-    may_be_absent: ClassVar[bool] = True
+    is_formula = True
+    is_shown_at_place = True
+    may_be_absent = True
 
     def takes(self) -> tuple[str | float, ...]:
         """Return the ids (or plain numbers) that the formulas take."""

@@ -23,10 +23,10 @@ from diecut_report.mechanism.inputs import POINTS, list_inputs
 from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.steps import (
     CROSSING_COLUMNS,
-    SILENT,
     Crossings,
     PartNames,
     ResultName,
+    SilentStep,
     Step,
     Value,
     count_name,
@@ -100,7 +100,7 @@ def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
     counts = _counts(instance)
     for _, step in instance.mechanism.active(instance.given):
         home = axes.get(step.id)
-        if not step.output or isinstance(step, SILENT) or (home is not None and home not in counts):
+        if not step.output or isinstance(step, SilentStep) or (home is not None and home not in counts):
             continue
         parts = _names(step, counts[home] if home else None, instance.names_of_parts(step.named_by))
         for part in parts:
@@ -164,7 +164,7 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
     """Return the outputs of many variants by column; NaN (None for texts and flags) where there is none."""
     found: dict[str, Array] = {}
     for step in calc.steps.values():
-        if not step.output or isinstance(step, SILENT) or step.id not in calc.values:
+        if not step.output or isinstance(step, SilentStep) or step.id not in calc.values:
             continue
         home = calc.steps.get(calc.axis.get(step.id, ""))
         if isinstance(home, PartNames) and home.count is None:  # how many there are is not known ahead
