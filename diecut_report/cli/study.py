@@ -217,16 +217,16 @@ def take(variant: str, file: Path, digits: int | None, discovery: Discovery) -> 
         template = "{variant} names no variant; give the folder of a study and a number, as in build/study#17."
         raise click.UsageError(say(template, variant=repr(variant)))
     refuse_sources(Path(folder), file)
-    found = taken_config(Path(folder), int(number), discovery, digits)
+    content, found = taken_config(Path(folder), int(number), discovery, digits)
     if file == DASH:
-        emit(found.content.decode())
+        emit(content.decode())
     else:
-        write_all({file: found.content}, Path(folder) / RESULTS, through=True)
+        write_all({file: content}, Path(folder) / RESULTS, through=True)
     if not is_quiet():
         judged = {"status": phrase(WORDS[found.status]), "check": found.governing or "–"}
         place = "<stdout>" if file == DASH else file
         tell([say("written: {file}; in the study: {status}, governed by {check}", file=place, **judged)])
-        missing = {name: copy for name, copy in found.beside.items() if not (file.parent / name).exists()}
+        missing = {name: copy for name, copy in found.beside.values() if not (file.parent / name).exists()}
         template = "it names {name}, which is looked up beside it; the study keeps a copy: {copy}"
         tell(say(template, name=name, copy=copy) for name, copy in missing.items())
     return PASSED

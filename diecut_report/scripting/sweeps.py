@@ -20,7 +20,7 @@ from diecut_report.report.text import Catalogue, quantity
 from diecut_report.scripting.parts import NamedParts, Tabular
 from diecut_report.scripting.press_inputs import whole_path
 from diecut_report.scripting.values import notebook_page, plain
-from diecut_report.study.definition.study_file import Study, study_of
+from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.study_run import result_columns, varied_columns
 from diecut_report.study.execution.worker import Chunk, Done, calculate
 from diecut_report.study.storage.description import VARIANT, VERDICT, ResultColumn
@@ -110,7 +110,7 @@ def swept(
         raise error
     values = {whole_path(path): plain(given, path) for path, given in vary.items()}
     data = {"schema_version": 1, "base": config.tree.name, "sample": dict(sample), "vary": values, **asked}
-    study = study_of(parse(yaml.safe_dump(data, allow_unicode=True, sort_keys=False), FILE), config, discovery)
+    study = load_study(parse(yaml.safe_dump(data, allow_unicode=True, sort_keys=False), FILE), discovery, base=config)
     if study.sample.count > MOST:
         message = Phrase("there are {count} machines; a table has at most {most}. Calculate them as a study, with the command batch.",
                        count=study.sample.count, most=MOST)  # fmt: skip

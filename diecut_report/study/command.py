@@ -17,8 +17,7 @@ from diecut_report.study.execution.study_run import (
     Where,
     engine_for,
     refuse_empty,
-    refuse_huge,
-    refuse_unsampled,
+    refuse_sample,
     run_study,
 )
 from diecut_report.study.execution.variant_reports import wanted, write_chosen
@@ -92,8 +91,7 @@ def run(
 ) -> StudyOutcome:  # fmt: skip
     """Run a study, or continue the one of a folder; then reports, summary and the other formats."""
     known = loaded(study, directory, where)
-    refuse_unsampled(known)
-    refuse_huge(known, agreed)
+    refuse_sample(known, agreed)
     refuse_empty(known)
     if where.dask:
         with engine_for(known, where, 1):  # before anything is written: whether it can be reached

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import PurePath
@@ -67,9 +67,7 @@ class Verdict:
     formulas_with_faults: bool = False
     assumed: int = 0
     conclusion: str = ""
-    parts: tuple[int, int] | None = (
-        None  # that carry load, and of these those that are rated, where the parts are modelled
-    )
+    parts: tuple[int, int] | None = None  # that carry load, and those of them that are rated, where parts are modelled
     verdict: str = BAD
     """``pass``, ``conditional`` or ``fail``; ``error`` where a plugin broke, ``bad`` where the file is bad, ``fault`` where the program has one."""
 
@@ -125,18 +123,17 @@ class MachineComparison:
     @property
     def telling_checks(self) -> list[ComparedRow]:
         """Return the checks that do not hold somewhere, or not everywhere alike, the worst first; the others say nothing."""
-        return sorted((row for row in self.checks if _is_telling(row)), key=_worst_first)
+        states = [{cell.status for cell in row.cells if cell} for row in self.checks]
+        telling = (row for row, own in zip(self.checks, states, strict=True) if own & {"fail", "warn"} or len(own) > 1)
+        return sorted(telling, key=_worst_first)
 
     @property
     def omitted(self) -> Phrase | None:
         """Return how many inputs a page and a terminal leave out; None where they show all."""
         count = len(self.changes) - MOST_ROWS
         one = "{n} more input differs; the workbook and the JSON file (-o DIR) list it."
-        return (
-            Counted(count, one, "{n} more inputs differ; the workbook and the JSON file (-o DIR) list them.")
-            if count > 0
-            else None
-        )
+        many = "{n} more inputs differ; the workbook and the JSON file (-o DIR) list them."
+        return Counted(count, one, many) if count > 0 else None
 
 
 def _verdict_cell(of: Verdict) -> ComparedCell:
@@ -167,11 +164,6 @@ def share_cell(share: float | None, status: str, note: str = "") -> ComparedCell
     return ComparedCell(share, text, status, note)
 
 
-def _is_telling(row: ComparedRow) -> bool:
-    states = {cell.status for cell in row.cells if cell}
-    return bool(states & {"fail", "warn"}) or len(states) > 1
-
-
 def _worst_first(row: ComparedRow) -> tuple[int, float]:
     cells = [cell for cell in row.cells if cell]
     used = [cell.value for cell in cells if isinstance(cell.value, float)]
@@ -195,8 +187,7 @@ def _in_lines(cell: ComparedCell | None) -> str:
 def named_checks(machine: CheckedMachine) -> Iterator[tuple[str, CheckRecord]]:
     """Yield the checks of a machine by MECHANISM.ID, without the self-tests of the calculation."""
     for name, data in machine.mechanisms.items():
-        own = (check for check in data.checks if check.check_class != SELF_TEST)
-        yield from ((f"{name}.{check.id}", check) for check in own)
+        yield from ((f"{name}.{each.id}", each) for each in data.checks if each.check_class != SELF_TEST)
 
 
 def verdict(machine: CheckedMachine, name: str) -> Verdict:
@@ -220,19 +211,15 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
 
 def names(files: Sequence[str]) -> list[str]:
     """Return what machines are called: their files' names, with so much of the path as tells them apart; no two are alike."""
-    parts = [_parts(file) for file in files]
+    paths = list(map(PurePath, files))
+    parts = [(path.with_suffix("") if path.suffix in ENDINGS else path).parts for path in paths]
     length = 1
     while length < max(map(len, parts)) and len({part[-length:] for part in parts}) < len(set(parts)):
         length += 1
     called = ["/".join(part[-length:]) for part in parts]
     count = Counter(called)  # press.yaml and press.yml are alike without their endings
-    whole = ["/".join(PurePath(file).parts[-length:]) for file in files]
+    whole = ["/".join(path.parts[-length:]) for path in paths]
     return [long if count[short] > 1 else short for short, long in zip(called, whole, strict=True)]
-
-
-def _parts(file: str) -> tuple[str, ...]:
-    path = PurePath(file)
-    return (path.with_suffix("") if path.suffix in ENDINGS else path).parts
 
 
 # The rows.
@@ -249,15 +236,13 @@ def compared(
     return MachineComparison(
         [verdict(machine, name) for machine, name in zip(machines, called, strict=True)],
         list(results),
-        kinds=[ComparedRow(name, say("Kind of the mechanism"), list(map(_kind_cell, kinds))) for name, kinds in differing_kinds(sides).items()],
+        kinds=[ComparedRow(name, say("Kind of the mechanism"), [ComparedCell(kind, kind) if kind else None for kind in kinds])
+               for name, kinds in differing_kinds(sides).items()],
         changes=[row for path, records in own_changes(sides) for row in quantity_rows(path, records, units)],
         checks=[ComparedRow(key, title, [_check_cell(some.get(key)) for some in checks]) for key, title in titles.items()],
-        advice=[(name, *each) for name, some in zip(called, checks, strict=True) for each in _advice(some)],
+        advice=[(name, key, str(check.message)) for name, some in zip(called, checks, strict=True)
+                for key, check in some.items() if check.status in ("fail", "warn")],
     )  # fmt: skip
-
-
-def _kind_cell(kind: str) -> ComparedCell | None:
-    return ComparedCell(kind, kind) if kind else None
 
 
 def _check_cell(check: CheckRecord | None) -> ComparedCell | None:
@@ -265,11 +250,6 @@ def _check_cell(check: CheckRecord | None) -> ComparedCell | None:
         return None
     note = "" if check.status == "pass" or check.utilisation is None else said(WORDS[check.status])
     return share_cell(check.utilisation, check.status, note)
-
-
-def _advice(checks: Mapping[str, CheckRecord]) -> Iterator[tuple[str, str]]:
-    failing = ((name, check) for name, check in checks.items() if check.status in ("fail", "warn"))
-    yield from ((name, str(check.message)) for name, check in failing)
 
 
 Records = Sequence[QuantityRecord | None]
@@ -300,20 +280,14 @@ def _quantity_cell(record: QuantityRecord | None, chosen: str, says_basis: bool)
     if isinstance(value, bool) or not isinstance(value, int | float):
         text = said(display.text)
         return ComparedCell(text, text, note=note)
-    return number_cell(
-        value, chosen, display.text if display.unit == chosen else "", note=note, is_typed=bool(record.origin)
-    )
+    text = display.text if display.unit == chosen else ""
+    return number_cell(value, chosen, text, note=note, is_typed=bool(record.origin))
 
 
 def number_cell(value: float, chosen: str, text: str = "", *, note: str = "", is_typed: bool = False) -> ComparedCell:
     """Return an SI value as a cell in a unit; ``text`` is how it is printed there, if that is known, else as a result or as it was typed."""
     text = text or (given_shown if is_typed else result_shown)(value, chosen)["text"]
     return ComparedCell(float(f"{to_display(value, chosen):.15g}"), localised(text), note=note)
-
-
-def parts_noted(count: int) -> str:
-    """Return of how many parts a number is the sum."""
-    return said(Counted(count, "{n} part", "{n} parts"))
 
 
 def as_data(made: MachineComparison) -> dict[str, Any]:
@@ -323,9 +297,8 @@ def as_data(made: MachineComparison) -> dict[str, Any]:
         cells = dict(zip(made.names, row.cells, strict=True))
         notes = {name: cell.note for name, cell in cells.items() if cell and cell.note}
         values = {name: cell.value if cell else None for name, cell in cells.items()}
-        return {"path": row.path, "description": row.title, "unit": row.unit, "machines": values} | (
-            {"notes": notes} if notes else {}
-        )
+        own = {"path": row.path, "description": row.title, "unit": row.unit, "machines": values}
+        return own | {"notes": notes} if notes else own
 
     def of_check(row: ComparedRow) -> dict[str, Any]:
         cells = zip(made.names, row.cells, strict=True)

@@ -47,10 +47,9 @@ def _merged(kinds: Sequence[ComparedRow]) -> list[ComparedRow]:
         else:
             alike.setdefault(tuple(cell is not None for cell in row.cells), []).append(row.path)
     tick = ComparedCell(True, "✓")
-    merged = [
-        ComparedRow("", ", ".join(names), [tick if has else None for has in there]) for there, names in alike.items()
-    ]
-    return [*rows, *merged]
+    for there, names in alike.items():
+        rows.append(ComparedRow("", ", ".join(names), [tick if has else None for has in there]))
+    return rows
 
 
 def blocks(count: int) -> Iterator[range]:
@@ -80,10 +79,6 @@ def _plain(cell: ComparedCell | None) -> str | float | None:
     return None if cell is None else str(cell.value).lower() if isinstance(cell.value, bool) else cell.value
 
 
-def _json(made: MachineComparison) -> bytes:
-    return encoded(json.dumps(as_data(made), indent=1, ensure_ascii=False, allow_nan=False) + "\n")
-
-
 # The workbook: a machine in each row of its first sheet, so that it can be filtered and drawn; units stand in the heads.
 
 
@@ -94,7 +89,10 @@ def sheets(made: MachineComparison) -> list[WorkSheet]:
     """Return the sheets: machines with their results, what differs, the checks, the advice; numbers are numbers."""
     found = [_machines(made)]
     if made.kinds or made.changes:
-        found.append(_by_path(made, say("differences"), [*made.kinds, *made.changes]))
+        heads = [say("input"), say("description"), say("unit"), *made.names]
+        rows = [*made.kinds, *made.changes]
+        cells = [[row.path, row.title, pretty(row.unit), *map(_cell, row.cells)] for row in rows]
+        found.append(_sheet(say("differences"), heads, cells))
     if made.checks:
         found.append(_checks(made))
     if made.advice:
@@ -110,9 +108,8 @@ def _machines(made: MachineComparison) -> WorkSheet:
         columns.append((say("what is wrong"), ["\n".join(map(said, each.messages)) for each in made.machines]))
     rows: list[list[Cell]] = [[name, *(cells[index] for _, cells in columns)] for index, name in enumerate(made.names)]
     sheet = _sheet(say("comparison"), [say("machine"), *(head for head, _ in columns)], rows)
-    sheet.bars = [
-        number for number, (_, cells) in enumerate(columns, 1) if len(rows) > 1 and any(map(_is_share, cells))
-    ]
+    if len(rows) > 1:
+        sheet.bars = [number for number, (_, cells) in enumerate(columns, 1) if any(map(_is_share, cells))]
     return sheet
 
 
@@ -120,37 +117,26 @@ def _columns(row: ComparedRow) -> Iterator[tuple[str, list[Cell]]]:
     """Yield the column of a row, and, where its cells have notes, a column of these; a check without a utilisation has its verdict there."""
     cells = list(map(_cell, row.cells))
     yield f"{row.title} [%]" if any(map(_is_share, cells)) else row.head, cells
-    notes: list[Cell] = [_note(cell) if cell else "" for cell in row.cells]
+    notes = [
+        cell.note and (f"{cell.note}: {cell.text}" if cell.value is None else cell.note) if cell else ""
+        for cell in row.cells
+    ]
     if any(notes):
-        yield say("{title}: which", title=row.title), notes
-
-
-def _note(cell: ComparedCell) -> str:
-    return f"{cell.note}: {cell.text}" if cell.note and cell.value is None else cell.note
+        yield say("{title}: which", title=row.title), list(notes)
 
 
 def _is_share(cell: Cell) -> bool:
     return isinstance(cell, CellNumber) and cell.form.endswith("%")
 
 
-def _by_path(made: MachineComparison, title: str, rows: Sequence[ComparedRow]) -> WorkSheet:
-    heads = [say("input"), say("description"), say("unit"), *made.names]
-    return _sheet(title, heads, [[row.path, row.title, pretty(row.unit), *map(_cell, row.cells)] for row in rows])
-
-
 def _checks(made: MachineComparison) -> WorkSheet:
     """Return the checks, of each machine the utilisation and, behind those of all, the verdict."""
     verdicts = [f"{name}: " + say("verdict") for name in made.names]
-    rows = [
-        [row.path, row.title, *map(_cell, row.cells),
-         *(_state(cell) for cell in row.cells)]
-        for row in made.checks
-    ]  # fmt: skip
+    rows: list[list[Cell]] = []
+    for row in made.checks:
+        states = [said(WORDS[cell.status]) if cell else "" for cell in row.cells]
+        rows.append([row.path, row.title, *map(_cell, row.cells), *states])
     return _sheet(say("checks"), [say("check"), say("title"), *made.names, *verdicts], rows)
-
-
-def _state(cell: ComparedCell | None) -> str:
-    return said(WORDS[cell.status]) if cell else ""
 
 
 def _cell(cell: ComparedCell | None) -> Cell:
@@ -179,7 +165,7 @@ FORMATS: dict[str, Callable[[MachineComparison], bytes]] = {
     "pdf": lambda made: printed(page(made, "print")),
     "xlsx": lambda made: book_of(sheets(made)),
     "csv": table,
-    "json": _json,
+    "json": lambda made: encoded(json.dumps(as_data(made), indent=1, ensure_ascii=False, allow_nan=False) + "\n"),
 }
 
 

@@ -90,7 +90,7 @@ def configurations(given: Sequence[Path]) -> FoundFiles:
         raise UserError([Problem(Phrase(template, given=", ".join(map(str, given)))), *others])
     if len(found.files) > MAX_MACHINES:
         template = "These are {count} configurations; at most {most} are checked at once."
-        raise UserError(Problem(Phrase(template, count=len(found.files), most=MAX_MACHINES)))
+        raise refusal(template, count=len(found.files), most=MAX_MACHINES)
     return found
 
 
@@ -108,12 +108,10 @@ def _add_variants(folder: Path, found: FoundFiles) -> None:
             found.files.append(Path(f"{folder}#{number}"))
 
 
-def _few_variants(folder: Path) -> list[tuple[int, str]]:
+def _few_variants(folder: Path) -> list[tuple[Any, ...]]:
     """Return the number and the status of each variant of a study; UserError where there are too many to compare, or none to read."""
     with opened(folder) as stored:
-        variants: list[tuple[int, str]] = stored.rows(
-            f"SELECT variant, status FROM v ORDER BY variant LIMIT {MAX_VARIANTS + 1}"
-        )
+        variants = stored.rows(f"SELECT variant, status FROM v ORDER BY variant LIMIT {MAX_VARIANTS + 1}")
     if len(variants) > MAX_VARIANTS:
         template = "This study has more than {most} variants. Name some: {folder}#3 {folder}#17; `diecut-report variants {folder}` finds them."
         raise refusal(template, folder, most=MAX_VARIANTS, folder=folder)

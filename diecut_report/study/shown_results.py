@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import Problem, UserError, nearest, refusal
 from diecut_report.quantities.units import UnitError, pretty, unit
 from diecut_report.results.conclusion import may_govern, weight
 from diecut_report.results.mechanism_record import QuantityRecord
@@ -16,13 +16,12 @@ from diecut_report.study.comparison import (
     chosen_unit,
     named_checks,
     number_cell,
-    parts_noted,
     quantity_rows,
     share_cell,
 )
 from diecut_report.study.machines import CheckedMachine
 from diecut_report.text.phrases import Phrase, phrase
-from diecut_report.text.translation import said
+from diecut_report.text.translation import said, say_counted
 
 RATE = "press.productivity"
 MOTOR = "motor_power"
@@ -74,12 +73,12 @@ class AskedResults:
         ids = {path.partition(".")[2] for path in outputs}
         allowed = {*WORDS, *known, *ids}
         template = "--show {name}: no machine has this result{nearest}. Name results by their ids, as INSTANCE.OUTPUT, or by the words {words}."
-        unknown = [
-            Phrase(template, name=name, nearest=nearest(name, allowed), words=", ".join(WORDS))
+        problems = [
+            Problem(Phrase(template, name=name, nearest=nearest(name, allowed), words=", ".join(WORDS)))
             for name in self.names if name not in allowed
         ]  # fmt: skip
-        if unknown:
-            raise UserError([Problem(each) for each in unknown])
+        if problems:
+            raise UserError(problems)
 
     def _of_name(self, name: str, quantities: Sequence[Row], outputs: Sequence[Row]) -> Iterator[ComparedRow]:
         """Yield the rows of a path, or of an id in all mechanisms that give it."""
@@ -111,10 +110,10 @@ def refuse_units(units: Sequence[str]) -> None:
         try:
             kind = unit(each).kind
         except UnitError as error:
-            raise UserError(Problem(Phrase("--units {unit}: {fault}", unit=each, fault=error.args[0]))) from None
+            raise refusal("--units {unit}: {fault}", unit=each, fault=error.args[0]) from None
         if kind in known:
             template = "--units: {first} and {second} are units of the same dimension. Name one of them."
-            raise UserError(Problem(Phrase(template, first=known[kind], second=each)))
+            raise refusal(template, first=known[kind], second=each)
         known[kind] = each
 
 
@@ -154,7 +153,8 @@ def _numbers(outputs: Row, si: str) -> Iterator[tuple[str, QuantityRecord, float
 def _mass(outputs: Row) -> Amount | None:
     """Return the sum of the masses that are key results, and of how many parts."""
     found = [(row.display.unit, value) for _, row, value in _numbers(outputs, "kg") if row.key]
-    return Amount(sum(value for _, value in found), found[0][0], parts_noted(len(found))) if found else None
+    note = say_counted(len(found), "{n} part", "{n} parts")
+    return Amount(sum(value for _, value in found), found[0][0], note) if found else None
 
 
 def _torque(outputs: Row) -> Amount | None:
@@ -167,9 +167,8 @@ def _torque(outputs: Row) -> Amount | None:
 
 
 def _motor(outputs: Row) -> Amount | None:
-    found = [
-        (row.display.unit, value) for path, row, value in _numbers(outputs, "W") if path.partition(".")[2] == MOTOR
-    ]
+    motors = (each for each in _numbers(outputs, "W") if each[0].partition(".")[2] == MOTOR)
+    found = [(row.display.unit, value) for _, row, value in motors]
     return Amount(sum(value for _, value in found), found[0][0], "") if found else None
 
 
@@ -178,10 +177,6 @@ AMOUNTS: dict[str, Callable[[Row], Amount | None]] = {"mass": _mass, "torque_max
 
 def _governing(machine: CheckedMachine, check_class: str) -> ComparedCell | None:
     """Return the utilisation of the check of a class that governs, and which it is."""
-    own = [
-        (name, check) for name, check in named_checks(machine) if check.check_class == check_class and may_govern(check)
-    ]
-    if not own:
-        return None
-    name, check = max(own, key=lambda pair: weight(pair[1]))
-    return share_cell(check.utilisation, check.status, name)
+    own = (each for each in named_checks(machine) if each[1].check_class == check_class and may_govern(each[1]))
+    name, check = max(own, key=lambda pair: weight(pair[1]), default=("", None))
+    return share_cell(check.utilisation, check.status, name) if check else None

@@ -23,7 +23,7 @@ from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.tree import Node as Expression
 from diecut_report.study.analysis.query import SqlWriter, condition
 from diecut_report.study.analysis.variants import StoredColumn
-from diecut_report.study.definition.constraints import Term, parse
+from diecut_report.study.definition.constraints import parse
 
 COLUMNS = {
     column.name: column
@@ -298,9 +298,9 @@ HOSTILE = [
 ]
 
 
-def term(path: str) -> Term:
+def term(path: str) -> tuple[Name, Expression]:
     found = name(path)
-    return Term(found.unit if found.holds == "number" else None, Expression("sym", (path,)), found.display)
+    return found, Expression("sym", (path,))
 
 
 @pytest.mark.parametrize("text", HOSTILE, ids=[text[:30] for text in HOSTILE])

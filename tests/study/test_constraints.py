@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from diecut_report.formulas.condition_parts import Name
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.tree import Node
-from diecut_report.study.definition.constraints import Constraint, Term, parse
+from diecut_report.study.definition.constraints import Constraint, parse
 
 UNITS: dict[str, str | None] = {
     "mechanisms.a.bore": "m", "mechanisms.a.height": "m", "mechanisms.a.speed": "rad/s", "mechanisms.a.law": None,
@@ -27,13 +28,17 @@ ROWS: dict[str, Any] = {
 }
 
 
-def find(path: str) -> Term:
+def find(path: str) -> tuple[Name, Node]:
     if path in UNITS:
-        return Term(UNITS[path], Node("sym", (path,)))
+        return named(path, UNITS[path]), Node("sym", (path,))
     if path in FIXED:
         si, value = FIXED[path]
-        return Term(si, Node("qty", (value,)))
+        return named(path, si), Node("qty", (value,))
     raise ConditionError(f"“{path}” is unknown")
+
+
+def named(path: str, si: str | None) -> Name:
+    return Name(path, "text") if si is None else Name(path, "number", si)
 
 
 def read(text: str) -> Constraint:
@@ -62,11 +67,11 @@ HELD = [  # text, and the rows above by hand; what the language means is held in
 
 @pytest.mark.parametrize(("text", "held"), HELD, ids=[text for text, _ in HELD])
 def test_a_constraint_holds_row_by_row(text: str, held: list[bool]) -> None:
-    assert read(text).holds(ROWS).tolist() == held
+    assert read(text).judged(ROWS).holds.tolist() == held
 
 
 def test_a_constraint_that_names_one_text_gives_a_value_for_each_row() -> None:
-    assert read("law == mechanisms.a.grade").holds(ROWS).tolist() == [False] * 3
+    assert read("law == mechanisms.a.grade").judged(ROWS).holds.tolist() == [False] * 3
 
 
 def test_the_varied_paths_of_a_constraint_are_told_once() -> None:
@@ -75,7 +80,7 @@ def test_the_varied_paths_of_a_constraint_are_told_once() -> None:
 
 def test_a_constraint_goes_to_another_process() -> None:
     there: Constraint = pickle.loads(pickle.dumps(read("bore <= 0.7 * height")))
-    assert there.holds(ROWS).tolist() == [True, True, False]
+    assert there.judged(ROWS).holds.tolist() == [True, True, False]
 
 
 WRONG = [

@@ -40,5 +40,5 @@ def test_a_variant_without_a_value_is_told_and_leaves_its_neighbours_alone(tmp_p
 def test_a_constraint_may_name_an_input_that_is_an_expression(tmp_path: Path) -> None:
     base = BASE.replace("2 * ${a.force}", "max(2 * ${a.force}, 4 kN, 1 N)**2 / 4 kN")
     made = study(tmp_path, varied("[1, 2, 3]", rest="constraints: [mechanisms.b.force > '4 kN']\n"), base)
-    holds = made.constraints[0].holds({"mechanisms.a.force": np.array([1e3, 2e3, 3e3])})  # 4, 4, 9 kN
+    holds = made.constraints[0].judged({"mechanisms.a.force": np.array([1e3, 2e3, 3e3])}).holds  # 4, 4, 9 kN
     assert holds.tolist() == [False, False, True]

@@ -48,7 +48,7 @@ def test_its_questions_can_be_asked(guide: str) -> None:
     questions = re.findall(r"""`"([^`]*)"`""", guide)
     assert len(questions) == 3
     for question in questions:
-        assert condition(question, columns).sql
+        assert condition(question, columns)[0].text
 
 
 def test_its_commands_are_those_of_the_program(guide: str) -> None:

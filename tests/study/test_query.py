@@ -103,11 +103,11 @@ PIECES = ["a.b", "status", "<", "'1 mm'", "'x'", "(", ")", "and", "not", "-", "2
 @given(st.text(max_size=40) | st.lists(st.sampled_from(PIECES)).map(" ".join))
 def test_any_text_is_a_condition_or_a_fault_in_words(text: str) -> None:
     try:
-        found = condition(text, COLUMNS)
+        found, _ = condition(text, COLUMNS)
     except UserError as error:
         assert str(error)
         return
-    outside = found.sql.replace('"a.b"', "").replace('"status"', "").replace("'NaN'", "")
+    outside = found.text.replace('"a.b"', "").replace('"status"', "").replace("'NaN'", "")
     assert "'" not in outside and '"' not in outside and outside.count("?") == len(found.parameters)
 
 

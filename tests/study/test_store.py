@@ -196,7 +196,8 @@ def test_dropped_rows_leave_their_numbers_free(tmp_path: Path) -> None:
     with store.lock():
         store.write_part(0, {"variant": np.array([2, 7]), "status": ["pass", "fail"]})
         store.write_part(1, {"variant": np.array([], int), "status": []})
-        store.finish({"seconds": 2.5})
+        store.finish()
+        store.note({"seconds": 2.5})
     assert store.read(["variant"]).to_table().to_pydict() == {"variant": [2, 7]}
     state = json.loads((tmp_path / "out/study.json").read_text())
     assert state["counts"] == {"sample": 20, "variants": 2, "dropped": 18, "pass": 1, "fail": 1}
@@ -210,7 +211,7 @@ def test_state_runs_until_all_parts_are_there(tmp_path: Path) -> None:
     assert store.state["state"] == "running" and store.state["varied"] == [SPEED]
     assert store.state["columns"][SPEED]["unit"] == "rad/s"
     with store.lock(), pytest.raises(RuntimeError, match="10 parts are missing"):
-        store.finish({})
+        store.finish()
 
 
 def test_versions_of_what_calculates_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -428,7 +429,7 @@ def test_full_disk_is_told_and_leaves_nothing_half_written(small_disk: Path, mon
     with room_made(small_disk, monkeypatch), store.lock():
         for index in set(range(100)) - there:
             store.write_part(index, part(1000 * index, 1000))
-        store.finish({})
+        store.finish()
         assert store.counts()["variants"] == 100_000
 
 
@@ -486,7 +487,7 @@ def test_memory_stays_flat_over_many_parts(tmp_path: Path, parts: int) -> None:
     with store.lock():
         early, late = write(range(parts // 5)), write(range(parts // 5, parts))
         assert late - early < 0.16 * 1.6e6 * 4 / 5 * parts  # what the parts between hold is 1.6 MB each
-        store.finish({})
+        store.finish()
     export(store, ["csv"])
     assert psutil.Process().memory_info().rss - early < 150e6
 
@@ -536,12 +537,12 @@ def test_more_columns_than_a_sheet_holds_are_told(tmp_path: Path, monkeypatch: p
 def test_workbook_that_finds_no_room_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     store, places = filled(tmp_path / "out"), []
 
-    def rows(*_: object) -> Iterator[list[Any]]:
-        yield [1]
+    def batches(*_: object) -> Iterator[pa.RecordBatch]:
+        yield pa.record_batch([pa.array([1])], names=["variant"])
         places.extend(tmp_path.rglob("openpyxl.*"))
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr(exports, "_rows", rows)
+    monkeypatch.setattr(store, "batches", batches)
     with pytest.raises(UserError, match="out: This cannot be written: the disk is full"):
         export(store, ["xlsx"])
     assert places and not any(place.exists() for place in places)  # its temporary files were in the folder

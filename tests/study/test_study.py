@@ -39,7 +39,7 @@ def test_what_is_not_asked_for_has_its_default(tmp_path: Path) -> None:
 
 def test_the_study_carries_its_text_its_data_and_its_base(tmp_path: Path) -> None:
     found = study(tmp_path)
-    assert (found.text, found.data["base"], len(found.sha256)) == (STUDY, "press.yaml", 64)
+    assert (found.tree.text, found.tree.data["base"], len(found.tree.sha256)) == (STUDY, "press.yaml", 64)
     assert list(found.base.kinds) == ["a", "b"]
 
 
@@ -143,14 +143,14 @@ def test_constraints_hold_between_varied_fixed_and_referred_inputs(tmp_path: Pat
         )
     )
     found = study(tmp_path, varied("[1 kN, 2 kN, 3 kN]", rest=rest))
-    held = [constraint.holds(found.sample.rows(0, 3)).tolist() for constraint in found.constraints]
+    held = [constraint.judged(found.sample.rows(0, 3)).holds.tolist() for constraint in found.constraints]
     assert held == [[True, True, False], [False, True, True], [True] * 3, [True] * 3]
 
 
 def test_a_default_of_the_press_follows_the_varied_press(tmp_path: Path) -> None:
     rest = "constraints: [\"mechanisms.a.speed < '100 rpm'\"]\n"  # one turn for each sheet
     found = study(tmp_path, varied("[5900 1/h, 6100 1/h]", path="press.productivity", rest=rest))
-    assert found.constraints[0].holds(found.sample.rows(0, 2)).tolist() == [True, False]
+    assert found.constraints[0].judged(found.sample.rows(0, 2)).holds.tolist() == [True, False]
 
 
 def test_results_are_named_as_in_references(tmp_path: Path) -> None:
@@ -436,7 +436,7 @@ def test_a_study_that_is_no_mapping_is_told(tmp_path: Path) -> None:
 def test_the_example_study_is_valid_and_names_what_the_press_gives() -> None:
     found = load_study(EXAMPLE.with_name("flat_cylinder_study.yaml"), Discovery([]))
     rows = found.sample.rows(0, 1000)
-    held = found.constraints[0].holds(rows)
+    held = found.constraints[0].judged(rows).holds
     assert (found.sample.count, len(found.sample.paths), found.reports) == (100_000, 6, Reports("best", 3))
     assert held.mean() == pytest.approx(0.64, abs=0.05)  # the triangle of bore and segment that leaves the wall
 

@@ -24,8 +24,8 @@ from diecut_report.study.analysis.variants import opened, titles
 from diecut_report.study.storage.description import STATUSES, ResultColumn
 from diecut_report.study.summary import best as influence
 from diecut_report.study.summary import best as pareto
-from diecut_report.study.summary import charts, data, summarise
 from diecut_report.study.summary import content as contents
+from diecut_report.study.summary import data, figures, summarise
 from diecut_report.study.summary.charts import near
 from diecut_report.study.summary.data import WORST, display, utilised, value_text
 from diecut_report.study.summary.pages import page, sheets
@@ -39,7 +39,7 @@ GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami
 @pytest.fixture
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Charts have no drawing, which takes the most time: it is looked at in the large study and the small one."""
-    monkeypatch.setattr(charts, "drawn", lambda _, told, key: Svg(f"<svg><title>{told}</title></svg>", 1.0, 1.0))
+    monkeypatch.setattr(figures, "drawn", lambda _, told, key: Svg(f"<svg><title>{told}</title></svg>", 1.0, 1.0))
 
 
 @pytest.fixture(scope="module")

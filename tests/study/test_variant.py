@@ -276,7 +276,7 @@ def test_a_variant_that_is_not_stored_is_told(folder: Path) -> None:
 
 
 def test_its_values_are_read_back_as_those_that_were_calculated_and_all_else_stays(folder: Path) -> None:
-    text = taken_config(folder, 4, Discovery([])).content.decode()
+    text = taken_config(folder, 4, Discovery([]))[0].decode()
     (row,) = json.loads("".join(variants(folder, "variant = 4", format="json")))["variants"]
     data = yaml.parse(text, "taken").data["mechanisms"]
     assert parse_quantity(data["cylinder"]["bore_radius"], "mm") == row[BORE]
@@ -289,7 +289,7 @@ def test_its_values_are_read_back_as_those_that_were_calculated_and_all_else_sta
 
 
 def test_its_values_may_be_rounded(folder: Path) -> None:
-    text = taken_config(folder, 4, Discovery([]), digits=2).content.decode()
+    text = taken_config(folder, 4, Discovery([]), digits=2)[0].decode()
     data = yaml.parse(text, "taken").data["mechanisms"]
     assert (data["cylinder"]["bore_radius"], data["drive"]["crank_speed"]) == ("65 mm", "50 rpm")
 
@@ -299,7 +299,7 @@ def test_the_command_writes_it_and_tells_how_the_study_judged_it(
 ) -> None:
     assert main(["take", f"{folder}#4", "-o", str(tmp_path / "mine.yaml")]) == 0
     assert "in the study: fail, governed by drive.checks.play" in capfd.readouterr().err
-    assert (tmp_path / "mine.yaml").read_bytes() == taken_config(folder, 4, Discovery([])).content
+    assert (tmp_path / "mine.yaml").read_bytes() == taken_config(folder, 4, Discovery([]))[0]
     assert main(["take", f"{folder}#4", "-o", "-"]) == 0
     assert capfd.readouterr().out.encode() == (tmp_path / "mine.yaml").read_bytes()
 

@@ -26,6 +26,8 @@ MAKING = {
     "PictureFault",
     "StandardFault",
     "Undrawable",
+    "UnknownPath",
+    "SampleError",
 }
 FAULTS = (AssertionError, AttributeError, IndexError, RuntimeError, TypeError, ValueError)
 COUNTING = {
@@ -41,7 +43,13 @@ WORDS = re.compile(r"[A-Za-z]{2,}[,;:]? [a-z]{2,}")
 FILES = sorted(ROOT.rglob("*.py"))
 OF_TESTS = ("testing/values.py", "testing/machines.py", "testing/scaffold.py", "testing/plugin_page.py")
 """What the tests of plugins' authors call, which speaks to them alone, in English."""
-FILLING = ("config/parts/model.py", "config/parts/reading.py", "config/parts/expansion.py")
+FILLING = (
+    "config/parts/model.py",
+    "config/parts/reading.py",
+    "config/parts/expansion.py",
+    "study/definition/study_file.py",
+    "study/definition/wanted_results.py",
+)
 """Whose own ``fault`` takes a template and makes the phrase of it."""
 OF_AUTHORS = ("declaration", "testing")
 """Packages in which texts are yielded rather than raised: every text with words in them is part of a phrase."""

@@ -144,7 +144,7 @@ def _asked(file: Path | None, directory: Path, where: Where) -> Study:
     study = loaded(file, directory, where)
     if study.optimise is None:
         template = "is missing; say what is searched for, such as optimise: {objectives: [{minimise: cylinder.mass}], evaluations: 2000}."
-        raise UserError(Problem(phrase(template), str(study.file), path="optimise"))
+        raise UserError(Problem(phrase(template), study.tree.file, path="optimise"))
     return study
 
 
@@ -154,7 +154,7 @@ def _refuse(study: Study, reports: Sequence[str], agreed: bool) -> None:
     count = study.optimise.evaluations
     if count > LARGEST and not agreed:
         message = Phrase("are {n}, more than {most}; give fewer, or --yes.", n=f"{count:,}", most=f"{LARGEST:,}")
-        raise UserError(Problem(message, str(study.file), path="optimise.evaluations"))
+        raise UserError(Problem(message, study.tree.file, path="optimise.evaluations"))
     for number in (int(name) for name in reports if name.isdecimal()):
         if number >= count:
             message = Phrase(
@@ -162,7 +162,7 @@ def _refuse(study: Study, reports: Sequence[str], agreed: bool) -> None:
                 number=number,
                 last=count - 1,
             )
-            raise UserError(Problem(message, str(study.file), path="--report"))
+            raise UserError(Problem(message, study.tree.file, path="--report"))
 
 
 def _files(found: OptimisationResult, csv: str, where: Where) -> dict[Path, bytes]:

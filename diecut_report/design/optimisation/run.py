@@ -20,6 +20,7 @@ import numpy as np
 from diecut_report.config import yaml
 from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.validation import ConfigPlace
 from diecut_report.design.machines import CHECKS, STATUS, UTILISATION, ProvedMachine, proved
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import refuse_unreadable_name
@@ -370,7 +371,7 @@ class SearchRun:
             if is_new:
                 faults = {"broken": self.broken} if self.broken else {}
                 store.note({"slow": self.slow, "seconds": before + time.monotonic() - began} | faults)
-        store.finish({})
+        store.finish()
 
     def _started(self) -> None:
         store = self.store
@@ -452,10 +453,8 @@ class SearchRun:
 
 def _of_objective(study: Study, index: int, words: str) -> Problem:
     """A problem of an objective, with its place in the study."""
-    home = ("optimise",) if "objectives" in study.data["optimise"] else ()
-    key = (*home, "objectives", index)
-    line, column = yaml.parse(study.text, str(study.file)).position(key)
-    return Problem(words, str(study.file), line, column, ".".join(map(str, key)))
+    home = ("optimise",) if "objectives" in study.tree.data["optimise"] else ()
+    return ConfigPlace(study.tree).problem((*home, "objectives", index), words)
 
 
 def _is_same(known: Mapping[str, Array], values: Mapping[str, Values], numbers: Array) -> bool:

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.formulas import Array
 from diecut_report.press import Press
 from diecut_report.quantities.units import unit
@@ -37,7 +37,7 @@ from diecut_report.study.analysis.variants import (
 from diecut_report.study.storage.spreadsheets import SHEET_COLUMNS, SHEET_ROWS, workbook
 from diecut_report.study.storage.state import continuing, read_state
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
-from diecut_report.text.phrases import Counted, Phrase, phrase
+from diecut_report.text.phrases import Counted, Phrase
 from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted, spoken_language
 
 SEPARATORS = {"comma": ",", "semicolon": ";", "tab": "\t"}
@@ -60,10 +60,9 @@ class Notation:
         for given, allowed in ((self.units, UNITS), (self.separator, SEPARATORS), (self.decimal, DECIMALS)):
             if given not in allowed:
                 template = "{given} is not known here; allowed: {allowed}."
-                raise UserError(Problem(Phrase(template, given=repr(given), allowed=", ".join(allowed))))
+                raise refusal(template, given=repr(given), allowed=", ".join(allowed))
         if self.separator == self.decimal == "comma":
-            template = "A comma cannot separate both values and decimals; add --separator semicolon, or tab."
-            raise UserError(Problem(phrase(template)))
+            raise refusal("A comma cannot separate both values and decimals; add --separator semicolon, or tab.")
 
     def unit_of(self, column: StoredColumn) -> str:
         """Return the unit that the column's values are written in."""
@@ -102,10 +101,9 @@ def answer(
     """
     if format not in FORMATS:
         template = "{format} is not a format of variants; known: {formats}."
-        raise UserError(Problem(Phrase(template, format=repr(format), formats=", ".join(FORMATS))))
+        raise refusal(template, format=repr(format), formats=", ".join(FORMATS))
     if transposed and format == "json":
-        template = "JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx."
-        raise UserError(Problem(phrase(template)))
+        raise refusal("JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx.")
     if width is None and sys.stdout.isatty():
         width = shutil.get_terminal_size().columns
     with opened(directory) as stored:
@@ -137,7 +135,7 @@ def answer_workbook(directory: Path, asked: Request, notation: Notation = SI, *,
                     "A sheet holds {sheet_rows} variants and {sheet_columns} columns; ask for fewer (--where, "
                     "--top, --columns), or for csv."
                 )
-                raise UserError(Problem(Phrase(template, sheet_rows=SHEET_ROWS - 1, sheet_columns=SHEET_COLUMNS)))
+                raise refusal(template, sheet_rows=SHEET_ROWS - 1, sheet_columns=SHEET_COLUMNS)
         return workbook({say("variants"): [heads, *rows]})
 
 
@@ -204,7 +202,7 @@ def _side_by_side(stored: Stored, question: Question, notation: Notation) -> tup
         template = (
             "More than {most_compared} variants cannot stand side by side; choose some with --pick, --where or --top."
         )
-        raise UserError(Problem(Phrase(template, most_compared=MAX_COMPARED)))
+        raise refusal(template, most_compared=MAX_COMPARED)
     head, lines = ["quantity", "unit"], []
     for index, column in enumerate(question.columns):
         own = notation.unit_of(column)
@@ -224,7 +222,7 @@ def _table(stored: Stored, asked: Question, width: int | None) -> Iterator[str]:
     found, total = stored.rows(sql, asked.condition.parameters)[0]
     counts = {"found": number(str(found), decimal_sign()), "n": number(str(total), decimal_sign())}
     words: Phrase = Counted(total, "{found} of {n} variant", "{found} of {n} variants", counts)
-    if asked.condition.sql != "true":
+    if asked.condition.text != "true":
         words = Phrase("Matching the condition: {count}", count=words)
     some = Phrase("{words}; {given} are shown (--top, --format csv).", words=words, given=len(rows))
     yield f"{table}\n{said(some if len(rows) < found else Phrase('{words}.', words=words))}\n"
@@ -253,8 +251,7 @@ def rounded(values: Array) -> Array:
     """Return the values to ten digits, so that nothing is better than another by rounding."""
     sizes = np.abs(np.where(np.isfinite(values) & (values != 0), values, 1.0))
     unit = 10.0 ** (np.floor(np.log10(sizes)) + 1 - DIGITS)
-    found: Array = np.where(np.isfinite(values), np.round(values / unit) * unit, values)
-    return found
+    return np.asarray(np.where(np.isfinite(values), np.round(values / unit) * unit, values))
 
 
 # Why variants cannot be calculated, in the language that is spoken: what is stored of it is English.

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import nearest, refusal
 from diecut_report.formulas.condition_parts import Name, read
 from diecut_report.formulas.condition_tree import (
     Call,
@@ -114,43 +114,29 @@ EXAMPLE = "drive.crank_torque_peak < '40 N*m' and status = 'pass'"
 MAX_SHOWN = 300  # letters of a condition in a message
 
 
-@dataclass(frozen=True)
-class Condition:
-    """Hold a condition for DuckDB with its parameters, and the columns that it names."""
-
-    sql: str = "true"
-    parameters: tuple[Any, ...] = ()
-    columns: tuple[str, ...] = ()
-
-
-def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
-    """Return the condition that a text says; UserError, with the place, for what cannot be asked."""
+def condition(given: str, columns: Mapping[str, StoredColumn]) -> tuple[Sql, list[str]]:
+    """Return the condition that a text says, and the columns that it names; UserError, with the place, for what cannot be asked."""
 
     def name(name: str) -> Name:
         if name not in columns:
             near = nearest(name, columns) or phrase("; put texts in quotes")
-            raise ConditionError(Phrase("{name} is not a column of these variants{near}.", name=repr(name), near=near))
-        column = columns[name]
-        if column.is_number:
-            return Name(name, "number", column.unit, column.display)
-        return Name(name, "truth" if column.kind == "bool" else "text")
+            raise ConditionError("{name} is not a column of these variants{near}.", name=repr(name), near=near)
+        return columns[name].in_condition
 
     try:
         tree = read(given, columns, name, EXAMPLE)
     except ConditionError as fault:
         where = "" if fault.place is None else Phrase(", at character {place}", place=fault.place + 1)
         shown = given if len(given) <= MAX_SHOWN else given[:MAX_SHOWN] + "…"
-        message = Phrase("The condition “{shown}”{where}: {words}", shown=shown, where=where, words=fault.words)
-        raise UserError(Problem(message)) from None
-    sql = SqlWriter(columns).expression(tree)
-    return Condition(sql.text, sql.parameters, tuple(names(tree)))
+        raise refusal("The condition “{shown}”{where}: {words}", shown=shown, where=where, words=fault.words) from None
+    return SqlWriter(columns).expression(tree), list(names(tree))
 
 
 def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:
     """Return the column of a name; UserError with the nearest where there is none."""
     if name not in columns:
         template = "{name} is not a column of these variants{nearest}."
-        raise UserError(Problem(Phrase(template, name=repr(name), nearest=nearest(name, columns))))
+        raise refusal(template, name=repr(name), nearest=nearest(name, columns))
     return columns[name]
 
 
@@ -175,7 +161,7 @@ class Request:
 class Question:
     """Say what is asked: a condition, the order, how many, and which columns."""
 
-    condition: Condition
+    condition: Sql
     order: tuple[tuple[StoredColumn, bool], ...]
     top: int | None
     columns: tuple[StoredColumn, ...]
@@ -185,7 +171,7 @@ class Question:
     def where(self) -> str:
         """Return the condition as SQL."""
         chosen = f" AND variant IN ({', '.join(map(str, self.picked))})" if self.picked else ""
-        return f"WHERE ({self.condition.sql}){chosen}"
+        return f"WHERE ({self.condition.text}){chosen}"
 
     def rows(self, stored: Stored) -> Iterator[Row]:
         """Yield the variants that answer it; those of equal rank stand in the order of the sample, missing values last."""
@@ -204,9 +190,10 @@ def question(stored: Stored, asked: Request, *, is_table: bool) -> Question:
     A table for people shows the varied quantities and what the question names, of at most 20 variants; other answers hold all.
     """
     if asked.top is not None and asked.top < 1:
-        raise UserError(Problem(Phrase("--top is {top}; a number of variants from 1 on is needed.", top=asked.top)))
+        raise refusal("--top is {top}; a number of variants from 1 on is needed.", top=asked.top)
     _refuse_strange(stored, asked.picked)
-    found = condition(asked.where, stored.columns) if asked.where and asked.where.strip() else Condition()
+    where = (asked.where or "").strip()
+    found, names_asked = condition(where, stored.columns) if where else (Sql("true"), [])
     parts = [part.strip() for part in (asked.sort or "").split(",") if part.strip()]
     named = [(column_named(part.removeprefix("-").strip(), stored.columns), part.startswith("-")) for part in parts]
     top = DEFAULT_TOP if is_table and asked.top is None else asked.top
@@ -214,7 +201,7 @@ def question(stored: Stored, asked: Request, *, is_table: bool) -> Question:
         given = [column_named(name, stored.columns).name for name in asked.columns]
         shown = [stored.columns[name] for name in dict.fromkeys(["variant", *given])]
     elif is_table:
-        shown = _shown(stored, found, [column.name for column, _ in named])
+        shown = _shown(stored, found, [*(column.name for column, _ in named), *names_asked])
     else:
         shown = list(stored.columns.values())
     return Question(found, tuple(named), top, tuple(shown), tuple(asked.picked))
@@ -228,16 +215,13 @@ def _refuse_strange(stored: Stored, picked: Sequence[int]) -> None:
     if missing := [number for number in picked if number not in found]:
         first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
         template = "There is no variant {listed} here. The stored ones are within {first} … {last}."
-        message = Phrase(template, listed=", ".join(map(str, missing)), first=first, last=last)
-        raise UserError(Problem(message, str(stored.folder)))
+        raise refusal(template, stored.folder, listed=", ".join(map(str, missing)), first=first, last=last)
 
 
-def _shown(stored: Stored, asked: Condition, order: Sequence[str]) -> list[StoredColumn]:
+def _shown(stored: Stored, asked: Sql, needed: Sequence[str]) -> list[StoredColumn]:
     objectives = [name for each in stored.study.get("objectives") or () for name in each.values()]
-    sql = f"SELECT 1 FROM v WHERE error IS NOT NULL AND {asked.sql} LIMIT 1"
+    sql = f"SELECT 1 FROM v WHERE error IS NOT NULL AND {asked.text} LIMIT 1"
     reason = ["error"] if stored.rows(sql, asked.parameters) else []
     varied = (column.name for column in stored.varied)
-    wanted = dict.fromkeys(
-        ["variant", "verdict", "status", "governing", *order, *asked.columns, *objectives, *varied, *reason]
-    )
-    return [stored.columns[name] for name in wanted if name in stored.columns]
+    wanted = ["variant", "verdict", "status", "governing", *needed, *objectives, *varied, *reason]
+    return [stored.columns[name] for name in dict.fromkeys(wanted) if name in stored.columns]

@@ -15,7 +15,7 @@ from diecut_report.config.own_tables import OWN_TABLES_KEY as TABLES
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.yaml import KeyPath, Scalar, Tree, printable, resolved, with_values
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.quantities.formatting import as_typed
 from diecut_report.quantities.units import unit
 from diecut_report.study.analysis.variants import Stored, StoredColumn, opened, other_code
@@ -33,16 +33,6 @@ class StoredVariant:
     values: Mapping[KeyPath, tuple[StoredColumn, Any]]
     status: str
     governing: str
-
-
-@dataclass(frozen=True)
-class TakenConfig:
-    """Hold a configuration taken from a study: its bytes, how the variant was judged, and the files that it names, with their copies."""
-
-    content: bytes
-    status: str
-    governing: str
-    beside: Mapping[str, Path]
 
 
 LONGEST_NUMBER = 18  # digits of a variant's number
@@ -89,8 +79,10 @@ def variant_of(
     return with_values(base, values, name, "\n# ".join([heading, *warnings]))
 
 
-def taken_config(directory: Path, variant: int, discovery: Discovery, digits: int | None = None) -> TakenConfig:
-    """Return a variant's configuration as a file: the text of the base, comments and order kept, with that variant's values.
+def taken_config(
+    directory: Path, variant: int, discovery: Discovery, digits: int | None = None
+) -> tuple[bytes, StoredVariant]:
+    """Return a variant, and its configuration as a file: the text of the base, comments and order kept, with that variant's values.
 
     With ``digits`` its numbers are rounded, else read back as exactly those that were calculated. UserError where the variant is
     not stored or in error, or where a value cannot be put into the base's text.
@@ -99,7 +91,7 @@ def taken_config(directory: Path, variant: int, discovery: Discovery, digits: in
         found, study = _variant(stored, variant, discovery), printable(stored.description.study.file)
     values = {place: _typed(value, column, digits) for place, (column, value) in found.values.items()}
     text = f"# Variant {variant} of {study}\n" + rewritten(found.base, values, over_references=True).text
-    return TakenConfig(as_file(found.base, text), found.status, found.governing, dict(found.beside.values()))
+    return as_file(found.base, text), found
 
 
 def _variant(stored: Stored, variant: int, discovery: Discovery, *, in_error: bool = False) -> StoredVariant:
@@ -110,9 +102,8 @@ def _variant(stored: Stored, variant: int, discovery: Discovery, *, in_error: bo
         raise UserError(Problem(_missing(stored, variant), str(stored.folder)))
     status, governing, reason, *row = rows[0]
     if status == "error" and not in_error:
-        message = Phrase("Variant {variant} cannot be calculated: {reason}", variant=variant,
-                       reason=reason or phrase("no reason was stored"))  # fmt: skip
-        raise UserError(Problem(message, str(stored.folder)))
+        why = reason or phrase("no reason was stored")
+        raise refusal("Variant {variant} cannot be calculated: {reason}", stored.folder, variant=variant, reason=why)
     copies, file = kept(stored.folder), stored.description.base.file
     base = yaml.load(copies[file])
     given = ((column, value) for column, value in zip(stored.varied, row, strict=True) if value is not None)

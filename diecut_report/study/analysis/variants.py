@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.source_hashes import plugin_hash, program_hash
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, refusal
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import UnitError, pretty, unit
 from diecut_report.report.text import number
@@ -55,11 +55,6 @@ class StoredColumn(ResultColumn):
 
     display: str = "1"
     title: str = ""
-
-    @property
-    def is_number(self) -> bool:
-        """Return whether it has sizes: floats and integers."""
-        return self.kind in ("float", "int")
 
     @property
     def sql(self) -> str:
@@ -130,14 +125,11 @@ def opened(folder: Path) -> Iterator[Stored]:
     store = Store.open(folder)
     paths = store.whole_parts()
     if not paths:
-        columns = dict.fromkeys(column.name for column in store.description.columns)
-        template = "No variants are stored here yet. Continue the run with: {continued}"
-        raise UserError(Problem(Phrase(template, continued=continuing(folder, columns)), str(folder)))
-    config: dict[str, str | bool | int | float | list[str]] = {
-        "memory_limit": MEMORY,
-        "temp_directory": tempfile.gettempdir(),
-    }
-    with duckdb.connect(":memory:", config=config | {"preserve_insertion_order": "false"}) as connection:
+        command = continuing(folder, [column.name for column in store.description.columns])
+        raise refusal("No variants are stored here yet. Continue the run with: {continued}", folder, continued=command)
+    config: dict[str, str | bool | int | float | list[str]]
+    config = {"memory_limit": MEMORY, "temp_directory": tempfile.gettempdir(), "preserve_insertion_order": "false"}
+    with duckdb.connect(":memory:", config=config) as connection:
         try:
             files = [str(path.absolute()) for path in paths]
             named = ", ".join(text(glob.escape(file)) for file in files)  # a folder may be called a[1]
@@ -153,8 +145,7 @@ def opened(folder: Path) -> Iterator[Stored]:
             template = (
                 "The query on the stored variants failed ({first}). Ask for something else, or for less at a time."
             )
-            message = Phrase(template, first=str(error).splitlines()[0])
-            raise UserError(Problem(message, str(folder))) from error
+            raise refusal(template, folder, first=str(error).splitlines()[0]) from error
 
 
 def columns_of(description: Description) -> dict[str, StoredColumn]:

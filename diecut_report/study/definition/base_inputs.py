@@ -19,12 +19,12 @@ from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
 from diecut_report.mechanism.inputs import Quantity, Referred, fields, list_inputs
 from diecut_report.mechanism.names import SI, Pending, Text
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import MessageError, Phrase, phrase
 
 MECHANISMS = "mechanisms"
 
 
-class UnknownPath(LookupError):
+class UnknownPath(MessageError, LookupError):
     """Report a path that names no input that can be varied."""
 
 
@@ -72,19 +72,18 @@ def find_input(base: Config, path: str) -> Input:
     if isinstance(meta, type):
         is_list = ".".join(keys) in list_inputs(instance.model).values()
         first = f"{path}.{'0.' if is_list else ''}{next(iter(meta.model_fields))}"
-        raise UnknownPath(Phrase("is a block or a list; vary one of its values, such as {path}.", path=first))
+        raise UnknownPath("is a block or a list; vary one of its values, such as {path}.", path=first)
     if isinstance(meta, PhaseInput | MechanismInput):
-        template = "stands for something of another mechanism, which cannot be varied; vary what it is made of."
-        raise UnknownPath(phrase(template))
+        raise UnknownPath("stands for something of another mechanism, which cannot be varied; vary what it is made of.")
     if isinstance(meta, CurveInput):
-        raise UnknownPath(phrase("is a curve; curves cannot be varied, only numbers, texts and choices."))
+        raise UnknownPath("is a curve; curves cannot be varied, only numbers, texts and choices.")
     if meta is None:
         raise UnknownPath(_no_input(instance, keys))
     _check_list(instance.data, key)
     single = instance.model.spread.get(str(key[0]), ()) if len(key) == 1 else ()
     if any(name in instance.data for name in single):
         template = "is given in the base by its single values; vary one of these: {names}."
-        raise UnknownPath(Phrase(template, names=", ".join(single)))
+        raise UnknownPath(template, names=", ".join(single))
     home = declared(instance.model, key[:-1]) if len(key) > 1 else instance.model
     assert isinstance(home, type)
     field = keys_of(home)[str(key[-1])].field
@@ -112,8 +111,7 @@ def _instance(base: Config, path: str) -> tuple[Instance, list[str]]:
         raise UnknownPath(_no_instance(base, path))
     instance = base.instances[name]
     if instance is None:
-        template = "cannot be varied, as its plugin is broken: {error}"
-        raise UnknownPath(Phrase(template, error=base.broken.get(name, "unknown")))
+        raise UnknownPath("cannot be varied, as its plugin is broken: {error}", error=base.broken.get(name, "unknown"))
     return instance, keys
 
 
@@ -173,7 +171,7 @@ def _known(instance: Instance, *, each_part: bool = False) -> list[str]:
 def _check_list(data: Any, key: KeyPath) -> None:
     for part in key:
         if isinstance(part, int) and part >= len(data or ()):
-            raise UnknownPath(Phrase("the list has {n} entries in the base, counted from 0.", n=len(data or ())))
+            raise UnknownPath("the list has {n} entries in the base, counted from 0.", n=len(data or ()))
         known = part in data if isinstance(data, dict) else isinstance(data, list)
         data = data[part] if known else None
 

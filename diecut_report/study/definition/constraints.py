@@ -30,20 +30,6 @@ EXAMPLE = "mechanisms.NAME.KEY <= '90 mm'"
 
 
 @dataclass(frozen=True)
-class Term:
-    """Hold what a path stands for in a constraint: its SI unit (None for a text or a yes/no), its value, and the unit that people read.
-
-    The value is ``sym`` of a varied path or of an output, ``qty`` of a value that the base fixes, or an expression of these.
-    """
-
-    unit: str | None
-    node: Node
-    display: str = ""
-    is_output: bool = False
-    is_truth: bool = False  # an output that is a yes or a no; an input of that sort is a text
-
-
-@dataclass(frozen=True)
 class Constraint:
     """Hold what must hold of a variant; ``values`` says what each name in its tree stands for.
 
@@ -63,10 +49,6 @@ class Constraint:
     def judged(self, rows: Mapping[str, Any]) -> JudgedRows:
         """Return for each row whether it holds and whether it fails; what has no value (a division by zero) does neither."""
         return judged(self.tree, partial(self._value, rows), len(rows[self.paths[0]]))
-
-    def holds(self, rows: Mapping[str, Any]) -> Array:
-        """Return for each row whether it holds."""
-        return self.judged(rows).holds
 
     def shortfall(self, rows: Mapping[str, Any]) -> Array:
         """Return for each row 0 where it holds, else how far it is from that."""
@@ -93,48 +75,47 @@ def why_dropped(counts: Mapping[str, Any]) -> str:
     return Phrase(template, n=found, why=WITHOUT_VALUE) if found else ""
 
 
-def parse(text: str, find: Callable[[str], Term], known: Collection[str] = ()) -> Constraint:
+def parse(text: str, find: Callable[[str], tuple[Name, Node]], known: Collection[str] = ()) -> Constraint:
     """Read a constraint; ConditionError for what it may not hold, unlike dimensions, or no varied path in it.
 
-    ``find`` says what a path stands for, with ConditionError where a constraint may not name it. ``known``: paths that are
-    taken whole, whatever they are made of.
+    ``find`` says what a path stands for, and its value: ``sym`` of a varied path or of an output, ``qty`` of a value that the base
+    fixes, or an expression of these; ConditionError where a constraint may not name it. ``known``: paths that are taken whole,
+    whatever they are made of.
     """
-    found: dict[str, Term] = {}
+    found: dict[str, Node] = {}
 
     def name(path: str) -> Name:
         if "." not in path and path not in known:
             template = "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and texts in quotes"
             advice = phrase(template)
-            raise ConditionError(Phrase("“{path}” is not a path of an input; {advice}.", path=path, advice=advice))
-        term = found[path] = find(path)
-        if term.is_truth:
-            return Name(path, "truth")
-        return Name(path, "text") if term.unit is None else Name(path, "number", term.unit, term.display)
+            raise ConditionError("“{path}” is not a path of an input; {advice}.", path=path, advice=advice)
+        named, found[path] = find(path)
+        return named
 
     tree = read(text, known, name, EXAMPLE)
-    outputs = tuple(path for path, term in found.items() if term.is_output)
-    made = Constraint(text, tree, {path: term.node for path, term in found.items()}, outputs)
+    outputs = tuple(path for path in found if path.partition(".")[0] not in (MECHANISMS, PRESS))
+    made = Constraint(text, tree, found, outputs)
     if not made.paths:
         template = "“{text}” names no varied path, so it would keep all variants or none; name one of vary."
-        raise ConditionError(Phrase(template, text=text))
+        raise ConditionError(template, text=text)
     return made
 
 
 # What a path in a constraint stands for: a varied input, or what the base says of another one before calculating.
 
 
-def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
-    """Return what a path stands for; ConditionError where it is not known before the calculation.
+def term(base: Config, varied: Mapping[str, Input], path: str) -> tuple[Name, Node]:
+    """Return what a path stands for, and its value; ConditionError where it is not known before the calculation.
 
     ``base`` has stand-ins for what is varied, so that its references are those of every variant.
     """
     if path in varied:
-        return Term(varied[path].unit, Node("sym", (path,)), varied[path].display)
+        return _name(varied[path]), Node("sym", (path,))
     try:
         asked = find_input(base, path)
     except UnknownPath as fault:
-        raise ConditionError(Phrase("“{path}”: {fault}", path=path, fault=fault)) from None
-    target = base.links.get((asked.instance, *asked.key))
+        raise ConditionError("“{path}”: {fault}", path=path, fault=fault) from None
+    target = base.links.get(asked.node)
     if target is None:
         node = Node("qty", (_fixed(base, asked),))
     elif target.expression is None:
@@ -142,7 +123,11 @@ def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
     else:
         nodes = [_referred(base, varied, asked, single) for single in target.terms]
         node = as_formula(target.expression.tree, dict(zip(target.expression.names, nodes, strict=True)))
-    return Term(asked.unit, node, asked.display)
+    return _name(asked), node
+
+
+def _name(asked: Input) -> Name:
+    return Name(asked.path, "text") if asked.unit is None else Name(asked.path, "number", asked.unit, asked.display)
 
 
 def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Node:
@@ -152,9 +137,9 @@ def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: T
             "“{path}” refers to ${{target}}, which is known only after calculating; in a constraint an output is named by "
             "itself, as in NAME.OUTPUT."
         )
-        raise ConditionError(Phrase(template, path=asked.path, target=target.path))
+        raise ConditionError(template, path=asked.path, target=target.path)
     head = PRESS if target.instance == PRESS else f"{MECHANISMS}.{target.instance}"
-    node = term(base, varied, ".".join([head, *map(str, target.key)])).node
+    _, node = term(base, varied, ".".join([head, *map(str, target.key)]))
     if target.formula is None:
         return node
     known = {name: Node("qty", (float(value),)) for name, value in target.formula.constants.items()}
@@ -168,7 +153,7 @@ def _fixed(base: Config, asked: Input) -> float | str:
     name = dotted(asked.key)
     value = instance.value(asked.key) if name in instance.given else None
     if value is None:
-        raise ConditionError(Phrase("“{path}” has no value in the base; give it there, or vary it.", path=asked.path))
+        raise ConditionError("“{path}” has no value in the base; give it there, or vary it.", path=asked.path)
     return stored_value(value)
 
 

@@ -141,17 +141,16 @@ class SampleReader:
             if isinstance(given, list):
                 return self._listed(asked, given)
             if not isinstance(given, dict):
-                template = "is {given}; {needed}."
-                raise SampleError(Phrase(template, given=quoted(given), needed=NEEDED))
+                raise SampleError("is {given}; {needed}.", given=quoted(given), needed=NEEDED)
             if "table" in given:
                 return self._from_table(asked, given)
             if asked.unit is None:
                 options = list(getattr(asked.meta, "options", ()))[:2]
                 example = ", ".join(options) or phrase("first, second")
-                raise SampleError(Phrase("{texts}, as in [{example}].", texts=TEXTS, example=example))
+                raise SampleError("{texts}, as in [{example}].", texts=TEXTS, example=example)
             if empty := [key for key, value in given.items() if value is None]:
                 place = self._place(asked)
-                self.problems += [place.problem((key,), Phrase("{words}.", words=NO_VALUE)) for key in empty]
+                self.problems += [place.problem((key,), "{words}.", words=NO_VALUE) for key in empty]
                 return None
             return self._distribution(asked, given) if "distribution" in given else self._range(asked, given)
         except SampleError as fault:
@@ -167,12 +166,12 @@ class SampleReader:
         place = ConfigPlace(self.place.tree, ("vary", asked.path), {("value",): (index,)})
         if given is None or (isinstance(given, str) and "${" in given):
             words = NO_VALUE if given is None else Phrase("is {given}; a reference does not vary", given=quoted(given))
-            self.problems.append(place.problem(("value",), Phrase("{words}.", words=words)))
+            self.problems.append(place.problem(("value",), "{words}.", words=words))
             return None
         block = self._validated(form, {"value": given}, place)
         if block and asked.unit is not None and isinstance(block.value, str):
             template = "is {given}, which stands in place of a number: a study varies numbers. Write a study for each word, with it in the base."
-            self.problems.append(place.problem(("value",), Phrase(template, given=quoted(given))))
+            self.problems.append(place.problem(("value",), template, given=quoted(given)))
             return None
         return stored_value(block.value) if block else None
 
@@ -188,8 +187,9 @@ class SampleReader:
         if law not in list(DISTRIBUTIONS):  # a list or a block, too
             near = nearest(law, DISTRIBUTIONS) if isinstance(law, str) else ""
             template = "is {name}{near}; allowed: {names}"
-            message = Phrase(template, name=quoted(law), near=near, names=", ".join(DISTRIBUTIONS))
-            self.problems.append(place.problem(("distribution",), message))
+            self.problems.append(
+                place.problem(("distribution",), template, name=quoted(law), near=near, names=", ".join(DISTRIBUTIONS))
+            )
             return None
         block = self._validated(distribution_form(asked, law), given, place)
         if block is None:
@@ -228,7 +228,7 @@ class SampleReader:
             path = self.find(name)
             if not os.path.exists(path):  # false also for a name that can be none
                 template = "there is no file {path}. The table is sought from the study's folder; check its name."
-                self.problems.append(self.place.problem(key, Phrase(template, path=path)))
+                self.problems.append(self.place.problem(key, template, path=path))
                 return None
             try:
                 self._tables[name] = read_table(path)
@@ -287,31 +287,27 @@ def misused(form: SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Pr
     for key, users in used.items():
         if getattr(form, key) not in (None, False) and form.method not in users:
             template = "has no use with method {method}; remove it, or choose {users}."
-            message = Phrase(template, method=form.method, users=named(users, " or "))
-            yield place.problem(("sample", key), message, at_key=True)
+            yield place.problem(("sample", key), template, at_key=True, method=form.method, users=named(users, " or "))
     if form.method in DRAWN and form.count is None:
         template = "is missing; {method} needs the number of variants."
-        yield place.absent(("sample", "count"), Phrase(template, method=form.method))
+        yield place.absent(("sample", "count"), template, method=form.method)
     if form.method == "table" and form.file is None:
-        template = "is missing; give a CSV, Parquet or XLSX file whose columns are paths."
-        yield place.absent(("sample", "file"), phrase(template))
+        yield place.absent(("sample", "file"), "is missing; give a CSV, Parquet or XLSX file whose columns are paths.")
     if form.method == "table" and has_vary:
         template = (
             "has no use with method table, where the columns of the file say what varies; remove it, or choose zip."
         )
-        yield place.problem(("vary",), phrase(template), at_key=True)
+        yield place.problem(("vary",), template, at_key=True)
     elif form.method != "table" and not has_vary:
-        yield place.absent(("vary",), phrase("is missing or empty; vary at least one path."))
+        yield place.absent(("vary",), "is missing or empty; vary at least one path.")
 
 
 def _made(form: SampleForm, variables: tuple[Variable, ...]) -> Sample:
     count, seed = form.count or 0, form.seed or 0
-    if form.method in DRAWN:
-        return (
-            LatinHypercube(variables, count, seed)
-            if form.method == DRAWN[0]
-            else Sobol(variables, count, seed, form.indices)
-        )
+    if form.method == "latin_hypercube":
+        return LatinHypercube(variables, count, seed)
+    if form.method == "sobol":
+        return Sobol(variables, count, seed, form.indices)
     return Grid(variables) if form.method == "grid" else Zip(variables)
 
 

@@ -92,10 +92,9 @@ class Grid(_Varied):
         for variable in self.variables:
             if isinstance(variable, Distribution):
                 template = "a distribution has no list of values for sample: {method}; give a list or a range, or sample: latin_hypercube or sobol"
-                raise SampleError(Phrase(template, method=self.method), variable.path)
+                raise SampleError(template, variable.path, method=self.method)
             if variable.count is None:
-                template = "count is missing; sample: {method} needs it"
-                raise SampleError(Phrase(template, method=self.method), variable.path)
+                raise SampleError("count is missing; sample: {method} needs it", variable.path, method=self.method)
 
     @cached_property
     def counts(self) -> tuple[int, ...]:
@@ -131,7 +130,7 @@ class Zip(Grid):
             counts = zip(self.paths, self.counts, strict=True)
             lengths = joined((Phrase("{path} has {count}", path=path, count=count) for path, count in counts), ", ")
             template = "sample: zip needs as many values of each path: {lengths}. Fill up, or use sample: grid"
-            raise SampleError(Phrase(template, lengths=lengths))
+            raise SampleError(template, lengths=lengths)
 
     @property
     def count(self) -> int:
@@ -197,10 +196,10 @@ class Sobol(_Varied):
     def __post_init__(self) -> None:
         if self.points > SOBOL_POINTS:
             template = "sample: sobol has at most {sobol_points} different points; give a smaller count"
-            raise SampleError(Phrase(template, sobol_points=SOBOL_POINTS))
+            raise SampleError(template, sobol_points=SOBOL_POINTS)
         if self._dimensions > SOBOL_DIMENSIONS:
             template = "sample: sobol serves at most {sobol_dimensions} dimensions; vary fewer paths"
-            raise SampleError(Phrase(template, sobol_dimensions=SOBOL_DIMENSIONS))
+            raise SampleError(template, sobol_dimensions=SOBOL_DIMENSIONS)
 
     @property
     def size(self) -> int:

@@ -127,10 +127,8 @@ def distribution_form(asked: Input, law: str) -> type[Block]:
     given: dict[str, Any] = {name: (keys[name], ...) for name in DISTRIBUTIONS[law]}
     if law == "normal":
         given |= dict.fromkeys(("low", "high"), (Annotated[float | None, *asked.metadata], None))
-    given["distribution"] = (
-        Annotated[Literal["uniform", "normal", "triangular"], Text("Form of the distribution")],
-        ...,
-    )
+    forms = Annotated[Literal["uniform", "normal", "triangular"], Text("Form of the distribution")]
+    given["distribution"] = (forms, ...)
     return create_model(law.capitalize(), __base__=Block, **given)
 
 

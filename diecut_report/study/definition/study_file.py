@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import codecs
 import math
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from hashlib import sha256
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -16,19 +14,20 @@ from diecut_report.config.loader import Config, beside
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.validation import ConfigPlace, as_typed, validate
-from diecut_report.config.yaml import Tree
+from diecut_report.config.yaml import KeyPath, Tree
 from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.formulas.condition_parts import Name
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.tree import Node
 from diecut_report.press import Press
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
-from diecut_report.study.definition.constraints import Constraint, Term, parse, term
+from diecut_report.study.definition.constraints import Constraint, parse, term
 from diecut_report.study.definition.sample import Sampled, SampleReader, misused
 from diecut_report.study.definition.samples import LatinHypercube, Sample
 from diecut_report.study.definition.schema import OptimiseForm, SampleForm, StudyDocument
 from diecut_report.study.definition.variables import ChoiceVariable, RangeVariable
 from diecut_report.study.definition.wanted_results import Objective, Reports, ResultReader
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import message
 
 GENERATIONS, MIN_POPULATION, MAX_POPULATION = 40, 40, 500  # by which the default size of a generation is found
 Free = ChoiceVariable | RangeVariable
@@ -85,10 +84,7 @@ class Study:
     ``optimise`` is what is searched for; without a sample of its own the study's is what that search begins with.
     """
 
-    file: Path
-    data: dict[str, Any]
-    text: str
-    sha256: str
+    tree: Tree
     base: Config
     bases: tuple[Config, ...]
     sample: Sample
@@ -105,33 +101,21 @@ class Study:
     @property
     def is_sampled(self) -> bool:
         """Return whether the study says which variants there are, and not only what is searched for."""
-        return self.data.get("sample") is not None
-
-    @property
-    def content(self) -> bytes:
-        """Return its bytes as they were read, with the byte order mark that they began with."""
-        own = self.text.encode()
-        return own if sha256(own).hexdigest() == self.sha256 else codecs.BOM_UTF8 + own
+        return self.tree.data.get("sample") is not None
 
 
-def load_study(given: Path | Tree, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
+def load_study(
+    given: Path | Tree, discovery: Discovery, places: Mapping[str, Path] | None = None, base: Config | None = None
+) -> Study:
     """Read a study (or take what was read of it) and its base; UserError with all problems of both, each with file, line, column and key.
 
     PluginError where a plugin of the base is broken.
 
-    ``places``: where the files are that the study names, where they are not sought from its folder.
+    ``places``: where the files are that the study names, where they are not sought from its folder. ``base``: what was read of it.
     """
     tree = given if isinstance(given, Tree) else yaml.read(given)
-    return _read(_StudyReader(tree, discovery, places or {}))
-
-
-def study_of(tree: Tree, base: Config, discovery: Discovery) -> Study:
-    """Return the study of a text, of a base that is read already; UserError with all problems of it."""
-    return _read(_StudyReader(tree, discovery, {}, base))
-
-
-def _read(reader: _StudyReader) -> Study:
-    study, tree = reader.study(), reader.tree
+    reader = _StudyReader(tree, discovery, places or {}, base)
+    study = reader.study()
     if study is None or reader.problems or tree.problems:
         found = dict.fromkeys(
             beside(tree, reader.problems)
@@ -147,7 +131,7 @@ class _StudyReader:
     tree: Tree
     discovery: Discovery
     places: Mapping[str, Path]
-    given: Config | None = None
+    given: Config | None
     problems: list[Problem] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -181,8 +165,8 @@ class _StudyReader:
             return None
         tables = sampled.tables | {self._beside_base(name): digest for name, digest in base.files.items()}
         files = {name: self._find(name) for name in (self.data["base"], *tables)}
-        return Study(Path(self.tree.file), self.tree.data, self.tree.text, self.tree.sha256, base, tuple(sampled.bases), sample,
-                     sampled.inputs, constraints, outputs, curves, objectives, reports, tables, files, optimise)  # fmt: skip
+        return Study(self.tree, base, tuple(sampled.bases), sample, sampled.inputs, constraints, outputs, curves, objectives, reports,
+                     tables, files, optimise)  # fmt: skip
 
     def _outputs(self, results: ResultReader, wanted: list[str]) -> tuple[str, ...] | None:
         """Return the outputs to keep, None for all; those that the study itself needs are kept in any case."""
@@ -190,6 +174,9 @@ class _StudyReader:
             return None
         needed = (name for name in wanted if ".checks." not in name)
         return tuple(dict.fromkeys([*results.outputs(self.data["outputs"]), *needed]))
+
+    def _fault(self, key: KeyPath, template: str, *, at_key: bool = False, **values: object) -> None:
+        self.problems.append(self.place.problem(key, message(template, values), at_key=at_key))
 
     def _find(self, name: str) -> Path:
         return self.places.get(name, Path(self.tree.file).parent / name)
@@ -202,18 +189,17 @@ class _StudyReader:
             return self.given
         path = self._find(self.data["base"])
         if path.resolve() == Path(self.tree.file).resolve():
-            template = "is this study itself; name the configuration whose inputs it varies."
-            self.problems.append(self.place.problem(("base",), phrase(template)))
+            self._fault(("base",), "is this study itself; name the configuration whose inputs it varies.")
             return None
         if not os.path.exists(path):
             template = "there is no file {path}. The base is sought from the study's folder; check its name."
-            self.problems.append(self.place.problem(("base",), Phrase(template, path=path)))
+            self._fault(("base",), template, path=path)
             return None
         try:
             base = Press.read(path, self.discovery, find=lambda name: self._find(self._beside_base(name)))
         except UserError as error:
             template = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
-            self.problems += [self.place.problem(("base",), phrase(template)), *error.problems]
+            self.problems += [self.place.problem(("base",), template), *error.problems]
             return None
         return base.usable().config  # with a broken plugin its author must act, not that of the study
 
@@ -224,10 +210,9 @@ class _StudyReader:
         if "sample" not in self.data:
             if "optimise" not in self.data and "optimise" not in self.wrong:
                 template = "is missing; say how the variants are taken, or by optimise what is searched for."
-                self.problems.append(self.place.absent(("sample",), phrase(template)))
+                self.problems.append(self.place.absent(("sample",), template))
             elif not self.data.get("vary"):
-                template = "is missing or empty; vary at least one path."
-                self.problems.append(self.place.absent(("vary",), phrase(template)))
+                self.problems.append(self.place.absent(("vary",), "is missing or empty; vary at least one path."))
             return None
         form = SampleForm.model_validate(self.data["sample"])
         problems = list(misused(form, bool(self.data.get("vary")), self.place))
@@ -245,11 +230,11 @@ class _StudyReader:
         before = len(self.problems)
         if not named and not self.data.get("objectives"):
             template = "is missing; name what is to be minimised or maximised, such as objectives: [{minimise: cylinder.mass}]."
-            self.problems.append(self.place.absent(("optimise", "objectives"), phrase(template)))
+            self.problems.append(self.place.absent(("optimise", "objectives"), template))
         if sampled.variables is None:
             if self.data.get("sample", {}).get("method") == "table":
                 template = "searches in what is varied, and a table has its machines already; give vary, and another sample or none."
-                self.problems.append(self.place.problem(("optimise",), phrase(template), at_key=True))
+                self._fault(("optimise",), template, at_key=True)
             return None
         free = tuple(each for each in sampled.variables if isinstance(each, Free))
         self._judge_freedom(form, sampled, free)
@@ -264,27 +249,26 @@ class _StudyReader:
         scattered = [each.path for each in sampled.variables or () if not isinstance(each, Free)]
         for path in scattered:
             template = "is a distribution; an optimisation searches within a range {from: …, to: …} or a list."
-            self.problems.append(self.place.problem(("vary", path), phrase(template)))
+            self._fault(("vary", path), template)
         if not scattered and all(count_of(each) == 1 for each in free):
             template = "leaves nothing free: each path has a single value. Give one a range or more values."
-            self.problems.append(self.place.problem(("vary",), phrase(template), at_key=True))
+            self._fault(("vary",), template, at_key=True)
         if form.population is not None and form.population > form.evaluations:
             template = "is {population}, more than the evaluations, {evaluations}; give fewer here, or more of those."
-            message = Phrase(template, population=form.population, evaluations=form.evaluations)
-            self.problems.append(self.place.problem(("optimise", "population"), message))
+            self._fault(("optimise", "population"), template, population=form.population, evaluations=form.evaluations)
 
     def _constraints(self, sampled: Sampled, results: ResultReader) -> Iterator[Constraint]:
-        def find(path: str) -> Term:
+        def find(path: str) -> tuple[Name, Node]:
             return _output(path, results) or term(sampled.bases[0], sampled.inputs, path)
 
         for index, text in enumerate(self.data.get("constraints", [])):
             try:
                 yield parse(text, find, sampled.inputs)
             except ConditionError as fault:
-                self.problems.append(self.place.problem(("constraints", index), str(fault)))
+                self._fault(("constraints", index), str(fault))
 
 
-def _output(path: str, results: ResultReader) -> Term | None:
+def _output(path: str, results: ResultReader) -> tuple[Name, Node] | None:
     """Return what a constraint names by NAME.OUTPUT, or by NAME.checks.ID.utilisation; None where that is not a result."""
     first = path.partition(".")[0]
     if first in (MECHANISMS, PRESS):
@@ -292,8 +276,5 @@ def _output(path: str, results: ResultReader) -> Term | None:
     column = results.columns.get(path)
     if column is None and first in results.mechanisms:
         template = "“{path}” is not an output{near}; an input is named by its whole path, as in mechanisms.{path}."
-        raise ConditionError(Phrase(template, path=path, near=nearest(path, results.columns)))
-    if column is None:
-        return None
-    unit = column.unit if column.kind in ("float", "int") else None
-    return Term(unit, Node("sym", (path,)), column.display, is_output=True, is_truth=column.kind == "bool")
+        raise ConditionError(template, path=path, near=nearest(path, results.columns))
+    return (column.in_condition, Node("sym", (path,))) if column else None

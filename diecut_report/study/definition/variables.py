@@ -16,25 +16,20 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import MessageError
 
 Values = Array | list[str]
 
 
-class SampleError(ValueError):
+class SampleError(MessageError, ValueError):
     """Report a variable or a sample that cannot be; `path` is the varied path that it is about, empty for the whole sample.
 
     The message names keys (from, to, count, low, mode, high, mean, sd) and no numbers, as these are SI here.
     """
 
-    def __init__(self, message: str, path: str = "") -> None:
-        super().__init__(message)
+    def __init__(self, template: str, path: str = "", /, **values: object) -> None:
+        super().__init__(template, **values)
         self.path = path
-
-
-def _require(holds: bool, message: str, path: str) -> None:
-    if not holds:
-        raise SampleError(message, path)
 
 
 @dataclass(frozen=True)
@@ -45,9 +40,10 @@ class ChoiceVariable:
     values: tuple[float, ...] | tuple[str, ...]
 
     def __post_init__(self) -> None:
-        _require(len(self.values) > 0, phrase("the list is empty; give at least one value"), self.path)
-        is_alike = len({isinstance(value, str) for value in self.values}) == 1
-        _require(is_alike, phrase("the list mixes numbers and texts; give one or the other"), self.path)
+        if not self.values:
+            raise SampleError("the list is empty; give at least one value", self.path)
+        if len({isinstance(value, str) for value in self.values}) > 1:
+            raise SampleError("the list mixes numbers and texts; give one or the other", self.path)
 
     @property
     def count(self) -> int:
@@ -82,22 +78,21 @@ class RangeVariable:
     integer: bool = False
 
     def __post_init__(self) -> None:
-        is_positive = not self.log or min(self.low, self.high) > 0
-        _require(is_positive, phrase("spacing: log needs from and to above zero"), self.path)
+        if self.log and min(self.low, self.high) <= 0:
+            raise SampleError("spacing: log needs from and to above zero", self.path)
         if self.count is None or self.low == self.high:
             return
-        _require(self.count > 1, phrase("count: 1 gives one value, but from and to differ"), self.path)
-        if not self.integer:
-            return
+        if self.count < 2:
+            raise SampleError("count: 1 gives one value, but from and to differ", self.path)
         there = int(abs(self.high - self.low)) + 1
-        template = "from … to holds {there} whole numbers, count: {count} is more"
-        _require(self.count <= there, Phrase(template, there=there, count=self.count), self.path)
-        if self.log:
-            different = len(np.unique(self.at(np.arange(self.count))))
+        if self.integer and self.count > there:
+            template = "from … to holds {there} whole numbers, count: {count} is more"
+            raise SampleError(template, self.path, there=there, count=self.count)
+        if self.integer and self.log and (different := len(np.unique(self.at(np.arange(self.count))))) < self.count:
             template = (
                 "count: {count} with spacing: log gives only {different} different whole numbers; write them as a list"
             )
-            _require(different == self.count, Phrase(template, count=self.count, different=different), self.path)
+            raise SampleError(template, self.path, count=self.count, different=different)
 
     def at(self, number: Array) -> Array:
         """Return the values with these numbers, counted from 0, of the `count` values."""
@@ -140,14 +135,14 @@ class Distribution:
     count: ClassVar[None] = None  # it has no list of values
 
     def __post_init__(self) -> None:
-        _require(self.low < self.high, phrase("low must be below high"), self.path)
-        if self.law == "normal":
-            near = (self.low - self.middle) / self.sd < 8 and (self.high - self.middle) / self.sd > -8
+        if self.low >= self.high:
+            raise SampleError("low must be below high", self.path)
+        is_far = (self.low - self.middle) / self.sd >= 8 or (self.high - self.middle) / self.sd <= -8
+        if self.law == "normal" and is_far:
             template = "the mean lies more than 8 standard deviations outside low … high; change one of them"
-            _require(near, phrase(template), self.path)
-        elif self.law == "triangular":
-            is_between = self.low <= self.middle <= self.high
-            _require(is_between, phrase("mode must lie between low and high"), self.path)
+            raise SampleError(template, self.path)
+        if self.law == "triangular" and not self.low <= self.middle <= self.high:
+            raise SampleError("mode must lie between low and high", self.path)
 
     def quantile(self, share: Array) -> Array:
         # whole numbers are the rounded values of the distribution that reaches half a step beyond both limits

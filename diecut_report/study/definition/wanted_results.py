@@ -14,7 +14,7 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, nearest
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 from diecut_report.study.execution.variant_rows import columns_of
-from diecut_report.text.phrases import Counted, Phrase, phrase
+from diecut_report.text.phrases import Counted, Phrase, message, phrase
 
 MAX_LISTED = 12  # known names that a message lists
 Sort = Literal["number", "other", "check", "utilisation", "curve", "row", "unknown"]
@@ -48,8 +48,7 @@ class ResultReader:
         self.columns = {column.name: column for base in bases for column in columns_of(base)}
         self.sorts: dict[str, Sort] = {}
         for name, column in self.columns.items():
-            is_number = column.kind in ("float", "int")
-            self.sorts[name] = "number" if is_number else "other"
+            self.sorts[name] = "number" if column.is_number else "other"
             if ".checks." in name:
                 self.sorts[name] = "utilisation" if name.endswith(".utilisation") else "check"
         instances = (base.instances[name] for base in bases for name in self.mechanisms)
@@ -74,7 +73,7 @@ class ResultReader:
             made = self._objective(key, entry)
             if made and made.output in found:
                 template = "{name} is an objective already; name each number once, to be minimised or maximised."
-                self._report(key, Phrase(template, name=made.output))
+                self._fault(key, template, name=made.output)
             elif made:
                 found[made.output] = made
         return tuple(found.values())
@@ -88,25 +87,24 @@ class ResultReader:
                 return Reports(which)
             case ["best", number] if re.fullmatch(r"[1-9]\d{0,8}", number):
                 if not has_objectives:
-                    template = "best needs objectives, such as objectives: [{minimise: cylinder.mass}]."
-                    self._report(("reports",), phrase(template))
+                    self._fault(("reports",), "best needs objectives, such as objectives: [{minimise: cylinder.mass}].")
                 return Reports("best", int(number))
         template = "is {given}{nearest}; allowed: none, failed, best N (best 10), all, or a list of variants' numbers, as in [0, 17]."
         near = nearest(str(given), ("none", "failed", "all"))
-        self._report(("reports",), Phrase(template, given=quoted(given), nearest=near))
+        self._fault(("reports",), template, given=quoted(given), nearest=near)
         return Reports()
 
     def _numbers(self, given: list[Any], count: int | None) -> Iterator[int]:
         for index, number in enumerate(given):
             if not isinstance(number, int) or isinstance(number, bool):
                 template = "is {number}; a variant has a whole number, as in [0, 17]."
-                self._report(("reports", index), Phrase(template, number=quoted(number)))
+                self._fault(("reports", index), template, number=quoted(number))
             elif count is not None and not 0 <= number < count:
                 template = "there is no variant {number}; variants are numbered from 0 to {last}."
-                self._report(("reports", index), Phrase(template, number=number, last=count - 1))
+                self._fault(("reports", index), template, number=number, last=count - 1)
             elif number < 0:
                 template = "there is no variant {number}; variants are numbered from 0."
-                self._report(("reports", index), Phrase(template, number=number))
+                self._fault(("reports", index), template, number=number)
             else:
                 yield number
 
@@ -117,7 +115,7 @@ class ResultReader:
         if len(given) != 1:
             template = "names {count} outputs; give minimise or maximise with one, and an entry for each."
             none = "names no outputs; give minimise or maximise with one, and an entry for each."
-            self._report(key, Phrase(template, count=len(given)) if given else phrase(none))
+            self._fault(key, template if given else none, count=len(given))
             return None
         (way, name), = given.items()  # fmt: skip
         is_input = name.startswith((f"{MECHANISMS}.", f"{PRESS}."))
@@ -131,17 +129,17 @@ class ResultReader:
             return True
         if name in self.inputs:
             template = "{name} is a text, a choice or a yes/no, which cannot be minimised or maximised; name a number."
-            self._report(key, Phrase(template, name=name))
+            self._fault(key, template, name=name)
             return False
         template = "{name} is not varied, so it is the same in all variants{near}; an output is named as NAME.OUTPUT. Varied numbers: {known}."
-        self._report(key, Phrase(template, name=name, near=nearest(name, numbers), known=", ".join(numbers) or "–"))
+        self._fault(key, template, name=name, near=nearest(name, numbers), known=", ".join(numbers) or "–")
         return False
 
     def _is_number(self, key: KeyPath, name: str) -> bool:
         sort = self._sort(key, name)
         if sort == "other":
             template = "{name} is a text or a yes/no, which cannot be minimised or maximised; name a number."
-            self._report(key, Phrase(template, name=name))
+            self._fault(key, template, name=name)
         elif sort not in ("number", "utilisation", None):
             self._report_no_output(key, name)
         return sort in ("number", "utilisation")
@@ -149,7 +147,7 @@ class ResultReader:
     def _is_output(self, key: KeyPath, name: str) -> bool:
         sort = self._sort(key, name)
         if sort in ("check", "utilisation"):
-            self._report(key, Phrase("{name}: checks are kept in any case; remove it.", name=name))
+            self._fault(key, "{name}: checks are kept in any case; remove it.", name=name)
         elif sort not in ("number", "other", None):
             self._report_no_output(key, name)
         return sort in ("number", "other")
@@ -157,9 +155,9 @@ class ResultReader:
     def _is_curve(self, key: KeyPath, name: str) -> bool:
         sort = self._sort(key, name)
         if sort in ("number", "other", "row"):
-            self._report(key, Phrase("{name} is a single value; name it in outputs.", name=name))
+            self._fault(key, "{name} is a single value; name it in outputs.", name=name)
         elif sort not in ("curve", None):
-            self._report(key, Phrase("{name} is not a curve{nearest}", name=name, nearest=self._near(name, "curve")))
+            self._fault(key, "{name} is not a curve{nearest}", name=name, nearest=self._near(name, "curve"))
         return sort == "curve"
 
     def _report_no_output(self, key: KeyPath, name: str) -> None:
@@ -169,7 +167,7 @@ class ResultReader:
             template = "{name} has a value for each part of a list; name one, as in {name}.0."
         elif self.sorts.get(name) == "curve":
             template = "{name} is a curve; only single values are kept here, curves by the key curves."
-        self._report(key, Phrase(template, name=name, nearest=self._near(name, *sorts)))
+        self._fault(key, template, name=name, nearest=self._near(name, *sorts))
 
     def _sort(self, key: KeyPath, name: str) -> Sort | None:
         """Return what a name stands for; None, with the problem, where it names no mechanism, or nothing of one."""
@@ -179,14 +177,14 @@ class ResultReader:
         if first in self.mechanisms:
             example = next(iter(self._names(first, "number")), "output")
             template = "{name} names no output; add one, as in {first}.{example}."
-            self._report(key, Phrase(template, name=name, first=first, example=example))
+            self._fault(key, template, name=name, first=first, example=example)
         elif first == MECHANISMS:
             template = "{name}: outputs are named without mechanisms., as in {inner}."
-            self._report(key, Phrase(template, name=name, inner=inner or "drive.crank_torque_peak"))
+            self._fault(key, template, name=name, inner=inner or "drive.crank_torque_peak")
         else:
             template = "{name}: there is no mechanism {first}{nearest}. Known: {names}."
             near, known = nearest(first, self.mechanisms), ", ".join(self.mechanisms)
-            self._report(key, Phrase(template, name=name, first=repr(first), nearest=near, names=known))
+            self._fault(key, template, name=name, first=repr(first), nearest=near, names=known)
         return None
 
     def _names(self, mechanism: str, *sorts: Sort) -> list[str]:
@@ -204,5 +202,5 @@ class ResultReader:
             return Phrase(". Known: {names}.", names=listed)
         return Counted(more, ". Known: {names} and {n} more.", ". Known: {names} and {n} more.", names=listed)
 
-    def _report(self, key: KeyPath, message: str) -> None:
-        self.problems.append(self.place.problem(key, message))
+    def _fault(self, key: KeyPath, template: str, **values: object) -> None:
+        self.problems.append(self.place.problem(key, message(template, values)))

@@ -13,7 +13,7 @@ from distributed import Client, KilledWorker, WorkerPlugin
 from distributed.comm.addressing import get_address_host_port
 
 from diecut_report import __version__
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import UserError, refusal
 from diecut_report.study.execution.engines import (
     CHUNKS_AHEAD,
     Chunk,
@@ -24,7 +24,7 @@ from diecut_report.study.execution.engines import (
     prepare,
     work,
 )
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import phrase
 
 TIMEOUT = 10  # seconds to reach the scheduler and to find a worker
 
@@ -66,12 +66,12 @@ class Dask(Engine):
             self._client.wait_for_workers(1, timeout=TIMEOUT)
         except TimeoutError as error:
             template = "The Dask scheduler has no workers. Start some: PYTHONSAFEPATH=1 dask worker {address}"
-            raise UserError(Problem(Phrase(template, address=self._address))) from error
+            raise refusal(template, address=self._address) from error
         try:
             self._client.register_plugin(_Study(self.setup), name=self.setup.key)
         except ModuleNotFoundError as error:
             template = "A worker of the Dask cluster has no module {name}: install the program there too."
-            raise UserError(Problem(Phrase(template, name=error.name))) from error
+            raise refusal(template, name=error.name) from error
 
     @property
     def limit(self) -> int:
@@ -99,7 +99,7 @@ class Dask(Engine):
     def _gone(self) -> UserError:
         template = "The Dask scheduler at {address} cannot be reached any more. {kept}"
         kept = phrase("What was finished is kept: continue with --resume.")
-        return UserError(Problem(Phrase(template, address=self._address, kept=kept)))
+        return refusal(template, address=self._address, kept=kept)
 
 
 class _Study(WorkerPlugin):
@@ -120,7 +120,7 @@ class _Study(WorkerPlugin):
 def _work(version: str, key: str, function: Function, chunk: Chunk) -> Any:
     if version != __version__:
         template = "A worker of the Dask cluster has version {theirs} of the program, this is {own}. Install the same."
-        raise UserError(Problem(Phrase(template, theirs=__version__, own=version)))
+        raise refusal(template, theirs=__version__, own=version)
     return work(key, function, chunk)
 
 
@@ -133,10 +133,10 @@ def _connected(address: str) -> Any:
         return client(address, timeout=TIMEOUT, set_as_default=False)
     except ValueError as error:
         template = "{address} is not an address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT."
-        raise UserError(Problem(Phrase(template, address=repr(address), error=error))) from error
+        raise refusal(template, address=repr(address), error=error) from error
     except OSError as error:
         template = (
             "The Dask scheduler at {address} cannot be reached ({error}). Start it with `dask scheduler`, "
             "or correct the address."
         )
-        raise UserError(Problem(Phrase(template, address=address, error=error))) from error
+        raise refusal(template, address=address, error=error) from error

@@ -8,8 +8,8 @@ from __future__ import annotations
 import os
 import time
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -27,33 +27,6 @@ from diecut_report.text.translation import localised, say, say_counted
 
 LOOKED_AT, WINDOWS = 200_000, 20  # rows of the sample at most; in so many pieces where there are more
 FEW, MORE, ENOUGH = 32, 256, 2.0  # variants that are measured, and seconds after which it is not measured further
-
-
-@dataclass
-class VariedInput:
-    """Hold what a varied input is in the sample: its least and greatest value in SI, or its texts; and that of the first variant."""
-
-    asked: Input
-    first: Values
-    least: float = np.inf
-    greatest: float = -np.inf
-    texts: list[str] = field(default_factory=list)
-
-    def add(self, values: Values) -> None:
-        """Take note of values, SI or texts."""
-        if isinstance(values, np.ndarray) and self.asked.display:
-            self.least, self.greatest = min(self.least, float(values.min())), max(self.greatest, float(values.max()))
-        else:
-            self.texts = list(dict.fromkeys([*self.texts, *map(str, values)]))
-
-    def as_data(self) -> dict[str, Any]:
-        """Return it in the unit that people read, as plain data."""
-        unit = self.asked.display
-        number: dict[str, Any] = {"low": None, "high": None, "first": str(self.first[0])}
-        if unit:
-            values = {"low": self.least, "high": self.greatest, "first": float(self.first[0])}
-            number |= {name: to_display(value, unit) for name, value in values.items()}
-        return {"path": self.asked.path, "unit": unit, "texts": self.texts, **number}
 
 
 @dataclass(frozen=True)
@@ -116,24 +89,36 @@ def dry_run(study: Study) -> DryRun:
     """Look at a study whose constraints leave a variant, and calculate a few of its variants."""
     known, first = described(study), _first(study)
     looked_at, dropped, by = 0, 0, Counter[str]()
-    row = study.sample.rows(first, first + 1)
-    varied = {path: VariedInput(asked, row[path]) for path, asked in study.inputs.items()}
+    seen = {path: [values] for path, values in study.sample.rows(first, first + 1).items()}
     for start, stop in _windows(study.sample.count):
         given = study.sample.rows(start, stop)
         holds = judged(study, given, stop - start).holds
         looked_at, dropped = looked_at + stop - start, dropped + int(np.sum(~holds))
-        by.update({each.text: int(np.sum(~each.holds(given))) for each in study.constraints if not each.outputs})
+        by.update({each.text: int(np.sum(~each.judged(given).holds)) for each in study.constraints if not each.outputs})
         for path, values in given.items():
-            varied[path].add(values)
+            seen[path].append(values)
     searched = study.optimise.variables if study.optimise and not study.is_sampled else ()
     for variable in searched:  # through all of its range, of which the first generation takes some
         ends = (variable.low, variable.high) if isinstance(variable, RangeVariable) else variable.values
-        varied[variable.path].add(np.array(ends))
+        seen[variable.path].append(np.array(ends))
     names = [column.name for column in known.columns if column.name not in study.inputs]
     checks = sum(".checks." in name and name.endswith(".status") for name in names)
     quantities = sum(".checks." not in name and name != JUDGED.name for name in names)
-    return DryRun(study, study.sample.count, looked_at, dropped, by, [each.as_data() for each in varied.values()],
-                  quantities, checks, known.parts, first, _measured(study, known, first))  # fmt: skip
+    varied = [_varied_data(asked, seen[path]) for path, asked in study.inputs.items()]
+    return DryRun(study, study.sample.count, looked_at, dropped, by, varied, quantities, checks, known.parts, first,
+                  _measured(study, known, first))  # fmt: skip
+
+
+def _varied_data(asked: Input, seen: Sequence[Values]) -> dict[str, Any]:
+    """Return what an input is in the sample: its least and greatest value, or its texts; and that of the first variant, seen first."""
+    (first, *_), *given = seen
+    unit = asked.display
+    if not unit:
+        texts = list(dict.fromkeys(str(value) for values in given for value in values))
+        return {"path": asked.path, "unit": unit, "texts": texts, "low": None, "high": None, "first": str(first)}
+    numbers = {"low": min(map(np.min, given)), "high": max(map(np.max, given)), "first": first}
+    shown = {name: to_display(float(value), unit) for name, value in numbers.items()}
+    return {"path": asked.path, "unit": unit, "texts": [], **shown}
 
 
 def _windows(count: int) -> Iterator[tuple[int, int]]:
@@ -202,7 +187,7 @@ def lines(found: DryRun) -> Iterator[str]:
         first, *rest = _search_lines(found, asked)
     else:
         first, *rest = _study_lines(found)
-    yield f"{found.study.file}: {first}"
+    yield f"{found.study.tree.file}: {first}"
     yield from (f"  {line}" for line in rest)
 
 
@@ -235,10 +220,9 @@ def _study_lines(found: DryRun) -> Iterator[str]:
 def _search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
     template = "a search over {n} machines, {population} per generation"
     yield say(template, n=asked.evaluations, population=asked.population)
-    goals = (
-        (each.output, "{quantity} minimised" if each.minimise else "{quantity} maximised") for each in asked.objectives
-    )
-    yield say("searched for: {goals}", goals=", ".join(say(way, quantity=name) for name, way in goals))
+    ways = {True: "{quantity} minimised", False: "{quantity} maximised"}
+    goals = (say(ways[each.minimise], quantity=each.output) for each in asked.objectives)
+    yield say("searched for: {goals}", goals=", ".join(goals))
     passing = "feasible: machines with no failing check"
     failing = "feasible: also machines with failing checks"
     yield say(passing if asked.is_passing else failing)

@@ -22,8 +22,7 @@ from typing import Any, Self
 
 from threadpoolctl import threadpool_limits
 
-from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.text.phrases import Phrase
+from diecut_report.errors import PluginError, UserError, refusal
 
 Chunk = Any
 Function = Callable[[Any, Chunk], Any]  # (what the worker has loaded, chunk) -> result
@@ -167,14 +166,13 @@ class _PendingChunks:
 
 
 def _lost_too_often(chunk: Chunk) -> UserError:
-    message = Phrase(
+    return refusal(
         "The process that calculates {chunk} ended by itself {tries} times or more; most often memory "
         "ran out, or a plugin computed far longer than --chunk-limit allows. What was finished is kept: "
         "continue with --resume, and with fewer --jobs or workers with more memory.",
         chunk=chunk,
         tries=MAX_TRIES,
     )
-    return UserError(Problem(message))
 
 
 # what runs in a worker: its setups by key, and for each thread what it has loaded last

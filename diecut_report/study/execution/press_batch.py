@@ -179,7 +179,7 @@ class _Rows(Run):
             self.blocks[name] = block
         return block is not None
 
-    def _all_wrong(self, problems: list[Any]) -> None:
+    def _all_wrong(self, problems: list[Problem]) -> None:
         for problem in problems[:1]:
             self._reason(range(self.variants.count), _reason_text(problem))
 

@@ -11,20 +11,20 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.config.model import PRESS
+from diecut_report.config.references import as_file
 from diecut_report.config.source_hashes import plugin_faults
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.study.definition.constraints import why_dropped
 from diecut_report.study.definition.samples import Sobol
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution import worker
 from diecut_report.study.execution.engines import Engine, InProcess, WorkerSetup, local_engine, results
-from diecut_report.study.execution.variant_rows import columns_of, curve_columns
+from diecut_report.study.execution.variant_rows import column_of, columns_of, curve_columns
 from diecut_report.study.execution.worker import ChunkClock, judged_rows, without_value
 from diecut_report.study.storage.description import JUDGED, Description, ResultColumn, StudySource
 from diecut_report.study.storage.store import Store
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase
 
 SMALL = 1024  # variants up to which a pool of processes costs more time than it saves
 LARGEST = 10_000_000  # rows that are calculated without being asked for twice
@@ -93,22 +93,19 @@ class StudyOutcome:
         return bool(self.broken_reports or self.overran) or is_useless
 
 
-def refuse_unsampled(study: Study) -> None:
-    """Require a sample: a study that says only what is searched for has no variants of its own."""
+def refuse_sample(study: Study, agreed: bool) -> None:
+    """Require a sample, which a study lacks that says only what is searched for, and a yes to more than one would calculate by mistake."""
+    count = study.sample.count
     if not study.is_sampled:
         template = "is missing: this study says by optimise what is searched for. Run it with `diecut-report optimise`, or give a sample."
-        raise UserError(Problem(phrase(template), str(study.file), path="sample"))
-
-
-def refuse_huge(study: Study, agreed: bool) -> None:
-    """Require a yes to a sample that is larger than one would calculate by mistake."""
-    count = study.sample.count
-    if count > LARGEST and not agreed:
+    elif count > LARGEST and not agreed:
         template = (
             "the sample has {count} variants, more than {largest}. Vary less, or give --yes to calculate them all."
         )
-        message = Phrase(template, count=f"{count:,}", largest=f"{LARGEST:,}")
-        raise UserError(Problem(message, str(study.file), path="sample"))
+    else:
+        return
+    message = Phrase(template, count=f"{count:,}", largest=f"{LARGEST:,}")
+    raise UserError(Problem(message, study.tree.file, path="sample"))
 
 
 def refuse_empty(study: Study) -> None:
@@ -120,7 +117,7 @@ def refuse_empty(study: Study) -> None:
     )
     why = why_dropped({"without_value": without_value(study)})
     message = Phrase(template, count=f"{study.sample.count:,}", why=why)
-    raise UserError(Problem(message, str(study.file), path="constraints"))
+    raise UserError(Problem(message, study.tree.file, path="constraints"))
 
 
 def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> StudyOutcome:
@@ -129,8 +126,8 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
     with store.lock():
         store.start(facts(study))
         began, before = time.monotonic(), store.state
-        outcome = StudyOutcome(store, {}, dict(before.get("slow") or {}), dict(before.get("broken") or {}))
-        outcome.doubtful = _doubtful(study)
+        slow, broke = (dict(before.get(key) or {}) for key in ("slow", "broken"))
+        outcome = StudyOutcome(store, {}, slow, broke, doubtful=_doubtful(study))
 
         def note() -> None:
             broken = {"broken": outcome.broken} if outcome.broken else {}
@@ -145,7 +142,7 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
                 note()
         finally:  # an interrupted run has spent its time too
             note()
-        store.finish({}, without_value(study))
+        store.finish(without_value(study))
     outcome.counts = store.state["counts"]
     return outcome
 
@@ -181,8 +178,8 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
 def engine_for(study: Study, where: Where, chunks: int, rows: int | None = None) -> Engine:
     """Return a Dask cluster where one is named, a pool of processes for many rows (of the sample), this process for few."""
     code = study.base.source_hashes
-    known = [study.sha256, study.base.tree.sha256, *study.tables.values(), *where.plugins, *code.values()]
-    args = (study.file.read_bytes(), contents(study), tuple(where.plugins), code)
+    known = [study.tree.sha256, study.base.tree.sha256, *study.tables.values(), *where.plugins, *code.values()]
+    args = (Path(study.tree.file).read_bytes(), contents(study), tuple(where.plugins), code)
     setup = WorkerSetup(sha256("\n".join(known).encode()).hexdigest(), worker.load, args)
     if where.dask:
         return dask_cluster(where.dask, setup)
@@ -198,7 +195,7 @@ def dask_cluster(address: str, setup: WorkerSetup) -> Engine:
         if error.name not in ("dask", "distributed"):
             raise
         template = "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
-        raise UserError(Problem(phrase(template))) from error
+        raise refusal(template) from error
     return Dask(address, setup)
 
 
@@ -213,12 +210,12 @@ def contents(study: Study) -> dict[str, bytes]:
 def described(study: Study) -> Description:
     """Return the study as its folder keeps it."""
     files = contents(study)
-    base = str(study.data["base"])
+    base = str(study.tree.data["base"])
     columns = [*varied_columns(study), *result_columns(study)]
     chunk = min(int(np.clip(study.sample.count // PARTS, *PART)), max(1, MAX_PART_VALUES // _width(study, columns)))
-    made = [instance.mechanism for name, instance in study.base.instances.items() if instance and name != PRESS]
+    made = [instance.mechanism for instance in study.base.instances.values() if instance]
     return Description(
-        study=StudySource(study.file.name, study.sha256, study.content),
+        study=StudySource(Path(study.tree.file).name, study.tree.sha256, as_file(study.tree, study.tree.text)),
         base=StudySource(base, study.base.tree.sha256, files[base]),
         columns=tuple(columns),
         rows=study.sample.count,
@@ -231,9 +228,8 @@ def described(study: Study) -> Description:
 
 def _width(study: Study, columns: Sequence[ResultColumn]) -> int:
     """Return how many numbers a variant has, curves with as many points as the longest of the base."""
-    models = [instance for instance in study.base.instances.values() if instance is not None]
-    points = [instance.data.get("n_points", field.default) for instance in models
-              if (field := instance.model.model_fields.get("n_points"))]  # fmt: skip
+    points = [instance.data.get("n_points", field.default) for instance in study.base.instances.values()
+              if instance and (field := instance.model.model_fields.get("n_points"))]  # fmt: skip
     most = max((int(number) for number in points if isinstance(number, int)), default=1)
     return sum(most if column.kind == "curve" else 1 for column in columns)
 
@@ -248,11 +244,10 @@ def varied_columns(study: Study) -> list[ResultColumn]:
     """Return a column for each varied path."""
     columns = []
     for path, asked in study.inputs.items():
-        meta, display = asked.meta, asked.display if asked.display != asked.unit else ""
-        if isinstance(meta, Quantity):
-            columns.append(ResultColumn(path, "float", meta.parsed_unit.si, display, meta.symbol, meta.description))
+        if isinstance(asked.meta, Quantity):
+            columns.append(column_of(path, "float", asked.meta.unit, asked.meta))
         else:
-            columns.append(ResultColumn(path, "text", description=meta.description))
+            columns.append(ResultColumn(path, "text", description=asked.meta.description))
     return columns
 
 
@@ -271,7 +266,8 @@ def facts(study: Study) -> dict[str, Any]:
     """Return what else the summary and questions need to know of the study."""
     objectives = [{"minimise" if each.minimise else "maximise": each.output} for each in study.objectives]
     known: dict[str, Any] = {"varied": list(study.inputs), "objectives": objectives}
-    known |= {"doubtful": found} if (found := _doubtful(study)) else {}
+    if found := _doubtful(study):
+        known["doubtful"] = found
     if isinstance(study.sample, Sobol) and study.sample.indices:
         known |= {"design": "saltelli", "n": study.sample.points}
     return known

@@ -139,5 +139,4 @@ def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], coun
     for name, minimise in objectives:
         values = np.nan_to_num(columns[name][among].astype(float) * (1 if minimise else -1), nan=np.inf)
         total += rankdata(rounded(values), method="min")
-    found: Array = among[np.argsort(total, kind="stable")[:count]]
-    return found
+    return np.asarray(among[np.argsort(total, kind="stable")[:count]])

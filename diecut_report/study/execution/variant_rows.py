@@ -19,7 +19,7 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
 from diecut_report.mechanism.checks import Check, by_part
-from diecut_report.mechanism.inputs import POINTS, list_inputs
+from diecut_report.mechanism.inputs import POINTS, Quantity, list_inputs
 from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.steps import (
     CROSSING_COLUMNS,
@@ -86,12 +86,13 @@ def curve_columns(config: Config, names: Iterable[str]) -> Iterator[ResultColumn
         instance = config.instances[home]
         if instance is not None and curve in instance.declared_steps:
             _, step = instance.declared_steps[curve]
-            yield _column(name, "curve", step.unit, step)
+            yield column_of(name, "curve", step.unit, step)
 
 
-def _column(name: str, kind: Kind, display: str, step: Step) -> ResultColumn:
+def column_of(name: str, kind: Kind, display: str, declared: Step | Quantity) -> ResultColumn:
+    """Return the column of a quantity that is declared so, in SI; ``display`` is the unit that people read."""
     si = unit(display).si
-    return ResultColumn(name, kind, si, display if display != si else "", step.symbol, step.description)
+    return ResultColumn(name, kind, si, display if display != si else "", declared.symbol, declared.description)
 
 
 def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
@@ -106,7 +107,7 @@ def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
         for part in parts:
             is_count = part.role == "count"
             kind: Kind = "int" if is_count else _kind(step)
-            column = _column(f"{name}.{part.name}", kind, "1" if is_count else step.unit, step)
+            column = column_of(f"{name}.{part.name}", kind, "1" if is_count else step.unit, step)
             which = "how many in a turn" if is_count else f"no. {part.number}"
             yield column if len(parts) == 1 else replace(column, description=f"{step.description}: {which}")
 
@@ -225,13 +226,11 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
             found = judged(calc, check)
             there, held, ratio = (found.governing(part) for part in (found.there, found.held, found.ratio))
             if not is_of_machine(check):
-                faults |= {
-                    int(row): f"{name}: {check.title}. {check.consequence}" for row in np.flatnonzero(there & ~held)
-                }
+                fault = f"{name}: {check.title}. {check.consequence}"
+                faults |= dict.fromkeys(np.flatnonzero(there & ~held).tolist(), fault)
                 continue
-            if without_basis(calc, check) or left_out(
-                calc, check, found
-            ):  # what holds by what was typed, or for some parts alone, is not checked
+            # what holds by what was typed, or for some parts alone, is not checked
+            if without_basis(calc, check) or left_out(calc, check, found):
                 unmade |= there & held
                 there = there & ~held
                 if not there.any():
@@ -268,9 +267,7 @@ def governing(found: Verdicts) -> Array:
 TOGETHER = 1024  # variants that are calculated at a time: fewer cost more per variant, more take more memory
 ALIKE = 1e-6  # relative: rounding moves numbers, and places of extremes, by less
 Given = Mapping[Input, Array | list[str]]
-Further = Callable[
-    [CalculatedVariants], dict[str, Array]
-]  # what is kept beside outputs and checks, by column, shape (variants,)
+Further = Callable[[CalculatedVariants], dict[str, Array]]  # what is kept besides, by column, shape (variants,)
 
 
 @dataclass
@@ -282,18 +279,12 @@ class Rows:
     further: Further | None = None
     tell: Tell = untold
     columns: dict[str, Array] = field(default_factory=dict)
-    status: Array = field(init=False)
-    verdict: Array = field(init=False)
-    governing: Array = field(init=False)
-    errors: Array = field(init=False)
     slow: dict[str, str] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)  # plugins that broke for a variant alone, and why
 
     def __post_init__(self) -> None:
         self.status = np.full(self.count, "pass", dtype=object)
-        self.verdict = np.full(self.count, None, dtype=object)
-        self.governing = np.full(self.count, None, dtype=object)
-        self.errors = np.full(self.count, None, dtype=object)
+        self.verdict, self.governing, self.errors = (np.full(self.count, None, dtype=object) for _ in range(3))
 
 
 def calculate_rows(
@@ -361,21 +352,17 @@ def _require_as_alone(
 
     Plugins of the program itself are tried so by its tests.
     """
-    foreign = {
-        name: calc for name, calc in variants.calculations.items() if "plugin_file" in plugin_code(calc.mechanism)
-    }
+    known = variants.calculations.items()
+    foreign = {name: calc for name, calc in known if "plugin_file" in plugin_code(calc.mechanism)}
     possible = [row for row in range(variants.count) if row not in variants.reasons]
     for row in {possible[0], possible[-1]} if foreign and len(possible) > 1 else ():
         alone = calculated(base, {asked: values[[row]] for asked, values in numbers.items()} | dict(texts), 1)
         for name, calc in foreign.items():
             single = alone.calculations.get(name)
-            if single is None or not all(
-                _is_as_alone(calc, single, row, of) for of in calc.values.keys() | single.values
-            ):
-                message = phrase(
-                    "calculated together, its variants have other results than each alone: a function mixes them"
-                )
-                raise NotOnArrays(calc.mechanism.kind, message)
+            every = calc.values.keys() | (single.values if single else ())
+            if single is None or not all(_is_as_alone(calc, single, row, each) for each in every):
+                words = "calculated together, its variants have other results than each alone: a function mixes them"
+                raise NotOnArrays(calc.mechanism.kind, phrase(words))
         alone.release()
 
 
@@ -392,9 +379,8 @@ def _is_as_alone(together: Calculation, alone: Calculation, row: int, name: str)
 
 def _greatest_of_unit(calc: Calculation, name: str) -> float:
     units = {each: getattr(calc.steps.get(each), "unit", "1") for each in calc.values}
-    alike = [
-        calc.values[each] for each, own in units.items() if own == units[name] and calc.values[each].dtype != object
-    ]
+    numbers = {each: values for each, values in calc.values.items() if values.dtype != object}
+    alike = [values for each, values in numbers.items() if units[each] == units[name]]
     return float(np.max([np.max(np.abs(each), initial=1.0, where=np.isfinite(each)) for each in alike], initial=1.0))
 
 

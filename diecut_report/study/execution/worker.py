@@ -14,7 +14,7 @@ import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery, said
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import refusal
 from diecut_report.formulas import Array
 from diecut_report.formulas.condition_numpy import JudgedRows
 from diecut_report.study.definition.constraints import Constraint
@@ -94,7 +94,7 @@ def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str], sourc
             "of the cluster has another version. What is calculated is kept; put the source back and continue with --resume, or "
             "calculate all variants anew in another folder."
         )
-        raise UserError(Problem(Phrase(template, name=source_name(other[0]))))
+        raise refusal(template, name=source_name(other[0]))
     return loaded
 
 
@@ -102,11 +102,9 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     """Calculate the variants of a chunk that the constraints leave: their inputs, outputs, verdicts and reasons."""
     sampled = study.sample.rows(chunk.start, chunk.stop)
     kept = np.flatnonzero(judged(study, sampled, chunk.stop - chunk.start).holds)
-    arrays = {
-        path: np.asarray(values, dtype=None if isinstance(values, np.ndarray) else object)
-        for path, values in sampled.items()
-    }
-    given = {path: values[kept] for path, values in arrays.items()}
+    given: dict[str, Array] = {}
+    for path, values in sampled.items():
+        given[path] = np.asarray(values, dtype=None if isinstance(values, np.ndarray) else object)[kept]
     rows, seconds = _rows(study, {study.inputs[path]: values for path, values in given.items()}, len(kept), chunk.limit)
     columns: dict[str, Array] = {"variant": chunk.start + kept, **given}
     wanted = rows.columns if study.outputs is None else {*study.outputs, *study.curves}
@@ -153,8 +151,7 @@ def _left(study: Study, rows: Rows, given: Mapping[str, Array]) -> Array:
     late = [constraint for constraint in study.constraints if constraint.outputs]
     absent = np.full(rows.count, None, dtype=object)  # no variant of these has this output
     outputs = {name: rows.columns.get(name, absent) for constraint in late for name in constraint.outputs}
-    left: Array = _all_hold(late, {**given, **outputs}, rows.count).holds | (rows.status == "error")
-    return left
+    return np.asarray(_all_hold(late, {**given, **outputs}, rows.count).holds | (rows.status == "error"))
 
 
 def judged(study: Study, given: Mapping[str, Values], count: int) -> JudgedRows:

@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from diecut_report import __version__
 from diecut_report.errors import Problem
+from diecut_report.formulas.condition_parts import Name
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 SCHEMA_VERSION = 1
@@ -35,6 +36,18 @@ class ResultColumn:
     display: str = ""
     symbol: str = ""
     description: str = ""
+
+    @property
+    def is_number(self) -> bool:
+        """Return whether it has sizes: floats and integers."""
+        return self.kind in ("float", "int")
+
+    @property
+    def in_condition(self) -> Name:
+        """Return what its name stands for in a condition."""
+        if self.is_number:
+            return Name(self.name, "number", self.unit, self.display)
+        return Name(self.name, "truth" if self.kind == "bool" else "text")
 
 
 @dataclass(frozen=True)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from io import BytesIO
 from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import nearest, refusal
 from diecut_report.files import replaced, room
 from diecut_report.study.storage.store import PARTS, Store
 from diecut_report.text.phrases import Phrase, named
@@ -27,7 +27,7 @@ def export(store: Store, formats: Iterable[str]) -> list[str]:
     if strange := [name for name in wanted if name not in WRITERS]:
         template = "{strange} is not a format of a table{nearest}. Allowed: {writers}."
         near = nearest(strange[0], WRITERS)
-        raise UserError(Problem(Phrase(template, strange=repr(strange[0]), nearest=near, writers=", ".join(WRITERS))))
+        raise refusal(template, strange=repr(strange[0]), nearest=near, writers=", ".join(WRITERS))
     for name in wanted:
         path = store.directory / f"{NAME}.{name}"
         with replaced(path) as temporary:
@@ -38,14 +38,14 @@ def export(store: Store, formats: Iterable[str]) -> list[str]:
         template = "{files}: without the curves {curves}, which only the Parquet files in {folder} hold."
         files = named([f"{NAME}.{name}" for name in wanted], " and ")
         notes.append(Phrase(template, files=files, curves=curves, folder=store.directory / PARTS))
-    if "xlsx" in wanted and (sheets := _sheets(store)) > 1:
+    if "xlsx" in wanted and (count := store.counts()["variants"]) >= SHEET_ROWS:
         template = "{file}: {count} variants in {sheets} sheets, as a sheet holds {rows} rows."
-        notes.append(Phrase(template, file=f"{NAME}.xlsx", count=store.count(), sheets=sheets, rows=SHEET_ROWS))
+        notes.append(Phrase(template, file=f"{NAME}.xlsx", count=count, sheets=_sheets(count), rows=SHEET_ROWS))
     return notes
 
 
-def _sheets(store: Store) -> int:
-    return max(1, math.ceil(store.count() / (SHEET_ROWS - 1)))
+def _sheets(count: int) -> int:
+    return max(1, math.ceil(count / (SHEET_ROWS - 1)))
 
 
 def _heads(store: Store) -> dict[str, str]:
@@ -71,9 +71,12 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
     names = _heads(store)
     if len(names) > SHEET_COLUMNS:
         template = "The results have {count} columns; a sheet holds {sheet_columns}. Use CSV."
-        raise UserError(Problem(Phrase(template, count=len(names), sheet_columns=SHEET_COLUMNS), str(path)))
-    rows, heads = _rows(store, list(names)), list(names.values())
-    sheets = ((f"{NAME} {n + 1}", chain([heads], islice(rows, SHEET_ROWS - 1))) for n in range(_sheets(store)))
+        raise refusal(template, path, count=len(names), sheet_columns=SHEET_COLUMNS)
+    batches = ([column.to_pylist() for column in batch.columns] for batch in store.batches(list(names)))
+    rows = chain.from_iterable(zip(*columns, strict=True) for columns in batches)
+    heads = tuple(names.values())
+    numbers = range(1, _sheets(store.counts()["variants"]) + 1)
+    sheets = ((f"{NAME} {number}", chain([heads], islice(rows, SHEET_ROWS - 1))) for number in numbers)
     with room(store.directory):  # openpyxl keeps each sheet in a temporary file
         _save(sheets, temporary)
 
@@ -85,7 +88,7 @@ def workbook(tables: Mapping[str, list[list[Any]]]) -> bytes:
     return content.getvalue()
 
 
-def _save(sheets: Iterable[tuple[str, Iterable[list[Any]]]], target: Path | BytesIO) -> None:
+def _save(sheets: Iterable[tuple[str, Iterable[Sequence[Any]]]], target: Path | BytesIO) -> None:
     from openpyxl import Workbook
     from openpyxl.writer.excel import ExcelWriter
 
@@ -100,11 +103,6 @@ def _save(sheets: Iterable[tuple[str, Iterable[list[Any]]]], target: Path | Byte
             for row in rows:
                 sheet.append([text_cell(sheet, value) if isinstance(value, str) else value for value in row])
         ExcelWriter(book, UndatedArchive(target)).save()
-
-
-def _rows(store: Store, names: list[str]) -> Iterator[list[Any]]:
-    for batch in store.batches(names):
-        yield from map(list, zip(*(column.to_pylist() for column in batch.columns), strict=True))
 
 
 WRITERS: dict[str, Callable[[Store, Path, Path], None]] = {"csv": _write_csv, "xlsx": _write_xlsx}

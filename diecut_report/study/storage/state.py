@@ -6,7 +6,7 @@ import json
 import os
 import reprlib
 import shlex
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path, PurePath
@@ -15,7 +15,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from diecut_report.config.yaml import printable
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import Problem, UserError, nearest, refusal
 from diecut_report.files import content, in_words, refuse_unreadable_name, write
 from diecut_report.study.storage.description import (
     VARIANT,
@@ -114,10 +114,9 @@ class StateForm(_Form):
     counts: NotedCounts | None = None
 
 
-def continuing(folder: object, columns: object, study: str = "") -> str:
-    """Return the command that goes on with the run of a folder whose results have these columns by name, of a study or of a search."""
-    is_search = isinstance(columns, Mapping) and SEARCHED in columns
-    return f"diecut-report {'optimise' if is_search else 'batch'} {study}--resume {shlex.quote(printable(f'{folder}'))}"
+def continuing(folder: object, columns: Collection[str], study: str = "") -> str:
+    """Return the command that goes on with the run of a folder whose results have columns of these names, of a study or of a search."""
+    return f"diecut-report {'optimise' if SEARCHED in columns else 'batch'} {study}--resume {shlex.quote(printable(f'{folder}'))}"
 
 
 def check_form(data: Any, file: Path) -> None:
@@ -184,8 +183,7 @@ def _given(value: Any) -> str:
 def _disagreeing(form: StateForm) -> Iterator[Fault]:
     names, verdict = list(form.columns), [column.name for column in VERDICT]
     if names[:1] != [VARIANT.name] or names[-len(verdict) :] != verdict:
-        template = "They begin with variant and end with {verdict}."
-        yield "columns", Phrase(template, verdict=", ".join(verdict))
+        yield "columns", Phrase("They begin with variant and end with {verdict}.", verdict=", ".join(verdict))
     sources = {"study", "base", *(f"table {number}" for number in range(1, len(form.tables) + 1))}
     yield from ((f"sha256.{key}", MISSING_KEY) for key in sorted(sources - form.sha256.keys()))
     for key in sorted(form.sha256.keys() - sources):
@@ -212,25 +210,21 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
     path = folder / STATE
     refuse_unreadable_name(folder)
     if not os.path.lexists(path):
-        message = phrase(
-            "There are no results of a study here: study.json is missing. Give a folder that batch wrote, "
-            "or begin one with -o."
-        )
-        raise UserError(Problem(message, str(folder)))
+        template = "There are no results of a study here: study.json is missing. Give a folder that batch wrote, or begin one with -o."
+        raise refusal(template, folder)
     text = content(path, MAX_STATE, phrase("the file that batch wrote"))
     try:
         found = json.loads(text.decode("utf-8"), parse_constant=_refuse_constant)
     except (RecursionError, ValueError) as error:
-        message = Phrase("The state of the study cannot be read: {error}. {mend}", error=error, mend=REMEDY)
-        raise UserError(Problem(message, str(path))) from error
+        template = "The state of the study cannot be read: {error}. {mend}"
+        raise refusal(template, path, error=error, mend=REMEDY) from error
     check_form(found, path)
     if sealed and not is_sealed(found):
-        message = Phrase(
+        template = (
             "This file has been changed since the program wrote it, so that what it says of the results may "
-            "be wrong. Put it back as it was, or let the program write it anew: {continued}",
-            continued=continuing(folder, found["columns"]),
+            "be wrong. Put it back as it was, or let the program write it anew: {continued}"
         )
-        raise UserError(Problem(message, str(path)))
+        raise refusal(template, path, continued=continuing(folder, found["columns"]))
     return dict(found)
 
 
@@ -277,8 +271,7 @@ def _with_copy(source: StudySource, path: Path) -> StudySource:
         content = path.read_bytes() if path.is_file() else b""
     except OSError as error:
         template = "This copy of {file} cannot be read: {strerror}. Check its permissions."
-        message = Phrase(template, file=source.file, strerror=error.strerror or error)
-        raise UserError(Problem(message, str(path))) from error
+        raise refusal(template, path, file=source.file, strerror=error.strerror or error) from error
     return replace(source, content=content) if sha256(content).hexdigest() == source.sha256 else source
 
 
@@ -286,13 +279,12 @@ def refuse_sources(folder: Path, target: Path) -> None:
     """Refuse to write over what the study was made of: a file with the content of its copy of study, base or table."""
     if not target.is_file():
         return
-    description = read_description(folder, sealed=False)
-    for source in (description.study, description.base, *description.tables):
+    for source in copies(folder, read_description(folder, sealed=False)).values():
         if source.content is not None and source.content == target.read_bytes():
             template = (
                 "This is {file}, of which the study was made, and would be overwritten. Choose another place with -o."
             )
-            raise UserError(Problem(Phrase(template, file=source.file), str(target)))
+            raise refusal(template, target, file=source.file)
 
 
 def kept(folder: Path) -> dict[str, Path]:
@@ -301,10 +293,9 @@ def kept(folder: Path) -> dict[str, Path]:
     found = copies(folder, description)
     for path, source in found.items():
         if source.content is None:
-            columns = dict.fromkeys(column.name for column in description.columns)
+            columns = [column.name for column in description.columns]
             template = "This copy of {file} is missing or has changed. Continue with the study itself: {continued}"
-            message = Phrase(template, file=source.file, continued=continuing(folder, columns, "STUDY "))
-            raise UserError(Problem(message, str(path)))
+            raise refusal(template, path, file=source.file, continued=continuing(folder, columns, "STUDY "))
     return {source.file: path for path, source in found.items() if source is not description.study}
 
 

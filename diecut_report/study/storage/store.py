@@ -23,13 +23,12 @@ import pyarrow.dataset
 import pyarrow.parquet as pq
 from filelock import FileLock, Timeout
 
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.files import in_words, refuse_special, refuse_unreadable_name, remove_stale, write
 from diecut_report.study.storage import state
 from diecut_report.study.storage.description import VARIANT, Description, as_data, changes, libraries
 from diecut_report.study.storage.parts import (
     MISSING,
-    STATUS,
     CheckedPart,
     PartChecks,
     Values,
@@ -100,8 +99,7 @@ class Store:
             try:
                 self._lock.acquire(timeout=0)
             except Timeout:
-                message = Phrase("Another run uses this folder{holder}.", holder=self._holder())
-                raise UserError(Problem(message, str(self.directory))) from None
+                raise refusal("Another run uses this folder{holder}.", self.directory, holder=self._holder()) from None
         holder = self.directory / HOLDER
         try:
             write(holder, json.dumps({"process": os.getpid(), "host": socket.gethostname()}).encode())
@@ -154,8 +152,8 @@ class Store:
         known = before | as_data(self.description) | {"part_files": files, "libraries": used}
         state.write_state(self.directory, known | dict(facts) | {"state": "running"})
 
-    def finish(self, facts: Mapping[str, Any], without_value: int = 0) -> None:
-        """Mark the results as complete, with their counts and facts of the run; all parts must be there.
+    def finish(self, without_value: int = 0) -> None:
+        """Mark the results as complete, with their counts; all parts must be there.
 
         ``without_value``: how many of the rows that are not stored were dropped as a constraint has no value for them.
         """
@@ -165,7 +163,7 @@ class Store:
         counts = self.counts()
         counts["dropped"] = counts["sample"] - counts["variants"]
         counts |= {"without_value": without_value} if without_value else {}
-        self.note({**facts, "parts": self.description.parts, "counts": counts, "state": "complete"})
+        self.note({"parts": self.description.parts, "counts": counts, "state": "complete"})
 
     # --- part files --------------------------------------------------------------------------------------------------
 
@@ -206,8 +204,7 @@ class Store:
         for path in sorted(self._folder.glob("part-*.parquet")):
             match = PART_NAME.fullmatch(path.name)
             if not match or path != self.part(int(match[1])):
-                message = phrase("This is not a part of the results. Move it to another folder.")
-                raise UserError(Problem(message, str(path)))
+                raise refusal("This is not a part of the results. Move it to another folder.", path)
             found[int(match[1])] = path
         refuse_special(found.values(), phrase("It is not a part of the results. Move it to another folder."))
         return found
@@ -220,8 +217,8 @@ class Store:
         """Return the parts that are as they were written and belong to this study; the others are to be calculated."""
         return {index for index, part in self._checked().items() if not part.fault}
 
-    def whole_parts(self) -> list[Path]:
-        """Return the part files, in their order.
+    def whole_parts(self) -> dict[Path, Mapping[str, int]]:
+        """Return the part files in their order, each with its variants by status.
 
         UserError where one of them is not as it was written or, in a study that is called complete, where one is missing.
         """
@@ -238,7 +235,7 @@ class Store:
             raise UserError(problems)
         if known["state"] == "complete":
             self._check_counts(known.get("counts") or {}, checked.values())
-        return [self.part(index) for index in checked]
+        return {self.part(index): part.counts for index, part in checked.items()}
 
     def _check_counts(self, noted: Mapping[str, int], checked: Iterable[CheckedPart]) -> None:
         stored = sum((Counter(part.counts) for part in checked), Counter[str]())
@@ -256,28 +253,18 @@ class Store:
         wanted = pa.schema([self.schema.field(name) for name in names], self.schema.metadata)
         return pyarrow.dataset.dataset([str(path) for path in self.whole_parts()], schema=wanted, format="parquet")
 
-    def batches(self, columns: Sequence[str] | None = None) -> Iterator[pa.RecordBatch]:
-        """Yield the variants stored so far, some thousands at a time, in their order; UserError for a part that is damaged."""
-        names = self.schema.names if columns is None else list(columns)
+    def batches(self, columns: Sequence[str]) -> Iterator[pa.RecordBatch]:
+        """Yield these columns of the variants stored so far, some thousands at a time, in their order; UserError for a part that is damaged."""
         for path in self.whole_parts():
             with readable(path), pq.ParquetFile(path) as file:
-                found = file.iter_batches(BATCH, columns=names)
+                found = file.iter_batches(BATCH, columns=columns)
                 while (batch := next(found, None)) is not None:
-                    yield batch.select(names)  # "status" reads "status.mass" too, of a mechanism of that name
-
-    def count(self) -> int:
-        """Return how many variants are stored."""
-        entries = self.state["part_files"]
-        return sum(int(entries[path.name]["variants"]) for path in self.whole_parts())
+                    yield batch.select(columns)  # "status" reads "status.mass" too, of a mechanism of that name
 
     def counts(self) -> dict[str, int]:
         """Return how many rows the sample has, how many variants are stored of them, and of each status."""
-        found: Counter[str] = Counter(sample=self.description.rows, variants=0)
-        for batch in self.batches([STATUS]):
-            for each in batch.column(0).value_counts().to_pylist():
-                found[each["values"]] += each["counts"]
-            found["variants"] += batch.num_rows
-        return dict(found)
+        found = sum(map(Counter, self.whole_parts().values()), Counter[str]())
+        return {"sample": self.description.rows, "variants": found.total(), **found}
 
 
 def refuse_used(folder: Path) -> None:
@@ -285,7 +272,7 @@ def refuse_used(folder: Path) -> None:
     others = sorted(path.name for path in folder.iterdir() if path.name not in (LOCK, HOLDER))
     if state.STATE in others:
         template = "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
-        raise UserError(Problem(phrase(template), str(folder)))
+        raise refusal(template, folder)
     if others:
         template = "This folder is not empty ({others} is in it). Choose a new one with -o, so that nothing is lost."
-        raise UserError(Problem(Phrase(template, others=others[0]), str(folder)))
+        raise refusal(template, folder, others=others[0])

@@ -238,8 +238,7 @@ def _half_widths(values: Array) -> Array:
     some = values[:REDRAWN]
     again = [sobol_indices(some[draw.integers(0, len(some), len(some))]) for _ in range(DRAWS)]
     spread = np.array([each for each in again if each is not None]).std(axis=0)
-    widths: Array = SURE * spread * math.sqrt(len(some) / len(values))
-    return widths
+    return np.asarray(SURE * spread * math.sqrt(len(some) / len(values)))
 
 
 # --- partial rank correlation ----------------------------------------------------------------------------------------
@@ -249,13 +248,12 @@ def _ranks(stored: Stored, target: StoredColumn) -> Influence | None:
     """Judge by the correlation of the ranks of a quantity and of each input, both without what the other inputs explain."""
     goal, columns = _read(stored, target)
     columns = {column: values for column, values in columns.items() if np.isfinite(values).any()}
-    there = np.ones(len(goal), bool) if columns else np.zeros(len(goal), bool)
-    for values in columns.values():
-        there &= np.isfinite(values)
+    there = np.logical_and.reduce([np.isfinite(values) for values in columns.values()]) & np.ones(len(goal), bool)
     goal = goal[there]
-    columns = {column: values[there] for column, values in columns.items()}
-    columns = {column: values for column, values in columns.items() if len(values) and np.ptp(values) > 0}
-    if len(goal) < FEWEST or not columns or not np.ptp(goal) > 0:
+    if len(goal) < FEWEST or not np.ptp(goal) > 0:
+        return None
+    columns = {column: values[there] for column, values in columns.items() if np.ptp(values[there]) > 0}
+    if not columns:
         return None
     found = partial([_terms(column, values) for column, values in columns.items()], ranks(goal))
     known = [(column, value) for column, value in zip(columns, found, strict=True) if value is not None]
@@ -277,11 +275,7 @@ def _read(stored: Stored, target: StoredColumn) -> tuple[Array, dict[StoredColum
 
 def _terms(column: StoredColumn, values: Array) -> Array:
     """Return what stands for an input in the regression: its ranks; for words a column for each but the first."""
-    if column.kind != "text":
-        return ranks(values)[:, None]
-    known = np.unique(values)[1:]
-    found: Array = (values[:, None] == known).astype(float)
-    return found
+    return (values[:, None] == np.unique(values)[1:]).astype(float) if column.kind == "text" else ranks(values)[:, None]
 
 
 def partial(inputs: Sequence[Array], goal: Array) -> list[float | None]:
@@ -290,7 +284,7 @@ def partial(inputs: Sequence[Array], goal: Array) -> list[float | None]:
     An input that goes with another one shares its influence. None where too few variants are there, or nothing is left of an input.
     """
     wide = [each.shape[1] for each in inputs]
-    if len(goal) < 2 * (sum(wide) + 1) + 2:
+    if len(goal) < 2 * sum(wide) + 4:
         return [None] * len(inputs)
     every = np.column_stack([*inputs, goal])
     every = (every - every.mean(axis=0)) / every.std(axis=0)
@@ -321,16 +315,14 @@ def _alike(one: Array, two: Array) -> bool:
 
 
 def _residual(others: Array, values: Array) -> Array:
-    left: Array = values - others @ np.linalg.lstsq(others, values, rcond=None)[0] if others.shape[1] else values
-    return left
+    return np.asarray(values - others @ np.linalg.lstsq(others, values, rcond=None)[0] if others.shape[1] else values)
 
 
 def ranks(values: Array) -> Array:
     """Return ranks from 1; equal values share the mean of theirs."""
     from scipy.stats import rankdata  # slow to import, and not needed for Sobol indices
 
-    found: Array = rankdata(values)
-    return found
+    return np.asarray(rankdata(values))
 
 
 # The utilisation matrix: chosen variants against all checks, each with the way to its full report.
@@ -479,10 +471,8 @@ def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn])
     found = []
     for one in variants:
         status, worst, governing, *values = rows[one]
-        used, check = (
-            "–" if worst is None else utilised(worst),
-            said(stored.check_label(governing)) if governing else "",
-        )
+        used = "–" if worst is None else utilised(worst)
+        check = said(stored.check_label(governing)) if governing else ""
         texts = [
             "–" if value is None else display(float(value), column) if column.is_number else value_text(value)
             for value, column in zip(values, shown, strict=True)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial, wraps
-from typing import Any, Concatenate, NamedTuple, ParamSpec
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,7 +14,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from numpy.typing import NDArray
 
 from diecut_report.report.figures.diagram import WIDTH
-from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, plain, text_size
+from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, canvas, plain, text_size
 from diecut_report.report.text import number
 from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.storage.description import STATUSES
@@ -36,23 +35,12 @@ from diecut_report.study.summary.data import (
 )
 from diecut_report.text.translation import decimal_sign, localised, said, say
 
-P = ParamSpec("P")
 COLOURS = {"pass": "#6f9fc0", "warn": "#d9a13a", "fail": "#a3161a", "error": "#9aa4ae"}
 ORDER = ("pass", "warn", "fail")  # from the back to the front
 FOOT, HEAD = 24.0, 22.0  # points below and above a small diagram
 SCALE = 24.0  # points of the numbers beside a small diagram
 LABEL = 240.0  # points of a name beside a bar
 MOST_BARS = 15  # inputs of an influence
-
-
-def charted(build: Callable[P, Figure]) -> Callable[Concatenate[str, str, P], Svg]:
-    """Draw what a function builds: the chart takes its text alternative and its key before the function's own arguments."""
-
-    @wraps(build)
-    def chart(told: str, key: str, /, *args: P.args, **named: P.kwargs) -> Svg:
-        return drawn(partial(build, *args, **named), told, key)
-
-    return chart
 
 
 def panel(sheet: Figure, left: float, bottom: float, wide: float, high: float) -> Axes:
@@ -67,7 +55,6 @@ def panel(sheet: Figure, left: float, bottom: float, wide: float, high: float) -
 # --- bars ------------------------------------------------------------------------------------------------------------
 
 
-@charted
 def shares(counts: dict[str, int]) -> Figure:
     """Build one bar: the variants by status."""
     sheet = canvas(WIDTH, 34)
@@ -94,7 +81,6 @@ class Bar(NamedTuple):
     text: str
 
 
-@charted
 def stacked(rows: Sequence[Bar], colours: Sequence[str]) -> Figure:
     """Build horizontal bars of counts, each of several parts."""
     labels = [wrapped(row.name, LABEL, FONT_SIZE, 1) for row in rows]
@@ -123,7 +109,6 @@ def _bare(axes: Axes, rows: int) -> None:
         side.set_visible(False)
 
 
-@charted
 def influence(found: Influence) -> Figure:
     """Build the inputs of an influence as bars; for Sobol indices the total behind the first."""
     rows = found.telling[:MOST_BARS]
@@ -131,11 +116,14 @@ def influence(found: Influence) -> Figure:
     labels = [wrapped(named(share.column), LABEL, FONT_SIZE, 1) for share in rows]
     names = max(text_size(label)[0] for label in labels) + 10
     axes = panel(sheet, names, 18, WIDTH - names - 12, 17.0 * len(rows))
+    whisker: dict[str, Any] = {"elinewidth": 0.7, "capsize": 1.5}
     for place, share in zip(range(len(rows))[::-1], rows, strict=True):
         if share.total is not None:
-            axes.barh(place, share.total, 0.66, color="#c3d4e0", xerr=share.total_error, error_kw=_whisker(SOFT))
+            axes.barh(
+                place, share.total, 0.66, color="#c3d4e0", xerr=share.total_error, error_kw=whisker | {"ecolor": SOFT}
+            )
         colour, high = ACCENT if share.first >= 0 else "#b06a2c", 0.66 if share.total is None else 0.34
-        axes.barh(place, share.first, high, color=colour, xerr=share.first_error, error_kw=_whisker(INK))
+        axes.barh(place, share.first, high, color=colour, xerr=share.first_error, error_kw=whisker | {"ecolor": INK})
     axes.set_yticks(range(len(rows))[::-1], labels, va="center_baseline")
     _bare(axes, len(rows))
     axes.tick_params(axis="x", bottom=True, labelbottom=True)
@@ -145,14 +133,9 @@ def influence(found: Influence) -> Figure:
     return sheet
 
 
-def _whisker(colour: str) -> dict[str, Any]:
-    return {"ecolor": colour, "elinewidth": 0.7, "capsize": 1.5}
-
-
 # --- distributions ---------------------------------------------------------------------------------------------------
 
 
-@charted
 def distributions(found: Sequence[Histogram]) -> Figure:
     """Build histograms three in a row, each by status."""
     rows, high = -(-len(found) // 3), 74.0
@@ -199,7 +182,6 @@ LEGEND = 16.0  # points of a legend below a chart
 MARKERS = {"pass": "o", "warn": "^", "fail": "x"}
 
 
-@charted
 def scatter(
     drawn_from: SampledVariants, pairs: Sequence[tuple[StoredColumn, StoredColumn]], front: Front | None = None
 ) -> Figure:
@@ -231,7 +213,6 @@ def _points(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredC
             axes.scatter(across, up, s=size, linewidths=width, label=said(WORDS[status]), **look)
 
 
-@charted
 def cells(found: Density, front: Front | None = None) -> Figure:
     """Build where all variants of a large study lie over two quantities: a square for each cell that has some."""
     wide, high, foot = WIDTH - 60, 230.0, 40.0 + LEGEND
@@ -265,8 +246,7 @@ def near(values: NDArray[Any]) -> NDArray[Any]:
     there = values[np.isfinite(values)]
     if not len(there):
         return values
-    found: NDArray[Any] = np.minimum(values, reach(there.min(), np.quantile(there, 0.95), there.max()))
-    return found
+    return np.asarray(np.minimum(values, reach(there.min(), np.quantile(there, 0.95), there.max())))
 
 
 def _spread(drawn_from: SampledVariants, column: StoredColumn, here: NDArray[Any]) -> NDArray[Any]:
@@ -274,8 +254,7 @@ def _spread(drawn_from: SampledVariants, column: StoredColumn, here: NDArray[Any
     values: NDArray[Any] = near(drawn_from.values[column.name])
     if column.name in drawn_from.words:
         values = values + 0.5 * (np.arange(len(values)) * 0.618 % 1 - 0.5)
-    found: NDArray[Any] = values[here]
-    return found
+    return np.asarray(values[here])
 
 
 def _front(axes: Axes, front: Front | None, x: StoredColumn, y: StoredColumn) -> None:
@@ -328,37 +307,14 @@ LOOKS: dict[str, dict[str, Any]] = {  # dark before pale, also in grey
 DARK = "#123f66"
 
 
-class DrawnLines(NamedTuple):
-    """Hold the variants that are drawn as lines, by their place in the sample, and of how many they were taken."""
-
-    sound: Array
-    failing: Array
-    all_sound: int
-    all_failing: int
-
-    @property
-    def is_whole(self) -> bool:
-        """Return whether none is left out."""
-        return len(self.sound) == self.all_sound and len(self.failing) == self.all_failing
+def evenly(variants: Array) -> Array:
+    """Return which variants are drawn as lines, by their place in the sample: of a mask of them at most so many, evenly taken."""
+    places = np.flatnonzero(variants)
+    return np.asarray(places[np.linspace(0, len(places) - 1, min(len(places), MOST)).round().astype(int)])
 
 
-def drawn_lines(sample: SampledVariants) -> DrawnLines:
-    """Return which variants are drawn: of those that do not fail and of those that fail at most so many, evenly taken from the sample."""
-    sound = np.flatnonzero(sample.status < STATUSES.index("fail"))
-    failing = np.flatnonzero(sample.status == STATUSES.index("fail"))
-    return DrawnLines(_evenly(sound), _evenly(failing), len(sound), len(failing))
-
-
-def _evenly(places: Array) -> Array:
-    if len(places) <= MOST:
-        return places
-    found: Array = places[np.linspace(0, len(places) - 1, MOST).round().astype(int)]
-    return found
-
-
-@charted
 def parallel(
-    sample: SampledVariants, lines: DrawnLines, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]
+    sample: SampledVariants, lines: Array, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]
 ) -> Figure:
     """Build the variants as lines over upright axes, passing ones in front; the darker a field of an axis, the more of it passes."""
     pitch = (WIDTH - 2 * SIDE) / (len(columns) - 1)
@@ -389,15 +345,13 @@ def _scaled(sample: SampledVariants, columns: Sequence[StoredColumn], ends: Mapp
             low, top = low - SPREAD, top + SPREAD
             values = values + SPREAD * (np.arange(len(values)) * 0.618 % 1 - 0.5)
         found.append((np.minimum(values, top) - low) / ((top - low) or 1.0))
-    made: Array = np.column_stack(found)
-    return made
+    return np.asarray(np.column_stack(found))
 
 
-def _lines(axes: Axes, sample: SampledVariants, lines: DrawnLines, scaled: Array) -> None:
+def _lines(axes: Axes, sample: SampledVariants, lines: Array, scaled: Array) -> None:
     across = np.arange(scaled.shape[1])
-    kept = np.concatenate([lines.failing, lines.sound])
     for status, look in LOOKS.items():
-        here = kept[sample.status[kept] == STATUSES.index(status)]
+        here = lines[sample.status[lines] == STATUSES.index(status)]
         axes.plot(across, scaled[here].T, **{"linestyle": "-", "solid_joinstyle": "round", **look})
 
 

@@ -105,8 +105,7 @@ def _dropped(counts: Mapping[str, Any]) -> str:
 
 def _objective(column: StoredColumn | None, way: str, name: str) -> AskedText:
     typed = f"{way}: {name}"
-    template = "{quantity} minimised" if way == "minimise" else "{quantity} maximised"
-    return AskedText(say(template, quantity=named(column)), typed) if column else AskedText(typed, "")
+    return AskedText(best.StoredObjective(column, way == "minimise").label, typed) if column else AskedText(typed, "")
 
 
 def _quantities(stored: Stored, expression: str) -> str:
@@ -158,17 +157,11 @@ def written(tree: yaml.Tree, path: KeyPath) -> str:
 # --- the whole page --------------------------------------------------------------------------------------------------
 
 SAMPLED = 1_500  # variants in the charts of points
-MAX_NUMBERS, MIN_DRAWN = (
-    200_000,
-    400,
-)  # that the page carries for the chart of any two quantities; variants of them at least
+# numbers that the page carries for the chart of any two quantities, and variants of them at least
+MAX_NUMBERS, MIN_DRAWN = 200_000, 400
 TARGETS, MAX_TARGETS = 5, 12  # quantities that influence is reported of, and with the outputs that the study asks for
-MAX_PANELS, MAX_CHECKS, MAX_RANGES, MAX_QUANTITIES = (
-    12,
-    4,
-    36,
-    30,
-)  # histograms, checks of them, ranges, quantities of charts
+# histograms, checks of them, ranges, quantities of charts
+MAX_PANELS, MAX_CHECKS, MAX_RANGES, MAX_QUANTITIES = 12, 4, 36, 30
 
 
 @dataclass

@@ -136,7 +136,7 @@ class Spread(NamedTuple):
     """Hold the range of a quantity in SI: least, 5 %, median, 95 %, greatest, and how many variants have it."""
 
     column: StoredColumn
-    values: tuple[float, float, float, float, float]
+    values: tuple[float, ...]
     present: int
 
     @property
@@ -207,9 +207,8 @@ def prepare(stored: Stored) -> None:
     worst = f"CASE governing {own} END" if own else "NULL"
     lost = (f"CASE WHEN {status.sql} = 'fail' THEN 1 ELSE 0 END" for _, status in stored.checks.values())
     failing = " + ".join(lost) or "0"
-    stored.connection.execute(
-        f"CREATE VIEW w AS SELECT *, CAST({worst} AS DOUBLE) AS {WORST.sql}, {failing} AS {FAILING} FROM v"
-    )
+    asked = f"*, CAST({worst} AS DOUBLE) AS {WORST.sql}, {failing} AS {FAILING}"
+    stored.connection.execute(f"CREATE VIEW w AS SELECT {asked} FROM v")
 
 
 def statuses(stored: Stored) -> dict[str, int]:
@@ -222,8 +221,7 @@ def proved(stored: Stored) -> int:
     """Return the verdict on how many variants is pass; none of results of before the three verdicts, which leave open what they rest on."""
     if JUDGED.name not in stored.columns:
         return 0
-    ((count,),) = stored.rows("SELECT count(*) FROM v WHERE verdict = 'pass'")
-    return int(count)
+    return int(stored.rows("SELECT count(*) FROM v WHERE verdict = 'pass'")[0][0])
 
 
 def _of_each(
@@ -247,13 +245,8 @@ def spreads(stored: Stored, columns: Sequence[StoredColumn], total: int) -> dict
         middle = [f"{quantile}({name}, {share})" for share in (0.05, 0.5, 0.95)]
         return [f"min({name})", *middle, f"max({name})", f"count({name})"]
 
-    numbers = [column for column in columns if column.is_number]
-    found = {}
-    for column, (low, some, middle, most, high, count) in _of_each(stored, numbers, asked, "w"):
-        if count:
-            values = (float(low), float(some), float(middle), float(most), float(high))
-            found[column.name] = Spread(column, values, count)
-    return found
+    each = _of_each(stored, [column for column in columns if column.is_number], asked, "w")
+    return {column.name: Spread(column, tuple(map(float, values)), count) for column, (*values, count) in each if count}
 
 
 def histogram(stored: Stored, spread: Spread) -> Histogram:
@@ -445,12 +438,10 @@ def utilisations(stored: Stored) -> list[Utilisation]:
 
     def asked(check: str) -> list[str]:
         value, status = (column.sql for column in stored.checks[check])
-        bands = [
-            f"{value} <= {BANDS[0]!r}",
-            *(f"{value} > {low!r} AND {value} <= {high!r}" for low, high in pairwise(BANDS)),
-        ]
+        inner = (f"{value} > {low!r} AND {value} <= {high!r}" for low, high in pairwise(BANDS))
+        bands = [f"{value} <= {BANDS[0]!r}", *inner, f"{value} > {BANDS[-1]!r}"]
         states = [f"{status} = {text(known)}" for known in ("pass", "warn", "fail", "not_checked")]
-        conditions = [*bands, f"{value} > {BANDS[-1]!r}", f"{value} IS NULL AND {status} IS NOT NULL", *states]
+        conditions = [*bands, f"{value} IS NULL AND {status} IS NOT NULL", *states]
         return [*(f"count(*) FILTER ({each})" for each in conditions), f"max({value})"]
 
     each = _of_each(stored, list(stored.checks), asked, "v")

@@ -5,17 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from diecut_report.report.figures.style import Svg
+from diecut_report.report.figures.style import Svg, drawn
 from diecut_report.report.text import number
 from diecut_report.study.analysis.variants import Stored, StoredColumn
 from diecut_report.study.storage.description import STATUSES
 from diecut_report.study.summary import charts, data
 from diecut_report.study.summary.best import Front, Influence, Share
-from diecut_report.study.summary.charts import Ends, drawn_lines, near
+from diecut_report.study.summary.charts import Ends, evenly, near
 from diecut_report.study.summary.data import (
     WORDS,
     SampledVariants,
@@ -76,7 +77,7 @@ class Figures:
     def _counts(self) -> SummaryFigure:
         parts = self.states.items()
         told = ", ".join(f"{said(WORDS[status])} {count} ({percent(count, self.total)})" for status, count in parts)
-        svg = charts.shares(say("Variants by status: {told}.", told=told), "counts", self.states)
+        svg = drawn(partial(charts.shares, self.states), say("Variants by status: {told}.", told=told), "counts")
         return SummaryFigure(svg, say("Variants by status."), told)
 
     def _failures(self, failures: Sequence[Utilisation]) -> SummaryFigure:
@@ -96,7 +97,7 @@ class Figures:
         colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
         parts = [(row.governing, row.failing - row.governing, row.warning) for row, _ in rows]
         bars = [charts.Bar(name, part, _behind(row)) for (row, name), part in zip(rows, parts, strict=True)]
-        return SummaryFigure(charts.stacked(f"{told}.", "failures", bars, colours), caption, told)
+        return SummaryFigure(drawn(partial(charts.stacked, bars, colours), f"{told}.", "failures"), caption, told)
 
     def _distributions(self, spreads: Sequence[Spread]) -> SummaryFigure:
         found = [data.histogram(self.stored, spread) for spread in spreads]
@@ -107,31 +108,33 @@ class Figures:
         )
         if any(each.is_open for each in found):
             caption += " " + say("Where a few variants lie far above the others (≥), the last bar holds them all.")
-        return SummaryFigure(charts.distributions(f"{told}.", "distributions", found), caption, told)
+        return SummaryFigure(drawn(partial(charts.distributions, found), f"{told}.", "distributions"), caption, told)
 
     def _parallel(self) -> SummaryFigure | None:
         values = self.sample.values
         inputs = [column for column in self.stored.varied if column.name in values][: MAX_AXES - 2]
         goals = [column for column in self.main if column.name in values][: max(2, MAX_AXES - len(inputs))]
         columns = [each for each in (*inputs, *goals) if np.isfinite(values[each.name]).any()][:MAX_AXES]
-        if len(columns) < 2 or not (self.sample.status != STATUSES.index("error")).any():
+        status, fail = self.sample.status, STATUSES.index("fail")
+        calculated = np.sum(status <= fail)
+        if len(columns) < 2 or not calculated:
             return None
-        lines = drawn_lines(self.sample)
-        sound, failing = len(lines.sound), len(lines.failing)
+        sound, failing = evenly(status < fail), evenly(status == fail)
+        lines = np.concatenate([failing, sound])
         names = ", ".join(map(named, columns))
-        told = say("{variants} as lines over {names}", variants=variants(sound + failing), names=names)
+        told = say("{variants} as lines over {names}", variants=variants(len(lines)), names=names)
         caption = say(
             "Each line is a variant, from input to result: passing variants are dark and in front, those with a warning dashed, failing ones "
             "pale. The darker a field of an axis, the larger the percentage of the variants there that pass. The ends of the axes are those of "
             "all variants."
         )
         rule = "Of {variants}, evenly selected from the sample, these are drawn: {sound} of those that pass, {failing} of those that fail."
-        is_whole = lines.is_whole and self.total == len(self.sample.status)
-        all_ = say("All variants are drawn.")
-        drawn = all_ if is_whole else say(rule, variants=variants(self.total), sound=sound, failing=failing)
-        title = say("Parallel coordinates: {told}.", told=told)
-        svg = charts.parallel(title, "parallel", self.sample, lines, columns, self._ends(columns))
-        return SummaryFigure(svg, f"{caption} {drawn}{self._far(self.sample, columns)}", told)
+        is_whole = len(lines) == calculated and len(status) == self.total
+        counts = {"variants": variants(self.total), "sound": len(sound), "failing": len(failing)}
+        which = say("All variants are drawn.") if is_whole else say(rule, **counts)
+        build = partial(charts.parallel, self.sample, lines, columns, self._ends(columns))
+        svg = drawn(build, say("Parallel coordinates: {told}.", told=told), "parallel")
+        return SummaryFigure(svg, f"{caption} {which}{self._far(self.sample, columns)}", told)
 
     def _ends(self, columns: Sequence[StoredColumn]) -> dict[str, Ends]:
         found: dict[str, Ends] = {}
@@ -161,10 +164,11 @@ class Figures:
             found = data.density(self.stored, self.spreads[x.name], self.spreads[y.name])
             template = "{variants} are counted in cells: the larger a square, the more variants; its colour shows the percentage that does not fail."
             counted = say(template, variants=variants(int(found.counts.sum())))
-            svg = charts.cells(say("Density of {told}.", told=told), "pair", found, front)
+            svg = drawn(partial(charts.cells, found, front), say("Density of {told}.", told=told), "pair")
         else:
             counted = self._drawn(self.sample, [x, y])
-            svg = charts.scatter(say("Scatter of {told}.", told=told), "pair", self.sample, [(x, y)], front)
+            build = partial(charts.scatter, self.sample, [(x, y)], front)
+            svg = drawn(build, say("Scatter of {told}.", told=told), "pair")
         return SummaryFigure(svg, f"{caption} {counted}", told)
 
     def _grid(self, ranked: Sequence[Influence]) -> SummaryFigure | None:
@@ -178,9 +182,10 @@ class Figures:
             return None
         some = self.sample.thinned(MAX_POINTS)
         told = "; ".join(self._over(x, y) for x, y in pairs)
-        drawn = self._drawn(some, [column for pair in pairs for column in pair])
-        caption = f"{say('Each quantity over its most influential inputs.')} {drawn}"
-        return SummaryFigure(charts.scatter(say("Scatter: {told}.", told=told), "grid", some, pairs), caption, told)
+        which = self._drawn(some, [column for pair in pairs for column in pair])
+        caption = f"{say('Each quantity over its most influential inputs.')} {which}"
+        svg = drawn(partial(charts.scatter, some, pairs), say("Scatter: {told}.", told=told), "grid")
+        return SummaryFigure(svg, caption, told)
 
     def _over(self, x: StoredColumn, y: StoredColumn) -> str:
         """Name two quantities, with their correlation where there is one."""
@@ -193,9 +198,9 @@ class Figures:
         return say("{y} over {x}, {told}", y=named(y), x=named(x), told=told)
 
     def _drawn(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
-        drawn = len(some.variants)
-        template = "All variants are drawn." if drawn == self.total else "Of {variants}, a sample of {drawn} is drawn."
-        return say(template, variants=variants(self.total), drawn=variants(drawn)) + self._far(some, columns)
+        count = len(some.variants)
+        template = "All variants are drawn." if count == self.total else "Of {variants}, a sample of {drawn} is drawn."
+        return say(template, variants=variants(self.total), drawn=variants(count)) + self._far(some, columns)
 
     def _far(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         """Return what to add where some variants are out of a chart's reach."""
@@ -222,7 +227,8 @@ def influence_figure(found: Influence) -> SummaryFigure:
         told = "; ".join(localised(f"{named(share.column)}: {share.first:+.2f}") for share in found.telling)
     told = say("Influence on {target}: {told}", target=target, told=told)
     key = Phrase("influence of {name}", name=found.target.name)
-    return SummaryFigure(charts.influence(f"{told}.", key, found), say(template, target=target), told)
+    svg = drawn(partial(charts.influence, found), f"{told}.", key)
+    return SummaryFigure(svg, say(template, target=target), told)
 
 
 def _behind(row: Utilisation) -> str:
@@ -257,8 +263,8 @@ def ranked(found: list[Influence]) -> Ranked:
     by_target = [{share.column: share for share in each.shares} for each in found]
     inputs = list(dict.fromkeys(column for shares in by_target for column in shares))
     rows = [(named(column), [_share(shares.get(column)) for shares in by_target]) for column in inputs]
-    drawn = [influence_figure(each) for each in found if each.is_certain and each.telling][:CHARTED]
-    return Ranked([named(each.target) for each in found], rows, drawn, variants(max(each.variants for each in found)))
+    figures = [influence_figure(each) for each in found if each.is_certain and each.telling][:CHARTED]
+    return Ranked([named(each.target) for each in found], rows, figures, variants(max(each.variants for each in found)))
 
 
 def _share(share: Share | None) -> str:

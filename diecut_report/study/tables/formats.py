@@ -17,7 +17,7 @@ from zipfile import ZipFile
 
 import numpy as np
 
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.study.tables.cells import Cells
 from diecut_report.text.phrases import Phrase, joined, phrase
 
@@ -28,6 +28,8 @@ MAX_COLUMNS = 16_384  # as many as a sheet of a workbook holds
 CHUNK = 1 << 20  # bytes that are looked at together
 SMALLER = phrase("Give fewer rows or columns")
 OTHER_FORM = phrase("save the table as CSV or Parquet, which may be larger")
+ADVICE = {".csv": SMALLER, ".parquet": SMALLER, ".xlsx": joined((SMALLER, OTHER_FORM), ", or ")}
+NO_MEMORY = Phrase("needs more memory than there is. {smaller}", smaller=SMALLER)
 NO_ROWS = phrase("the table has no rows below its header; give at least one")
 NO_HEADER = phrase("row 1 is empty; it must hold the names of the columns")
 
@@ -35,25 +37,16 @@ Columns = tuple[list[tuple[str, str | None]], list[Cells]]
 """What heads each column, with the unit that the file stores beside it, and its cells."""
 
 
-def unreadable(message: str, row: int | None = None) -> UserError:
-    """Return the error of a file that is no table, with the row where it is known."""
-    return UserError(Problem(message, line=row))
-
-
-def _advice(kind: str) -> str:
-    return joined((SMALLER, OTHER_FORM), ", or ") if kind == ".xlsx" else SMALLER
-
-
 def check_size(kind: str, rows: int, columns: int) -> None:
     """Refuse a table of more cells than a file of this type may have."""
     if columns > MAX_COLUMNS:
         template = "has {columns} columns; at most {max_columns} are allowed. {smaller}"
-        raise unreadable(Phrase(template, columns=columns, max_columns=MAX_COLUMNS, smaller=SMALLER))
+        raise refusal(template, columns=columns, max_columns=MAX_COLUMNS, smaller=SMALLER)
     if rows * columns > MAX_CELLS[kind]:
         most = Phrase("at most {max_cells} cells are allowed", max_cells=f"{MAX_CELLS[kind]:,}")
         template = "has {rows} rows × {columns} columns; {most}. {advice}"
         counts = {"rows": f"{rows:,}", "columns": f"{columns:,}"}
-        raise unreadable(Phrase(template, counts, most=most, advice=_advice(kind)))
+        raise refusal(template, **counts, most=most, advice=ADVICE[kind])
 
 
 def check_unpacked(kind: str, size: int) -> None:
@@ -61,11 +54,7 @@ def check_unpacked(kind: str, size: int) -> None:
     if size > MAX_UNPACKED[kind]:
         most = Phrase("at most {max_unpacked} MB are allowed", max_unpacked=f"{MAX_UNPACKED[kind] / 1e6:g}")
         template = "holds {size} MB when it is unpacked; {most}. {advice}"
-        raise unreadable(Phrase(template, size=f"{size / 1e6:.1f}", most=most, advice=_advice(kind)))
-
-
-def _no_memory() -> UserError:
-    return unreadable(Phrase("needs more memory than there is. {smaller}", smaller=SMALLER))
+        raise refusal(template, size=f"{size / 1e6:.1f}", most=most, advice=ADVICE[kind])
 
 
 # --- CSV ---------------------------------------------------------------------------------------------------------------
@@ -104,9 +93,9 @@ def read_csv(file: BinaryIO) -> Columns:
             arrow_csv.ConvertOptions(column_types={str(i): pyarrow.string() for i in range(len(names))}),
         )
     except pyarrow.ArrowMemoryError as error:
-        raise _no_memory() from error
+        raise refusal(NO_MEMORY) from error
     except pyarrow.ArrowException as error:
-        raise unreadable(_csv_fault(str(error))) from error
+        raise refusal(_csv_fault(str(error))) from error
     if wrong:
         template = "{more} more rows have not as many cells as the header"
         raise UserError([*wrong, *([Problem(Phrase(template, more=others))] if others else [])])
@@ -119,13 +108,13 @@ def _csv_header(file: BinaryIO) -> tuple[list[str], str]:
     """Return the cells of the first row, and what separates them: the comma, or what the first row has more of."""
     line = re.split(rb"[\r\n]", file.readline(MAX_LINE), maxsplit=1)[0]
     if len(line) == MAX_LINE:
-        raise unreadable(phrase("row 1 is too long; it must hold the names of the columns"), 1)
+        raise UserError(Problem(phrase("row 1 is too long; it must hold the names of the columns"), line=1))
     try:
         first = line.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise unreadable(NOT_UTF8) from error
+        raise refusal(NOT_UTF8) from error
     if not first.strip():
-        raise unreadable(NO_HEADER, 1)
+        raise UserError(Problem(NO_HEADER, line=1))
     delimiter = max(DELIMITERS, key=first.count)
     if first.count(delimiter) >= 2 * MAX_COLUMNS:  # before it is parted; some may stand in quotes
         check_size(".csv", 0, first.count(delimiter) + 1)
@@ -133,7 +122,7 @@ def _csv_header(file: BinaryIO) -> tuple[list[str], str]:
         return next(csv.reader([first], delimiter=delimiter)), delimiter
     except csv.Error as error:
         template = "row 1 cannot be read: {error}; it must hold the names of the columns"
-        raise unreadable(Phrase(template, error=error), 1) from error
+        raise UserError(Problem(Phrase(template, error=error), line=1)) from error
 
 
 def _csv_rows(file: BinaryIO) -> int:
@@ -148,10 +137,10 @@ def _csv_rows(file: BinaryIO) -> int:
             quotes += chunk.count(b'"')
         decoder.decode(b"", final=True)
     except UnicodeDecodeError as error:
-        raise unreadable(NOT_UTF8) from error
+        raise refusal(NOT_UTF8) from error
     if quotes % 2:  # Arrow takes what follows the last one, whatever it is, for one cell
         template = "has {quotes} quotation marks, so that one is not closed; within a quoted cell it is doubled"
-        raise unreadable(Phrase(template, quotes=quotes))
+        raise refusal(template, quotes=quotes)
     file.seek(0)
     return max(feeds, returns)
 
@@ -190,12 +179,11 @@ def read_parquet(file: BinaryIO) -> Columns:
         table = _parquet_table(file)
         units = [((field.metadata or {}).get(b"unit") or b"").decode() or None for field in table.schema]
     except pyarrow.ArrowMemoryError as error:
-        raise _no_memory() from error
+        raise refusal(NO_MEMORY) from error
     except (pyarrow.ArrowException, OSError, ValueError, OverflowError) as error:  # Parquet says OSError of damage too
         if getattr(error, "errno", None):
             raise
-        template = "is not a Parquet file, or a damaged one: {told}"
-        raise unreadable(Phrase(template, told=" ".join(str(error).split()))) from error
+        raise refusal("is not a Parquet file, or a damaged one: {told}", told=" ".join(str(error).split())) from error
     # their pieces as they are: one piece would be a copy
     return list(zip(table.column_names, units, strict=True)), [Cells(column, 1) for column in table.columns]
 
@@ -315,9 +303,9 @@ def _damage_reported() -> Iterator[None]:
     except (UserError, OSError):
         raise
     except MemoryError as error:
-        raise _no_memory() from error
+        raise refusal(NO_MEMORY) from error
     except Exception as error:
-        raise unreadable(DAMAGED) from error
+        raise refusal(DAMAGED) from error
 
 
 def _check_archive(file: BinaryIO) -> None:
@@ -329,13 +317,12 @@ def _check_archive(file: BinaryIO) -> None:
         elements += 1
         others += name.rpartition(":")[2] not in CELL_ELEMENTS
         if elements > MAX_ELEMENTS or others > MAX_OTHER_ELEMENTS:
-            raise unreadable(MANY)
+            raise refusal(MANY)
 
     with ZipFile(file) as archive:
         members = archive.infolist()
         if len(members) > MAX_MEMBERS:
-            template = "has {count} files within; a workbook has some dozens. Save it again"
-            raise unreadable(Phrase(template, count=len(members)))
+            raise refusal("has {count} files within; a workbook has some dozens. Save it again", count=len(members))
         check_unpacked(".xlsx", sum(member.file_size for member in members))
         for member in members:
             with archive.open(member) as unpacked:
@@ -350,7 +337,7 @@ def _check_member(unpacked: Any, count: Any) -> None:
             refuse()
 
     def refuse(*_: Any) -> None:
-        raise unreadable(DAMAGED)
+        raise refusal(DAMAGED)
 
     parser = expat.ParserCreate()
     parser.XmlDeclHandler, parser.StartDoctypeDeclHandler, parser.StartElementHandler = declared, refuse, count
@@ -359,7 +346,7 @@ def _check_member(unpacked: Any, count: Any) -> None:
         if not begun and (b"\0" in chunk[:4] or chunk.startswith(UTF_16)):
             refuse()
         if len(chunk) == CHUNK and (b"<" not in chunk or any(end not in chunk for end in awaited)):
-            raise unreadable(LONG)
+            raise refusal(LONG)
         begun, awaited = True, [end for begin, end in COMMENTS if chunk.rfind(begin) > chunk.rfind(end)]
         try:
             parser.Parse(chunk, False)
@@ -378,7 +365,7 @@ def _bounded(rows: Iterable[tuple[Any, ...]]) -> Iterator[list[Any]]:
         if number > MAX_ROWS or places > MAX_PLACES:
             raise _far(number)
         if cells > MAX_CELLS[".xlsx"]:
-            raise unreadable(MANY)
+            raise refusal(MANY)
         yield kept
 
 
@@ -386,7 +373,7 @@ def _columns(rows: list[list[Any]]) -> Columns:
     while rows and not rows[-1]:
         rows.pop()
     if not rows or not rows[0]:
-        raise unreadable(NO_HEADER, 1)
+        raise UserError(Problem(NO_HEADER, line=1))
     width = max(len(row) for row in rows)
     blank = [place for place, row in enumerate(rows, 1) if width > 1 and not row]
     check_size(".xlsx", len(rows) - len(blank), width)
@@ -399,4 +386,4 @@ def _columns(rows: list[list[Any]]) -> Columns:
 
 
 def _far(row: int) -> UserError:
-    return unreadable(Phrase("has a cell far from the others, in row {row}; delete what stands there", row=row))
+    return refusal("has a cell far from the others, in row {row}; delete what stands there", row=row)

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from diecut_report.config.yaml import forbidden_character
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import Problem, UserError, nearest, refusal
 from diecut_report.files import opened
 from diecut_report.formulas import Array
 from diecut_report.quantities.units import UnitError, unit
@@ -26,7 +26,6 @@ from diecut_report.study.tables.formats import (
     read_csv,
     read_parquet,
     read_xlsx,
-    unreadable,
 )
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -143,14 +142,14 @@ def _read(path: Path) -> tuple[Columns, str]:
     kind = path.suffix.lower()
     if kind not in READERS:
         template = "the ending {suffix} is not known; save the table as {known}"
-        raise unreadable(Phrase(template, suffix=path.suffix or phrase("(none)"), known=", ".join(READERS)))
+        raise refusal(template, suffix=path.suffix or phrase("(none)"), known=", ".join(READERS))
     with opened(path, MAX_BYTES[kind], Phrase("a table ({kind})", kind=kind)) as file:
         try:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
             file.seek(0)
             return READERS[kind](file), digest
         except OSError as error:
-            raise unreadable(Phrase("cannot be read: {strerror}", strerror=error.strerror or error)) from error
+            raise refusal("cannot be read: {strerror}", strerror=error.strerror or error) from error
 
 
 def _wrong_headers(columns: list[ReadColumn]) -> Iterator[Problem]:
