@@ -222,9 +222,10 @@ def typed(given: Any, path: str) -> str:
 
 
 def plain(given: Any, path: str) -> Any:
-    """Return blocks and lists of a script with each value as a configuration holds it."""
+    """Return blocks and lists of a script with each value as a configuration holds it; a key that is None is not given."""
     if isinstance(given, Mapping):
-        return {str(key): plain(part, f"{path}.{key}".lstrip(".")) for key, part in given.items()}
+        known = {str(key): part for key, part in given.items() if part is not None}
+        return {key: plain(part, f"{path}.{key}".lstrip(".")) for key, part in known.items()}
     if hasattr(given, "magnitude") and _is_array(given.magnitude):  # an array of pint
         return [plain(part, f"{path}.{index}") for index, part in enumerate(given)]
     if given is None or isinstance(given, str | QuantityValue) or hasattr(given, "magnitude"):

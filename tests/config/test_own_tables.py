@@ -284,7 +284,7 @@ def test_a_study_varies_between_standard_materials_and_own_ones(study_folder: Pa
 def test_a_worker_elsewhere_gets_the_tables_too(study_folder: Path) -> None:
     study = load_study(saved(study_folder, STUDY, "study.yaml"), DISCOVERY)
     assert set(study.tables) == {"steels.yaml"}
-    away = load(study.file.read_bytes(), contents(study), [], study.base.source_hashes)
+    away = load(Path(study.tree.file).read_bytes(), contents(study), [], study.base.source_hashes)
     assert away.base.tables["steels.yaml"].sha256 == study.base.tables["steels.yaml"].sha256
 
 

@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.steps import SILENT
+from diecut_report.mechanism.steps import SilentStep
 
 
 def doubled(mechanism: Mechanism, alike: Collection[tuple[str, str]] = ()) -> list[str]:
@@ -15,7 +15,7 @@ def doubled(mechanism: Mechanism, alike: Collection[tuple[str, str]] = ()) -> li
     for name, meta in fields(mechanism.inputs):
         known.setdefault(getattr(meta, "symbol", ""), set()).add(name)
     for _, step in mechanism.steps:
-        if step.printed and not isinstance(step, SILENT):
+        if step.printed and not isinstance(step, SilentStep):
             known.setdefault(step.symbol, set()).add(step.id)
     pairs = {frozenset(pair) for pair in alike}
     return [

@@ -817,7 +817,8 @@ def test_what_is_found_of_the_parts_is_shown_as_long_as_it_is_so() -> None:
         ("plane: 15, bearing: NU2208E}", "plane: 15}", "crank.disc: the bearing of its pin is not given"),
         ("{flywheel: rim,", "{load: rim,", "it sizes a flywheel, and no part of the shaft that it drives is that"),
         ("  clutch:\n    kind: clutch", "  kupplung:\n    kind: clutch", "crank.clutch: no mechanism of its name calculates how it engages"),
-        ("  clutch:\n    kind: clutch", "  kupplung:\n    kind: clutch", "no part of the machine is this clutch, so that its engagement loads"),
+        ("  clutch:\n    kind: clutch", "  kupplung:\n    kind: clutch",
+         "no part of the machine is this clutch, so that its engagement loads nothing"),
         ("moves: drive.cylinder", "moves: drive.cylinder", "main.disc: no calculation rates its pin"),
         (re.search(r"  clutch:\n    kind: clutch\n(    .*\n)*", TEXT)[0], "", "crank.clutch: no mechanism of its name calculates how it engages"),  # type: ignore[index]
     ],
