@@ -57,6 +57,7 @@ LONGEST_NAME = 255  # of a file, in bytes
 BLANK = b" \t\r\n"
 BOM = b"\xef\xbb\xbf"
 Form = Literal["pdf", "html", "json"]
+ENDINGS: Mapping[Form, tuple[str, ...]] = {"pdf": ("", ".pdf"), "html": ("", ".html", ".htm"), "json": ("", ".json")}
 
 
 @dataclass(frozen=True)
@@ -74,6 +75,13 @@ class CarriedResults:
     results_content: bytes
     tables: dict[str, bytes]
     former_tables: dict[str, bytes]
+
+    def require_own_name(self) -> None:
+        """Raise UserError where the file is named as another form: what opens it by its name would show what nobody has compared."""
+        ending = self.path.suffix.lower()
+        if ending not in ENDINGS[self.form]:
+            template = "It is named {ending}, but holds what {own} files hold: opened by its name it may show something else. Rename it."
+            raise refusal(template, str(self.path), ending=ending, own=ENDINGS[self.form][1])
 
 
 def carried_results(path: Path) -> CarriedResults:

@@ -291,6 +291,7 @@ def verify(
     ``trusted`` holds the certificates that signatures must lead to; without it anybody's signature holds that is whole. ``previous``
     are the results since which the report shows changes. UserError where its configuration cannot be calculated any more.
     """
+    carried.require_own_name()
     results = carried.results
     signed = _signatures(carried, trusted)
     again, broken, options = recalculated(carried, discovery, tell, previous)

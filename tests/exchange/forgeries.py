@@ -561,6 +561,8 @@ def table() -> str:
         ("the results in a report of any form, its pages made again of them by this program", [(f.way, f.line) for f in OF_RESULTS]),
         ("what is chosen beside the configuration, its pages made again by this program; reported, and no fault",
          [(f.way, _told(f.line)) for f in OF_OPTIONS]),
+        ("the name of a file",
+         [("a results file with a page in a comment, named `.html`; any form with the ending of another one", "refused: rename it")]),
         ("an HTML page", [(f.way, f.line) for f in OF_PAGE]),
         ("a PDF", [(f.way, f.line) for f in OF_PDF]),
         ("a signed PDF", list(OF_SIGNED)),

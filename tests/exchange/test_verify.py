@@ -41,8 +41,21 @@ def test_the_numbers_of_a_pdf_agree(small_report: Path, capfd: Capture) -> None:
 
 
 def test_a_report_is_judged_wherever_it_lies_and_whatever_it_is_called(small_report: Path, tmp_path: Path) -> None:
-    (tmp_path / "renamed").write_bytes((small_report / "small.html").read_bytes())
-    assert run("verify", tmp_path / "renamed") == 0
+    for name in ("renamed", "renamed.HTM"):
+        (tmp_path / name).write_bytes((small_report / "small.html").read_bytes())
+        assert run("verify", tmp_path / name) == 0
+
+
+@pytest.mark.parametrize(
+    ("form", "ending"), [("json", ".html"), ("json", ".pdf"), ("json", ".svg"), ("pdf", ".html"), ("html", ".pdf")]
+)
+def test_a_file_that_is_named_as_another_form_is_refused(
+    small_report: Path, tmp_path: Path, capfd: Capture, form: str, ending: str
+) -> None:
+    """A comment of the configuration may be a page: a browser that goes by the name shows it."""
+    (tmp_path / f"report{ending}").write_bytes((small_report / f"small.{form}").read_bytes())
+    assert run("verify", tmp_path / f"report{ending}") == 2
+    assert f"is named {ending}, but holds what .{form} files hold" in capfd.readouterr().err
 
 
 def set_config(data: Data) -> None:
