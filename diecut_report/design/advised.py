@@ -216,10 +216,9 @@ class MendingPath:
 
     def _slack(self, made: VariedMachines, name: str) -> Array:
         """How far a check is from its limit, in shares of a size that stays the same on the whole way."""
-        size = self.sizes.get(name, np.nan)
-        if not size > 0:  # it was not made at the start
-            size = self.sizes[name] = float(np.nanmax(made.check(name, SIZE).astype(float), initial=1e-300))
-        return made.check(name, MARGIN).astype(float) / size
+        if not self.sizes.get(name, np.nan) > 0:  # it was not made at the start
+            self.sizes[name] = float(np.nanmax(made.check(name, SIZE).astype(float), initial=0.0))
+        return made.check(name, MARGIN).astype(float) / (self.sizes[name] or 1.0)
 
     def _planes(self) -> tuple[Array, Array]:
         """Of each check that can fail its slack, and its slope by the share of each input (checks, inputs), from machines beside this one."""

@@ -289,6 +289,13 @@ class Calculation:
         """A number of all variants, shape (variants, 1) or (variants, parts)."""
         return self.values[name] if name in self.values else self.inputs[name.removeprefix("inputs.")]
 
+    def part_count(self, over: str) -> int | None:
+        """Return how many parts a list of the inputs has, or declared parts; None of a list that is not given."""
+        if over in self.part_names:
+            return len(self.part_names[over])
+        rows = (value for name, value in self.inputs.items() if name.startswith(f"{over}."))
+        return next((each.shape[1] if isinstance(each, np.ndarray) else len(each) for each in rows), None)
+
     @property
     def possible(self) -> Array:
         """Which variants are possible, as far as is known."""

@@ -183,12 +183,19 @@ def _has_changed(before: QuantityRecord | None, after: QuantityRecord | None) ->
 
 
 def _has_other_value(before: QuantityRecord, after: QuantityRecord) -> bool:
-    """Whether a quantity has another value, rounding apart."""
+    """Whether a quantity has another value, rounding apart, and apart from what is shown as beyond a size of interest."""
     a, b = before.value, after.value
+    if before.display == after.display and _is_beyond(before.display.text):
+        return False
     if not (is_number(a) and is_number(b)):
         return a != b
     factor = _factor(after)
     return before.unit != after.unit or not math.isclose(a / factor, b / factor, rel_tol=SAME, abs_tol=NOTHING)
+
+
+def _is_beyond(text: str) -> bool:
+    """Whether a value is shown as "> 100": how much more it is does not matter."""
+    return text.startswith(">")
 
 
 def is_number(value: object) -> TypeGuard[float]:
@@ -208,6 +215,8 @@ def _texts(before: QuantityRecord | None, after: QuantityRecord | None) -> list[
     """Both values as neutral texts in their display unit, with so many digits that they can be told apart."""
     texts = [row.display.text if row else "" for row in (before, after)]
     if not (before and after and is_number(before.value) and is_number(after.value)):
+        return texts
+    if any(map(_is_beyond, texts)):
         return texts
     values = [before.value / _factor(before), after.value / _factor(after)]
     for digits in range(5, MOST_DIGITS):

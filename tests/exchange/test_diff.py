@@ -165,3 +165,14 @@ def test_a_page_of_changes_needs_neither_network_nor_scripts(tmp_path: Path) -> 
     assert "a.force" in pages[0] and "+50" in pages[0]
     before = bad.read_bytes()
     assert run("diff", good, bad, "-o", bad) == 2 and bad.read_bytes() == before
+
+
+def test_what_is_shown_as_beyond_a_size_of_interest_is_compared_as_that(tmp_path: Path, capfd: Capture) -> None:
+    """The critical speed of a short shaft, "> 30000" r/min: a little more is no change, and is no number."""
+    old = tmp_path / "old.yaml"
+    assert run("new", "shaft", "-o", old) == 0
+    text = old.read_text("utf-8")
+    (tmp_path / "new.yaml").write_text(text.replace("value: 45 mm", "value: 46 mm", 1), "utf-8")
+    assert run("diff", old, tmp_path / "new.yaml") in (0, 1)
+    told = capfd.readouterr().out
+    assert "sections.0.diameter" in told and "> 30 000" not in told

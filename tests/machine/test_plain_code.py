@@ -72,6 +72,20 @@ def test_several_machines_have_a_number_each() -> None:
         calculated(np.array([1.0, 2.0]), machines=2)
 
 
+@pytest.mark.parametrize(
+    "made",
+    [lambda x: x[:, :1], lambda x: x[:, :-1], lambda x: x[:, 0], lambda x: np.hstack([x, x]), lambda x: x.T],
+    ids=range(5),
+)
+def test_a_row_has_a_number_for_each_part(made: Any) -> None:
+    """One that is left out would be judged by nothing."""
+    chapter = Chapter("Row")
+    chapter.computed("row", "r", "mm", "Row", made, takes=("pegs.place",), method="plain code", over="pegs")
+    mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
+    with pytest.raises(Misdeclared, match="it must return a number for each of the 3 parts of pegs"):
+        calculate(mechanism, {"width": 0.5, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)})
+
+
 def test_parts_that_meet_are_told_by_their_number() -> None:
     with pytest.raises(Impossible, match="peg 2 meets peg 3"):
         calculated(clash=np.array([[-1, 2, 1]]))

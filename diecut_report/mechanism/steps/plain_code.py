@@ -36,11 +36,17 @@ def number(step: Any, found: Any, count: int) -> Array:
     return np.broadcast_to(given, (count, 1))
 
 
-def row(step: Any, found: Any, count: int) -> Array:
-    """Return what a function gives for the parts of a list, shape (variants, parts); Misdeclared where it is no such row."""
+def row(step: Any, found: Any, count: int, parts: int | None) -> Array:
+    """Return what a function gives for the parts of a list, shape (variants, parts); Misdeclared where it is not such a row."""
     given = _numbers(step, found, phrase("an array of numbers, one for each part"))
     if given.ndim > 2:
         raise misgiven(step, _array(given), phrase("a row of numbers for each machine"))
+    if parts is not None and given.shape[-1:] != (parts,):  # a part that it leaves out would be judged by nothing
+        raise misgiven(
+            step,
+            _array(given),
+            Phrase("a number for each of the {count} parts of {parts}", count=parts, parts=step.over),
+        )
     whole = np.broadcast_to(np.atleast_2d(given), (count, given.shape[-1]))
     return whole if given.dtype == bool else whole.astype(float)
 
