@@ -192,7 +192,7 @@ ENDLESS = [
     # memory
     ("{{ 'a' * 10 ** 12 }}", "MemoryError"),
     ("{{ [1]|batch(10 ** 12, 0)|list }}", "MemoryError"),
-    ("{% set n = namespace(x='aaaa') %}{% for i in range(60) %}{% set n.x = n.x ~ n.x %}{% endfor %}", "MemoryError"),
+    ("{% set n = namespace(x='aaaa') %}{% for i in range(60) %}{% set n.x = n.x ~ n.x %}{% endfor %}", "MemoryError|was not finished within 5 s"),
     # loops
     ("{% for i in range(99999) %}{% for j in range(99999) %}{% endfor %}{% endfor %}", "was not finished within 5 s and was aborted"),
     ("{% include 'report.html.j2' %}", "was not finished within 5 s and was aborted|maximum recursion"),
