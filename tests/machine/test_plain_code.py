@@ -8,8 +8,9 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Block, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import Block, Chapter, Inputs, Mechanism, MechanismInput, Quantity
 from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.mechanism import MechanismHandle
 from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.names import Misdeclared
@@ -84,6 +85,55 @@ def test_a_row_has_a_number_for_each_part(made: Any) -> None:
     mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
     with pytest.raises(Misdeclared, match="it must return a number for each of the 3 parts of pegs"):
         calculate(mechanism, {"width": 0.5, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)})
+
+
+class Other(Block):
+    other: Annotated[Any, MechanismInput("Mechanism that is asked")]
+
+
+class AskingOne(Inputs):
+    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
+    other: Annotated[Any, MechanismInput("Mechanism that is asked")]
+    pegs: Annotated[list[Peg], Quantity("", "1", "Pegs")]
+
+
+class Asking(Inputs):
+    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
+    others: Annotated[list[Other], Quantity("", "1", "Others")]
+    pegs: Annotated[list[Peg], Quantity("", "1", "Pegs")]
+
+
+@pytest.mark.parametrize("in_list", [False, True])
+def test_what_a_mechanism_tells_of_one_machine_is_asked_for_each(in_list: bool) -> None:
+    """Three machines, and three parts in each: the numbers of the first machine are as many as the machines."""
+    own = Chapter("Row")
+    own.computed(
+        "row",
+        "r",
+        "mm",
+        "Row",
+        lambda x, width: x * width / 1e-3,
+        takes=("pegs.place", "width"),
+        method="m",
+        over="pegs",
+    )
+    row = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(own,))
+    widths = np.array([1e-3, 2e-3, 3e-3])
+    told = calculate(row, {"width": widths, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)}, 3)
+    handle = MechanismHandle(told, "told")
+    asks = Chapter("Asks")
+
+    def asked(given: Any) -> Any:
+        return (given[0] if in_list else given).parts("row")
+
+    asks.computed(
+        "taken", "t", "m", "Taken", asked, takes=("others.other" if in_list else "other",), method="m", over="pegs"
+    )
+    inputs = Asking if in_list else AskingOne
+    mechanism = Mechanism(kind="asks", version="1", title="Asks", summary="Asks.", inputs=inputs, chapters=(asks,))
+    given: dict[str, Any] = {"others": True, "others.other": (handle,)} if in_list else {"other": handle}
+    calc = calculate(mechanism, {**given, "width": widths, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)}, 3)
+    assert calc["taken"] == pytest.approx(np.outer([1, 2, 3], [0.1, 0.2, 0.3]))
 
 
 def test_parts_that_meet_are_told_by_their_number() -> None:

@@ -159,12 +159,12 @@ class MachineRun(Calculation):
     def computed(self, step: Any, taken: Sequence[Any]) -> Any:
         """Call plain code, for each of many machines where what it takes knows one alone."""
         if not any(isinstance(each, Machines) for each in taken):
-            found, is_asked = (
-                self.call(step, taken),
-                any(isinstance(each, MechanismHandle | PhaseHandle) for each in taken),
-            )
-            if self.count == 1 or not is_asked or np.shape(found)[:1] == (self.count,):
-                return found  # else it is what a mechanism or a phase told of the first machine
+            found = self.call(step, taken)
+            # three numbers for three machines, or for the three parts of the first one: those of all have a row each
+            dimensions = 1 if step.is_text else 2
+            is_of_all = self.count == 1 or (np.ndim(found) == dimensions and len(found) == self.count)
+            if is_of_all or not any(map(_tells_of_one, taken)):
+                return found
 
         def make(row: int) -> Any:
             return np.ravel(step.function(*(of_machine(value, row, self.count) for value in taken)))
@@ -226,6 +226,13 @@ class MachineRun(Calculation):
                 template = "is {name}, with which its result {called} would be called as another one; take another name"
                 raise _of_part(step.named_by, index, Phrase(template, name=name, called=called))
         return names
+
+
+def _tells_of_one(value: Any) -> bool:
+    """Whether plain code learns of it what is of one machine: of a mechanism or a phase, which tell of the first of many."""
+    if isinstance(value, tuple):
+        return any(map(_tells_of_one, value))
+    return isinstance(value, MechanismHandle | PhaseHandle)
 
 
 def _of_part(path: str, index: int, words: str) -> Impossible:

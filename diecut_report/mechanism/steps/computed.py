@@ -51,11 +51,8 @@ class Computed(QuantityStep):
         if self.is_text:
             calc.values[self.id] = plain_code.texts(self, found, calc.count)
             return
-        parts = calc.part_count(self.over)
-        row = (
-            plain_code.row(self, found, calc.count, parts) if self.over else plain_code.number(self, found, calc.count)
-        )
-        calc.values[self.id] = calc.existing(self, row)
+        give = plain_code.row if self.over else plain_code.number
+        calc.values[self.id] = calc.existing(self, give(self, found, calc))
 
     def items(self, page: StepPrinter) -> list[Item]:
         calc, axis = page.calc, page.calc.axis.get(self.id)

@@ -26,28 +26,26 @@ def taken(calc: StepEngine, names: Iterable[str]) -> list[Any]:
     return given
 
 
-def number(step: Any, found: Any, count: int) -> Array:
+def number(step: Any, found: Any, calc: StepEngine) -> Array:
     """Return what a function gives as an array of shape (variants, 1); Misdeclared where it is none."""
     given = _numbers(step, found, phrase("a number"))
     if given.dtype == bool and step.unit != "1":
         raise misgiven(step, reprlib.repr(found), Phrase("a number in SI of {unit}", unit=step.unit))
-    if given.shape not in ((), (1,), (1, 1), (count, 1)):
-        raise misgiven(step, _array(given), Phrase("a number, shape ({count}, 1)", count=count))
-    return np.broadcast_to(given, (count, 1))
+    if given.shape not in ((), (1,), (1, 1), (calc.count, 1)):
+        raise misgiven(step, _array(given), Phrase("a number, shape ({count}, 1)", count=calc.count))
+    return np.broadcast_to(given, (calc.count, 1))
 
 
-def row(step: Any, found: Any, count: int, parts: int | None) -> Array:
+def row(step: Any, found: Any, calc: StepEngine) -> Array:
     """Return what a function gives for the parts of a list, shape (variants, parts); Misdeclared where it is not such a row."""
     given = _numbers(step, found, phrase("an array of numbers, one for each part"))
     if given.ndim > 2:
         raise misgiven(step, _array(given), phrase("a row of numbers for each machine"))
+    parts = calc.part_count(step.over)
     if parts is not None and given.shape[-1:] != (parts,):  # a part that it leaves out would be judged by nothing
-        raise misgiven(
-            step,
-            _array(given),
-            Phrase("a number for each of the {count} parts of {parts}", count=parts, parts=step.over),
-        )
-    whole = np.broadcast_to(np.atleast_2d(given), (count, given.shape[-1]))
+        template = "a number for each of the {count} parts of {parts}"
+        raise misgiven(step, _array(given), Phrase(template, count=parts, parts=step.over))
+    whole = np.broadcast_to(np.atleast_2d(given), (calc.count, given.shape[-1]))
     return whole if given.dtype == bool else whole.astype(float)
 
 
