@@ -90,12 +90,12 @@ def solve(
     Exit codes: 0 found, 1 out of reach (the nearest value is reported), 2 bad input, 3 a plugin broke.
     """
     from diecut_report.design.answers import data, lines
-    from diecut_report.design.inputs import varied_input
+    from diecut_report.design.inputs import free_input
     from diecut_report.design.solving import solved
 
     with Progress() as progress, without_output():
         press = _read(config, discovery, progress)
-        design = varied_input(press.config, vary)
+        design = free_input(press.config, vary)
         ends = (_end(design, low, "--from"), _end(design, high, "--to"))
         answer = solved(press, asked, design, passing=passing, low=ends[0], high=ends[1])
     _give(as_json(data(answer)) if form == "json" else _text(lines(answer)), press, answer.machine, target)
@@ -223,7 +223,7 @@ def influence(
 
 
 def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
-    from diecut_report.design.inputs import varied_input
+    from diecut_report.design.inputs import free_input
 
     def wrong(words: str) -> click.BadParameter:
         return click.BadParameter(words, param_hint="--tolerance")
@@ -231,7 +231,7 @@ def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
     name, _, size = given.partition("=")
     if not size.strip():
         raise wrong(say("{given} is not INPUT=SIZE, such as drive.crank_length=0.1 mm", given=repr(given)))
-    design = varied_input(config, name.strip())
+    design = free_input(config, name.strip())
     try:
         value = parse_quantity(size, design.meta.unit)
     except UnitError as fault:

@@ -167,7 +167,9 @@ class Config:
         """Return why other values of an input give no other machine by themselves: it and the parts follow from each other."""
         if self.parts is None:
             return None
-        return FOLLOWS if self.parts.follows(node) else MADE_WITH if self.parts.is_made_with(node) else None
+        if self.parts.follows(node):
+            return FOLLOWS
+        return MADE_WITH if self.parts.is_made_with(node) else None
 
     @property
     def source_hashes(self) -> dict[str, str]:

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from diecut_report.config.loader import MADE_WITH, Config
+from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.design.inputs import DesignInput, standing_numbers
 from diecut_report.design.machines import SLACK, downstream, slacks
@@ -44,9 +44,8 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
     """
     numbers = standing_numbers(config)
     tried = [each for each in results.summary.open if each.what in VALUES and each.why == UNPROVED]
-    named = [
-        each for each in tried if each.path in numbers and config.tied(numbers[each.path].asked.node) is not MADE_WITH
-    ]
+    fixed = {path for path, each in numbers.items() if config.parts and config.parts.is_made_with(each.asked.node)}
+    named = [each for each in tried if each.path in numbers.keys() - fixed]
     homes = {numbers[each.path].asked.instance for each in named}
     reached = {home: frozenset(downstream(config, home)) for home in homes}
     trials = [Trial.of(config, each, numbers[each.path], reached) for each in named]

@@ -153,7 +153,7 @@ def design_input(config: Config, name: str) -> DesignInput:
     return _made(config, asked)
 
 
-def varied_input(config: Config, name: str) -> DesignInput:
+def free_input(config: Config, name: str) -> DesignInput:
     """Return the number that a name stands for, which takes other values; UserError in words where these give no other machine."""
     found = design_input(config, name)
     require_untied(config, found)

@@ -9,7 +9,7 @@ import re
 import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Literal
 
 from diecut_report.config.own_tables import logo_fault, name_fault
@@ -57,7 +57,7 @@ LONGEST_NAME = 255  # of a file, in bytes
 BLANK = b" \t\r\n"
 BOM = b"\xef\xbb\xbf"
 Form = Literal["pdf", "html", "json"]
-ENDINGS: Mapping[Form, tuple[str, ...]] = {"pdf": ("", ".pdf"), "html": ("", ".html", ".htm"), "json": ("", ".json")}
+ENDINGS: Mapping[Form, tuple[str, ...]] = {"pdf": (".pdf",), "html": (".html", ".htm"), "json": (".json",)}
 
 
 @dataclass(frozen=True)
@@ -78,10 +78,10 @@ class CarriedResults:
 
     def require_own_name(self) -> None:
         """Raise UserError where the file is named as another form: what opens it by its name would show what nobody has compared."""
-        ending = self.path.suffix.lower()
-        if ending not in ENDINGS[self.form]:
+        ending = PurePath(self.path.name.rstrip(". ")).suffix.lower()  # Windows drops dots and blanks at the end
+        if ending and ending not in ENDINGS[self.form]:
             template = "It is named {ending}, but holds what {own} files hold: opened by its name it may show something else. Rename it."
-            raise refusal(template, str(self.path), ending=ending, own=ENDINGS[self.form][1])
+            raise refusal(template, str(self.path), ending=ending, own=ENDINGS[self.form][0])
 
 
 def carried_results(path: Path) -> CarriedResults:

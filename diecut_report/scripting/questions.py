@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 from diecut_report.config.loader import Config
 from diecut_report.design import advice, influence
 from diecut_report.design.answers import Answer, FoundValue, data, lines
-from diecut_report.design.inputs import varied_input
+from diecut_report.design.inputs import free_input
 from diecut_report.design.solving import solved
 from diecut_report.errors import ConfigError, Problem
 from diecut_report.press import Press
@@ -76,7 +76,7 @@ def solved_press(
     asked: Press, make: Make[PressT], vary: str, target: str, ends: tuple[str | None, str | None], *, passing: bool
 ) -> Solution[PressT]:  # fmt: skip
     """Return the answer to a question, as the command gives it; ``make`` makes the press of a script."""
-    design = varied_input(asked.config, vary)
+    design = free_input(asked.config, vary)
 
     def end(given: str | None, name: str) -> float | None:
         try:

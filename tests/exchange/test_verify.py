@@ -47,7 +47,8 @@ def test_a_report_is_judged_wherever_it_lies_and_whatever_it_is_called(small_rep
 
 
 @pytest.mark.parametrize(
-    ("form", "ending"), [("json", ".html"), ("json", ".pdf"), ("json", ".svg"), ("pdf", ".html"), ("html", ".pdf")]
+    ("form", "ending"),
+    [("json", ".html"), ("json", ".pdf"), ("json", ".svg"), ("json", ".html."), ("pdf", ".html"), ("html", ".pdf")],
 )
 def test_a_file_that_is_named_as_another_form_is_refused(
     small_report: Path, tmp_path: Path, capfd: Capture, form: str, ending: str
@@ -55,7 +56,7 @@ def test_a_file_that_is_named_as_another_form_is_refused(
     """A comment of the configuration may be a page: a browser that goes by the name shows it."""
     (tmp_path / f"report{ending}").write_bytes((small_report / f"small.{form}").read_bytes())
     assert run("verify", tmp_path / f"report{ending}") == 2
-    assert f"is named {ending}, but holds what .{form} files hold" in capfd.readouterr().err
+    assert f"is named {ending.rstrip('.')}, but holds what .{form} files hold" in capfd.readouterr().err
 
 
 def set_config(data: Data) -> None:

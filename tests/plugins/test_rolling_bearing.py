@@ -363,7 +363,7 @@ def test_the_table_has_the_dimensions_and_not_more_than_the_ratings_of_the_maker
         assert all(table.by_name(key)[name] <= rating for key, rating in zip(("C", "C0"), ratings, strict=True))
 
 
-# least corners of the inner rings by the number of the bore, 00 to 20 (NKE, pages 384 and 550)
+# least corners of the inner rings by the number of the bore, 00 to 20 (NKE, rolling bearings, catalogue)
 NKE_CORNERS = {
     "60": "0.3 0.3 0.3 0.3 0.6 0.6 1 1 1 1 1 1.1 1.1 1.1 1.1 1.1 1.1 1.1 1.5 1.5 1.5",
     "62": "0.6 0.6 0.6 0.6 1 1 1 1.1 1.1 1.1 1.1 1.5 1.5 1.5 1.5 1.5 2 2 2 2.1 2.1",

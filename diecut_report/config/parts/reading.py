@@ -216,9 +216,11 @@ class PartsReader:
         while waiting:
             last = waiting[-1]
             ahead = next((each for each in self._referred(last) if each not in self._known), None)
-            if ahead is None or ahead in waiting:
-                self._known[last] = self._number(last) if ahead is None else _circular(ahead)
-                waiting.pop()
+            if ahead is None:
+                self._known[waiting.pop()] = self._number(last)
+            elif ahead in waiting:
+                template = "{path} refers to itself; give one of these values a number."
+                self._known[waiting.pop()] = ConditionError(template, path=ahead)
             else:
                 waiting.append(ahead)
         found = self._known[path]
@@ -287,10 +289,6 @@ class PartsReader:
 
     def _fault(self, path: KeyPath, template: str, **values: object) -> None:
         self.problems.append(ConfigPlace(self.tree).problem(path, Phrase(template, **values)))
-
-
-def _circular(path: str) -> ConditionError:
-    return ConditionError("{path} refers to itself; give one of these values a number.", path=path)
 
 
 def _at(data: Any, key: KeyPath) -> Any:

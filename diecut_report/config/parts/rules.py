@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
+from diecut_report.config.model import texts
 from diecut_report.config.parts.demands import first_place, typed_paths
 from diecut_report.config.parts.elements import SERVICE_KEYS, Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
@@ -32,11 +32,13 @@ from diecut_report.config.parts.naming import (
     riding,
     strengths,
 )
+from diecut_report.config.references import WHOLE
 from diecut_report.config.validation import ConfigPlace
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_series, standard_table
+from diecut_report.standards.ranges import range_of
 from diecut_report.text.phrases import Phrase, phrase
 
 LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
@@ -46,13 +48,11 @@ INTEGRAL_WARNED, INTEGRAL_MOST = 2.0, 4.0  # diameters of the seat, below the te
 # shares of the full steel body; of a clutch, which has shoes in place of a disc, less is usual
 MASS_SHARE, MASS_POSSIBLE = (0.3, 1.05), (0.05, 1.5)
 HARDNESS = (0.69, 260e6)  # σ_Hlim of R_m, Pa: quality ME of ISO 6336-5, with HV = R_m / 3.2 MPa
-LEAST_YIELD = 0.45  # of the tensile strength, usual
 SIDES = {
     ("left",): phrase("on the left"),
     ("right",): phrase("on the right"),
     ("left", "right"): phrase("on both sides"),
 }
-ROOT = re.compile(r"\$\{\s*(\w+)\.")  # what a reference begins with
 
 
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
@@ -216,13 +216,14 @@ def shoulder(parts: MachineParts) -> Iterator[Finding]:
         if part.kind != "bearing" or corner is None or outside is None:
             continue
         row = table_row("bearing_shoulders", corner)
-        least = row["h0" if (part.keys.designation or "").startswith("60") else "h"]
+        height = row["h0" if (part.keys.designation or "").startswith("60") else "h"]
+        least, most = part.seat + 2 * height, outside - 2 * height
         for step, fillet in part.shoulders.values():
             place = (*shaft.path, "sections")
-            if not -SAME_PLACE <= step.diameter - part.seat - 2 * least <= outside - part.seat - 4 * least + SAME_PLACE:
+            if not least - SAME_PLACE <= step.diameter <= most + SAME_PLACE:
                 template = "rests on a shoulder of {diameter}; its rings want {least} to {most}: change section {number}, or put a ring between"
-                yield finding(parts, "shoulder", "warning", part.path, template, place, diameter=mm(step.diameter), least=mm(part.seat + 2 * least),
-                    most=mm(outside - 2 * least), number=step.index + 1)  # fmt: skip
+                yield finding(parts, "shoulder", "warning", part.path, template, place, diameter=mm(step.diameter), least=mm(least),
+                    most=mm(most), number=step.index + 1)  # fmt: skip
             if fillet is not None and fillet > corner - SAME_PLACE:
                 template = "rests on a shoulder with a fillet of {fillet}, too large for its ring with corners from {corner}; take less than {most}"
                 yield finding(parts, "shoulder", "error", part.path, template, place, fillet=mm(fillet), corner=mm(corner),
@@ -367,7 +368,9 @@ def steel(parts: MachineParts) -> Iterator[Finding]:
     gears = parts.keys.gears
     if gears.flanks not in (None, "through_hardened") or gears.sigma_h_lim is None or gears.hub_yield is None:
         return
-    most = HARDNESS[0] * gears.hub_yield / LEAST_YIELD + HARDNESS[1]
+    usual = range_of("shaft", "yield_strength")  # as a share of the tensile strength
+    assert usual is not None, "the table of ranges has it"
+    most = HARDNESS[0] * gears.hub_yield / usual.usual[0] + HARDNESS[1]
     if gears.sigma_h_lim > most:
         template = "is {limit}, but through-hardened steel with hubs of {hub} has {most} at most (ISO 6336-5, ME); give flanks, or the steel's own"
         own, hub = (("machine", "gears", key) for key in ("sigma_h_lim", "hub_yield"))
@@ -536,8 +539,8 @@ def _untied(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """A block that is calculated as a part's calculations are belongs to a part, to which a value of it refers."""
     kinds, made = {each.kind for each in elements.made}, {each.name for each in elements.made}
     for name, block in elements.blocks.items():
-        known = {found[1] for found in ROOT.finditer(str(block))} & {*WORDS, *made}
-        if parts.mechanisms[name] in kinds and not known:
+        roots = {path.strip().split(".")[0] for _, text in texts(block) for path in WHOLE.findall(text)}
+        if parts.mechanisms[name] in kinds and not roots & {*WORDS, *made}:
             template = "is a {kind}, as they are calculated of the parts, but refers to none of them; make it a part, or refer to its part"
             yield finding(
                 parts, "block_without_part", "warning", ("mechanisms", name), template, kind=parts.mechanisms[name]

@@ -117,7 +117,7 @@ def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Wrong]:
     values, is_wrong, messages = np.full(len(cells), np.nan), np.zeros(len(cells), dtype=bool), dict[int, str]()
     known: dict[Any, tuple[float, str] | str] = {}
     agreed = (unit(unit_text).text, phrase("the header")) if own else None
-    marks: dict[str, int] = {}  # the decimal signs with the place where each stands first
+    sign: tuple[str, int] | None = None  # the decimal sign, and the place where it stands first
     for place, item in enumerate(cells.items()):
         key = (type(item), item)
         read = known.get(key)
@@ -129,12 +129,10 @@ def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Wrong]:
             values[place], given = read
             agreed = agreed or (given, Phrase("row {row}", row=cells.row(place)))
             mark = DECIMAL.match(item) if isinstance(item, str) else None
-            first = next(iter(marks.items()), None)
-            if mark and first and mark[1] != first[0]:
-                read = Phrase(MIXED, mark=mark[1], other=first[0], row=cells.row(first[1]))
+            sign = sign or (mark and (mark[1], place))
+            if sign and mark and mark[1] != sign[0]:
+                read = Phrase(MIXED, mark=mark[1], other=sign[0], row=cells.row(sign[1]))
             elif given == agreed[0] or (own and not given):
-                if mark:
-                    marks.setdefault(mark[1], place)
                 continue
             else:
                 read = _unlike(given, *agreed)

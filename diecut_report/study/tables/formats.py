@@ -276,13 +276,13 @@ def read_xlsx(file: BinaryIO) -> Columns:
         try:
             sheet = book.worksheets[0]
             sheet.reset_dimensions()  # the stored size may be wrong
-            rows = list(_bounded(tuple(map(_typed, row)) for row in sheet.iter_rows()))
+            rows = list(_bounded(tuple(map(_shown, row)) for row in sheet.iter_rows()))
         finally:
             book.close()
     return _columns(rows)
 
 
-def _typed(cell: Any) -> Any:
+def _shown(cell: Any) -> Any:
     """What a cell shows: a percentage is kept as its hundredth, and a unit may stand in the number format alone."""
     value, form = cell.value, (cell.number_format or "").partition(";")[0]
     if not isinstance(value, int | float) or isinstance(value, bool):

@@ -10,12 +10,11 @@ import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
-from diecut_report.design.inputs import given_numbers, untied, varied_input
+from diecut_report.design.inputs import free_input, given_numbers, untied
 from diecut_report.design.machines import varied
 from diecut_report.errors import UserError
 from diecut_report.press import Press
-from diecut_report.study.definition.base_inputs import UnknownPath
-from diecut_report.study.definition.base_inputs import varied_input as of_study
+from diecut_report.study.definition.base_inputs import UnknownPath, varied_input
 from tests.config.parts.test_parts import FILE
 
 MADE_WITH = "is what parts of the machine are made with"
@@ -35,10 +34,10 @@ def press() -> Press:
 @pytest.mark.parametrize(("name", "why"), TIED, ids=[name for name, _ in TIED])
 def test_what_follows_from_the_parts_or_they_from_it_is_not_varied(name: str, why: str) -> None:
     with pytest.raises(UnknownPath, match=why):
-        of_study(press().config, f"mechanisms.{name}")
+        varied_input(press().config, f"mechanisms.{name}")
     if name not in ("timing.lines.0.turns_per_sheet", "drive.pinion_radius"):  # a text, and one that refers
         with pytest.raises(UserError, match=why):
-            varied_input(press().config, name)
+            free_input(press().config, name)
 
 
 def test_a_place_in_a_list_is_the_same_with_a_leading_zero() -> None:
@@ -48,7 +47,7 @@ def test_a_place_in_a_list_is_the_same_with_a_leading_zero() -> None:
     )
     config = Press.read(parse(text, "a.yaml"), Discovery([])).config
     with pytest.raises(UnknownPath, match=MADE_WITH):
-        of_study(config, "mechanisms.timing.lines.1.path_efficiency")
+        varied_input(config, "mechanisms.timing.lines.1.path_efficiency")
 
 
 def test_a_number_that_parts_are_made_with_makes_them_anew_where_it_is_typed() -> None:
