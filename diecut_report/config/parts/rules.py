@@ -40,6 +40,7 @@ from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_series, standard_table
 from diecut_report.standards.ranges import range_of
 from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import joined as joined_phrases
 
 LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
 KEY_TO_FILLET = 0.1  # of the shaft's diameter
@@ -232,23 +233,34 @@ def shoulder(parts: MachineParts) -> Iterator[Finding]:
 
 def stop(parts: MachineParts) -> Iterator[Finding]:
     """What is put on a shaft is held in both directions: by a shoulder, the part beside it, or a ring, sleeve, nut or press fit."""
-    for shaft, part in hubs(parts):
-        keys, ends = part.keys, part.ends
-        if part.section is None or keys.integral or keys.bolted or keys.interference or keys.rides_on:
-            continue
-        if keys.stop == "shoulder" and not part.shoulders:
-            template = "is stopped by a shoulder, but touches no thicker section; move it to one, or give another stop"
-            yield finding(parts, "stop", "warning", (*part.path, "stop"), template, (*shaft.path, "sections"))
-        elif keys.stop in (None, "shoulder") and parts.keys.stop is None:
-            others = [each.ends for each in shaft.parts if each is not part and each.kind != "load"]
-            held = {
-                "left": any(abs(end - ends[0]) <= SAME_PLACE for _, end in others),
-                "right": any(abs(start - ends[1]) <= SAME_PLACE for start, _ in others),
-            }
-            free = [side for side, beside in held.items() if not beside and side not in part.shoulders]
-            if sides := SIDES.get(tuple(free)):
-                template = "is held along the shaft by nothing {sides}; move it to a shoulder, or give stop, here or to all parts under machine"
-                yield finding(parts, "stop", "warning", part.path, template, sides=sides)
+    for shaft in parts.shafts.values():
+        loose = []
+        for part in (part for _, part in hubs(parts) if part.shaft is shaft and part.section is not None):
+            keys = part.keys
+            if keys.integral or keys.bolted or keys.interference or keys.rides_on:
+                continue
+            if keys.stop == "shoulder" and not part.shoulders:
+                template = (
+                    "is stopped by a shoulder, but touches no thicker section; move it to one, or give another stop"
+                )
+                yield finding(parts, "stop", "warning", (*part.path, "stop"), template, (*shaft.path, "sections"))
+            elif (
+                keys.stop in (None, "shoulder") and parts.keys.stop is None and (sides := SIDES.get(_free_sides(part)))
+            ):
+                loose.append(Phrase("{part} {sides}", part=part.name, sides=sides))
+        if loose:
+            template = "nothing holds along the shaft: {loose}; move them to a shoulder, or give stop, there or to all parts under machine"
+            yield finding(parts, "stop", "warning", shaft.path, template, loose=joined_phrases(loose, ", "))
+
+
+def _free_sides(part: ShaftPart) -> tuple[str, ...]:
+    """On which sides a part touches neither a shoulder nor another part."""
+    ends = [each.ends for each in part.shaft.parts if each is not part and each.kind != "load"]
+    beside = {
+        "left": any(abs(end - part.ends[0]) <= SAME_PLACE for _, end in ends),
+        "right": any(abs(start - part.ends[1]) <= SAME_PLACE for start, _ in ends),
+    }
+    return tuple(side for side, is_held in beside.items() if not is_held and side not in part.shoulders)
 
 
 # Keys and what carries a torque.
