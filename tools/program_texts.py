@@ -22,7 +22,7 @@ from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.steps import Accumulated, Derivative, pick, reduction, root, rows, table_steps
 from diecut_report.quantities.units import _table
 from diecut_report.report.text import COUNTED, ENGLISH, one
-from diecut_report.results import checks, document, mechanism, origins
+from diecut_report.results import checks, document, machine_advice, mechanism
 from diecut_report.standards import standard_ids, standard_series, standard_series_by
 from diecut_report.standards.ranges import range_table
 from diecut_report.standards.tables import StandardSeries
@@ -32,7 +32,7 @@ ROOT = Path(__file__).parents[1]
 CONSTANTS = (root.METHOD, reduction.SEARCHED, reduction.INTEGRATED, Accumulated.METHOD, Derivative.METHOD,
              page.EQUAL_TERMS, page.TO_ROUNDING, "True", "False", *pick.SERIES_WORDS.values(),
              table_steps.AS_GIVEN, rows.AMONG, mechanism.IDLE,
-             origins.FOLLOWS, *checks.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
+             machine_advice.FOLLOWS, machine_advice.FOUNDED, *checks.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
              "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",
              "Shown at {place}, in the middle of its smooth piece, over which it is constant.",
              "There is no {kinds}, or there are several: select one with {key}.")  # fmt: skip

@@ -418,6 +418,29 @@ def with_root(tree: Tree, root: YamlNode) -> Tree:
     return Tree(root, tree.file, tree.text, tree.sha256, tree.name, tree.problems)
 
 
+def with_value(tree: Tree, path: KeyPath, value: Any) -> Tree:
+    """Return the file with plain data at a path, or put into its block there; the places stay those of the file."""
+
+    def changed(node: YamlNode, rest: KeyPath) -> YamlNode:
+        if not rest:
+            return _node_of(value, node.position)
+        children = node.children or {}
+        child = children.get(rest[0], YamlNode(node.position))
+        return replace(node, children=children | {rest[0]: changed(child, rest[1:])})
+
+    return with_root(tree, changed(tree.root, path))
+
+
+def _node_of(value: Any, position: Position) -> YamlNode:
+    if not isinstance(value, dict | list):
+        return YamlNode(position, value, str(value))
+    parts = value.items() if isinstance(value, dict) else enumerate(value)
+    children: dict[str | int, YamlNode] = {key: _node_of(part, position) for key, part in parts}
+    return YamlNode(
+        position, children=children, is_list=isinstance(value, list), key_positions=dict.fromkeys(children, position)
+    )
+
+
 def as_text(root: YamlNode) -> str:
     """Return the tree as YAML; comments, anchors and the layout of the file that it was read from are not kept."""
     ends = yaml.DocumentEndEvent(), yaml.StreamEndEvent()

@@ -282,6 +282,9 @@ class Calculation:
         # keys of inputs that checks ask a basis of, and that have none
         self.unfounded: frozenset[tuple[str | int, ...]] = frozenset()
         self.further_checks: tuple[Check, ...] = ()  # beside those of its mechanism
+        self.advised: dict[
+            str, Any
+        ] = {}  # for each failing check what was found and advised, before the whole machine is asked
         self.chosen_units = NONE_CHOSEN  # what a report chose to show quantities in
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 

@@ -61,9 +61,26 @@ def advice_text(ways: Sequence[Way]) -> Phrase:
     return Phrase("{ways:capital}.", {"ways:capital": joined([way.text for way in ways], ", or ")})
 
 
+@dataclass(frozen=True)
+class AdvisedCheck:
+    """Hold what was found of a failing check, and the ways in which it is made to hold."""
+
+    finding: Phrase
+    ways: Sequence[Way]
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Return the fields of its record that say so."""
+        advice = [list(way.changes) for way in self.ways]
+        return {
+            "advice": advice,
+            "message": joined([self.finding, advice_text(self.ways)], " ") if advice else self.finding,
+        }
+
+
 def _told(change: KeyChangeRecord) -> Phrase:
     values = [
-        _printed(each, change.unit) for each in (change.value if isinstance(change.value, list) else [change.value])
+        printed(each, change.unit) for each in (change.value if isinstance(change.value, list) else [change.value])
     ]
     match change.relation:
         case "at_least":
@@ -77,7 +94,8 @@ def _told(change: KeyChangeRecord) -> Phrase:
     return Phrase("set {key} to {value}", key=change.key, value=values[0])
 
 
-def _printed(value: Value, unit: str) -> str:
+def printed(value: Value, unit: str) -> str:
+    """Return an advised value as it is told, and typed."""
     if isinstance(value, bool):
         return str(value).lower()
     return value if isinstance(value, str) else with_unit(number_text(value, 6), unit)

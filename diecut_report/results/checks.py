@@ -20,7 +20,7 @@ from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.names import Misdeclared, listed
 from diecut_report.quantities.formatting import place_shown, shown, with_unit
 from diecut_report.quantities.units import unit
-from diecut_report.results.advice import Advisor, Way, advice_text
+from diecut_report.results.advice import AdvisedCheck, Advisor, Way
 from diecut_report.results.mechanism_record import CheckRecord, ShownRecord
 from diecut_report.text.phrases import Phrase, joined, named, phrase
 
@@ -318,12 +318,12 @@ def _check(calc: Calculation, check: Check, found: JudgedCheck, advisor: Advisor
         consequence = filled(calc, check.consequence, places=places)
         message = Phrase("{bounds:capital}: {consequence}", {"bounds:capital": sentence, "consequence": consequence})
         ways = advisor.ways(check) if advisor else []
+        calc.advised[check.id] = AdvisedCheck(message, ways)
     return CheckRecord(
         **_head(check),
         **told,
-        advice=[list(way.changes) for way in ways],
+        **AdvisedCheck(message, ways).fields,
         **_further(calc, check, display, found, pair, part),
-        message=joined([message, advice_text(ways)], " ") if ways else message,
         sized_to_limit=is_sized(calc.given, check),
         presumed=check.presumed,
     )

@@ -7,6 +7,7 @@ places; among many machines it is the reason why a variant cannot exist.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -124,6 +125,13 @@ class Machine:
             if instance is not None and name in calculations
         }
         self.kinds = {name: each.mechanism.kind for name, each in instances.items() if each and each.mechanism}
+
+    def with_part(self, part: LinkedPart) -> Machine:
+        """Return the machine with a mechanism that was calculated anew."""
+        made = copy(self)
+        made.parts = {**self.parts, part.instance.name: part}
+        vars(made).pop("gears", None)
+        return made
 
     def of(self, kind: str) -> Iterator[LinkedPart]:
         """Yield the mechanisms of a kind."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import platform
-from collections.abc import Iterable, Sequence, Sized
+from collections.abc import Iterable, Mapping, Sequence, Sized
 from functools import reduce
 from operator import getitem
 from typing import Any
@@ -30,6 +30,7 @@ from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.conclusion import counts, governing, shown_alike
 from diecut_report.results.drive_line import drive_line
+from diecut_report.results.machine_advice import advised
 from diecut_report.results.mechanism import worst
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
@@ -44,7 +45,7 @@ from diecut_report.results.model import (
     ResultsRecord,
 )
 from diecut_report.results.open_items import run_summary
-from diecut_report.results.origins import Bases, with_origins
+from diecut_report.results.origins import Bases
 from diecut_report.results.press_run import Found, Run
 from diecut_report.results.record import FORM_VERSION, Status
 from diecut_report.text.phrases import Phrase
@@ -61,7 +62,7 @@ def document(run: Run) -> ResultsRecord:
     config, tree = run.config, run.config.tree
     parts = config.parts.calculations if config.parts else {}
     found = {name: _mechanism_data(run, name) for name in config.instances if name != PRESS}
-    mechanisms = with_origins({name: data.with_(part=parts.get(name, "")) for name, data in found.items()})
+    mechanisms = _advised(run, {name: data.with_(part=parts.get(name, "")) for name, data in found.items()})
     comparisons = shown_alike({case.name: _comparison_data(run, case) for case in run.cases}, mechanisms)
     mechanisms = shown_alike(mechanisms, mechanisms)
     checks = {name: data.checks for name, data in mechanisms.items()}
@@ -95,6 +96,15 @@ def document(run: Run) -> ResultsRecord:
         comparisons_left_out=left_out,
         drive_line=drive_line(run, checks),
     )
+
+
+def _advised(run: Run, mechanisms: Mapping[str, MechanismRecord]) -> dict[str, MechanismRecord]:
+    """The mechanisms' results, whose failing checks advise what the machine allows."""
+    checks = advised(run, {name: data.checks for name, data in mechanisms.items()})
+    return {
+        name: data.with_(checks=own, warnings=[check.message for check in own if check.status == "warn"]) if (own := checks[name]) else data
+        for name, data in mechanisms.items()
+    }  # fmt: skip
 
 
 def verdict(statuses: Iterable[str], errors: Sized) -> Status:

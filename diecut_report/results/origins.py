@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -29,55 +28,8 @@ from diecut_report.mechanism.steps import PREFIX, named
 from diecut_report.quantities.formatting import given_shown, shortest
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
-from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, PartRecord, QuantityRecord
-from diecut_report.text.phrases import Phrase, joined, phrase
-
-# What advice names is changed where it begins: a key that follows from another one is not changed in one mechanism alone.
-
-
-InputsOf = Callable[[str], Mapping[str, str]]
-"""What each input of a mechanism refers to, by its name; nothing of what is not one."""
-FOLLOWS = "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
-
-
-def with_origins(mechanisms: Mapping[str, MechanismRecord]) -> dict[str, MechanismRecord]:
-    """Return the mechanisms' results, in which each failing check says where a key that it advises to change begins."""
-
-    def paths(name: str) -> dict[str, str]:
-        return {key: row.path for key, row in mechanisms[name].inputs.items()} if name in mechanisms else {}
-
-    checks = checks_with_origins({name: data.checks for name, data in mechanisms.items()}, cache(paths))
-    found = dict(mechanisms)
-    for name, own in checks.items():
-        if own:
-            warned = [check.message for check in own if check.status == "warn"]
-            found[name] = found[name].with_(checks=own, warnings=warned)
-    return found
-
-
-def checks_with_origins(checks: Mapping[str, list[CheckRecord]], inputs_of: InputsOf) -> dict[str, list[CheckRecord]]:
-    """Return the checks of all mechanisms, of which the failing ones say where a key that they advise to change begins."""
-    return {name: [_check(inputs_of, name, check) for check in own] for name, own in checks.items()}
-
-
-def _check(inputs_of: InputsOf, name: str, check: CheckRecord) -> CheckRecord:
-    if check.status not in ("warn", "fail"):
-        return check
-    keys = {change.key for way in check.advice for change in way}
-    begun = ((key, _beginning(inputs_of, path)) for key, path in inputs_of(name).items() if path and key in keys)
-    words = dict.fromkeys(Phrase(FOLLOWS, key=key, origin=origin) for key, origin in begun)
-    return check.with_(message=joined([check.message, *words], " ")) if words else check
-
-
-def _beginning(inputs_of: InputsOf, path: str) -> str:
-    """Where a reference begins: a field of the press, a result, or the key that is given in words or numbers."""
-    while True:  # references have an order, so none goes round
-        name, _, key = path.partition(".")
-        further = inputs_of(name).get(key)
-        if not further:
-            return path
-        path = further
-
+from diecut_report.results.mechanism_record import PartRecord, QuantityRecord
+from diecut_report.text.phrases import Phrase, phrase
 
 # What a reference takes over of a calculated mechanism.
 

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any, NamedTuple, TypeVar
 
 from diecut_report.config.instances import Instance
@@ -40,6 +40,7 @@ from diecut_report.results.drive_line import drive_line
 from diecut_report.results.drive_line_record import DriveLineRecord
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures, shown_figures
+from diecut_report.results.machine_advice import advised
 from diecut_report.results.mechanism import (
     Quantities,
     curves,
@@ -53,7 +54,6 @@ from diecut_report.results.mechanism import (
 from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, SectionRecord
 from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.open_items import run_summary
-from diecut_report.results.origins import checks_with_origins, origin_of, placed_inputs
 from diecut_report.results.press_run import Run, Tell, require_possible
 from diecut_report.results.usual import Beside
 
@@ -185,16 +185,7 @@ class WarmRun(Run):
         known = {name: self.remembered[name].of(self.press.judge) for name in self.calculations}
         names = [name for name in self.config.instances if name != PRESS]
         own = {name: known.get(name) or self.self_tests.get(name, []) for name in names}
-        return checks_with_origins(own, cache(self._paths))
-
-    def _paths(self, name: str) -> dict[str, str]:
-        """What the inputs of a mechanism refer to."""
-        instance = self.config.instances.get(name)
-        if instance is None or name not in self.calculations:
-            return {}
-        origins = {".".join(map(str, slot.key)): origin_of(self.config, instance, slot) for slot in instance.slots}
-        placed = ((path, origins.get(path)) for path, *_ in placed_inputs(self.calculations[name]))
-        return {path: origin.path if origin else "" for path, origin in placed}
+        return advised(self, own)
 
     @property
     def status(self) -> str:

@@ -26,10 +26,14 @@ class TypedValue:
 
 @dataclass(frozen=True)
 class TypedNumber:
-    """Stand for a number that a text of the file holds, or that follows from numbers there; it has the basis of all parts."""
+    """Stand for a number that a text of the file holds, or that follows from numbers there; it has the basis of all parts.
+
+    ``within`` is where it would be typed if the text were written as a block; nothing where it is not typed as it is.
+    """
 
     text: str
     path: KeyPath
+    within: KeyPath = ()
 
 
 @dataclass(frozen=True, eq=False)

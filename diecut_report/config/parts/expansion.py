@@ -6,7 +6,7 @@ Each value of a calculation stands where the part's own is typed, so that whatev
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -14,10 +14,10 @@ from diecut_report.config.parts.demands import Element, TypedNumber, TypedValue,
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts, MachineShaft
-from diecut_report.config.parts.reading import PartsReader
+from diecut_report.config.parts.reading import PartsReader, section_blocks
 from diecut_report.config.parts.rules import coherence
 from diecut_report.config.validation import ASSUMED
-from diecut_report.config.yaml import KeyPath, Tree, YamlNode, with_root
+from diecut_report.config.yaml import KeyPath, Tree, YamlNode, resolved, with_root, with_value
 from diecut_report.errors import Problem
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.standards.ranges import asks_basis
@@ -61,6 +61,9 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
     parts.calculations.update({each.name: ".".join(map(str, each.path[:2])) for each in made if len(each.path) > 1})
     parts.derived.update((each.name,) for each in made)
     parts.derived.update((name, key) for name, fills in elements.fills.items() for key in fills)
+    parts.sources.update({(each.name,): each.path for each in made})
+    parts.sources.update(pair for each in made for pair in _sources((each.name,), each.inputs))
+    parts.sources.update(pair for name, fills in elements.fills.items() for pair in _sources((name,), fills))
     taken = [each.name for each in made if each.name in given]
     for name in taken:
         parts.fault(("mechanisms", name), "is the name of a calculation that the parts make; choose another one")
@@ -82,6 +85,27 @@ def _homes(made: Sequence[Element]) -> dict[str, list[KeyPath]]:
     for each in made:
         found.setdefault(each.name, []).append(each.path)
     return found
+
+
+def _sources(node: KeyPath, given: Any) -> Iterator[tuple[KeyPath, KeyPath | None]]:
+    """The inputs of a calculation, each with where its value is typed; None where it follows from several."""
+    parts = given.items() if isinstance(given, dict) else enumerate(given) if isinstance(given, list) else ()
+    if not parts:
+        is_typed = isinstance(given, TypedValue) or (isinstance(given, TypedNumber) and given.within)
+        yield node, (*given.path, *getattr(given, "within", ())) if is_typed else None
+    for key, part in parts:
+        yield from _sources((*node, key), part)
+
+
+def refused(parts: MachineParts, changes: Mapping[KeyPath, str], kinds: Mapping[str, Mechanism]) -> bool:
+    """Return whether the parts contradict each other, or cannot be read, with these texts in the places of what is typed."""
+    tree = parts.reader.tree
+    for path, text in changes.items():
+        sections = path[:3]
+        if path[2:3] == ("sections",) and isinstance(typed := tree.typed(sections), str):
+            tree = with_value(tree, sections, section_blocks(typed))
+        tree = with_value(tree, path, resolved(text))
+    return bool(expanded(tree, kinds.get).problems)
 
 
 def _without(tree: Tree) -> Tree:

@@ -51,7 +51,9 @@ class Masses(Demands):
             return {key: TypedValue((*path, key)) for key in self._raw(path)}
         found = {key: getattr(own, key) for key in ("length", "diameter", "bore", "fillet_radius")}
         return {
-            key: TypedNumber(millimetres(value), (*shaft.path, "sections")) for key, value in found.items() if value
+            key: TypedNumber(millimetres(value), (*shaft.path, "sections"), (index, key))
+            for key, value in found.items()
+            if value
         }
 
     def _disc(self, part: ShaftPart) -> dict[str, Any] | None:

@@ -308,6 +308,7 @@ class MachineParts:
     derived: set[KeyPath] = field(
         default_factory=set
     )  # calculations, and keys of mechanisms, that follow from the parts
+    sources: dict[KeyPath, KeyPath | None] = field(default_factory=dict)  # where each, and each key of it, is typed
     calculations: dict[str, str] = field(
         default_factory=dict
     )  # those that are made of parts, with the part: shafts.crank
@@ -352,6 +353,13 @@ class MachineParts:
         """Return the file, line and column of a path, as messages name a second place."""
         line, column = self.reader.tree.position(path)
         return f"{self.reader.tree.file}:{line}:{column}"
+
+    def typed_at(self, node: KeyPath) -> KeyPath | None:
+        """Return where the value of an input that follows from the parts is typed, or may be; None where it is of no single place."""
+        home = self.sources.get(node[:1])
+        path = self.sources[node] if node in self.sources else (*home, *node[1:]) if home else None
+        is_block = path is not None and "value" in (self.reader.tree.node(path).children or {})
+        return (*path, "value") if path is not None and is_block else path
 
     def line(self, path: KeyPath) -> Phrase:
         """Return the path with its line, as results name a place: where the file stands is not of the machine."""

@@ -331,6 +331,12 @@ def _sections(data: dict[str, Any], place: ConfigPlace) -> _Apart:
     return _Apart(listed, frozenset([("sections",)]) if problems else frozenset(), tuple(problems))
 
 
+def section_blocks(text: str) -> list[dict[str, str]]:
+    """Return the sections of a text that can be read as blocks, as they may be typed in its place."""
+    found = (SECTION.fullmatch(each.strip()) for each in text.split(","))
+    return [{key: f"{value} mm" for key, value in each.groupdict().items() if value} for each in found if each]
+
+
 def _unreadable_section(place: ConfigPlace, number: int, text: str, offset: int) -> Problem:
     template = (
         "has as section {number} {text}, which cannot be read; write diameter x length in mm, and r with the fillet at its right end: "

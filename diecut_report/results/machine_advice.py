@@ -1,0 +1,160 @@
+"""What failing checks advise, held against the whole machine: what it would contradict is left out, and each key named where it is typed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.instances import Node
+from diecut_report.config.parts.expansion import refused
+from diecut_report.config.yaml import KeyPath, dotted
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import recalculated
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.results.advice import AdvisedCheck, Way, printed
+from diecut_report.results.checks import checks_of
+from diecut_report.results.coherence import Machine, disagreements
+from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
+from diecut_report.results.press_run import Run
+from diecut_report.results.record import Value
+from diecut_report.text.phrases import Phrase, joined
+
+FOLLOWS = "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
+FOUNDED = "Say what {key} rests on, by its basis; without it the check is not made."
+Typed = dict[Node, tuple[Value, str]]  # values by the inputs that are typed, with their unit
+
+
+def advised(run: Run, checks: Mapping[str, list[CheckRecord]]) -> dict[str, list[CheckRecord]]:
+    """Return the checks of all mechanisms, of which the failing ones advise what the machine allows, where it is typed."""
+    machine = _WholeMachine(run)
+    return {name: [machine.advised(name, check) for check in own] for name, own in checks.items()}
+
+
+@dataclass(frozen=True, eq=False)
+class _WholeMachine:
+    """A calculated machine in which the advice of its checks is tried."""
+
+    run: Run
+
+    def advised(self, name: str, check: CheckRecord) -> CheckRecord:
+        """Return a check with what can be followed of its advice."""
+        if not check.advice or name not in self.run.calculations:
+            return check
+        known: AdvisedCheck = self.run.calculations[name].advised[check.id]
+        ways = [fitting for way in known.ways for fitting in self._fitting(name, way)]
+        made = check.with_(**AdvisedCheck(known.finding, ways).fields) if ways != known.ways else check
+        begun = ((change.key, self._origin((name, *_path(change.key)))) for way in ways for change in way.changes)
+        words = dict.fromkeys(Phrase(FOLLOWS, key=key, origin=origin) for key, origin in begun if origin)
+        founded = next(each.founded for each in checks_of(self.run.calculations[name]) if each.id == check.id)
+        changed = (change.key for way in ways for change in way.changes)
+        words |= dict.fromkeys(Phrase(FOUNDED, key=key) for key in changed if dotted(_path(key)) in founded)
+        return made.with_(message=joined([made.message, *words], " ")) if words else made
+
+    def _fitting(self, name: str, way: Way) -> Iterator[Way]:
+        """Yield a way as far as the machine allows it: of several values of one change those that it does."""
+        if len(way.changes) > 1 or not isinstance(way.changes[0].value, list):
+            values = [each.value[0] if isinstance(each.value, list) else each.value for each in way.changes]
+            if self._allows(name, way.changes, values):
+                yield way
+            return
+        [change] = way.changes
+        values = [each for each in change.value if self._allows(name, [change], [each])]  # type: ignore[union-attr]
+        if len(values) > 1:
+            yield replace(way, changes=[change.with_(value=values)])
+        elif values:
+            yield replace(way, changes=[change.with_(relation="equal", value=values[0])])
+
+    def _allows(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> bool:
+        """Whether the parts of the machine agree with some values of a mechanism's keys; of a key that is calculated nothing is known."""
+        typed: Typed = {}
+        for change, value in zip(changes, values, strict=True):
+            if (begin := self._beginning((name, *_path(change.key)))) is not None:
+                typed[begin] = value, change.unit
+        return not (self._contradicts_parts(typed) or self._disagrees(typed))
+
+    def _contradicts_parts(self, typed: Typed) -> bool:
+        """Whether the machine is made of parts that do not fit each other then, or a value is none that the file has."""
+        parts = self.run.config.parts
+        made = {node: given for node, given in typed.items() if parts and parts.follows(node)}
+        if not parts or not made:
+            return False
+        places = {node: parts.typed_at(node) for node in made}
+        if None in places.values():
+            return True
+        texts = {path: printed(*made[node]) for node, path in places.items() if path is not None}
+        instances = (each for each in self.run.config.instances.values() if each and each.mechanism)
+        kinds = {each.mechanism.kind: each.mechanism for each in instances if each.mechanism}
+        return refused(parts, texts, kinds)
+
+    def _disagrees(self, typed: Typed) -> bool:
+        """Whether mechanisms contradict each other that take these values, each calculated with them alone."""
+        machine, changed = self._machine, dict[str, dict[str, Any]]()
+        for begin, (value, _) in typed.items():
+            for node in (begin, *self._followers.get(begin, ())):
+                if (name := str(node[0])) in machine.parts:
+                    _put(changed.setdefault(name, {}), machine.parts[name].calc, node[1:], value)
+        for name, inputs in changed.items():
+            own = machine.parts[name]
+            calc = recalculated(own.calc, inputs, 1)
+            if calc is None:
+                return True
+            machine = machine.with_part(replace(own, inputs={**own.inputs, **inputs}, calc=calc))
+        return bool(changed) and any(True for _ in disagreements(machine))
+
+    @cached_property
+    def _machine(self) -> Machine:
+        run = self.run
+        return Machine(run.config.instances, run.blocks, run.calculations, run.config.links)
+
+    @cached_property
+    def _followers(self) -> dict[Node, list[Node]]:
+        """The inputs that take a typed value by reference, by where it is typed."""
+        found: dict[Node, list[Node]] = {}
+        for node in self.run.config.links:
+            if (begin := self._beginning(node)) is not None:
+                found.setdefault(begin, []).append(node)
+        return found
+
+    def _beginning(self, node: Node) -> Node | None:
+        """The input whose typed value an input has; None where that is calculated."""
+        while (target := self.run.config.links.get(node)) is not None:
+            if target.expression or target.result is not None or target.formula:
+                return None
+            node = target.node
+        return node
+
+    def _origin(self, node: Node) -> str:
+        """Where the value of an input that is not typed itself begins: a field of the press, a result, a key; nothing of others."""
+        links, parts, origin = self.run.config.links, self.run.config.parts, ""
+        while (target := links.get(node)) is not None and not target.expression:
+            origin, node = target.path, target.node
+            if target.result is not None:
+                return origin
+        place = parts.typed_at(node) if parts and parts.follows(node) else None
+        if not parts or not place:
+            return origin
+        ends = (end for end in range(1, len(place)) if parts.reader.tree.typed(place[:end]) is not None)
+        told = place[: next(ends, len(place))]  # a text may hold the number
+        return ".".join(map(str, told)).removesuffix(".value")
+
+
+def _path(key: str) -> KeyPath:
+    """The path of a key: ``sections.0.diameter``."""
+    return tuple(int(part) if part.isdigit() else part for part in key.split("."))
+
+
+def _put(inputs: dict[str, Any], calc: Calculation, key: KeyPath, value: Value) -> None:
+    """Put a value, as it is told of an input, into the inputs with which a mechanism is calculated."""
+    name = dotted(key)
+    meta = calc.meta.get(name)
+    given: Any = np.array([meta.parsed_unit.to_si(float(value))]) if isinstance(meta, Quantity) else value
+    index = next((part for part in key if isinstance(part, int)), None)
+    if index is not None:
+        row = inputs.get(name, calc.inputs[name])
+        parts = list(row[0] if isinstance(row, np.ndarray) else row)
+        given = (*parts[:index], given, *parts[index + 1 :])
+    inputs[name] = given

@@ -1,0 +1,130 @@
+"""Advice that is printed can be typed where it says, the machine is not refused with it, and the check that gave it holds."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import product
+from pathlib import Path
+
+import pytest
+
+from diecut_report.config.parts.expansion import refused
+from diecut_report.config.parts.reading import section_blocks
+from diecut_report.config.yaml import KeyPath
+from diecut_report.errors import UserError
+from diecut_report.press import Press
+from diecut_report.results.advice import printed
+from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
+from diecut_report.results.warm_press import WarmPress
+from tests.config.parts.test_parts import FILE
+from tests.configs import DISCOVERY, EXAMPLES
+
+PUBLISHED = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press")
+
+
+@cache
+def checks(file: Path) -> dict[str, dict[str, CheckRecord]]:
+    """The checks of an example that do not hold, by their mechanisms."""
+    found = WarmPress().calculate(Press.read(file, DISCOVERY).config).checks
+    return {name: {each.id: each for each in own if each.status in ("warn", "fail")} for name, own in found.items()}
+
+
+def keys(check: CheckRecord) -> list[list[str]]:
+    """The keys that a check advises to change, of each way."""
+    return [[change.key for change in way] for way in check.advice]
+
+
+def typed(press: Press, mechanism: str, way: list[KeyChangeRecord], message: str = "") -> list[dict[KeyPath, str]]:
+    """The texts of a way where they are typed, each of its values by itself; with a basis where the message asks for it."""
+    places, texts = [], []
+    for change in way:
+        key: KeyPath = tuple(int(part) if part.isdigit() else part for part in change.key.split("."))
+        path: KeyPath = ("mechanisms", mechanism, *key)
+        is_block = "value" in (press.config.tree.node(path).children or {})
+        places.append((*path, "value") if is_block else path)
+        given = [
+            printed(each, change.unit) for each in (change.value if isinstance(change.value, list) else [change.value])
+        ]
+        asks_basis = f"Say what {change.key} rests on" in message
+        texts.append([f"{{value: {text}, basis: drawing}}" for text in given] if asks_basis else given)
+    return [dict(zip(places, each, strict=True)) for each in product(*texts)]
+
+
+def test_what_another_mechanism_refuses_is_not_advised() -> None:
+    """A longer key leaves its section; a lower segment leaves the carriages no room below the cylinder's flat."""
+    found = checks(PUBLISHED)
+    assert keys(found["crank_key"]["pressure_hub"]) == [["key_count"]]
+    assert keys(found["crank_key"]["pressure_key"]) == []
+    assert "key_length" not in found["crank_key"]["pressure_hub"].message + found["crank_key"]["pressure_key"].message
+    assert "Say what single_position rests on" in found["consistency"]["clutch_position"].message
+    assert keys(found["cylinder"]["closed_section"]) == [["bore_radius"]]
+    assert "segment_height" not in found["cylinder"]["closed_section"].message
+    press = Press.read(PUBLISHED, DISCOVERY)
+    for mechanism, key, text in (("crank_key", "key_length", "63 mm"), ("cylinder", "segment_height", "29.99 mm")):
+        [values] = typed(press, mechanism, [KeyChangeRecord(key=key, relation="equal", value=text, unit="1")])
+        with pytest.raises(UserError):
+            press.with_values(values).calculate()
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("file", EXAMPLES, ids=lambda file: file.stem)
+def test_all_advice_of_the_examples_holds_on_the_machine(file: Path) -> None:
+    """Each value by itself, where its key is typed."""
+    press, warm, tried = Press.read(file, DISCOVERY), WarmPress(is_advised=False), 0
+    for mechanism, own in checks(file).items():
+        for check in own.values():
+            for values in (each for way in check.advice for each in typed(press, mechanism, way, check.message)):
+                if "follows from" in check.message:
+                    continue  # it is typed elsewhere
+                after = warm.calculate(press.with_values(values).config).checks[mechanism]
+                assert next(each.status for each in after if each.id == check.id) == "pass", (check.message, values)
+                tried += 1
+    assert tried or file != PUBLISHED
+
+
+@pytest.mark.nightly
+def test_advice_on_parts_is_followed_where_it_says() -> None:
+    """The published drive line: no module for which the frame has no room, no key longer than its hub, no seat thicker than its bearing's bore."""
+    found, press = checks(FILE), Press.read(FILE, DISCOVERY)
+    fatigue = found["shafts_crank"]["fatigue"]
+    [[change]] = fatigue.advice
+    assert change.key == "sections.3.diameter"
+    assert "sections.3.diameter follows from shafts.crank.sections; change it there" in fatigue.message
+    assert not any(
+        "module" in keys
+        for own in found.values()
+        for check in own.values()
+        for way in check.advice
+        for keys in [way[0].key]
+    )
+    assert keys(found["shafts_main"]["fatigue"]) == []
+    assert isinstance(change.value, list)
+    place, text = ("shafts", "crank", "sections"), press.config.parts.reader.tree.typed(("shafts", "crank", "sections"))  # type: ignore[union-attr]
+    for value in change.value:
+        after = press.with_values({place: str(text).replace("50x60", f"{value:g}x60")})
+        held = WarmPress(is_advised=False).calculate(after.config).checks["shafts_crank"]
+        assert next(each.status for each in held if each.id == "fatigue") == "pass"
+
+
+def test_parts_refuse_what_they_would_refuse_in_the_file() -> None:
+    press = Press.read(FILE, DISCOVERY)
+    parts = press.config.parts
+    instances = [each for each in press.config.instances.values() if each is not None]
+    kinds = {each.mechanism.kind: each.mechanism for each in instances if each.mechanism is not None}
+    assert parts is not None
+    assert parts.typed_at(("shafts_crank", "sections", 3, "diameter")) == ("shafts", "crank", "sections", 3, "diameter")
+    assert parts.typed_at(("drive_line", "meshes", 0, "module")) == ("meshes", "main_drive", "module")
+    assert parts.typed_at(("chains_cylinder", "pretension")) == ("chains", "cylinder", "pretension")
+    assert parts.typed_at(("shafts_main", "downwards")) is None
+    diameter = ("shafts", "crank", "sections", 3, "diameter")
+    assert not refused(parts, {diameter: "64 mm"}, kinds)
+    assert refused(parts, {("shafts", "crank", "sections", 2, "diameter"): "61 mm"}, kinds)  # the bore of its bearing
+    assert refused(parts, {("meshes", "main_drive", "module"): "8 mm"}, kinds)  # the frame
+    assert refused(parts, {diameter: "thick"}, kinds)
+
+
+def test_the_sections_of_a_text_are_those_of_blocks() -> None:
+    assert section_blocks("45x50 r1.5, 60/30x170") == [
+        {"diameter": "45 mm", "length": "50 mm", "fillet_radius": "1.5 mm"},
+        {"diameter": "60 mm", "bore": "30 mm", "length": "170 mm"},
+    ]
