@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 from diecut_report.config.parts.model import MachineParts, ShaftPart
 from diecut_report.results.conclusion import governing
@@ -38,16 +39,21 @@ def carrying_parts(parts: MachineParts, train: str | None) -> Iterator[CarryingP
         for part in shaft.parts:
             yield from _of_part(part)
     for join in parts.joins:
+        path, accepted = dotted(join.path), _accepted(join.keys)
         if join.word == "belts":
-            yield CarryingPart(
-                join.name, dotted(join.path), train or "", is_own=lambda check: check.id.startswith("vbelt")
-            )
+            is_own: Callable[[CheckRecord], bool] = lambda check: check.id.startswith("vbelt")  # noqa: E731
+            yield CarryingPart(join.name, path, train or "", accepted, is_own)
         else:
-            yield CarryingPart(join.name, dotted(join.path), join.calculation)
+            yield CarryingPart(join.name, path, join.calculation, accepted)
+
+
+def _accepted(keys: Any) -> str:
+    """Who accepts a part without a rating; nothing where nobody does."""
+    return keys.accepted.by if keys.accepted else ""
 
 
 def _of_part(part: ShaftPart) -> Iterator[CarryingPart]:
-    path, accepted = dotted(part.path), part.keys.accepted.by if part.keys.accepted else ""
+    path, accepted = dotted(part.path), _accepted(part.keys)
     if part.kind == "bearing":
         yield CarryingPart(part.called, path, part.shaft.bearing_calculation, accepted, partial(_is_of, part.name))
     if part.keys.key:

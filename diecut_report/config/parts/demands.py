@@ -117,6 +117,7 @@ class Demands:
     made: list[Element] = field(default_factory=list)
     fills: dict[str, dict[str, Any]] = field(default_factory=dict)
     twice: list[tuple[KeyPath, KeyPath]] = field(default_factory=list)  # typed keys that follow, each with from where
+    _torques: dict[ShaftPart, dict[str, Any] | None] = field(default_factory=dict)
 
     def _beside(
         self,
@@ -275,6 +276,12 @@ class Demands:
 
     def torque_on(self, part: ShaftPart) -> dict[str, Any] | None:
         """Return what a part takes from its shaft, against its turning; None where nothing is known of it."""
+        if part not in self._torques:  # it is asked for again and again, from every part before it
+            self._torques[part] = None  # of shafts that drive each other, which is told where joins are judged
+            self._torques[part] = self._torque_on(part)
+        return self._torques[part]
+
+    def _torque_on(self, part: ShaftPart) -> dict[str, Any] | None:
         port = self.port(part)
         if port is not None and port.torque and not port.angle:
             return self._source(part.name, str(part.port and part.port[0]), port.torque, -1)
@@ -302,6 +309,27 @@ class Demands:
         ):
             return None
         return self._source(part.name, moving.mechanism, moving.port.torque, -1)
+
+    def lacks_torque(self, shaft: MachineShaft) -> bool:
+        """Return whether the torque on one of a shaft's parts is not known, so that nothing that the shaft carries is."""
+        return any(self._is_unknown(part) for part in shaft.parts)
+
+    def _is_unknown(self, part: ShaftPart) -> bool:
+        if self.torque_on(part):
+            return False
+        joins = list(self.parts.joins_of(part))
+        follows_motor = self.flywheel(part.shaft) is not None and any(part in each.driven for each in joins)
+        is_asked = follows_motor and bool(self.torques_of(part.shaft))
+        return is_asked or any(part in each.drivers and not self._is_idle(each) for each in joins)
+
+    def _is_idle(self, join: Join) -> bool:
+        """Whether a join drives a shaft that takes nothing."""
+        if not join.driven or getattr(join.keys, "moves", None):
+            return False
+        shaft = join.driven[0].shaft
+        return (
+            not self.torques_of(shaft) and not self.lacks_torque(shaft) and not any(each.port for each in shaft.parts)
+        )
 
     def flywheel(self, shaft: MachineShaft) -> ShaftPart | None:
         """Return the flywheel on a shaft that a motor drives by a belt; None where there is none, or nothing is known of the motor."""
@@ -399,10 +427,14 @@ class Demands:
         found = self._source("", mechanism, wheel[1].torque, -1)
         return found | {"ratio": Ratio(-1 / share, factors), "inertia": self._conveyor_inertia(join)}
 
-    def _conveyor_inertia(self, chain: Join) -> str:
-        """The inertia of a conveyor and the far shaft at its sprockets' shaft."""
-        far = "".join(f" + ${{{each}.inertia}}" for each in dict.fromkeys(part.shaft.body for part in chain.driven))
-        return f"${{drive_line.{chain.name}_chain_mass}} * (${{drive_line.{chain.name}_chain_travel}} / 1 rad)**2{far}"
+    def _conveyor_inertia(self, *chains: Join) -> str:
+        """The inertia of a conveyor and the far shafts at its sprockets' shaft."""
+        masses = (
+            f"${{drive_line.{each.name}_chain_mass}} * (${{drive_line.{each.name}_chain_travel}} / 1 rad)**2"
+            for each in chains
+        )
+        bodies = dict.fromkeys(part.shaft.body for each in chains for part in each.driven)
+        return " + ".join([*masses, *(f"${{{each}.inertia}}" for each in bodies)])
 
     def _raw(self, path: KeyPath) -> Mapping[str, Any]:
         data: Any = self.parts.reader.data

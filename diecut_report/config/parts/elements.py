@@ -60,50 +60,56 @@ class Elements(ShaftElements):
                     self.fills.setdefault(part.name, {}).update({"speed": self.speed(shaft.name)})
 
     def _provided(self, part: ShaftPart, what: str) -> Any:
-        """What the parts give a mechanism at one of its ports."""
-        mesh = next(
-            (
-                join
-                for each in part.shaft.parts
-                for join in self.parts.joins_of(each)
-                if join.word == "meshes" and each in join.drivers
-            ),
-            None,
-        )
-        last = mesh.driven[0].shaft if mesh else part.shaft
-        chain = next(
-            (
-                join
-                for each in last.parts
-                for join in self.parts.joins_of(each)
-                if join.word == "chains" and each in join.drivers
-            ),
-            None,
-        )
-        if what in ("own_inertia", "driven_inertia"):
-            own, driven = part.shaft.body, last.body
-            is_known = mesh is not None and self.is_made(own) and self.is_made(driven)
-            return f"${{{own if what == 'own_inertia' else driven}.inertia}}" if is_known else None
+        """What the parts give a mechanism at one of its ports; nothing where several meshes there are not alike."""
+        meshes = self._driven_from(part.shaft, "meshes")
+        if len({mesh.ratio for mesh in meshes}) > 1:
+            return None
+        mesh = next(iter(meshes), None)
+        chains = [
+            chain
+            for shaft in ([each.driven[0].shaft for each in meshes] or [part.shaft])
+            for chain in self._driven_from(shaft, "chains")
+        ]
+        if what == "own_inertia":
+            return self._inertias(part.shaft) if mesh else None
+        if what == "driven_inertia":
+            return (
+                self._inertias(*(each.driven[0].shaft for each in meshes))
+                if mesh and self.is_made(part.shaft.body)
+                else None
+            )
         if what == "efficiency":
             return self.efficiency([mesh]) if mesh else None
         if what == "ratio":
             return mesh.ratio_text.strip("()") if mesh else None
         if what == "pinion_radius" and mesh:
             return self._pitch_radius(mesh, mesh.driven[0])
-        if chain is None:
+        if not chains:
             return None
         if what == "teeth":
-            return TypedNumber(str(chain.keys.teeth_1), (*chain.path, "teeth"))
+            return TypedNumber(str(chains[0].keys.teeth_1), (*chains[0].path, "teeth"))
         if what == "pitch":
-            return TypedNumber(millimetres(chain_pitch(chain.keys)), (*chain.path, "chain"))
-        return self._moved_inertia(part.shaft, mesh, chain) if what == "inertia" else None
+            return TypedNumber(millimetres(chain_pitch(chains[0].keys)), (*chains[0].path, "chain"))
+        return self._moved_inertia(part.shaft, meshes, chains) if what == "inertia" else None
 
-    def _moved_inertia(self, shaft: MachineShaft, mesh: Join | None, chain: Join) -> str:
+    def _driven_from(self, shaft: MachineShaft, word: str) -> list[Join]:
+        """The meshes, or chains, by which a shaft drives."""
+        return [join for join in self.parts.joins if join.word == word and join.drivers[0].shaft is shaft]
+
+    def _inertias(self, *shafts: MachineShaft) -> str | None:
+        """The inertia of shafts together; None where that of one is not known."""
+        bodies = dict.fromkeys(shaft.body for shaft in shafts)
+        return " + ".join(f"${{{each}.inertia}}" for each in bodies) if all(map(self.is_made, bodies)) else None
+
+    def _moved_inertia(self, shaft: MachineShaft, meshes: list[Join], chains: list[Join]) -> str:
         """The inertia of the conveyor with its shafts, referred to the shaft of the wheel that moves it."""
-        own, conveyor = f"${{{shaft.body}.inertia}}", self._conveyor_inertia(chain)
-        if mesh is None:
+        own, conveyor = f"${{{shaft.body}.inertia}}", self._conveyor_inertia(*chains)
+        if not meshes:
             return f"{conveyor} + {own}"
-        return f"({conveyor} + ${{{mesh.driven[0].shaft.body}.inertia}}) * {mesh.ratio_text}**2 + {own}"
+        driven = " + ".join(
+            f"${{{each}.inertia}}" for each in dict.fromkeys(mesh.driven[0].shaft.body for mesh in meshes)
+        )
+        return f"({conveyor} + {driven}) * {meshes[0].ratio_text}**2 + {own}"
 
     def _drive_line(self) -> None:
         bodies = {each.name for each in self.made if each.kind == "shaft_body"}

@@ -8,6 +8,8 @@ from typing import Any, Literal
 
 from diecut_report.config.parts.model import MachineParts, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
+from diecut_report.quantities.units import unit
+from diecut_report.standards import standard_table
 from diecut_report.text.phrases import Phrase
 
 Level = Literal["error", "fail", "warning"]
@@ -47,3 +49,11 @@ def finding(
 def hubs(parts: MachineParts) -> Iterator[tuple[MachineShaft, ShaftPart]]:
     for shaft in parts.shafts.values():
         yield from ((shaft, part) for part in shaft.parts if shaft.sections and part.kind != "load")
+
+
+def table_row(table: str, value: float) -> dict[str, float]:
+    """Return the first row of a table of sizes whose first column is not below a value, m, else the last; SI by column."""
+    columns = standard_table(table).columns
+    rows = [[value * unit(column.unit).factor for value in column.values] for column in columns]
+    index = next((i for i, first in enumerate(rows[0]) if value <= first * (1 + 1e-9)), -1)
+    return {column.name: row[index] for column, row in zip(columns, rows, strict=True)}

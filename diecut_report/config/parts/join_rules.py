@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import pi
 
 from diecut_report.config.parts.elements import Elements
-from diecut_report.config.parts.findings import Finding, finding, mm
+from diecut_report.config.parts.findings import Finding, Level, finding, mm, table_row
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
 from diecut_report.config.parts.model import (
     SAME_PLACE,
@@ -18,6 +18,7 @@ from diecut_report.config.parts.model import (
 RATIO = 1e-3  # relative, by which ratios may differ
 BELT_CENTER = 0.02  # relative, by which tensioning moves an axis
 WIDTH_TO_DIAMETER = 1.2  # of the pinion
+WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
 
 
 def axes(parts: MachineParts) -> Iterator[Finding]:
@@ -27,6 +28,28 @@ def axes(parts: MachineParts) -> Iterator[Finding]:
             if shaft not in parts.axes:
                 template = "joins {shaft}, which has no axis in machine.frame, so that its forces have no direction; give {shaft}: [x, y] there"
                 yield finding(parts, "frame", "error", join.path, template, ("machine",), shaft=shaft)
+
+
+def driven(parts: MachineParts) -> Iterator[Finding]:
+    """A shaft is driven by one other, or by a mechanism: joins name the driving part first, from the motor on and from each mechanism on."""
+    for shaft in parts.shafts.values():
+        joins = [each for each in parts.joins if any(part.shaft is shaft for part in each.driven)]
+        others = {each.drivers[0].shaft.name: each for each in joins}
+        port = parts.motion_port(shaft)
+        if port is not None and port.shaft is shaft and joins:
+            template = "drives {shaft}, which {mechanism} moves; name the part of {shaft} first, as the driving one"
+            yield finding(
+                parts, "driven", "error", joins[0].path, template, port.path, shaft=shaft.name, mechanism=port.keys.of
+            )
+        elif port is not None and port.shaft is not shaft and not joins:
+            template = "is driven by no other shaft, though {mechanism} moves it by way of {other}; name the driving part of each join first"
+            yield finding(
+                parts, "driven", "error", shaft.path, template, port.path, mechanism=port.keys.of, other=port.shaft.name
+            )
+        elif len(others) > 1:
+            one, other = list(others.values())[:2]
+            template = "drives {shaft}, which {other} drives too; name the driving part of each join first"
+            yield finding(parts, "driven", "error", other.path, template, one.path, shaft=shaft.name, other=one.name)
 
 
 def one_belt(parts: MachineParts) -> Iterator[Finding]:
@@ -130,6 +153,27 @@ def mesh_pair(parts: MachineParts) -> Iterator[Finding]:
                 )
 
 
+def wall(parts: MachineParts) -> Iterator[Finding]:
+    """Below the teeth of a keyed gear or sprocket enough is left above the keyway, and around its seat."""
+    for join in parts.joins:
+        for part in (*join.drivers, *join.driven):
+            if not part.keys.key or part.section is None or (root := join.root(part)) is None:
+                continue
+            if isinstance(join.keys, MeshKeys):
+                module = join.keys.module
+                left = root / 2 - part.seat / 2 - table_row("parallel_keys", part.seat)["t2"]
+                if left < WALL_WARNED * module * (1 - 1e-9):
+                    level: Level = "error" if left < WALL_LEAST * module else "warning"
+                    template = "leaves {left} between teeth and keyway, {modules} modules; {wanted} are wanted: take a larger gear or a thinner seat"
+                    yield finding(parts, "wall", level, part.path, template, (*join.path, "module"), left=mm(left), modules=f"{left / module:.3g}",
+                        wanted=WALL_WARNED)  # fmt: skip
+            if root < HUB_OUTSIDE * part.seat * (1 - 1e-9):
+                is_gone = root < part.seat + 2 * table_row("parallel_keys", part.seat)["t2"]
+                template = "is {root} thick below its teeth, less than {share} times its seat of {seat}; take more teeth, or a thinner seat"
+                yield finding(parts, "wall", "error" if is_gone else "warning", part.path, template, join.path, root=mm(root), share=HUB_OUTSIDE,
+                    seat=mm(part.seat))  # fmt: skip
+
+
 def sector(parts: MachineParts) -> Iterator[Finding]:
     """A sector has no more than two thirds of the teeth of its circle."""
     for join in (each for each in parts.joins if isinstance(each.keys, MeshKeys) and each.keys.teeth_present):
@@ -148,11 +192,14 @@ def sector(parts: MachineParts) -> Iterator[Finding]:
 
 
 def chain(parts: MachineParts) -> Iterator[Finding]:
-    """A chain has an even number of links."""
+    """A chain has an even number of links, and says what it moves."""
     for join in (each for each in parts.joins if isinstance(each.keys, ChainKeys)):
         if join.keys.links % 2:
             template = "is {links}, which needs a cranked link; take an even number"
             yield finding(parts, "chain", "warning", (*join.path, "links"), template, links=join.keys.links)
+        if "moving_mass" in join.more and not join.keys.moves:
+            template = "is moved by chains that say what they move; give moves"
+            yield finding(parts, "chain", "error", (*join.path, "moving_mass"), template)
 
 
 def ratios(parts: MachineParts, elements: Elements) -> Iterator[Finding]:

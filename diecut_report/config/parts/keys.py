@@ -172,6 +172,7 @@ class MeshKeys(Block):
     helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle, positive where the driving gear is right-handed", ge=-30, le=30)] = 0
     efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the mesh", ge=0.85, le=1)] = 0.97
     teeth_present: Annotated[int | None, Quantity("z_p", "1", "Teeth of a sector", ge=1, integer=True)] = None
+    accepted: Accepted | None = None
 
 
 class ChainKeys(Block):
@@ -184,6 +185,7 @@ class ChainKeys(Block):
     chain: Annotated[Literal["08B", "10B", "12B", "16B", "20B", "24B"], Text("Chain of ISO 606, series B")]
     links: Annotated[int, Quantity("X", "1", "Number of links", ge=8, le=100_000, integer=True)]
     moves: Annotated[str | None, Text("What the chains move: MECHANISM.cylinder or MECHANISM.conveyor")] = None
+    accepted: Accepted | None = None
 
 
 class BeltKeys(Block):
@@ -198,3 +200,4 @@ class BeltKeys(Block):
     length: Annotated[float, size("L", "Datum length of the belt (ISO 4184)", gt=0)]
     count: Annotated[int | None, Quantity("z", "1", "Number of belts", ge=1, le=32, integer=True)] = None
     tension: Annotated[float | None, Quantity("F_T", "N", "Static tension of one belt", gt=0)] = None
+    accepted: Accepted | None = None

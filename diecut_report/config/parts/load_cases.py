@@ -72,13 +72,17 @@ class LoadCases(Demands):
 
     def _from_clutch(self, shaft: MachineShaft, torque: str) -> Iterator[Passing | Meshing]:
         driving = self.parts.driving_join(shaft)
-        if driving is not None:
+        flywheel = next((part for part in shaft.parts if part.kind == "flywheel"), None)
+        if driving is not None and flywheel is None:
             yield from self._towards_flywheel(driving, torque)
-            yield from self._onward(driving.driven[0], torque)
+        if enters := flywheel or (driving.driven[0] if driving else None):
+            yield from self._onward(enters, torque)
 
     def _onward(self, enters: ShaftPart, torque: str) -> Iterator[Passing | Meshing]:
         """The torque on a shaft from the part that drives it, and on the steadily turning shafts that it drives."""
-        for part in (each for each in enters.shaft.parts if each is not enters and self.torque_on(each)):
+        driving = self.parts.driving_join(enters.shaft)
+        driven = (enters, *(driving.driven if driving else ()))
+        for part in (each for each in enters.shaft.parts if each not in driven and self.torque_on(each)):
             yield Passing("engage", torque, enters, part)
             for join in (each for each in self.parts.joins_of(part) if part in each.drivers):
                 if join.driven and join.driven[0].shaft.name in self.parts.ratios:

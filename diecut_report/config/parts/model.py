@@ -28,16 +28,27 @@ SIDES = {
 SAME_PLACE = 0.05e-3  # m, by which two places that are one may differ
 
 
+BEARING_TABLES = {"deep_groove": "ball_bearings", "roller": "roller_bearings"}  # by the type of their bearings
+
+
 def catalogue_size(designation: str, column: str) -> float | None:
     """Return a dimension of a bearing of the tables, m; None of one that they do not have."""
     plain = "".join(designation.split()).upper()
-    for table in map(standard_table, ("ball_bearings", "roller_bearings")):
+    for table in map(standard_table, BEARING_TABLES.values()):
         of = table.column(column)
         rows = dict(zip(table.names, of.values, strict=True))
         found = rows.get(plain, rows.get(f"{plain}E"))
         if found is not None:
             return float(found * unit(of.unit).factor)
     return None
+
+
+def catalogue_type(designation: str) -> str | None:
+    """Return the type of a bearing of the tables; None of one that they do not have."""
+    plain = "".join(designation.split()).upper()
+    return next(
+        (kind for kind, table in BEARING_TABLES.items() if {plain, f"{plain}E"} & {*standard_table(table).names}), None
+    )
 
 
 @dataclass(frozen=True)
@@ -277,6 +288,15 @@ class Join:
                 teeth = keys.teeth_1 if is_first else keys.teeth_2 or keys.teeth_1
                 return float(drive_line.sprocket_diameter(chain_pitch(keys), teeth)) / 2
         return float((keys.diameter_1 if is_first else keys.diameter_2) / 2)
+
+    def root(self, part: ShaftPart) -> float | None:
+        """Return the diameter of a gear or sprocket below its teeth, m; None of a pulley."""
+        if isinstance(self.keys, MeshKeys):
+            return 2 * self.radius(part) - 2.5 * self.keys.module
+        if isinstance(self.keys, ChainKeys):
+            rollers = standard_table("iso_606_roller_diameters")
+            return 2 * self.radius(part) - float(rollers.values[self.keys.chain] * unit(rollers.unit).factor)
+        return None
 
     @property
     def center_distance(self) -> float | None:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from diecut_report.config.parts.elements import GEAR_LIMITS, Elements
 from diecut_report.config.parts.findings import Finding, finding, hubs, mm
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
-from diecut_report.config.parts.model import MachineParts, ShaftPart, catalogue_size
+from diecut_report.config.parts.model import MachineParts, ShaftPart, catalogue_size, catalogue_type
 from diecut_report.config.validation import quoted
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import nearest
@@ -159,6 +159,10 @@ def designations(parts: MachineParts) -> Iterator[Finding]:
             template = (
                 "is {designation}, which is not in the tables; give its bore, outside and width, or another designation"
             )
+            designation = part.keys.designation or phrase("not given")
+            yield finding(parts, "catalogue", "error", part.path, template, designation=designation)
+        elif part.kind == "bearing" and "type" not in part.more and catalogue_type(part.keys.designation or "") is None:
+            template = "is {designation}, which is not in the tables; give its type: deep_groove, ball or roller"
             designation = part.keys.designation or phrase("not given")
             yield finding(parts, "catalogue", "error", part.path, template, designation=designation)
         pin = part.keys.pin

@@ -9,8 +9,19 @@ from itertools import combinations, pairwise
 from diecut_report.config.model import texts
 from diecut_report.config.parts.demands import first_place, typed_paths
 from diecut_report.config.parts.elements import SERVICE_KEYS, Elements
-from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
-from diecut_report.config.parts.join_rules import axes, center, chain, frame, mesh_pair, one_belt, ratios, sector
+from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm, table_row
+from diecut_report.config.parts.join_rules import (
+    axes,
+    center,
+    chain,
+    driven,
+    frame,
+    mesh_pair,
+    one_belt,
+    ratios,
+    sector,
+    wall,
+)
 from diecut_report.config.parts.keys import WORDS, MeshKeys
 from diecut_report.config.parts.masses import wheel_section
 from diecut_report.config.parts.model import (
@@ -37,14 +48,13 @@ from diecut_report.config.validation import ConfigPlace
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
-from diecut_report.standards import standard_series, standard_table
+from diecut_report.standards import standard_series
 from diecut_report.standards.ranges import range_of
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.phrases import joined as joined_phrases
 
 LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
 KEY_TO_FILLET = 0.1  # of the shaft's diameter
-WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
 INTEGRAL_WARNED, INTEGRAL_MOST = 2.0, 4.0  # diameters of the seat, below the teeth
 # shares of the full steel body; of a clutch, which has shoes in place of a disc, less is usual
 MASS_SHARE, MASS_POSSIBLE = (0.3, 1.05), (0.05, 1.5)
@@ -342,37 +352,9 @@ def _key_on_section(parts: MachineParts, shaft: MachineShaft, part: ShaftPart, l
         )
 
 
-def table_row(table: str, value: float) -> dict[str, float]:
-    """Return the first row of a table of sizes whose first column is not below a value, m, else the last; SI by column."""
-    columns = standard_table(table).columns
-    rows = [[value * unit(column.unit).factor for value in column.values] for column in columns]
-    index = next((i for i, first in enumerate(rows[0]) if value <= first * (1 + 1e-9)), -1)
-    return {column.name: row[index] for column, row in zip(columns, rows, strict=True)}
-
-
 def key_width(diameter: float) -> float:
     """Return the width of the key for a shaft, m (DIN 6885-1)."""
     return table_row("parallel_keys", diameter)["b"]
-
-
-def wall(parts: MachineParts) -> Iterator[Finding]:
-    """Below the teeth of a keyed pinion enough is left above the keyway, and around its seat."""
-    for join in parts.joins:
-        for part in (*join.drivers, *join.driven) if isinstance(join.keys, MeshKeys) else ():
-            if not part.keys.key or part.section is None:
-                continue
-            module = join.keys.module
-            left = join.radius(part) - 1.25 * module - part.seat / 2 - table_row("parallel_keys", part.seat)["t2"]
-            if left < WALL_WARNED * module * (1 - 1e-9):
-                level: Level = "error" if left < WALL_LEAST * module else "warning"
-                template = "leaves {left} between teeth and keyway, {modules} modules; {wanted} are wanted: take a larger gear or a thinner seat"
-                yield finding(parts, "wall", level, part.path, template, (*join.path, "module"), left=mm(left), modules=f"{left / module:.3g}",
-                    wanted=WALL_WARNED)  # fmt: skip
-            root = 2 * join.radius(part) - 2.5 * module
-            if root < HUB_OUTSIDE * part.seat * (1 - 1e-9):
-                template = "is {root} thick below its teeth, less than {share} times its seat of {seat}; take a larger gear or a thinner seat"
-                yield finding(parts, "wall", "warning", part.path, template, (*join.path, "module"), root=mm(root), share=HUB_OUTSIDE,
-                    seat=mm(part.seat))  # fmt: skip
 
 
 def steel(parts: MachineParts) -> Iterator[Finding]:
@@ -422,7 +404,12 @@ def integral(parts: MachineParts) -> Iterator[Finding]:
         for part in (*join.drivers, *join.driven) if isinstance(join.keys, MeshKeys) else ():
             if not part.keys.integral or part.section is None:
                 continue
-            root = 2 * join.radius(part) - 2.5 * join.keys.module
+            root = join.root(part)
+            assert root is not None, "a gear has one"
+            if root < part.seat - SAME_PLACE:
+                template = "is {root} thick below its teeth, which are cut into a shaft of {seat}; make its section that thick, as it is calculated"
+                yield finding(parts, "integral", "error", (*part.path, "integral"), template, (*part.shaft.path, "sections"), root=mm(root),
+                    seat=mm(part.seat))  # fmt: skip
             if root > INTEGRAL_WARNED * part.seat:
                 level: Level = "error" if root > INTEGRAL_MOST * part.seat else "warning"
                 template = "is cut on a shaft of {seat}, but is {root} thick below its teeth: no such shaft is turned; give key or interference"
@@ -592,5 +579,5 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
     few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting,
-    shoulder, stop, key, wall, steel, torque_carried, integral, force_plane, pins, axes, one_belt, center, frame, mesh_pair, sector, chain,
+    shoulder, stop, key, wall, steel, torque_carried, integral, force_plane, pins, axes, driven, one_belt, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import atan2, cos, degrees, sin
+from math import atan2, cos, degrees, prod, sin
 from typing import Any
 
 from diecut_report.config.parts.demands import Ratio, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import LOOSE
 from diecut_report.config.parts.load_cases import LoadCases
 from diecut_report.config.parts.masses import Masses
-from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, catalogue_size
+from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, catalogue_type
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.mechanism import Port
 
 OF_SHAFT = frozenset({"rotation", "speed", "turns_per_cycle", "load_cases", "downwards"})
 OF_BEARING = frozenset({"radial_force", "tilt", "speed", "relative_angle", "cycle_speed", "on", "series", "bore_min"})
 """Keys of calculations that follow from the parts also where they are not filled in."""
-ROLLER_SERIES = ("N", "2")  # how designations of roller bearings begin, spherical ones by 2
 NOTHING = 1e-9  # share of a force that has no part in a direction; offset (m) that is rounding
 
 
@@ -25,10 +24,12 @@ class ShaftElements(Masses, LoadCases):
     """Make the calculations of the shafts."""
 
     def _loads(self, shaft: MachineShaft) -> None:
+        if self.lacks_torque(shaft):
+            return
         torques = [each | {"ratio": each["ratio"].text} for each in self.torques_of(shaft)]
+        forces = [force for part in shaft.parts for force in (*self._port_forces(part), *self._chain_forces(part))]
         for each in (every for every in torques if "efficiency" in every):
             each["efficiency"] = self.efficiency(each["efficiency"])
-        forces = [force for part in shaft.parts for force in (*self._port_forces(part), *self._chain_forces(part))]
         inputs: dict[str, Any] = {"main_turns": self.cycle(shaft.name)}
         if torques:
             inputs["torques"] = torques
@@ -63,24 +64,42 @@ class ShaftElements(Masses, LoadCases):
         """
         return ("y", x), ("z", self.sense(part.shaft.name) * y)
 
-    def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
-        """The pull of a chain on its sprocket, towards the other one, or along the frame's x where the chain runs over idlers."""
+    def _chain_shares(self, part: ShaftPart) -> tuple[Join | None, list[tuple[str, float]]]:
+        """The chain on a sprocket, and the shares of its pull: towards the other one, or along the frame's x where it runs over idlers."""
         join = next((each for each in self.parts.joins_of(part) if each.word == "chains"), None)
-        pull = None if join is None else self._moved(join, len(join.drivers))
-        if join is None or pull is None:
-            return
+        if join is None:
+            return None, []
         other = (
             (join.driven[0] if part in join.drivers else join.drivers[0]).shaft.name if join.driven else part.shaft.name
         )
         (x, y), (u, v) = (self.parts.axes.get(name, (0.0, 0.0)) for name in (part.shaft.name, other))
         angle = atan2(v - y, u - x)
-        pretension = f"2 * ${{{join.home}.pretension}} * " if "pretension" in join.more else ""
-        for direction, share in self._directions(part, cos(angle), sin(angle)):
-            if abs(share) > NOTHING:
-                constant = {"constant": f"{pretension}{share:.12g}"} if pretension else {}
-                number = abs(pull["ratio"].number) * share
-                yield pull | {"name": f"{part.name}_{direction}", "ratio": Ratio(number, pull["ratio"].factors).text, "absolute": True,
-                    "lever": f"${{drive_line.{join.name}_chain_travel}} / 1 rad"} | constant  # fmt: skip
+        return join, [each for each in self._directions(part, cos(angle), sin(angle)) if abs(each[1]) > NOTHING]
+
+    def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
+        """The pull of a chain on its sprocket, by the torque of the driving one; losses behind it count as if they always added."""
+        join, shares = self._chain_shares(part)
+        torque = None if join is None else self.torque_on(join.drivers[0])
+        if join is None or torque is None:
+            return
+        pull = {key: value for key, value in torque.items() if key != "efficiency"}
+        losses = prod(each.keys.efficiency for each in torque.get("efficiency", ()))
+        for direction, share in shares:
+            constant = {"constant": self._pretension(join, share)} if "pretension" in join.more else {}
+            number = abs(pull["ratio"].number) * share / losses
+            yield pull | {"name": f"{part.name}_{direction}", "ratio": Ratio(number, pull["ratio"].factors).text, "absolute": True,
+                "lever": f"${{drive_line.{join.name}_chain_travel}} / 1 rad"} | constant  # fmt: skip
+
+    def _idle_chain_force(self, part: ShaftPart) -> dict[str, str]:
+        """The force of a chain that carries nothing on its sprocket: its pretension."""
+        join, shares = self._chain_shares(part)
+        if join is None or "pretension" not in join.more or self.torque_on(join.drivers[0]):
+            return {}
+        return {f"force_{direction}": self._pretension(join, share) for direction, share in shares}
+
+    @staticmethod
+    def _pretension(join: Join, share: float) -> str:
+        return f"2 * ${{{join.home}.pretension}} * {share:.12g}"
 
     def _shaft(self, shaft: MachineShaft) -> None:
         home = shaft.calculation
@@ -96,8 +115,8 @@ class ShaftElements(Masses, LoadCases):
             "loads": [load for part in shaft.parts if part.kind != "bearing" for load in self._load(part)],
             "downwards": f"{-90 * self.sense(shaft.name)} deg",
         }  # fmt: skip
-        if self.inertia_of(shaft) and self.torques_of(shaft):
-            place = next(part for part in shaft.parts if self._balances(part))
+        place = next((part for part in shaft.parts if self._balances(part)), None)
+        if place is not None and self.inertia_of(shaft):
             inputs["loads"].append(
                 {
                     "name": "inertia",
@@ -162,7 +181,7 @@ class ShaftElements(Masses, LoadCases):
             place["offset"] = found["offset"] = TypedNumber(millimetres(offset), (*part.path, "at"))
         if (gear := self._gear(part)) and "torque" in found:
             found["gear"] = gear
-        found |= self._belt_force(part)
+        found |= self._belt_force(part) | self._idle_chain_force(part)
         if (mass := self.mass_on(part)) is not None:
             found["mass"] = mass
         found |= self._typed_load(part, found)
@@ -239,7 +258,7 @@ class ShaftElements(Masses, LoadCases):
 
     def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
         home, designation = part.shaft.calculation, str(part.keys.designation)
-        follows = OF_BEARING if catalogue_size(designation, "d") is None else OF_BEARING | {"type"}
+        follows = OF_BEARING if catalogue_type(designation) is None else OF_BEARING | {"type"}
         forces = {"radial_force": f"${{{home}.reaction_{end}}}", "tilt": f"${{{home}.slope_{end}}}"}
         if not part.keys.floating and self._is_pushed(part.shaft):
             forces["axial_force"] = f"${{{home}.axial_reaction}}"
@@ -254,8 +273,8 @@ class ShaftElements(Masses, LoadCases):
         return any(join.keys.helix_angle for join in meshes) or any("axial_force" in part.more for part in others)
 
     def _catalogued(self, name: str, designation: str, more: dict[str, Any], path: KeyPath) -> dict[str, Any]:
-        kind = "roller" if designation.strip().upper().startswith(ROLLER_SERIES) else "deep_groove"
-        return {"name": name, "type": kind, "designation": TypedValue(path)} | more
+        kind = catalogue_type(designation)  # of one that is not in the tables the type is typed
+        return {"name": name, **({"type": kind} if kind else {}), "designation": TypedValue(path)} | more
 
     def _relative(self, shaft: MachineShaft) -> dict[str, Any]:
         """How the rings of a shaft's bearings turn."""
