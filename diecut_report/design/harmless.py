@@ -123,7 +123,7 @@ class TriedOpenValues:
     def keep(self, made: CalculatedVariants, rows: Array, count: int) -> None:
         """Keep what came out of some of the machines; a value is tried for what it is, not for what it rests on."""
         for calc in made.calculations.values():
-            calc.unfounded = frozenset()
+            calc.unfounded = {}
         found, own = verdicts(made.calculations, made.count), slacks(made)
         for name, codes in zip(found.names, found.codes, strict=True):
             self.codes.setdefault(name, np.zeros(count, dtype=int))[rows] = codes

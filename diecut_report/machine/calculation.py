@@ -279,12 +279,11 @@ class Calculation:
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
         self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
-        # keys of inputs that checks ask a basis of, and that have none
-        self.unfounded: frozenset[tuple[str | int, ...]] = frozenset()
+        # keys of inputs that checks ask a basis of and that have none, each with the machines of which that is so: True, or (variants,)
+        self.unfounded: Mapping[tuple[str | int, ...], Any] = {}
         self.further_checks: tuple[Check, ...] = ()  # beside those of its mechanism
-        self.advised: dict[
-            str, Any
-        ] = {}  # for each failing check what was found and advised, before the whole machine is asked
+        # for each failing check what was found and advised, before the whole machine is asked
+        self.advised: dict[str, Any] = {}
         self.chosen_units = NONE_CHOSEN  # what a report chose to show quantities in
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
 

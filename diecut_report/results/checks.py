@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.config.yaml import dotted
+from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, declared_unit, unit_for
 from diecut_report.machine.printing.substitution import filled
@@ -78,13 +78,25 @@ def _head(check: Check) -> dict[str, Any]:
 
 def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
     """Return the inputs by which a check would hold because they were typed."""
-    index = check.index
-    own = {
-        dotted(key)
-        for key in calc.unfounded
-        if index is None or index in key or all(isinstance(part, str) for part in key)
-    }
+    own = {dotted(key) for key in _unfounded_keys(calc, check)}
     return tuple(name for name in check.founded if name in own)
+
+
+def rests_on_typing(calc: Calculation, check: Check) -> Array:
+    """Return of which machines a check would hold because something was typed, shape (variants,)."""
+    found = np.zeros(calc.count, dtype=bool)
+    for key in _unfounded_keys(calc, check):
+        if dotted(key) in check.founded:
+            found |= calc.unfounded[key]
+    return found
+
+
+def _unfounded_keys(calc: Calculation, check: Check) -> Iterator[KeyPath]:
+    """The inputs without a basis of the part that a check judges."""
+    index = check.index
+    for key in calc.unfounded:
+        if index is None or index in key or all(isinstance(part, str) for part in key):
+            yield key
 
 
 def left_out(calc: Calculation, check: Check, found: JudgedCheck) -> tuple[str, ...]:

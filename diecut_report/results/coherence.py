@@ -294,11 +294,15 @@ def torque_seats(machine: Machine) -> Iterator[Disagreement]:
             is_free = torque is None or shaft.inputs["loads.seat"][index] == "none"
             if is_free or not np.any(torque != 0) or not seats_of or place is None or diameters is None:
                 continue
-            ways = [np.abs(place - _of(shaft.number("notches.position", i))) for i in seats_of]
-            nearest = seats_of[int(np.argmin([way[0] for way in ways]))]
+            ways = np.stack(
+                np.broadcast_arrays(*(np.abs(place - _of(shaft.number("notches.position", i))) for i in seats_of))
+            )
             thick = np.max(np.where(shaft.sections_at(place), diameters, 0.0), axis=1)
+            wrong = np.min(ways, axis=0) > thick + LENGTH
+            wrong = wrong & (np.asarray(torque) != 0) if isinstance(torque, float | np.ndarray) else wrong
+            nearest = seats_of[int(np.argmin(ways[:, np.argmax(wrong) % ways.shape[1]]))]
             yield Disagreement(
-                shaft, ("loads", index, "position"), shaft, ("notches", nearest, "position"), np.min(ways, axis=0) > thick + LENGTH,
+                shaft, ("loads", index, "position"), shaft, ("notches", nearest, "position"), wrong,
                 phrase("puts a torque into the shaft at {place}, but the nearest keyseat or press fit is at {notch}, farther off than the shaft's "
                 "{thick}; a gear that is cut on the shaft has seat: none"),
                 {"place": (place, "mm"), "notch": (_of(shaft.number("notches.position", nearest)), "mm"), "thick": (thick, "mm")},

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from diecut_report.config.instances import Instance, Node, Slot
 from diecut_report.config.model import PRESS
@@ -10,14 +13,16 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.references import WHOLE
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
+from diecut_report.formulas import Array
 from diecut_report.mechanism.inputs import POINTS, Quantity, Varying, flatten
+from diecut_report.mechanism.names import SI
 from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
 from diecut_report.results.carrying_parts import counted, unrated
 from diecut_report.results.conclusion import LEFT, judged, summary, unsettled
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, SummaryRecord
-from diecut_report.results.origins import assumed, input_path, is_default
+from diecut_report.results.origins import assumed, at_default, input_path, is_default
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
 from diecut_report.results.usual import unbounded
@@ -133,7 +138,7 @@ def open_values(run: Run) -> Iterator[OpenRecord]:
         unbounded_keys = unbounded(instance, inputs, run.beside(instance), calc.values) if calc else set()
         for slot in instance.slots:
             is_bounded = slot.key not in unbounded_keys
-            what = _rests_on(run, instance, slot, is_bounded=is_bounded)
+            what = _rests_on(run, instance, slot, _standing(run, instance, slot), is_bounded=is_bounded)
             if what is None:
                 what, why = "assumed", _open_choice(run, instance, slot) or _one_of_curve(run, instance, slot)
             elif not slot.is_given:
@@ -144,26 +149,58 @@ def open_values(run: Run) -> Iterator[OpenRecord]:
                 yield OpenRecord(what=what, path=input_path(name, slot.key), owner=_owner(run), why=why)
 
 
-def _rests_on(run: Run, instance: Instance, slot: Slot, *, is_bounded: bool) -> OpenKind | None:
-    """What an input rests on, where that is open; what no row bounds asks for a basis."""
-    said = instance.bases.get(slot.key)
-    is_assumed = said is not None and said.basis == ASSUMED
+def varied_open(run: Run, count: int) -> Array:
+    """Return in which of so many machines an input that is not the same in all of them is open, shape (count,)."""
+    found = np.zeros(count, dtype=bool)
+    for name, instance in run.config.instances.items():
+        for slot in instance.slots if instance is not None and name in run.blocks else ():
+            if not isinstance(slot.value, SI) or np.ndim(slot.value.value) == 0:
+                continue
+            assert instance is not None
+            values, row = np.unique(np.asarray(slot.value.value, dtype=float), return_inverse=True)
+            typed = np.broadcast_to(at_default(run.blocks[name], slot.key), (count,))
+            standing = (_Standing(float(value), bool(typed[row == index][0])) for index, value in enumerate(values))
+            found |= np.array([_rests_on(run, instance, slot, each, is_bounded=True) is not None for each in standing])[
+                row
+            ]
+    return found
+
+
+class _Standing(NamedTuple):
+    """Hold the value of an input, SI, and whether it would have it if nobody typed it."""
+
+    value: Any
+    is_default: bool
+
+
+def _standing(run: Run, instance: Instance, slot: Slot) -> _Standing | None:
+    """A typed number as it stands in all machines; None of what refers to others or is no number, and of one that is not the same in all."""
     is_number = (
         isinstance(slot.meta, Quantity)
         and slot.meta is not POINTS
-        and isinstance(slot.value, int | float | str)
-        and slot.value not in slot.meta.words
+        and (instance.name, *slot.key) not in run.config.links
     )
+    if not is_number or not isinstance(slot.value, int | float | str) or slot.value in slot.meta.words:  # type: ignore[union-attr]
+        return None
+    return _Standing(instance.value(slot.key), is_default(run.blocks[instance.name], slot.key))
+
+
+def _rests_on(
+    run: Run, instance: Instance, slot: Slot, standing: _Standing | None, *, is_bounded: bool
+) -> OpenKind | None:
+    """What an input rests on, where that is open; what no row bounds asks for a basis."""
+    said = instance.bases.get(slot.key)
+    is_assumed = said is not None and said.basis == ASSUMED
     kind, target = run.config.kinds.get(instance.name, PRESS), run.config.links.get((instance.name, *slot.key))
     is_alone = _is_alone(run, instance.name)
     asks = not is_bounded or asks_basis(kind, slot.name, is_alone)
     if asks and is_formula(run.config.parts, instance, slot):
         return None if is_founded(said.basis if said else "", said.note if said else "") else "assumed"
-    if target is not None or not is_number:
+    if target is not None or standing is None:
         return "assumed" if is_assumed else None
-    value = instance.value(slot.key)
+    value = standing.value
     usual = range_of(kind, slot.name)
-    if not slot.is_given or is_default(run.blocks[instance.name], slot.key):
+    if not slot.is_given or standing.is_default:
         return "default" if value or usual or _leaves_out(run, instance, slot) else None
     is_unranged, is_limit = slot.name in unranged(kind), str(slot.key[-1]).startswith(LIMIT)
     beyond = usual is not None and is_limit and not usual.of and not usual.usual[0] <= value <= usual.usual[1]

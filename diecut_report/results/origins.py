@@ -96,16 +96,21 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
 
 
 def is_default(block: Block, key: KeyPath) -> bool:
-    """Return whether an input of a block, or of a block within it, has the value that it would have if nobody typed it."""
+    """Return whether an input of a block, or of a block within it, has the value that it would have if nobody typed it, in all machines."""
+    return bool(np.all(at_default(block, key)))
+
+
+def at_default(block: Block, key: KeyPath) -> Any:
+    """Return in which machines an input has the value that it would have if nobody typed it: True, False, or an array (variants,)."""
     for part in key[:-1]:
         block = block[part] if isinstance(part, int) else getattr(block, str(part))  # type: ignore[index]
     declared = keys_of(type(block))[str(key[-1])]
     default = declared.field.get_default(call_default_factory=True)
     if declared.field.is_required():
-        return False
+        return np.asarray(False)
     if isinstance(declared.meta, Quantity) and default is not None:
         default = declared.meta.validate(default)  # it is declared in the unit of its key
-    return not np.any(getattr(block, str(key[-1])) != default)
+    return ~np.asarray(getattr(block, str(key[-1])) != default)
 
 
 class Bases:
@@ -146,11 +151,15 @@ class Bases:
         """Return whether an input is at its default, or rests on what can be looked up."""
         return not self._is_given(node) or is_founded(self.of(node), self.said(node).note)
 
-    def unfounded(self, instance: Instance, block: Block) -> frozenset[KeyPath]:
-        """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default."""
+    def unfounded(self, instance: Instance, block: Block) -> dict[KeyPath, Any]:
+        """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default.
+
+        Each with the machines in which that is so: True, or an array (variants,).
+        """
         asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
         keys = [slot.key for slot in (instance.slots if asked else ()) if slot.name in asked]
-        return frozenset(key for key in keys if not (self.is_founded((instance.name, *key)) or is_default(block, key)))
+        typed = {key: ~at_default(block, key) for key in keys if not self.is_founded((instance.name, *key))}
+        return {key: where if np.ndim(where) else True for key, where in typed.items() if np.any(where)}
 
     def _of(self, node: Node) -> str:
         chain = [self.said(node).basis]

@@ -69,7 +69,7 @@ class Told(NamedTuple):
     """
 
     units: ChosenUnits
-    unfounded: frozenset[tuple[str | int, ...]]
+    unfounded: Mapping[tuple[str | int, ...], Any]
     beside: Beside
     findings: tuple[PlacedFinding, ...]
 

@@ -41,7 +41,7 @@ from diecut_report.results.checks import (
     judged,
     left_out,
     missing_checks,
-    without_basis,
+    rests_on_typing,
 )
 from diecut_report.results.press_run import Tell
 from diecut_report.results.usual import usual_check
@@ -201,23 +201,27 @@ class Verdicts:
     """Hold of each check the status codes and utilisations of many variants, shape (checks, variants).
 
     ``unchecked`` are the checks that need more keys, ``sized`` says which show no reserve, and ``faults`` is for each
-    variant whose calculation contradicts itself what does not hold. ``unmade`` says of which variants some check is not made.
+    variant whose calculation contradicts itself what does not hold. ``left`` says of which variants a check is not made, shape as ``codes``.
     """
 
     names: list[str]
     codes: Array
     ratios: Array
     sized: Array
+    left: Array
     unchecked: list[str]
     faults: dict[int, str]
-    unmade: Array
+
+    @property
+    def unmade(self) -> Array:
+        """Return of which variants some check is not made."""
+        return np.asarray(self.left.any(axis=0) | bool(self.unchecked))
 
 
 def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
     """Return all checks of all mechanisms; code 0 where a check does not apply."""
-    names, codes, ratios, sized, unchecked = [], [], [], [], []
+    names, codes, ratios, sized, left, unchecked = [], [], [], [], [], []
     faults: dict[int, str] = {}
-    unmade = np.zeros(count, dtype=bool)
     for name, calc in calculations.items():
         for check in checks_of(calc):
             if not is_made(calc, check):
@@ -230,20 +234,20 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
                 faults |= dict.fromkeys(np.flatnonzero(there & ~held).tolist(), fault)
                 continue
             # what holds by what was typed, or for some parts alone, is not checked
-            if without_basis(calc, check) or left_out(calc, check, found):
-                unmade |= there & held
-                there = there & ~held
-                if not there.any():
-                    unchecked.append(f"{name}.checks.{check.id}")
-                    continue
+            unmade = there & held & (rests_on_typing(calc, check) | bool(left_out(calc, check, found)))
+            there = there & ~unmade
+            if unmade.all():
+                unchecked.append(f"{name}.checks.{check.id}")
+                continue
             names.append(f"{name}.checks.{check.id}")
+            left.append(unmade)
             codes.append(np.where(there, np.where(held, PASS, np.where(check.is_failure(ratio), FAIL, WARN)), 0))
             ratios.append(np.where(there, ratio, np.nan))
             sized.append(is_sized(calc.given, check) or check.presumed)
     shape = (len(names), count)
     unchecked = [name for name in dict.fromkeys(unchecked) if name not in names]
     return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float),
-                    np.array(sized, dtype=bool), unchecked, faults, unmade | bool(unchecked))  # fmt: skip
+                    np.array(sized, dtype=bool), np.reshape(left, shape).astype(bool), unchecked, faults)  # fmt: skip
 
 
 def governing(found: Verdicts) -> Array:
@@ -423,8 +427,8 @@ def _all_columns(variants: CalculatedVariants, found: Verdicts) -> dict[str, Arr
         for column, values in output_values(name, calc).items():
             plain = values.astype(object) if values.dtype in (bool, object) else values.astype(float)
             outputs[column] = np.broadcast_to(plain, (variants.count,))
-    for name, codes, ratios in zip(found.names, found.codes, found.ratios, strict=True):
-        outputs |= {f"{name}.utilisation": ratios, f"{name}.status": STATUS[codes]}
+    for name, codes, ratios, left in zip(found.names, found.codes, found.ratios, found.left, strict=True):
+        outputs |= {f"{name}.utilisation": ratios, f"{name}.status": np.where(left, NOT_CHECKED, STATUS[codes])}
     for name in found.unchecked:
         statuses = np.full(variants.count, NOT_CHECKED, dtype=object)
         outputs |= {f"{name}.utilisation": np.full(variants.count, np.nan), f"{name}.status": statuses}
