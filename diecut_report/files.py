@@ -38,22 +38,20 @@ MISNAMED = {
 """Faults of the name that was given: another one helps. The others are faults of the disk."""
 
 
-def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool = False) -> None:
+def write_all(files: Mapping[Path, bytes], keep: Path | Iterable[Path] | None, *, through: bool = False) -> None:
     """Write all files, or none and raise UserError in words; folders that are missing are made.
 
-    ``keep`` is a file that must not be written over: the config itself, where there is one. With ``through`` a device or a pipe that the user
+    ``keep`` is what must not be written over: the files that were given. With ``through`` a device or a pipe that the user
     names is written into; else it is replaced, as a link always is.
     """
+    kept = [keep] if isinstance(keep, Path) else [*(keep or ())]
     with _ended_by_system(), ExitStack() as stack:
         ready = []
         for path, content in files.items():
             with in_words(path, NOTHING):
                 place = _place(path)
-                if keep is not None and path.exists() and keep.exists() and path.samefile(keep):
-                    template = (
-                        "This is the configuration itself and would be overwritten. Choose another place with -o."
-                    )
-                    raise refusal(template, path)
+                if path.exists() and any(given.exists() and path.samefile(given) for given in kept):
+                    raise refusal("This file was given and would be overwritten. Choose another place with -o.", path)
                 _refuse_stored(place)
                 _refuse_signed(place, content)
                 ready.append((stack.enter_context(_beside(place, content, through)), place, path))

@@ -50,7 +50,7 @@ from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
-from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, own_fault, refusal
+from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, own_fault
 from diecut_report.files import write_all
 from diecut_report.results.conclusion import summary_of
 from diecut_report.results.mechanism_record import CheckRecord
@@ -370,9 +370,7 @@ class NamedMachines:
             neutral = self._compared()
         with speaking(language, catalogues_for(language, (), self.discovery)):
             contents = pages.files(self._compared(), folder, name, formats, neutral)
-        if kept := set(contents) & set(self.files):
-            raise refusal("{file} is one of the configurations, and is not overwritten.", file=min(kept))
-        write_all(contents, keep=self.files[0])
+        write_all(contents, keep=self.files)
         tell_written(contents)
 
 

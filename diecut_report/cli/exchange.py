@@ -208,7 +208,7 @@ def diff(old: Path, new: Path, form: str, target: Path | None, all_rows: bool, d
         found = changes(sides[0][0], sides[1][0])
         text = _changes(found, [results for results, _ in sides], discovery, form, all_rows)
     tell(str(error) for _, broken in sides for error in broken)
-    emit_or_write(text, target, new)
+    emit_or_write(text, target, old, new)
     is_broken = any(broken for _, broken in sides) or sides[1][0].status == "error"
     return checking.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
 

@@ -309,8 +309,8 @@ def as_json(data: Any, indent: int = 2) -> str:
     return json.dumps(data, indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def emit_or_write(text: str, target: Path | None, keep: Path | None = None) -> None:
-    """What was asked for: on standard output, or in the file that is named, which is not ``keep``."""
+def emit_or_write(text: str, target: Path | None, *keep: Path) -> None:
+    """What was asked for: on standard output, or in the file that is named, which is none of those to keep."""
     if target is None:
         emit(text)
         return

@@ -235,7 +235,7 @@ def _write_pages(
     place = asked or Path(mkdtemp(prefix="diecut-report-"))
     is_file = asked and is_single and not asked.is_dir()
     files = {place if is_file else place / f"{kind}.html": page for kind, page in pages.items()}
-    write_all(files, keep=configs[0] if configs else None)
+    write_all(files, keep=configs)
     tell_written(files)
     for page in files if is_shown else ():
         webbrowser.open(page.resolve().as_uri())

@@ -20,7 +20,7 @@ import yaml
 
 from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
 from diecut_report.config.model import PRESS, texts
-from diecut_report.config.validation import ConfigPlace, declared, value_at
+from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, ConfigPlace, declared, value_at
 from diecut_report.config.yaml import LOADER, KeyPath, Tree, dotted, parse
 from diecut_report.errors import Problem, UserError, nearest, seeming_latin
 from diecut_report.formulas.condition_parts import Name, read_expression
@@ -339,11 +339,18 @@ class _Span:
 def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> Tree:
     """Return the file with these scalars, as they are to be typed; a key that is not there is put into its block.
 
+    A basis that is of the former value alone (a catalogue, a standard, a measurement) becomes assumed with it.
+
     UserError in words where a value cannot be written: it is shared by an anchor, or an expression stands there which is not
     to be written over.
     """
     if tree.problems or not values:
         return tree
+    moved = (
+        path for path, value in values.items() if path[-1:] == ("value",) and tree.typed(path) not in (None, value)
+    )
+    bases = ((*path[:-1], "basis") for path in moved)
+    values = {**dict.fromkeys((path for path in bases if tree.typed(path) in OF_ONE_VALUE), ASSUMED), **values}
     spans, edits = _spans(tree.text), []
     for path, value in values.items():
         typed = tree.typed(path)

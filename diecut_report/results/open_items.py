@@ -22,7 +22,7 @@ from diecut_report.results.carrying_parts import counted, unrated
 from diecut_report.results.conclusion import LEFT, judged, summary, unsettled
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, SummaryRecord
-from diecut_report.results.origins import assumed, at_default, input_path, is_default
+from diecut_report.results.origins import as_founded, assumed, at_default, input_path, is_default
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
 from diecut_report.results.usual import unbounded
@@ -136,7 +136,7 @@ def open_values(run: Run) -> Iterator[OpenRecord]:
         unranged_keys = unranged(run.config.kinds.get(name, PRESS), _is_alone(run, name))
         calc, inputs = run.calculations.get(name), flatten(run.blocks[name])
         unbounded_keys = unbounded(instance, inputs, run.beside(instance), calc.values) if calc else set()
-        for slot in instance.slots:
+        for slot in (each for each in instance.slots if not _is_varied(each)):
             is_bounded = slot.key not in unbounded_keys
             what = _rests_on(run, instance, slot, _standing(run, instance, slot), is_bounded=is_bounded)
             if what is None:
@@ -154,16 +154,20 @@ def varied_open(run: Run, count: int) -> Array:
     found = np.zeros(count, dtype=bool)
     for name, instance in run.config.instances.items():
         for slot in instance.slots if instance is not None and name in run.blocks else ():
-            if not isinstance(slot.value, SI) or np.ndim(slot.value.value) == 0:
+            if not _is_varied(slot):
                 continue
             assert instance is not None
             values, row = np.unique(np.asarray(slot.value.value, dtype=float), return_inverse=True)
             typed = np.broadcast_to(at_default(run.blocks[name], slot.key), (count,))
             standing = (_Standing(float(value), bool(typed[row == index][0])) for index, value in enumerate(values))
-            found |= np.array([_rests_on(run, instance, slot, each, is_bounded=True) is not None for each in standing])[
-                row
-            ]
+            is_open = [_rests_on(run, instance, slot, each, is_bounded=True) is not None for each in standing]
+            found |= np.array(is_open)[row] & (typed | ~np.asarray(as_founded(instance, run.blocks[name], slot.key)))
     return found
+
+
+def _is_varied(slot: Slot) -> bool:
+    """Whether an input is not the same in all of several machines."""
+    return isinstance(slot.value, SI) and np.ndim(slot.value.value) > 0
 
 
 class _Standing(NamedTuple):

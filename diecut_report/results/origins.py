@@ -102,8 +102,7 @@ def is_default(block: Block, key: KeyPath) -> bool:
 
 def at_default(block: Block, key: KeyPath) -> Any:
     """Return in which machines an input has the value that it would have if nobody typed it: True, False, or an array (variants,)."""
-    for part in key[:-1]:
-        block = block[part] if isinstance(part, int) else getattr(block, str(part))  # type: ignore[index]
+    block = _home(block, key)
     declared = keys_of(type(block))[str(key[-1])]
     default = declared.field.get_default(call_default_factory=True)
     if declared.field.is_required():
@@ -111,6 +110,18 @@ def at_default(block: Block, key: KeyPath) -> Any:
     if isinstance(declared.meta, Quantity) and default is not None:
         default = declared.meta.validate(default)  # it is declared in the unit of its key
     return ~np.asarray(getattr(block, str(key[-1])) != default)
+
+
+def as_founded(instance: Instance, block: Block, key: KeyPath) -> Any:
+    """Return in which machines a varied input has the value that its basis is of: True, False, or an array (variants,)."""
+    return key in instance.founded and np.asarray(getattr(_home(block, key), str(key[-1])) == instance.founded[key])
+
+
+def _home(block: Block, key: KeyPath) -> Any:
+    """The block within another one in which a key stands."""
+    for part in key[:-1]:
+        block = block[part] if isinstance(part, int) else getattr(block, str(part))  # type: ignore[index]
+    return block
 
 
 class Bases:
@@ -158,7 +169,8 @@ class Bases:
         """
         asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
         keys = [slot.key for slot in (instance.slots if asked else ()) if slot.name in asked]
-        typed = {key: ~at_default(block, key) for key in keys if not self.is_founded((instance.name, *key))}
+        named = [key for key in keys if not self.is_founded((instance.name, *key))]
+        typed = {key: ~at_default(block, key) & ~np.asarray(as_founded(instance, block, key)) for key in named}
         return {key: where if np.ndim(where) else True for key, where in typed.items() if np.any(where)}
 
     def _of(self, node: Node) -> str:

@@ -171,7 +171,7 @@ def test_an_empty_list_is_refused(two: list[Path], capfd: Capture) -> None:
 def test_the_comparison_overwrites_no_configuration(tmp_path: Path, capfd: Capture) -> None:
     file = saved(tmp_path, LIMITED, "comparison.json")
     assert compare(file, "-o", tmp_path, "--format", "json") == 2
-    assert file.read_text("utf-8") == LIMITED and "is not overwritten" in capfd.readouterr().err
+    assert file.read_text("utf-8") == LIMITED and "would be overwritten" in capfd.readouterr().err
 
 
 def test_the_page_is_dark_where_a_reader_asks_for_it_and_runs_no_script(two: list[Path], tmp_path: Path) -> None:

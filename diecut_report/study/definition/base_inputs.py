@@ -12,7 +12,7 @@ from diecut_report.config.instances import Instance, substituted
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, PressBlock
 from diecut_report.config.references import Linker, ordered
-from diecut_report.config.validation import declared, keys_of, validate
+from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, declared, keys_of, validate
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, nearest
 from diecut_report.mechanism.chapters import in_form
@@ -201,13 +201,20 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
     for key, value in own.items():
         _put(data, key, value)
     declared_as = instance.mechanism.inputs if instance.mechanism else PressBlock
-    place, bases, taken = instance.place, instance.bases, instance.own
+    former = {key: said for key in own if (said := instance.bases.get(key)) is not None and said.basis in OF_ONE_VALUE}
+    place, bases, taken = (
+        instance.place,
+        {**instance.bases, **{key: replace(said, basis=ASSUMED) for key, said in former.items()}},
+        instance.own,
+    )
     if not taken.naming.keys().isdisjoint(own):
         taken = taken.anew(declared_as, data, own, place)
         data, place, bases = taken.data, taken.place, {**bases, **taken.bases}
     model = in_form(declared_as, [key for key, value in data.items() if value is not None])
     changed = Instance(instance.name, model, data, place, instance.mechanism, bases, taken)
     changed.derived = instance.derived - {str(key[0]) for key in own}
+    literal = (key for key in former if key in instance.by_key and "${" not in str(instance.by_key[key].value))
+    changed.founded = {key: instance.value(key) for key in literal}
     return changed
 
 
