@@ -318,7 +318,7 @@ def test_a_folder_that_cannot_be_written_to_is_told(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("painted")
 def test_the_config_is_never_written_over(tmp_path: Path) -> None:
     config = saved(tmp_path, LEVER, "press.json")
-    with pytest.raises(UserError, match="This is the configuration itself"):
+    with pytest.raises(UserError, match="This file was given and would be overwritten"):
         made(config, tmp_path, ("html", "json"))
     assert below(tmp_path) == ["press.json"] and config.read_text("utf-8") == LEVER
 

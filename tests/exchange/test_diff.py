@@ -165,6 +165,8 @@ def test_a_page_of_changes_needs_neither_network_nor_scripts(tmp_path: Path) -> 
     assert "a.force" in pages[0] and "+50" in pages[0]
     before = bad.read_bytes()
     assert run("diff", good, bad, "-o", bad) == 2 and bad.read_bytes() == before
+    before = good.read_bytes()
+    assert run("diff", good, bad, "-o", good) == 2 and good.read_bytes() == before
 
 
 def test_what_is_shown_as_beyond_a_size_of_interest_is_compared_as_that(tmp_path: Path, capfd: Capture) -> None:

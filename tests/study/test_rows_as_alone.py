@@ -44,8 +44,12 @@ def require_as_alone(press: Press, path: str, *values: float) -> Rows:
 
 @pytest.mark.parametrize(
     ("path", "values"),
-    [("crank.reliability", (0.90, 0.99)), ("wheel_key.load_distribution_factor", (1.2, 1.3)), ("wheel_key.load_distribution_factor", (1.3, 1.1, 1.2))],
-)  # fmt: skip
+    [
+        ("crank.reliability", (0.90, 0.99)),
+        ("wheel_key.load_distribution_factor", (1.2, 1.3)),
+        ("wheel_key.load_distribution_factor", (1.3, 1.1, 1.2)),
+    ],
+)
 def test_a_row_at_its_default_is_checked_whatever_stands_beside_it(path: str, values: tuple[float, ...]) -> None:
     require_as_alone(Press.read(PLATEN, DISCOVERY), path, *values)
 
