@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from diecut_report.errors import ConfigError, Problem, UnknownName, nearest
 from diecut_report.files import write_all
-from diecut_report.quantities.units import unit
+from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.scope import STANDARD
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, PhaseRecord, ShownRecord
@@ -118,14 +118,38 @@ class Tabular(ABC):
     def to_arrow(self) -> Any:
         """Return it as a table of pyarrow."""
 
-    def to_pandas(self) -> Any:
-        """Return it as a table of pandas; ConfigError where pandas is not installed."""
-        self._library("pandas")
-        return self.to_arrow().to_pandas(strings_to_categorical=False)
+    def to_pandas(self, *, shown: bool = False) -> Any:
+        """Return it as a table of pandas, its units in ``attrs["units"]``; ConfigError where pandas is not installed.
 
-    def to_polars(self) -> Any:
-        """Return it as a table of polars; ConfigError where polars is not installed."""
-        return self._library("polars").from_arrow(self.to_arrow())
+        With ``shown`` numbers are in the units of a report, which stand in the heads: ``drive.torque_max [N·m]``.
+        """
+        self._library("pandas")
+        table, units = self._in_units(shown)
+        found = table.to_pandas(strings_to_categorical=False)
+        found.attrs["units"] = units
+        return found
+
+    def to_polars(self, *, shown: bool = False) -> Any:
+        """Return it as a table of polars, as ``to_pandas``; ConfigError where polars is not installed."""
+        return self._library("polars").from_arrow(self._in_units(shown)[0])
+
+    def units(self, *, shown: bool = False) -> dict[str, str]:
+        """Return the unit of each column that has one: the SI unit, or that of a report."""
+        return {}
+
+    def _in_units(self, shown: bool) -> tuple[Any, dict[str, str]]:
+        """The table of pyarrow with its units, which stand in the heads where they are those of a report."""
+        table, units = self.to_arrow(), self.units(shown=shown)
+        if not shown or not units:
+            return table, units
+        columns = {}
+        for name, column in zip(table.column_names, table.columns, strict=True):
+            factor, said = unit(units.get(name, "1")).factor, pretty(units.get(name, "1"))
+            head = f"{name} [{said}]" if said else name
+            columns[head] = (
+                column if factor == 1 else [None if each is None else each / factor for each in column.to_pylist()]
+            )
+        return import_module("pyarrow").table(columns), units
 
     def _library(self, name: str) -> Any:
         try:
@@ -278,6 +302,19 @@ class CurveResult(OfRecord):
         QuantityValue(1.0, self.record.unit, self.name).m_as(other)
         return self.values / unit(other).factor
 
+    def plot(self, axes: Any = None, **style: Any) -> Any:
+        """Draw it over its abscissa, in the units of a report, into these axes of matplotlib or new ones; return the axes."""
+        from matplotlib import pyplot
+
+        axes = pyplot.subplots()[1] if axes is None else axes
+        over = self.abscissa
+        places = np.arange(len(self)) if over is None else over.to(over.display_unit)
+        axes.plot(places, self.to(self.display_unit), **{"label": self.description, **style})
+        axes.set_ylabel(axis_label(self.description, self.display_unit))
+        if over is not None:
+            axes.set_xlabel(axis_label(over.description, over.display_unit))
+        return axes
+
     def __len__(self) -> int:
         return len(self.values)
 
@@ -288,6 +325,11 @@ class CurveResult(OfRecord):
     def __repr__(self) -> str:
         over = f" over {self.abscissa.name}" if self.abscissa else ""
         return f"<curve {self.name}{over}: {len(self)} values in {self.record.unit}>"
+
+
+def axis_label(description: str, shown: str) -> str:
+    """Return what stands at an axis: the quantity and its unit."""
+    return f"{description}, {pretty(shown)}" if pretty(shown) else description
 
 
 def curve_results(data: Mapping[str, CurveRecord]) -> dict[str, CurveResult]:

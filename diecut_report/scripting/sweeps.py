@@ -15,9 +15,9 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
 from diecut_report.errors import ConfigError, PluginError, Problem
 from diecut_report.quantities.formatting import shown
-from diecut_report.quantities.units import pretty
+from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.text import Catalogue, quantity
-from diecut_report.scripting.parts import NamedParts, Tabular
+from diecut_report.scripting.parts import NamedParts, Tabular, axis_label
 from diecut_report.scripting.press_inputs import whole_path
 from diecut_report.scripting.values import notebook_page, plain
 from diecut_report.study.definition.study_file import Study, load_study
@@ -63,6 +63,22 @@ class SweepTable(Tabular):
         """Return how many machines there are of each status."""
         names, numbers = np.unique(self["status"].astype(str), return_counts=True)
         return {str(name): int(number) for name, number in zip(names, numbers, strict=True)}
+
+    def plot(self, x: str, y: str, axes: Any = None, **style: Any) -> Any:
+        """Draw one column over another, in the units of a report, into these axes of matplotlib or new ones; return the axes."""
+        from matplotlib import pyplot
+
+        axes, units = pyplot.subplots()[1] if axes is None else axes, self.units(shown=True)
+        across, upwards = (self[name] / unit(units.get(name, "1")).factor for name in (x, y))
+        axes.plot(across, upwards, **{"marker": "o", "linestyle": "", "label": y, **style})
+        labels = (axis_label(self.columns[name].description or name, units.get(name, "1")) for name in (x, y))
+        axes.set(**dict(zip(("xlabel", "ylabel"), labels, strict=True)))
+        return axes
+
+    def units(self, *, shown: bool = False) -> dict[str, str]:
+        """Return the unit of each column that has one: the SI unit, or that of a report."""
+        found = {name: (shown and about.display) or about.unit for name, about in self.columns.items()}
+        return {name: own for name, own in found.items() if own and own != "1"}
 
     def to_arrow(self) -> Any:
         """Return it as a table of pyarrow, each field with its unit, symbol and description as metadata."""

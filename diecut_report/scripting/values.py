@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Iterator, Mapping
+import operator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import total_ordering
@@ -35,6 +36,18 @@ if TYPE_CHECKING:
 PlainValue = float | int | bool | str
 
 
+def _by_pint(operation: Callable[..., Any]) -> Callable[..., QuantityValue]:
+    """The method of an operator, which reckons by pint."""
+
+    def method(self: QuantityValue, *others: Any) -> QuantityValue:
+        made = operation(
+            self.to_pint(), *(each.to_pint() if isinstance(each, QuantityValue) else each for each in others)
+        )
+        return QuantityValue(made.magnitude, f"{made.units:~C}" or "1")
+
+    return method
+
+
 @total_ordering
 @dataclass(frozen=True, eq=False, repr=False)
 class QuantityValue:
@@ -42,6 +55,7 @@ class QuantityValue:
 
     ``value`` counts in ``unit``: of results and inputs the SI unit, at full precision, as in the results file. ``str`` gives what
     a report prints. ``name``, ``symbol``, ``description`` and ``source`` are those of the quantity; a converted value keeps them.
+    Values add, multiply, divide and take powers, by pint (whose ``DimensionalityError`` tells of unlike ones).
     """
 
     value: PlainValue
@@ -87,6 +101,14 @@ class QuantityValue:
 
         made: Any = pint.Quantity if registry is None else registry.Quantity
         return made(self.magnitude, self.unit if self.unit != "1" else "")
+
+    __neg__, __abs__, __pow__ = _by_pint(operator.neg), _by_pint(abs), _by_pint(operator.pow)
+    __add__, __sub__ = _by_pint(operator.add), _by_pint(operator.sub)
+    __mul__, __truediv__ = _by_pint(operator.mul), _by_pint(operator.truediv)
+    __radd__ = _by_pint(lambda own, other: other + own)
+    __rsub__ = _by_pint(lambda own, other: other - own)
+    __rmul__ = _by_pint(lambda own, other: other * own)
+    __rtruediv__ = _by_pint(lambda own, other: other / own)
 
     def _unfit(self, words: Phrase) -> ConfigError:
         return ConfigError(Problem(Phrase("{value} {words}.", value=str(self), words=words), path=self.name))

@@ -7,10 +7,12 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
+import matplotlib
 import numpy as np
 import pint
 import pyarrow as pa
 import pytest
+from matplotlib import pyplot
 
 import diecut_report as dr
 from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD
@@ -100,7 +102,26 @@ def test_a_table_goes_to_arrow_numpy_pandas_and_polars(press: dr.LoadedPress, mo
     taken: list[pa.Table] = []
     monkeypatch.setitem(sys.modules, "polars", made("polars", from_arrow=taken.append))
     table.to_polars()
-    assert taken == [arrow]
+    table.to_polars(shown=True)
+    assert taken[0] == arrow and table.units()["press.productivity"] == "1/s"
+    shown = taken[1]
+    assert shown.column("press.productivity [1/h]").to_pylist() == [6000, 3000]
+    assert shown.column("a.moment [N·m]").to_pylist() == [200, 200] and "status" in shown.column_names
+    frame = SimpleNamespace(attrs={})
+    monkeypatch.setitem(sys.modules, "pandas", made("pandas"))
+    monkeypatch.setattr(
+        "diecut_report.scripting.sweeps.SweepTable.to_arrow", lambda _: SimpleNamespace(to_pandas=lambda **_: frame)
+    )
+    assert table.to_pandas() is frame and frame.attrs["units"]["a.moment"] == "N*m"
+
+
+def test_columns_are_drawn_in_the_units_of_a_report(press: dr.LoadedPress) -> None:
+    matplotlib.use("Agg")
+    table = press.sweep({"press.productivity": ["6000 1/h", "3000 1/h"]}, outputs=["a.moment"])
+    axes = table.plot("press.productivity", "a.moment")
+    assert axes.lines[0].get_xdata().tolist() == [6000, 3000] and axes.get_xlabel().endswith(", 1/h")
+    assert axes.get_ylabel() == "Moment, N·m" and table.plot("press.productivity", "a.moment", axes) is axes
+    pyplot.close(axes.figure)
 
 
 def made(name: str, **parts: Any) -> ModuleType:

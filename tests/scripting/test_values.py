@@ -60,3 +60,18 @@ def test_a_quantity_goes_to_pint() -> None:
     registry = pint.UnitRegistry()
     assert TORQUE.to_pint().to("kN*m").magnitude == pytest.approx(0.5234)
     assert TORQUE.to_pint(registry) == registry.Quantity(523.4, "N*m") and dr.QuantityValue(3).to_pint().dimensionless
+
+
+def test_quantities_are_reckoned_with_by_pint() -> None:
+    arm = dr.QuantityValue(200, "mm")
+    assert (TORQUE / arm).m_as("kN") == pytest.approx(2.617) and str((TORQUE / arm).to("kN")) == "2.617 kN"
+    assert (2 * TORQUE + TORQUE * 1 - TORQUE / 2).m_as("N*m") == pytest.approx(2.5 * 523.4)
+    assert (arm**2).m_as("m**2") == pytest.approx(0.04) and (-arm).m_as("m") == -0.2 == -abs(-arm).m_as("m")
+    assert (1 / arm).m_as("1/m") == pytest.approx(5) and (arm - dr.QuantityValue(1, "m")).m_as("mm") == pytest.approx(
+        -800
+    )
+    assert float(arm / arm) == 1 and TORQUE / arm / arm * arm * arm > "523 N*m"
+    with pytest.raises(pint.DimensionalityError):
+        TORQUE + arm
+    with pytest.raises(dr.ConfigError, match="is not a number"):
+        dr.QuantityValue("steel") * 2
