@@ -29,7 +29,6 @@ from watchfiles import awatch
 from diecut_report.errors import PluginError, UserError, refusal
 from diecut_report.live.page import Pictures, assets, effect, page, page_data
 from diecut_report.live.session import MEDIA_TYPES, NAME, LiveMachine, LiveReports, LiveSession, in_time
-from diecut_report.results.model import ResultsRecord
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, say
 
@@ -216,13 +215,8 @@ class LiveApplication:
         if machine is None:
             return Response(say("There is no machine to report yet; see the errors in the file."), 409)
 
-        def document() -> ResultsRecord:
-            with in_time(self.session.file):
-                return machine.run.document()
-
-        results = await self._done(document)
         form = request.path_params["form"]
-        content = await self.reports.made(results, form)
+        content = await self.reports.made(machine.config, form)
         headers = {"content-disposition": f'inline; filename="{NAME}.{form}"'}
         return Response(content, media_type=MEDIA_TYPES[form], headers=headers)
 

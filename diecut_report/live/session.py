@@ -21,8 +21,6 @@ from diecut_report.errors import PluginError, Problem, UserError, own_fault, ref
 from diecut_report.files import write
 from diecut_report.press import Press
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity, with_point
-from diecut_report.results.model import ResultsRecord
-from diecut_report.results.results_file import encoded, results_text
 from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.text.phrases import phrase
 from diecut_report.time_limit import MECHANISM_SECONDS, Overran, limited
@@ -282,21 +280,21 @@ class LiveReports:
         self.folders, self.language = folders, language
         self._one = asyncio.Lock()
 
-    async def made(self, results: ResultsRecord, form: str) -> bytes:
-        """Return the report of these results as ``html`` or ``pdf``; UserError in the words of the command where it cannot be made."""
+    async def made(self, config: Config, form: str) -> bytes:
+        """Return the report of a configuration as ``html`` or ``pdf``, the command's own; UserError in its words where it cannot be made."""
         if form not in MEDIA_TYPES:
             raise refusal(
                 "{form} is not a format here; there are {known}.", form=repr(form), known=", ".join(MEDIA_TYPES)
             )
         async with self._one:
             with tempfile.TemporaryDirectory(prefix="diecut-report-") as folder:
-                return await self._rendered(Path(folder), encoded(results_text(results)), form)
+                _laid_out(Path(folder), config)
+                return await self._reported(Path(folder), Path(config.tree.name).name, form)
 
-    async def _rendered(self, folder: Path, results: bytes, form: str) -> bytes:
-        (folder / f"{NAME}.json").write_bytes(results)
+    async def _reported(self, folder: Path, name: str, form: str) -> bytes:
         options = [part for place in self.folders for part in ("--plugins", str(place.absolute()))]
         options += ["--language", self.language] if self.language else []
-        command = f"-P -m diecut_report render {NAME}.json -o made --format {form} --quiet".split()
+        command = ["-P", "-m", "diecut_report", "report", name, "-o", "made", "--format", form, "--quiet"]
         process = await asyncio.create_subprocess_exec(
             sys.executable, *command, *options, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
             stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
@@ -316,3 +314,14 @@ class LiveReports:
         if not files:
             raise refusal(told.decode(errors="replace").strip() or phrase("The report was not generated."))
         return files[0].read_bytes()
+
+
+def _laid_out(folder: Path, config: Config) -> None:
+    """Write a configuration as it is now into a folder, with the tables and the logo that it names beside it or below."""
+    files = {Path(config.tree.name).name: as_file(config.tree, config.tree.text)}
+    files |= {name: as_file(table, table.text) for name, table in config.tables.items()}
+    files |= {config.logo.name: config.logo.content} if config.logo else {}
+    for name, content in files.items():
+        place = folder / name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(content)

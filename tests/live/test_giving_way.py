@@ -13,6 +13,8 @@ from typing import Any
 import pytest
 from httpx import ASGITransport, AsyncClient
 
+from diecut_report.cli.main import main
+from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.live import server
@@ -20,9 +22,7 @@ from diecut_report.live import session as live_session
 from diecut_report.live import session as reports
 from diecut_report.live.server import LiveApplication
 from diecut_report.live.session import LiveSession
-from diecut_report.results.model import ResultsRecord
 from tests.configs import EXAMPLES
-from tests.records import filled
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 
@@ -94,9 +94,30 @@ def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
 
 
 def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    config = load_config(KNIFE, Discovery([]))
     monkeypatch.setattr(reports, "REPORT_SECONDS", 0.05)  # an interpreter takes longer to begin
     with pytest.raises(UserError, match=r"not finished within 0\.05 s"):
-        asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(filled(ResultsRecord, {}), "html"), 60))
+        asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(config, "html"), 60))
+
+
+@pytest.mark.parametrize("named", [False, True], ids=["alone", "with its table and logo"])
+def test_the_report_of_the_page_is_that_of_the_command(tmp_path: Path, named: bool) -> None:
+    """Assumed values are tried too, and what the file names lies in a folder below it."""
+    file = tmp_path / "my knife.yaml"
+    text = KNIFE.read_text("utf-8")
+    if named:
+        (tmp_path / "pictures").mkdir()
+        (tmp_path / "pictures" / "logo.svg").write_text(
+            '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><path d="M0 0h9v9z"/></svg>'
+        )
+        (tmp_path / "pictures" / "steels.yaml").write_text("{}\n")
+        text = text.replace("press:", "report: {logo: pictures/logo.svg}\nmaterials: pictures/steels.yaml\npress:", 1)
+    file.write_text(text, "utf-8")
+    assert main(["report", str(file), "-o", str(tmp_path), "--format", "html", "--quiet"]) == 0
+    session = LiveSession(file, Discovery([]))
+    assert session.machine is not None, session.faults
+    served = asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(session.machine.config, "html"), 60))
+    assert served == file.with_suffix(".html").read_bytes()
 
 
 def test_full_passes_over_what_stays_do_not_stop_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
