@@ -123,15 +123,18 @@ class LoadCases(Demands):
     # As inputs.
 
     def cases_of_shaft(self, shaft: MachineShaft) -> list[dict[str, Any]]:
-        """Return the load cases of a shaft as its calculation takes them."""
-        return [
-            {"name": each.case, "torque": each.torque, "enters": each.enters.name, "leaves": each.leaves.name}
-            for each in self.passing(shaft)
-        ]
+        """Return the load cases of a shaft as its calculation takes them: numbered where a torque may leave at several parts."""
+        found: list[dict[str, Any]] = []
+        for each in self.passing(shaft):
+            count = sum(row["name"].startswith(each.case) for row in found)
+            name = f"{each.case}_{count + 1}" if count else each.case
+            found.append({"name": name, "torque": each.torque, "enters": each.enters.name, "leaves": each.leaves.name})
+        return found
 
     def cases_of_key(self, part: ShaftPart) -> list[dict[str, Any]]:
         """Return the load cases of the key of a part."""
-        return [{"name": each.case, "torque": each.torque} for each in self.passing(part.shaft) if each.ends_at(part)]
+        own = dict.fromkeys((each.case, each.torque) for each in self.passing(part.shaft) if each.ends_at(part))
+        return [{"name": case, "torque": torque} for case, torque in own]
 
     def cases_of_mesh(self, join: Join, pinion: ShaftPart) -> list[dict[str, Any]]:
         """Return the load cases of a pair of gears, as torques on its pinion."""

@@ -154,6 +154,18 @@ def test_a_clutch_beside_the_flywheel_is_engaged_by_the_flywheel() -> None:
     assert names(made["shafts_flywheel_rim_key"]["load_cases"]) == ["engage", "start"]
 
 
+def test_a_clutch_on_a_shaft_that_drives_two_parts_is_engaged_through_both() -> None:
+    made, problems = read(
+        ("- {gear: wheel, at: 200, hub: 100, key: 90}", "- {clutch: clutch, at: 200, hub: 100, key: 90, mass: 6 kg}\n"
+         "      - {gear: wheel, at: 200, rides_on: clutch}"),
+        ("- {clutch: clutch, at: 130, hub: 80,", "- {coupling: sleeve, at: 130, hub: 80,"),
+        ("- {gear: wheel, at: 130, rides_on: clutch}", "- {gear: wheel, at: 130, rides_on: sleeve}"),
+    )  # fmt: skip
+    assert problems == []
+    cases = [(each["name"], each["enters"], each["leaves"]) for each in made["shafts_main"]["load_cases"]]
+    assert cases == [("engage", "wheel", "disc"), ("engage_2", "wheel", "pinion")]
+
+
 # Teeth and shafts.
 
 
