@@ -11,6 +11,7 @@ import numpy as np
 
 from diecut_report.config.instances import Node
 from diecut_report.config.parts.expansion import refused
+from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import recalculated
@@ -74,14 +75,14 @@ class _WholeMachine:
         for change, value in zip(changes, values, strict=True):
             if (begin := self._beginning((name, *_path(change.key)))) is not None:
                 typed[begin] = value, change.unit
-        return not (self._contradicts_parts(typed) or self._disagrees(typed))
-
-    def _contradicts_parts(self, typed: Typed) -> bool:
-        """Whether the machine is made of parts that do not fit each other then, or a value is none that the file has."""
         parts = self.run.config.parts
-        made = {node: given for node, given in typed.items() if parts and parts.follows(node)}
-        if not parts or not made:
+        made = {node: given for node, given in typed.items() if parts and parts.follows(node)}  # anew with the parts
+        if parts and made and self._contradicts(parts, made):
             return False
+        return not self._disagrees({node: given for node, given in typed.items() if node not in made})
+
+    def _contradicts(self, parts: MachineParts, made: Typed) -> bool:
+        """Whether parts do not fit each other with these values, or one of them is nowhere in the file."""
         places = {node: parts.typed_at(node) for node in made}
         if None in places.values():
             return True
