@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from markupsafe import Markup
-
-from diecut_report import __version__
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.findings import decided
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, refusal
@@ -79,12 +76,8 @@ def page(changes: ChangesRecord) -> str:
     """Return the page of the changes of `results.changes`."""
     words = Catalogue(spoken_language())
     made = printed_changes(changes, words)
-    faces = html._font_faces(tuple(html.FACES.items()))
-    style = "\n".join([faces, *(html._read(f"{name}.css") for name in ("report", "screen", "changes"))])
     title = words.say("changes_of", old=made.names[0], new=made.names[1])
-    return html._environment().get_template("diff.html.j2").render(
-        c=made, t=words, language=words.language, title=title, style=Markup(style), policy=html.policy(), version=__version__,
-    )  # fmt: skip
+    return html.styled_page("diff.html.j2", "screen", ("changes",), c=made, title=title)
 
 
 # What changed between two calculations, as lines for a terminal.

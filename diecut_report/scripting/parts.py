@@ -303,17 +303,13 @@ class CurveResult(OfRecord):
         return self.values / unit(other).factor
 
     def plot(self, axes: Any = None, **style: Any) -> Any:
-        """Draw it over its abscissa, in the units of a report, into these axes of matplotlib or new ones; return the axes."""
-        from matplotlib import pyplot
+        """Draw it over its abscissa, in the units of a report; return the axes of matplotlib, whose ``figure`` a notebook shows."""
+        from diecut_report.report.figures.style import plotted
 
-        axes = pyplot.subplots()[1] if axes is None else axes
-        over = self.abscissa
-        places = np.arange(len(self)) if over is None else over.to(over.display_unit)
-        axes.plot(places, self.to(self.display_unit), **{"label": self.description, **style})
-        axes.set_ylabel(axis_label(self.description, self.display_unit))
-        if over is not None:
-            axes.set_xlabel(axis_label(over.description, over.display_unit))
-        return axes
+        over = self.abscissa or self
+        labels = axis_label(over.description, over.display_unit), axis_label(self.description, self.display_unit)
+        style = {"label": self.description, **style}
+        return plotted(over.to(over.display_unit), self.to(self.display_unit), labels, axes, **style)
 
     def __len__(self) -> int:
         return len(self.values)

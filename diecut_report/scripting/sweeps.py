@@ -65,15 +65,13 @@ class SweepTable(Tabular):
         return {str(name): int(number) for name, number in zip(names, numbers, strict=True)}
 
     def plot(self, x: str, y: str, axes: Any = None, **style: Any) -> Any:
-        """Draw one column over another, in the units of a report, into these axes of matplotlib or new ones; return the axes."""
-        from matplotlib import pyplot
+        """Draw one column over another, in the units of a report; return the axes of matplotlib, whose ``figure`` a notebook shows."""
+        from diecut_report.report.figures.style import plotted
 
-        axes, units = pyplot.subplots()[1] if axes is None else axes, self.units(shown=True)
+        units = self.units(shown=True)
         across, upwards = (self[name] / unit(units.get(name, "1")).factor for name in (x, y))
-        axes.plot(across, upwards, **{"marker": "o", "linestyle": "", "label": y, **style})
-        labels = (axis_label(self.columns[name].description or name, units.get(name, "1")) for name in (x, y))
-        axes.set(**dict(zip(("xlabel", "ylabel"), labels, strict=True)))
-        return axes
+        first, second = (axis_label(self.columns[name].description or name, units.get(name, "1")) for name in (x, y))
+        return plotted(across, upwards, (first, second), axes, **{"marker": "o", "linestyle": "", "label": y, **style})
 
     def units(self, *, shown: bool = False) -> dict[str, str]:
         """Return the unit of each column that has one: the SI unit, or that of a report."""

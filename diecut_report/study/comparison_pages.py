@@ -10,12 +10,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from diecut_report.files import room
 from diecut_report.quantities.units import pretty
 from diecut_report.report.office.sheets import Cell, CellNumber, WorkSheet, form_of
 from diecut_report.report.office.workbook import book_of
+from diecut_report.report.pages.html import styled_page
+from diecut_report.report.pages.pdf import printed_page
 from diecut_report.results.results_file import encoded
 from diecut_report.study.comparison import MOST_ROWS, WORDS, ComparedCell, ComparedRow, MachineComparison, as_data
-from diecut_report.study.documents import filled, printed
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, say
 
@@ -31,10 +33,16 @@ def page(made: MachineComparison, kind: str = "screen") -> str:
         (phrase("Mechanisms that not all have"), _merged(made.kinds)),
         (phrase("Inputs typed differently"), made.changes[:MOST_ROWS]),
     ]
-    return filled(
+    return styled_page(
         "comparison.html.j2", kind, STYLES[kind], c=made, groups=[each for each in groups if each[1]], checks=made.telling_checks[:MOST_ROWS],
         tables=list(blocks(len(made.machines))), omitted=made.omitted, pretty=pretty,
     )  # fmt: skip
+
+
+def printed(made: MachineComparison) -> bytes:
+    """Return the comparison as PDF."""
+    with room():
+        return printed_page(page(made, "print"))
 
 
 def _merged(kinds: Sequence[ComparedRow]) -> list[ComparedRow]:
@@ -162,7 +170,7 @@ def _width(cell: Cell) -> int:
 
 FORMATS: dict[str, Callable[[MachineComparison], bytes]] = {
     "html": lambda made: encoded(page(made)),
-    "pdf": lambda made: printed(page(made, "print")),
+    "pdf": printed,
     "xlsx": lambda made: book_of(sheets(made)),
     "csv": table,
     "json": lambda made: encoded(json.dumps(as_data(made), indent=1, ensure_ascii=False, allow_nan=False) + "\n"),

@@ -5,10 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 import pytest
-from matplotlib import pyplot
 
 import diecut_report as dr
 from diecut_report.cli.main import main
@@ -105,14 +103,12 @@ def test_checks_are_found_by_name_and_are_a_table(knife: dr.Results, levers: dr.
 
 
 def test_a_curve_draws_itself_in_the_units_of_a_report(knife: dr.Results) -> None:
-    matplotlib.use("Agg")
     curves = knife["knife"].curves
     axes = curves["torque"].plot(color="red")
     x, y = axes.lines[0].get_data()
     assert x[-1] == pytest.approx(360, rel=0.01) and y.max() == pytest.approx(curves["torque"].to("N*m").max())
     assert axes.get_xlabel().endswith(", °") and axes.get_ylabel().endswith(", N·m")
     assert curves["knife_angle"].plot(axes) is axes and len(axes.lines) == 2
-    pyplot.close(axes.figure)
 
 
 def test_curves_are_arrays_over_their_abscissa(knife: dr.Results) -> None:

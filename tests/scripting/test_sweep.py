@@ -7,12 +7,10 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-import matplotlib
 import numpy as np
 import pint
 import pyarrow as pa
 import pytest
-from matplotlib import pyplot
 
 import diecut_report as dr
 from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD
@@ -116,12 +114,10 @@ def test_a_table_goes_to_arrow_numpy_pandas_and_polars(press: dr.LoadedPress, mo
 
 
 def test_columns_are_drawn_in_the_units_of_a_report(press: dr.LoadedPress) -> None:
-    matplotlib.use("Agg")
     table = press.sweep({"press.productivity": ["6000 1/h", "3000 1/h"]}, outputs=["a.moment"])
     axes = table.plot("press.productivity", "a.moment")
     assert axes.lines[0].get_xdata().tolist() == [6000, 3000] and axes.get_xlabel().endswith(", 1/h")
     assert axes.get_ylabel() == "Moment, N·m" and table.plot("press.productivity", "a.moment", axes) is axes
-    pyplot.close(axes.figure)
 
 
 def made(name: str, **parts: Any) -> ModuleType:

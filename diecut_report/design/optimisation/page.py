@@ -15,7 +15,6 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from diecut_report import __version__
 from diecut_report.config import yaml
 from diecut_report.design.optimisation.result import (
     FoundFront,
@@ -39,9 +38,9 @@ from diecut_report.files import room
 from diecut_report.formulas import Array
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, canvas, drawn, text_size
-from diecut_report.report.pages import html, pdf
-from diecut_report.report.pages.page_engine import HTML, URLFetcher
-from diecut_report.report.text import Catalogue, number
+from diecut_report.report.pages.html import styled_page
+from diecut_report.report.pages.pdf import printed_page
+from diecut_report.report.text import number
 from diecut_report.study.summary import best
 from diecut_report.study.summary import content as questions
 from diecut_report.study.summary.best import StoredObjective
@@ -49,7 +48,7 @@ from diecut_report.study.summary.charts import COLOURS, HEAD, LABEL, panel
 from diecut_report.study.summary.data import display, factor, named, quantity, titled, utilised, value_text, wrapped
 from diecut_report.study.summary.figures import SummaryFigure
 from diecut_report.text.phrases import capital
-from diecut_report.text.translation import localised, said, say, say_counted, spoken_language
+from diecut_report.text.translation import localised, said, say, say_counted
 
 # The figures of an optimisation, in the style of a study's summary: the front, how it was found, where it lies within the bounds.
 
@@ -180,26 +179,22 @@ def page(found: OptimisationResult) -> str:
 
 def sheets(found: OptimisationResult) -> bytes:
     """Return it as PDF (A4, PDF/UA-1)."""
-    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
-    with room(), pdf._without_collection():
-        content: bytes = HTML(string=_filled(found, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
-    return content
+    with room():
+        return printed_page(_filled(found, "print"))
 
 
 def _filled(found: OptimisationResult, kind: str) -> str:
-    styles = ("report", kind, *(["strip"] if kind == "print" else []), "summary", "optimisation")
-    style = "\n".join([html._font_faces(tuple(html.FACES.items())), *(html._read(f"{name}.css") for name in styles)])
     asked = asked_of(found.study)
-    return html._environment().get_template("optimisation.html.j2").render(
-        r=found, o=asked, t=Catalogue(spoken_language()), language=spoken_language(), kind=kind, policy=html.policy(),
-        style=Markup(style), version=__version__, title=_title(found), figure=partial(_figure, kind), figures=_figures(found),
+    return styled_page(
+        "optimisation.html.j2", kind, ("summary", "optimisation"), r=found, o=asked, title=_title(found), figure=partial(_figure, kind),
+        figures=_figures(found),
         asked=questions.asked_questions(found.stored),
         heads=[titled(column) for column in found.front.columns],
         goals=[goal.label for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
         counts=capital(counts(found)), suggested=capital(suggested(found)), present=capital(present(found, named)),
         held=_held(found), rechecked=[capital(line) for line in recheck_lines(found)],
         conflict=list(conflict_lines(found.conflict)) if found.conflict else [],
-        words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, say=say, counted=_counted,
+        words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, counted=_counted,
         files=_files(found), localised=localised, value_text=value_text,
         example=int(found.front.variants[found.front.suggested or 0]) if found.conflict is None else found.conflict.nearest,
     )  # fmt: skip

@@ -192,6 +192,14 @@ def canvas(width: float, height: float) -> Figure:
     return figure
 
 
+def plotted(x: Any, y: Any, labels: tuple[str, str], axes: Any = None, **style: Any) -> Any:
+    """Draw a line into axes of matplotlib, or into those of a figure of its own; return the axes."""
+    axes = Figure(layout="constrained").add_subplot() if axes is None else axes
+    axes.plot(x, y, **style)
+    axes.set(xlabel=labels[0], ylabel=labels[1])
+    return axes
+
+
 def written(figure: Figure, title: str) -> Svg:
     """A drawn figure as SVG, without what would leak into the page that it stands in."""
     buffer = io.StringIO()

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
 
+from diecut_report import __version__
 from diecut_report.report.chapters.value_tables import ValueRow
 from diecut_report.report.context import Material
 from diecut_report.report.document import machine_named
@@ -23,7 +24,9 @@ from diecut_report.report.pages.firm_templates import MAIN, OPTIONS, bounded_mem
 from diecut_report.report.pages.page_policy import refuse_fetching
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbols import cited, in_blocks, letters_declared, own_words, pieces, prose, symbol
-from diecut_report.report.text import joined, sentence, tidy
+from diecut_report.report.text import Catalogue, joined, sentence, tidy
+from diecut_report.results.results_file import encoded
+from diecut_report.text.translation import said, say, spoken_language
 
 if TYPE_CHECKING:
     from diecut_report.report.pages.frames import SheetBlocks
@@ -145,6 +148,19 @@ def template_functions(given: Mapping[str, Any]) -> list[Callable[..., Any]]:
 def filled_page(template: str, **given: object) -> str:
     """Return a page of its own of the program's templates, filled with these values; what they hold stands as text."""
     return _environment().get_template(template).render(**given)
+
+
+def styled_page(template: str, kind: str, styles: tuple[str, ...], script: str = "", **values: Any) -> str:
+    """Return a template as one self-contained HTML page, for the ``screen`` or for ``print``; ``styles`` come after those of a report.
+
+    What no page can hold, bytes of a file's name that are not UTF-8, stands as an escape.
+    """
+    sheets = ("report", kind, *(["strip"] if kind == "print" else []), *styles)
+    style = "\n".join([_font_faces(tuple(FACES.items())), *(_read(f"{name}.css") for name in sheets)])
+    language = spoken_language()
+    page = filled_page(template, t=Catalogue(language), language=language, kind=kind, policy=policy(script), style=Markup(style),
+        version=__version__, say=say, said=said, **values)  # fmt: skip
+    return encoded(page).decode()
 
 
 def policy(*scripts: str) -> str:

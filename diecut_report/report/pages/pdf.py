@@ -19,7 +19,7 @@ from diecut_report.report.equations import Equation
 from diecut_report.report.model import Item
 from diecut_report.report.pages.frames import sheet_blocks, waiting_figures
 from diecut_report.report.pages.html import Screen, filled
-from diecut_report.report.pages.page_engine import Attachment, URLFetcher, block_layout, read_page, told_of_page
+from diecut_report.report.pages.page_engine import HTML, Attachment, URLFetcher, block_layout, read_page, told_of_page
 from diecut_report.report.pages.pdf_archive import complete
 from diecut_report.report.pages.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pages.pdf_math import Letters, Picture
@@ -116,6 +116,14 @@ def sheets(material: Material) -> bytes:
                 for file in material.carried
             ],
         )  # fmt: skip
+    return content
+
+
+def printed_page(source: str) -> bytes:
+    """Return a page of its own as PDF (A4, PDF/UA-1); whoever asks gives it room for its files."""
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    with _without_collection():
+        content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
     return content
 
 

@@ -11,11 +11,13 @@ from typing import Any
 
 from markupsafe import Markup
 
+from diecut_report.files import room
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.pages import html
+from diecut_report.report.pages.html import styled_page
+from diecut_report.report.pages.pdf import printed_page
 from diecut_report.report.text import number
 from diecut_report.study.analysis.variants import StoredColumn
-from diecut_report.study.documents import filled, printed
 from diecut_report.study.summary.content import Summary
 from diecut_report.study.summary.data import WORDS, display, named, percent, titled, utilised, variants
 from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted
@@ -25,7 +27,7 @@ DIGITS = 4  # of the numbers that a browser draws
 
 def page(summary: Summary, kind: str = "screen") -> str:
     """Return the summary as one self-contained HTML page."""
-    return filled(
+    return styled_page(
         "summary.html.j2", kind, ("summary",), _script(), s=summary, figure=partial(_figure, summary, kind),
         points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display,
         counted=_counted, variants=variants, percent=percent, utilised=utilised, number=number, pretty=pretty, localised=localised,
@@ -34,7 +36,8 @@ def page(summary: Summary, kind: str = "screen") -> str:
 
 def sheets(summary: Summary) -> bytes:
     """Return the summary as PDF."""
-    return printed(page(summary, "print"))
+    with room():
+        return printed_page(page(summary, "print"))
 
 
 def _counted(one: str, many: str, count: int, **named: object) -> str:
