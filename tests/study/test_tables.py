@@ -65,9 +65,20 @@ def test_a_number_of_excel_has_the_unit_that_its_cell_shows(tmp_path: Path) -> N
     """Excel keeps 71 % as 0.71, and a unit that only the number format has nowhere else."""
     book = openpyxl.Workbook()
     sheet = book.worksheets[0]
-    forms = "0%", "0.00 %", '0" %"', '0.0" kN·m";-0.0', r"#\ ##0\ \m\m", "[$MPa] 0.0", "[Red]#,##0", "0.0,"
+    forms = (
+        "0%",
+        "0.00 %",
+        '0" %"',
+        '0.0" kN·m";-0.0',
+        r"#\ ##0\ \m\m",
+        "[$MPa] 0.0",
+        "[Red]#,##0",
+        "0.0,",
+        "0°",
+        '[>=10]0.0" m";0" mm"',
+    )
     sheet.append([f"head {form}" for form in forms])
-    sheet.append([0.71, 0.125, 5, 0.6, 1200, 3, 7, 12000])
+    sheet.append([0.71, 0.125, 5, 0.6, 1200, 3, 7, 12000, 5, 5])
     for column, form in enumerate(forms, 1):
         sheet.cell(2, column).number_format = form
     book.save(tmp_path / "t.xlsx")
@@ -82,6 +93,8 @@ def test_a_number_of_excel_has_the_unit_that_its_cell_shows(tmp_path: Path) -> N
         ["3 MPa"],
         ["7"],
         ["12000 shown in thousands"],
+        ["5 °"],
+        ["5 shown in thousands"],
     ]
 
 
