@@ -317,7 +317,8 @@ def _of(known: Array | None) -> Array:
 def speeds(machine: Machine) -> Iterator[Disagreement]:
     """An element has the speed of the mechanism whose curves load it, and a bearing that of its shaft."""
     for shaft in machine.of("shaft"):
-        if shaft.inputs.get("rotation") == "turning":
+        rotation = shaft.inputs.get("rotation")
+        if isinstance(rotation, str) and rotation == "turning":
             yield from _speed(machine, shaft, ("speed",), _of(shaft.number("turns_per_cycle")))
     for key in machine.of("parallel_key"):
         yield from _speed(machine, key, ("cycle_speed",), np.ones(1))

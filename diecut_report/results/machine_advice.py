@@ -22,6 +22,7 @@ from diecut_report.results.coherence import Machine, disagreements
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import Value
+from diecut_report.results.usual import outside
 from diecut_report.text.phrases import Phrase, joined
 
 FOLLOWS = "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
@@ -92,7 +93,7 @@ class _WholeMachine:
         return refused(parts, texts, kinds)
 
     def _disagrees(self, typed: Typed) -> bool:
-        """Whether mechanisms contradict each other that take these values, each calculated with them alone."""
+        """Whether mechanisms contradict each other that take these values, each calculated with them alone, or one has what none has."""
         machine, changed = self._machine, dict[str, dict[str, Any]]()
         for begin, (value, _) in typed.items():
             for node in (begin, *self._followers.get(begin, ())):
@@ -100,10 +101,11 @@ class _WholeMachine:
                     _put(changed.setdefault(name, {}), machine.parts[name].calc, node[1:], value)
         for name, inputs in changed.items():
             own = machine.parts[name]
-            calc = recalculated(own.calc, inputs, 1)
-            if calc is None:
+            calc, taken = recalculated(own.calc, inputs, 1), {**own.inputs, **inputs}
+            beside = self.run.beside(own.instance)
+            if calc is None or any(each.slips.any() for each in outside(own.instance, taken, beside, calc.values)):
                 return True
-            machine = machine.with_part(replace(own, inputs={**own.inputs, **inputs}, calc=calc))
+            machine = machine.with_part(replace(own, inputs=taken, calc=calc))
         return bool(changed) and any(True for _ in disagreements(machine))
 
     @cached_property

@@ -13,6 +13,7 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.references import WHOLE
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
+from diecut_report.config.yaml import KeyPath
 from diecut_report.formulas import Array
 from diecut_report.mechanism.inputs import POINTS, Quantity, Varying, flatten
 from diecut_report.mechanism.names import SI
@@ -53,15 +54,19 @@ def run_summary(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> Summar
 def open_items(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> list[OpenRecord]:
     """Return all that is open of a run, in the order of ``LEFT``."""
     owner = _owner(run)
-    mechanisms = {name: calc.mechanism for name, calc in run.calculations.items()}
-    mechanisms |= {case.name: case.comparison.mechanism for case in run.cases}
-    doubtful = [name for name, own in mechanisms.items() if plugin_code(own).get("plugin_check") == "failed"]
-    found = unsettled(checks, doubtful, owner)
+    found = unsettled(checks, doubtful(run), owner)
     if run.config.parts is not None:
         found += unrated(run.config.parts, run.config.named("drive_train"), checks, owner)
     found += [*unrated_forces(run), *open_values(run)]
     order = list(LEFT)
     return sorted(found, key=lambda each: order.index(each.what))
+
+
+def doubtful(run: Run) -> list[str]:
+    """Return the mechanisms of a run whose plugin has faults in its formulas."""
+    mechanisms = {name: calc.mechanism for name, calc in run.calculations.items()}
+    mechanisms |= {case.name: case.comparison.mechanism for case in run.cases}
+    return [name for name, own in mechanisms.items() if plugin_code(own).get("plugin_check") == "failed"]
 
 
 def _owner(run: Run) -> str:
@@ -134,8 +139,7 @@ def open_values(run: Run) -> Iterator[OpenRecord]:
         if instance is None or name not in run.blocks:
             continue
         unranged_keys = unranged(run.config.kinds.get(name, PRESS), _is_alone(run, name))
-        calc, inputs = run.calculations.get(name), flatten(run.blocks[name])
-        unbounded_keys = unbounded(instance, inputs, run.beside(instance), calc.values) if calc else set()
+        unbounded_keys = _unbounded(run, instance)
         for slot in (each for each in instance.slots if not _is_varied(each)):
             is_bounded = slot.key not in unbounded_keys
             what = _rests_on(run, instance, slot, _standing(run, instance, slot), is_bounded=is_bounded)
@@ -153,16 +157,26 @@ def varied_open(run: Run, count: int) -> Array:
     """Return in which of so many machines an input that is not the same in all of them is open, shape (count,)."""
     found = np.zeros(count, dtype=bool)
     for name, instance in run.config.instances.items():
-        for slot in instance.slots if instance is not None and name in run.blocks else ():
-            if not _is_varied(slot):
-                continue
-            assert instance is not None
+        varied = (
+            [slot for slot in instance.slots if _is_varied(slot)] if instance is not None and name in run.blocks else []
+        )
+        if instance is None or not varied:
+            continue
+        unbounded_keys = _unbounded(run, instance)
+        for slot in varied:
             values, row = np.unique(np.asarray(slot.value.value, dtype=float), return_inverse=True)
             typed = np.broadcast_to(at_default(run.blocks[name], slot.key), (count,))
             standing = (_Standing(float(value), bool(typed[row == index][0])) for index, value in enumerate(values))
-            is_open = [_rests_on(run, instance, slot, each, is_bounded=True) is not None for each in standing]
+            is_bounded = slot.key not in unbounded_keys
+            is_open = [_rests_on(run, instance, slot, each, is_bounded=is_bounded) is not None for each in standing]
             found |= np.array(is_open)[row] & (typed | ~np.asarray(as_founded(instance, run.blocks[name], slot.key)))
     return found
+
+
+def _unbounded(run: Run, instance: Instance) -> set[KeyPath]:
+    """The keys of a mechanism whose usual range bounds nothing here."""
+    calc = run.calculations.get(instance.name)
+    return unbounded(instance, flatten(run.blocks[instance.name]), run.beside(instance), calc.values) if calc else set()
 
 
 def _is_varied(slot: Slot) -> bool:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from diecut_report.cli.main import main
 from diecut_report.config.parts.expansion import refused
 from diecut_report.config.parts.reading import section_blocks
 from diecut_report.config.yaml import KeyPath
@@ -64,6 +65,27 @@ def test_what_another_mechanism_refuses_is_not_advised() -> None:
         [values] = typed(press, mechanism, [KeyChangeRecord(key=key, relation="equal", value=text, unit="1")])
         with pytest.raises(UserError):
             press.with_values(values).calculate()
+
+
+def test_what_no_machine_has_is_not_advised(tmp_path: Path) -> None:
+    """A module of 10 mm would be more than half the width of the gears; a clearance of zero is none."""
+    file = tmp_path / "gears.yaml"
+    assert main(["new", "gear_pair", "-o", str(file), "--quiet"]) == 0
+    text = (
+        file.read_text("utf-8")
+        .replace("module: {value: 5 mm", "module: {value: 3 mm")
+        .replace("face_width: {value: 50 mm", "face_width: {value: 12 mm")
+    )
+    file.write_text(text, "utf-8")
+    press = Press.read(file, DISCOVERY)
+    [(name, own)] = [(name, own) for name, own in checks(file).items() if name in press.config.kinds and own]
+    failing = [each for each in own.values() if each.status == "fail"]
+    assert {each.id for each in failing} >= {"pitting_1", "pitting_2"}
+    for check in failing:
+        for values in (each for way in check.advice for each in typed(press, name, way, check.message)):
+            press.with_values(values).calculate()  # which would refuse it
+    [pinion] = [each for each in failing if each.id == "pitting_1"]
+    assert ["module"] not in keys(pinion)  # of 10 mm, which 12 mm of width are too narrow for
 
 
 @pytest.mark.nightly

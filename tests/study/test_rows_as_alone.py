@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from diecut_report.config.loader import Config
-from diecut_report.design.inputs import design_input
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.inputs import design_input, given_numbers
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from diecut_report.study.definition.base_inputs import find_input
@@ -126,3 +127,66 @@ def test_the_place_of_one_of_two_notches_is_varied(tmp_path: Path) -> None:
     config = Press.read(saved(tmp_path, text), DISCOVERY).config
     found = rows(config, "crankshaft.notches.1.position", 0.305, 0.310, 0.385)
     assert [status == "error" for status in found.status] == [False, False, True]
+
+
+def test_the_rotation_of_a_shaft_is_varied(tmp_path: Path) -> None:
+    text = CRANKSHAFT.replace("    speed: 100 rpm\n", "    rotation: 5 deg\n")
+    config = Press.read(saved(tmp_path, text), DISCOVERY).config
+    found = rows(config, "crankshaft.rotation", 0.0, 0.2)
+    assert "error" not in found.status.tolist()
+
+
+def test_a_text_that_a_machine_does_not_have_is_none(tmp_path: Path) -> None:
+    """Of a shaft that stands still the verdict on its speed."""
+    press = Press.read(saved(tmp_path, CRANKSHAFT + "    rotation: none\n"), DISCOVERY)
+    found = rows(press.config, "crankshaft.bearing_a", 0.02, 0.021)
+    assert found.columns["crankshaft.speed_verdict"].tolist() == [None, None] and found.status.tolist() == [
+        "fail",
+        "fail",
+    ]
+
+
+BEARING = """\
+schema_version: 1
+project: {title: T}
+press: {name: P, productivity: {value: 6000 1/h, basis: drawing}}
+mechanisms:
+  bearings:
+    kind: rolling_bearing
+    bearings:
+      - name: a
+        type: deep_groove
+        designation: X209
+        dynamic_rating: {value: 35.1 kN, basis: drawing}
+        static_rating: {value: 21.6 kN, basis: drawing}
+        radial_force: {value: 3 kN, basis: drawing}
+        speed: {value: 100 rpm, basis: drawing}
+        limiting_speed: 3000 rpm
+"""
+
+
+def test_what_nothing_bounds_is_open_in_each_row(tmp_path: Path) -> None:
+    press = Press.read(saved(tmp_path, BEARING), DISCOVERY)
+    name = "mechanisms.bearings.bearings.0.limiting_speed"
+    alone = {each.path for each in press.calculate().results.summary.open}
+    assert name in alone
+    founded = BEARING.replace("3000 rpm", "{value: 3000 rpm, basis: drawing}")
+    others = {each.path for each in Press.read(saved(tmp_path, founded), DISCOVERY).calculate().results.summary.open}
+    found = rows(press.config, "bearings.bearings.0.limiting_speed", 314.0, 419.0)
+    assert name not in others and found.verdict.tolist() == ["conditional", "conditional"]
+
+
+def test_rows_of_a_plugin_with_faults_in_its_formulas_are_conditional(tmp_path: Path) -> None:
+    plugin = (Path(__file__).parents[2] / "examples" / "machine-builder" / "plugins" / "sheet_stop.py").read_text(
+        "utf-8"
+    )
+    folder = tmp_path / "plugins"
+    folder.mkdir()
+    assert "stiffness * way" in plugin
+    (folder / "sheet_stop.py").write_text(plugin.replace("stiffness * way", "stiffness * way + 1", 1), "utf-8")
+    example = next((Path(__file__).parents[2] / "examples" / "machine-builder").rglob("*.yaml"))
+    config = Press.read(example, Discovery([folder])).config
+    names = [name for name, kind in config.kinds.items() if kind == "sheet_stop"]
+    design = next(each for each in given_numbers(config) if each.asked.instance == names[0])
+    found = calculate_rows(config, {design.asked: np.array([design.present, design.present])}, 2)
+    assert found.verdict.tolist() == ["conditional", "conditional"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from math import atan2, cos, lcm, prod, sin
 from typing import Any, NamedTuple
 
@@ -225,7 +226,7 @@ class Demands:
         found: list[Join] = []
         while shaft != start:
             join = self.parts.driving_join(self.parts.shafts[shaft])
-            if join is None:
+            if join is None or join in found:
                 return []
             found.insert(0, join)
             shaft = join.drivers[0].shaft.name
@@ -290,9 +291,8 @@ class Demands:
                 return found | {"name": part.name}
             if part in join.driven and self.flywheel(part.shaft) and (found := self._motor_torque(part)):
                 return found | {"name": part.name}
-            if part in join.driven[1:] and (
-                own := self.inertia_of(part.shaft)
-            ):  # drives its share, the first one the rest
+            # drives its share of the inertia, the first one the rest; of what else the shaft takes nobody knows the shares
+            if part in join.driven[1:] and not self._takes(part.shaft) and (own := self.inertia_of(part.shaft)):
                 return own | {"name": part.name, "ratio": own["ratio"].times(number=-1 / len(join.driven))}
         return None
 
@@ -312,7 +312,33 @@ class Demands:
 
     def lacks_torque(self, shaft: MachineShaft) -> bool:
         """Return whether the torque on one of a shaft's parts is not known, so that nothing that the shaft carries is."""
-        return any(self._is_unknown(part) for part in shaft.parts)
+        is_judged = shaft.name == self.parts.keys.anchor and self.named("cyclogram") is not None
+        return (is_judged and not self.is_whole) or any(self._is_unknown(part) for part in shaft.parts)
+
+    @cached_property
+    def is_whole(self) -> bool:
+        """Return whether the lines of the cyclogram are what the parts take from the main shaft: no other torque, and no mechanism elsewhere."""
+        block = self.blocks.get(self.named("cyclogram") or "", {})
+        lines = block.get("lines", []) if isinstance(block.get("lines", []), list) else []
+        timed = {line.get("mechanism") for line in lines if isinstance(line, dict)}
+        ports = [
+            (part, port) for shaft in self.parts.shafts.values() for part in shaft.parts if (port := self.port(part))
+        ]
+        taking = [part for part, port in ports if port.torque and not port.angle and part.port]
+        return (
+            not block.get("friction")
+            and timed == {part.port[0] for part in taking if part.port and self._is_behind(part.shaft)}
+            and all(self._is_behind(part.shaft) for part in taking)
+        )
+
+    def _is_behind(self, shaft: MachineShaft | None) -> bool:
+        """Whether the main shaft drives a shaft, or is it."""
+        seen = set[str]()
+        while shaft is not None and shaft.name != self.parts.keys.anchor and shaft.name not in seen:
+            seen.add(shaft.name)
+            join = self.parts.driving_join(shaft)
+            shaft = join.drivers[0].shaft if join else None
+        return shaft is not None and shaft.name == self.parts.keys.anchor
 
     def _is_unknown(self, part: ShaftPart) -> bool:
         if self.torque_on(part):
@@ -320,16 +346,20 @@ class Demands:
         joins = list(self.parts.joins_of(part))
         follows_motor = self.flywheel(part.shaft) is not None and any(part in each.driven for each in joins)
         is_asked = follows_motor and bool(self.torques_of(part.shaft))
-        return is_asked or any(part in each.drivers and not self._is_idle(each) for each in joins)
+        is_shared = any(part in each.driven[1:] for each in joins) and self._takes(part.shaft)
+        return is_asked or is_shared or any(part in each.drivers and not self._is_idle(each) for each in joins)
+
+    def _takes(self, shaft: MachineShaft) -> bool:
+        """Whether a shaft drives others, or a mechanism."""
+        return any(part.port or any(part in join.drivers for join in self.parts.joins_of(part)) for part in shaft.parts)
 
     def _is_idle(self, join: Join) -> bool:
         """Whether a join drives a shaft that takes nothing."""
         if not join.driven or getattr(join.keys, "moves", None):
             return False
         shaft = join.driven[0].shaft
-        return (
-            not self.torques_of(shaft) and not self.lacks_torque(shaft) and not any(each.port for each in shaft.parts)
-        )
+        is_loaded = any(each.port or "torque" in each.more for each in shaft.parts)
+        return not is_loaded and not self.torques_of(shaft) and not self.lacks_torque(shaft)
 
     def flywheel(self, shaft: MachineShaft) -> ShaftPart | None:
         """Return the flywheel on a shaft that a motor drives by a belt; None where there is none, or nothing is known of the motor."""
@@ -354,6 +384,8 @@ class Demands:
             return self._moved(join, share)
         driven = join.driven[0].shaft
         if driven.name == self.parts.keys.anchor and (timing := self.named("cyclogram")):
+            if not self.is_whole:
+                return None
             demand: dict[str, Any] | None = {
                 "mechanism": timing,
                 "curve": "main_shaft_torque",
@@ -412,6 +444,8 @@ class Demands:
         mechanism, _, what = (join.keys.moves or "").partition(".")
         kind = self.parts.mechanisms.get(mechanism)
         if kind == "cylinder_drive" and what == "cylinder":
+            if join.driven:  # what the shaft over there takes follows another curve
+                return None
             losses = f"1 / (${{{mechanism}.efficiency_chain}} * ${{{mechanism}.efficiency_bearings}})"  # also where it brakes: safe
             return self._source("", mechanism, "cylinder_moment", -1) | {"ratio": Ratio(-1 / share, (losses,))}
         wheels = (
@@ -425,16 +459,16 @@ class Demands:
             return None
         factors = tuple(each.ratio_text for each in self.chain_from(wheel[0].shaft.name, join.drivers[0].shaft.name))
         found = self._source("", mechanism, wheel[1].torque, -1)
-        return found | {"ratio": Ratio(-1 / share, factors), "inertia": self._conveyor_inertia(join)}
-
-    def _conveyor_inertia(self, *chains: Join) -> str:
-        """The inertia of a conveyor and the far shafts at its sprockets' shaft."""
-        masses = (
-            f"${{drive_line.{each.name}_chain_mass}} * (${{drive_line.{each.name}_chain_travel}} / 1 rad)**2"
-            for each in chains
+        far = dict.fromkeys(part.shaft.body for part in join.driven)
+        inertia = " + ".join(
+            [self.conveyor_inertia(join), *(f"${{{each}.inertia}} * {join.ratio_text}**2" for each in far)]
         )
-        bodies = dict.fromkeys(part.shaft.body for each in chains for part in each.driven)
-        return " + ".join([*masses, *(f"${{{each}.inertia}}" for each in bodies)])
+        return found | {"ratio": Ratio(-1 / share, factors), "inertia": inertia}
+
+    @staticmethod
+    def conveyor_inertia(chain: Join) -> str:
+        """Return the inertia of what a chain moves at its driving sprockets."""
+        return f"${{drive_line.{chain.name}_chain_mass}} * (${{drive_line.{chain.name}_chain_travel}} / 1 rad)**2"
 
     def _raw(self, path: KeyPath) -> Mapping[str, Any]:
         data: Any = self.parts.reader.data

@@ -61,55 +61,50 @@ class Elements(ShaftElements):
 
     def _provided(self, part: ShaftPart, what: str) -> Any:
         """What the parts give a mechanism at one of its ports; nothing where several meshes there are not alike."""
-        meshes = self._driven_from(part.shaft, "meshes")
-        if len({mesh.ratio for mesh in meshes}) > 1:
+        meshes = [join for join in self.parts.joins if join.word == "meshes" and join.drivers[0].shaft is part.shaft]
+        chains = self._conveyors(part)
+        way = self.chain_from(part.shaft.name, chains[0].drivers[0].shaft.name) if chains else meshes[:1]
+        if len({mesh.ratio for mesh in meshes}) > 1 and not chains:
             return None
-        mesh = next(iter(meshes), None)
-        chains = [
-            chain
-            for shaft in ([each.driven[0].shaft for each in meshes] or [part.shaft])
-            for chain in self._driven_from(shaft, "chains")
-        ]
         if what == "own_inertia":
-            return self._inertias(part.shaft) if mesh else None
+            return f"${{{part.shaft.body}.inertia}}" if meshes and self.is_made(part.shaft.body) else None
         if what == "driven_inertia":
+            return " + ".join(self._inertia_behind(each.driven[0].shaft) for each in meshes) or None
+        if what == "efficiency":
             return (
-                self._inertias(*(each.driven[0].shaft for each in meshes))
-                if mesh and self.is_made(part.shaft.body)
+                self.efficiency(toothed)
+                if (toothed := [join for join in way if isinstance(join.keys, MeshKeys)])
                 else None
             )
-        if what == "efficiency":
-            return self.efficiency([mesh]) if mesh else None
         if what == "ratio":
-            return mesh.ratio_text.strip("()") if mesh else None
-        if what == "pinion_radius" and mesh:
-            return self._pitch_radius(mesh, mesh.driven[0])
-        if not chains:
-            return None
-        if what == "teeth":
+            return " * ".join(join.ratio_text for join in way).strip("()" if len(way) == 1 else "") or None
+        if what == "pinion_radius" and meshes:
+            return self._pitch_radius(meshes[0], meshes[0].driven[0])
+        if what == "inertia":
+            return self._inertia_behind(part.shaft, *chains) if chains else None
+        if what == "teeth" and chains:
             return TypedNumber(str(chains[0].keys.teeth_1), (*chains[0].path, "teeth"))
-        if what == "pitch":
+        if what == "pitch" and chains:
             return TypedNumber(millimetres(chain_pitch(chains[0].keys)), (*chains[0].path, "chain"))
-        return self._moved_inertia(part.shaft, meshes, chains) if what == "inertia" else None
+        return None
 
-    def _driven_from(self, shaft: MachineShaft, word: str) -> list[Join]:
-        """The meshes, or chains, by which a shaft drives."""
-        return [join for join in self.parts.joins if join.word == word and join.drivers[0].shaft is shaft]
+    def _conveyors(self, part: ShaftPart) -> list[Join]:
+        """The chains that are the conveyor of the mechanism that moves a part's shaft."""
+        name = f"{part.port[0]}.conveyor" if part.port else ""
+        return [join for join in self.parts.joins if isinstance(join.keys, ChainKeys) and join.keys.moves == name]
 
-    def _inertias(self, *shafts: MachineShaft) -> str | None:
-        """The inertia of shafts together; None where that of one is not known."""
-        bodies = dict.fromkeys(shaft.body for shaft in shafts)
-        return " + ".join(f"${{{each}.inertia}}" for each in bodies) if all(map(self.is_made, bodies)) else None
-
-    def _moved_inertia(self, shaft: MachineShaft, meshes: list[Join], chains: list[Join]) -> str:
-        """The inertia of the conveyor with its shafts, referred to the shaft of the wheel that moves it."""
-        own, conveyor = f"${{{shaft.body}.inertia}}", self._conveyor_inertia(*chains)
-        if not meshes:
-            return f"{conveyor} + {own}"
-        driven = " + ".join(
-            f"${{{each}.inertia}}" for each in dict.fromkeys(mesh.driven[0].shaft.body for mesh in meshes)
-        )
-        return f"({conveyor} + {driven}) * {meshes[0].ratio_text}**2 + {own}"
+    def _inertia_behind(self, start: MachineShaft, *chains: Join) -> str:
+        """The inertia of a shaft with all that it drives, and with what these chains move, at that shaft."""
+        group = [self.parts.shafts[name] for name in self.parts.shafts if name in self.parts.group(start.name)]
+        terms = []
+        for shaft in group:
+            way = self.chain_from(start.name, shaft.name)
+            if (shaft is start or way) and self.is_made(shaft.body):
+                terms.append(" * ".join([f"${{{shaft.body}.inertia}}", *(f"{join.ratio_text}**2" for join in way)]))
+        for chain in chains:
+            way = self.chain_from(start.name, chain.drivers[0].shaft.name)
+            terms.append(" * ".join([self.conveyor_inertia(chain), *(f"{join.ratio_text}**2" for join in way)]))
+        return " + ".join(terms)
 
     def _drive_line(self) -> None:
         bodies = {each.name for each in self.made if each.kind == "shaft_body"}
@@ -323,14 +318,14 @@ class Elements(ShaftElements):
         return SERVICE_FACTORS[keys.service][ratio > HIGH_RUN_UP][(keys.hours_per_day > 10) + (keys.hours_per_day > 16)]
 
     def _train_gears(self, shaft: str) -> list[dict[str, Any]]:
-        """The gear pairs from the flywheel's shaft to the main one."""
+        """The gear pairs from the flywheel's shaft to the main one; a chain is a pair of the same ratio."""
         found = []
         for join, _ in reversed(self.parts.route(shaft)):
-            if isinstance(join.keys, MeshKeys):
+            if not isinstance(join.keys, BeltKeys):
                 path = (*join.path, "teeth")
                 pair: dict[str, Any] = {
                     "driver_teeth": TypedNumber(str(join.keys.teeth_1), path),
-                    "driven_teeth": TypedNumber(str(join.keys.teeth_2), path),
+                    "driven_teeth": TypedNumber(str(join.keys.teeth_2 or join.keys.teeth_1), path),
                 }
                 found.append(
                     pair

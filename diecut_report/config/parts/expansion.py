@@ -15,7 +15,7 @@ from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts, MachineShaft
 from diecut_report.config.parts.reading import PartsReader, section_blocks
-from diecut_report.config.parts.rules import coherence
+from diecut_report.config.parts.rules import coherence, misdriven
 from diecut_report.config.validation import ASSUMED
 from diecut_report.config.yaml import KeyPath, Tree, YamlNode, resolved, with_root, with_value
 from diecut_report.errors import Problem
@@ -54,6 +54,8 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
     models = {name: known[kind].inputs for name, kind in kinds.items() if kind in known}
     reader = PartsReader(tree, tree.data, models)
     parts = MachineParts.read(reader, kinds)
+    if parts is not None and not reader.problems:
+        reader.problems += misdriven(parts)
     if parts is None or reader.problems:
         return Expanded(_without(tree), parts, None, tuple(reader.problems))
     elements = Elements(parts, blocks, known)

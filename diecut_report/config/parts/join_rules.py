@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
+from math import pi, prod
+from typing import Any
 
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.findings import Finding, Level, finding, mm, table_row
@@ -12,10 +13,13 @@ from diecut_report.config.parts.model import (
     SAME_PLACE,
     Join,
     MachineParts,
+    MachineShaft,
     chain_pitch,
 )
+from diecut_report.quantities.units import UnitError, parse_quantity
 
 RATIO = 1e-3  # relative, by which ratios may differ
+FURTHEST_RATE = 0.02  # relative, by which the press may be slower or faster than is asked for
 BELT_CENTER = 0.02  # relative, by which tensioning moves an axis
 WIDTH_TO_DIAMETER = 1.2  # of the pinion
 WALL_WARNED, WALL_LEAST, HUB_OUTSIDE = 2.5, 1.0, 1.5  # modules below a tooth, and diameters of the seat
@@ -50,6 +54,79 @@ def driven(parts: MachineParts) -> Iterator[Finding]:
             one, other = list(others.values())[:2]
             template = "drives {shaft}, which {other} drives too; name the driving part of each join first"
             yield finding(parts, "driven", "error", other.path, template, one.path, shaft=shaft.name, other=one.name)
+        elif joins and _drives_itself(parts, shaft):
+            template = "closes a ring of shafts that drive each other; take one of its joins away"
+            yield finding(parts, "driven", "error", joins[0].path, template)
+
+
+def _drives_itself(parts: MachineParts, shaft: MachineShaft) -> bool:
+    """Whether the shafts that drive a shaft, one behind the other, lead back to it."""
+    seen, here = set[str](), shaft
+    while (join := parts.driving_join(here)) is not None and here.name not in seen:
+        seen.add(here.name)
+        here = join.drivers[0].shaft
+    return here is shaft and bool(seen)
+
+
+def stages(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """Between a rocker and what moves the cylinder there is one pair, the sector and the pinion, which the drive calculates."""
+    for chain in (each for each in parts.joins if isinstance(each.keys, ChainKeys) and each.keys.moves):
+        mechanism, _, what = str(chain.keys.moves).partition(".")
+        port = next(
+            (part for shaft in parts.shafts.values() for part in shaft.parts if part.port == (mechanism, "rocker")),
+            None,
+        )
+        if port is None or what != "cylinder":
+            continue
+        way = elements.chain_from(port.shaft.name, chain.drivers[0].shaft.name)
+        if len(way) > 1:
+            template = "moves the cylinder {count} joins behind {shaft}; the drive has one pair between them: put its sprockets on the pinion's shaft"
+            yield finding(
+                parts, "stages", "error", chain.path, template, port.path, count=len(way), shaft=port.shaft.name
+            )
+
+
+def rate(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """The motor, the pulleys and the teeth turn the main shaft as often as sheets are asked for."""
+    block = elements.blocks.get(elements.named("press_consistency") or "", {})
+    press = parts.reader.data.get("press")
+    given: Any = block.get("required_rate") or (press.get("productivity") if isinstance(press, dict) else None)
+    try:
+        asked = parse_quantity(given["value"] if isinstance(given, dict) else given, "1/h")
+    except (KeyError, TypeError, UnitError):  # a reference, or what is told where the rate is read
+        return
+    for join in (each for each in parts.joins if each.word == "belts"):
+        motor = join.drivers[0].shaft
+        if motor.keys.motor is None or motor.name not in parts.ratios:
+            continue
+        there = motor.keys.motor.speed / (2 * pi) / abs(parts.ratios[motor.name])
+        if abs(there / asked - 1) > FURTHEST_RATE:
+            template = "makes {there} sheets an hour of the motor's speed, but {asked} are asked for: change diameters, teeth or the rate"
+            yield finding(parts, "rate", "error", (*join.path, "diameters"), template, (*motor.path, "motor", "speed"),
+                there=f"{there * 3600:.4g}", asked=f"{asked * 3600:.4g}")  # fmt: skip
+
+
+def losses(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """The losses that the cyclogram knows of between the main shaft and a line are no less than those of the meshes there."""
+    timing = elements.named("cyclogram")
+    lines = elements.blocks[timing].get("lines", []) if timing else []
+    for index, line in enumerate(lines if isinstance(lines, list) else []):
+        name = line.get("mechanism") if isinstance(line, dict) else None
+        part = next(
+            (each for shaft in parts.shafts.values() for each in shaft.parts if each.port == (name, "crank")), None
+        )
+        if part is None:
+            continue
+        meshes = [
+            join for join in elements.chain_from(parts.keys.anchor, part.shaft.name) if isinstance(join.keys, MeshKeys)
+        ]
+        given = line.get("path_efficiency", 1.0)
+        said = given.get("value") if isinstance(given, dict) else given
+        there = prod(join.keys.efficiency for join in meshes)
+        if meshes and isinstance(said, int | float) and said > there + RATIO:
+            template = "has the efficiency {there}, but the cyclogram calculates with {said} for {name}: the main shaft takes more than it says"
+            yield finding(parts, "losses", "warning", meshes[0].path, template, ("mechanisms", str(timing), "lines", index),
+                there=f"{there:.4g}", said=f"{said:.4g}", name=name)  # fmt: skip
 
 
 def one_belt(parts: MachineParts) -> Iterator[Finding]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import hypot
+from math import hypot, pi
 from typing import Any, Literal
 
 from diecut_report.config.parts.keys import PART_KINDS, BeltKeys, ChainKeys, MachineKeys, MeshKeys, PartKeys, ShaftKeys
@@ -303,8 +303,10 @@ class Join:
         """Return the distance of the axes that follows from the join itself, m; None of a belt, which is tensioned."""
         if isinstance(self.keys, MeshKeys):
             return float(drive_line.center_distance(self.radius(self.drivers[0]), self.radius(self.driven[0])))
-        if isinstance(self.keys, ChainKeys) and self.driven and self.keys.teeth_2 in (None, self.keys.teeth_1):
-            return (self.keys.links - self.keys.teeth_1) * chain_pitch(self.keys) / 2
+        if isinstance(self.keys, ChainKeys) and self.driven:
+            first, second = self.keys.teeth_1, self.keys.teeth_2 or self.keys.teeth_1
+            straight, rise = self.keys.links - (first + second) / 2, ((first - second) / (2 * pi)) ** 2
+            return float(straight + max(straight**2 - 8 * rise, 0.0) ** 0.5) / 4 * chain_pitch(self.keys)
         return None
 
 

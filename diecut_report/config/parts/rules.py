@@ -16,10 +16,13 @@ from diecut_report.config.parts.join_rules import (
     chain,
     driven,
     frame,
+    losses,
     mesh_pair,
     one_belt,
+    rate,
     ratios,
     sector,
+    stages,
     wall,
 )
 from diecut_report.config.parts.keys import WORDS, MeshKeys
@@ -66,10 +69,17 @@ SIDES = {
 }
 
 
+def misdriven(parts: MachineParts) -> list[Problem]:
+    """Return which shafts are driven by none, by several, or by themselves: nothing can be made of such parts."""
+    place = ConfigPlace(parts.reader.tree)
+    return [place.problem(each.path, each.message) for each in driven(parts)]
+
+
 def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
     of_mechanisms = (
-        rule(parts, elements) for rule in (ports, ratios, _weighed, _massive, _filled, _typed_twice, _untied, _unused)
+        rule(parts, elements)
+        for rule in (ports, ratios, rate, stages, losses, _weighed, _massive, _filled, _typed_twice, _untied, _unused)
     )
     found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
@@ -579,5 +589,5 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
     few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting,
-    shoulder, stop, key, wall, steel, torque_carried, integral, force_plane, pins, axes, driven, one_belt, center, frame, mesh_pair, sector, chain,
+    shoulder, stop, key, wall, steel, torque_carried, integral, force_plane, pins, axes, one_belt, center, frame, mesh_pair, sector, chain,
 )  # fmt: skip

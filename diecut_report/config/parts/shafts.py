@@ -307,15 +307,15 @@ class ShaftElements(Masses, LoadCases):
         self._add(part.calculation("key"), "parallel_key", inputs, part.path)
 
     def _passed(self, part: ShaftPart) -> str | None:
-        """The torque that passes the key of a part: its own, or that of the part which rides on it."""
+        """The torque that passes the key of a part: its own, or that of the only part with one which rides on it."""
         loads = part.shaft.loads
-        riders = [each for each in part.shaft.parts if each.keys.rides_on == part.name]
-        for each in (part, *riders):
+        found = []
+        for each in (part, *(each for each in part.shaft.parts if each.keys.rides_on == part.name)):
             if self.torque_on(each):
-                return f"${{{loads}.{each.name}_torque}}"
-            if self._balances(each):
-                return f"${{{loads}.balance}}"
-        return None
+                found.append(f"${{{loads}.{each.name}_torque}}")
+            elif self._balances(each):
+                found.append(f"${{{loads}.balance}}")
+        return found[0] if len(found) == 1 else None
 
     def _pin(self, part: ShaftPart) -> None:
         pin, port = part.keys.pin, self.port(part)

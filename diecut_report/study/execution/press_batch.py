@@ -25,7 +25,7 @@ from diecut_report.mechanism.inputs import Quantity, flatten
 from diecut_report.mechanism.names import SI
 from diecut_report.mechanism.steps import PREFIX
 from diecut_report.quantities.plausible import without_rounding
-from diecut_report.results.open_items import open_values, unrated_forces, varied_open
+from diecut_report.results.open_items import doubtful, open_values, unrated_forces, varied_open
 from diecut_report.results.origins import Absent, number, output, require_facts
 from diecut_report.results.press_run import Run, Tell
 from diecut_report.results.usual import note_usual, outside
@@ -107,7 +107,7 @@ def calculated(base: Config, values: Values, count: int, tell: Tell = untold) ->
         made = _Rows(config, variants, tell)
         variants.calculations = made.calculations
         has_parts = config.parts is not None
-        is_open = has_parts or any(True for _ in chain(unrated_forces(made), open_values(made)))
+        is_open = has_parts or any(True for _ in chain(doubtful(made), unrated_forces(made), open_values(made)))
         variants.is_open = np.ones(count, dtype=bool) if is_open else varied_open(made, count)
     return variants
 

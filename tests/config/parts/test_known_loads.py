@@ -166,6 +166,205 @@ def test_a_clutch_on_a_shaft_that_drives_two_parts_is_engaged_through_both() -> 
     assert cases == [("engage", "wheel", "disc"), ("engage_2", "wheel", "pinion")]
 
 
+# Other machines than the example: what is not known of them is not rated, and what is known counts.
+
+PINION = "{sprocket: left, at: 75, hub: 60, key: 50}"
+CYLINDER = "cylinder: {sprockets: [pinion.left, pinion.right], teeth: 27,"
+SHAFT = """  {name}:
+    sections: 50x40 r1.6, 60x290 r1.6, 50x40
+    parts:
+      - {{bearing: a, at: 27, designation: "6210"}}
+{parts}
+      - {{bearing: b, at: 343, designation: "6210", floating: true}}
+  geneva:
+    sections"""
+MAIN = {"shafts_main", "shafts_main_bearings", "shafts_flywheel", "shafts_flywheel_bearings", "meshes_main_drive"}
+
+
+def with_shaft(name: str, *parts: str) -> tuple[str, str]:
+    """The change that puts a shaft into the file."""
+    return "  geneva:\n    sections", SHAFT.format(name=name, parts="\n".join(f"      - {each}" for each in parts))
+
+
+def test_an_idle_shaft_of_the_cylinders_chains_counts_in_its_inertia() -> None:
+    """What it takes follows another curve than the cylinder's moment: the pinion's shaft is not rated."""
+    made, problems = read(
+        ("pinion: [500, -494],", "pinion: [500, -494], idle: [1681.1, -494],"),
+        with_shaft("idle", PINION, "{sprocket: right, at: 285, hub: 60, key: 50}"),
+        (CYLINDER, "cylinder: {sprockets: [pinion.left, pinion.right], to: [idle.left, idle.right], teeth: 27/27,"),
+    )
+    assert problems == [] and "shafts_pinion" not in made
+    assert "${shafts_idle_body.inertia}" in made["drive"]["pinion_inertia"]
+
+
+def test_a_far_shaft_counts_by_the_square_of_its_chains_ratio() -> None:
+    made, problems = read(
+        ("far: [2216.254, 520]", "far: [2273.084, 520]"), ("teeth: 30/30, chain: 12B", "teeth: 30/18, chain: 12B")
+    )
+    assert all("thick below its teeth" in each for each in problems)
+    made, problems = read(
+        ("far: [2216.254, 520]", "far: [2273.084, 520]"), ("teeth: 30/30, chain: 12B", "teeth: 30/18, chain: 12B"),
+        ("far:\n    sections: 55x40 r1.5, 65x640 r1.5, 55x40", "far:\n    sections: 55x40, 55x640, 55x40"),
+    )  # fmt: skip
+    text = made["cross"]["driven_inertia"] if not problems else "\n".join(problems)
+    assert (
+        "${shafts_far_body.inertia} * " in text
+        and "(${drive_line.chains.1.teeth_1} / ${drive_line.chains.1.teeth_2})**2" in text
+    ), text
+
+
+def test_two_stages_behind_a_wheel_are_its_gear_ratio() -> None:
+    made, problems = read(
+        ("conveyor: [216, 520]", "lay: [216, 520], conveyor: [216, 700]"), ("far: [2216.254, 520]", "far: [2216.254, 700]"),
+        with_shaft("lay", "{gear: small, at: 110, integral: true}", "{gear: large, at: 200, hub: 60, key: 50}"),
+        ("step_up: {pair: [geneva.large, conveyor.small], teeth: 120/20",
+         "second: {pair: [lay.large, conveyor.small], teeth: 60/30, module: 4, width: 40}\n"
+         "  step_up: {pair: [geneva.large, lay.small], teeth: 120/20"),
+        ("60x40 r1.4, 70x120 r2, 75x520 r1.4, 60x40", "60x40 r1.4, 75x640 r1.4, 60x40"),
+    )  # fmt: skip
+    ratio = made["cross"]["gear_ratio"] if not problems else "\n".join(problems)
+    assert ratio.count("teeth_1") == 2 == ratio.count("teeth_2"), ratio
+
+
+def test_a_cylinder_has_one_pair_behind_its_rocker() -> None:
+    text = told(
+        ("pinion: [500, -494],", "pinion: [500, -494], roll: [680, -494],"),
+        with_shaft(
+            "roll", PINION, "{gear: wheel, at: 150, hub: 60, key: 50}", "{sprocket: right, at: 285, hub: 60, key: 50}"
+        ),
+        (
+            "- {sprocket: left, at: 75, hub: 60, key: 50}\n      - {gear: pinion",
+            "- {gear: second, at: 220, hub: 50, key: 45}\n      - {gear: pinion",
+        ),
+        (
+            "      - {sprocket: right, at: 285, hub: 60, key: 50}\n      - {bearing: b, at: 343",
+            "      - {bearing: b, at: 343",
+        ),
+        (
+            "  step_up: {pair",
+            "  second: {pair: [pinion.second, roll.wheel], teeth: 30/60, module: 4, width: 40}\n  step_up: {pair",
+        ),
+        (CYLINDER, CYLINDER.replace("pinion.", "roll.")),
+    )
+    assert "moves the cylinder 2 joins behind rocker" in text
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        [
+            (
+                "  timing:\n    kind: cyclogram\n",
+                "  timing:\n    kind: cyclogram\n    friction: [{name: pumps, torque: 250 N*m}]\n",
+            )
+        ],
+        [("      - mechanism: cross #", "      - mechanism: cross2 #")],
+    ],
+    ids=["a torque that no part takes", "a mechanism without a line"],
+)
+def test_what_the_cyclogram_says_of_the_main_shaft_is_what_its_parts_take(changes: list[tuple[str, str]]) -> None:
+    """Else neither the main shaft nor what drives it is rated."""
+    made, _ = read(*changes)
+    assert not MAIN & made.keys() and {"shafts_crank", "shafts_geneva"} <= made.keys()
+    assert read()[0].keys() >= MAIN
+
+
+def test_a_mechanism_on_a_shaft_before_the_main_one_is_not_counted_twice() -> None:
+    """A lay shaft drives the main shaft, and the crank's beside it."""
+    made, problems = read(
+        ("main: [216, 0], flywheel: [216, -262.5], motor: [216, -856.602],",
+         "main: [216, 0], lay: [123.407407, -177.275525], flywheel: [123.407407, -439.775525], motor: [123.407407, -1033.877525],"),
+        with_shaft("lay", "{gear: in, at: 80, hub: 60, key: 50}",
+         "{gear: one, at: 150, hub: 60, key: 50}", "{gear: two, at: 270, hub: 60, key: 50}"),
+        ("      - {gear: pinion, at: 360, integral: true}\n      - {bearing: b, at: 497", "      - {bearing: b, at: 497"),
+        ("main_drive: {pair: [flywheel.pinion, main.wheel]", "main_drive: {pair: [flywheel.pinion, lay.in]"),
+        ("  crank_drive: {pair: [main.pinion,", "  one: {pair: [lay.one, main.wheel], teeth: 40/40, module: 5, width: 50}\n"
+         "  crank_drive: {pair: [lay.two,"),
+    )  # fmt: skip
+    assert problems == [] or all("stands" in each or "left" in each for each in problems), problems
+    assert not {"shafts_main", "shafts_lay"} & made.keys()
+
+
+def test_losses_that_the_cyclogram_does_not_know_of_warn() -> None:
+    config, problems = examined(
+        parse(TEXT.replace("module: 6, width: 50,", "module: 6, width: 50, efficiency: 0.86,", 1), str(FILE)), DISCOVERY
+    )
+    assert problems == [] and config.parts is not None
+    told = [str(each.message) for each in config.parts.findings if each.rule == "losses"]
+    assert len(told) == 1 and "has the efficiency 0.86, but the cyclogram calculates with 0.97 for drive" in told[0]
+
+
+def test_a_typed_torque_on_a_driven_shaft_makes_what_drives_it_unknown() -> None:
+    made, problems = read(
+        ("main: [216, 0],", "main: [216, 0], pump: [396, 0],"),
+        with_shaft("pump", "{gear: wheel, at: 100, hub: 60, key: 50}", "{load: pump, at: 200, torque: -300 N*m}"),
+        ("      - {gear: pinion, at: 360, integral: true}\n",
+         "      - {gear: pinion, at: 360, integral: true}\n      - {gear: aux, at: 440, hub: 40, key: 36}\n"),
+        ("  crank_drive: {pair", "  pump: {pair: [main.aux, pump.wheel], teeth: 45/45, module: 4, width: 36}\n  crank_drive: {pair"),
+    )  # fmt: skip
+    assert problems == [] and "shafts_main" not in made
+
+
+def test_a_key_below_two_riders_has_no_torque_of_one_of_them() -> None:
+    made, problems = read(
+        ("      - {pulley: large, at: 42, hub: 72, key: 63}\n", ""),
+        ('- {flywheel: rim, at: 170, hub: 82, key: 70, inertia: "${train.flywheel_inertia}"}',
+         "- {coupling: hub, at: 170, hub: 110, key: 70, mass: 6 kg}\n      - {pulley: large, at: 140, hub: 40, rides_on: hub}\n"
+         '      - {flywheel: rim, at: 190, hub: 60, rides_on: hub, inertia: "${train.flywheel_inertia}"}'),
+    )  # fmt: skip
+    assert problems == [] and "shafts_flywheel_hub_key" not in made and "shafts_flywheel" in made
+
+
+def test_sprockets_that_share_a_torque_are_not_rated_by_the_inertia_alone() -> None:
+    made, problems = read(
+        ("conveyor: [216, 520]", "lay: [216, 520], conveyor: [216, 1015.3]"), ("far: [2216.254, 520]", "far: [2216.254, 1015.3]"),
+        with_shaft("lay", "{gear: small, at: 85, integral: true}",
+         "{sprocket: l, at: 160, hub: 60, key: 50}", "{sprocket: r, at: 270, hub: 60, key: 50}"),
+        ("      - {gear: small, at: 140, integral: true}\n",
+         "      - {sprocket: l, at: 130, hub: 50, key: 40}\n      - {sprocket: r, at: 240, hub: 50, key: 40}\n"),
+        ("step_up: {pair: [geneva.large, conveyor.small]", "step_up: {pair: [geneva.large, lay.small]"),
+        ("  grippers: {", "  up: {sprockets: [lay.l, lay.r], to: [conveyor.l, conveyor.r], teeth: 30/30, chain: 12B, links: 82}\n  grippers: {"),
+    )  # fmt: skip
+    assert problems == [] and not {"shafts_conveyor", "shafts_conveyor_r_key"} & made.keys(), problems
+
+
+def test_the_rate_of_the_motor_and_its_pulleys_is_the_one_that_is_asked_for() -> None:
+    text = told(
+        ("motor: [216, -856.602]", "motor: [216, -862.321]"),
+        ("diameters: 125/375, length: 2000", "diameters: 125/500, length: 2240"),
+    )
+    assert "belts.motor.diameters: makes 4455 sheets an hour of the motor's speed, but 6000 are asked for" in text
+
+
+def test_a_chain_before_the_main_shaft_is_a_pair_of_the_drive_train() -> None:
+    made, problems = read(
+        ("flywheel: [216, -262.5], motor: [216, -856.602]", "flywheel: [216, -862.5], motor: [216, -1456.602]"),
+        ("- {gear: pinion, at: 445, integral: true}", "- {sprocket: pinion, at: 445, hub: 40, key: 36}"),
+        ("- {gear: wheel, at: 200, hub: 100, key: 90}", "- {sprocket: wheel, at: 200, hub: 100, key: 90}"),
+        ('  main_drive: {pair: [flywheel.pinion, main.wheel], teeth: 18/87, module: 5, width: 50,\n'
+         '    application_factor: {value: 1, basis: standard, note: "ISO 6336-6: the torque is that of the whole cycle"}}\n', ""),
+        ("chains:\n", "chains:\n  main_drive: {sprockets: [flywheel.pinion], to: [main.wheel], teeth: 18/87, chain: 12B, links: 146}\n"),
+    )  # fmt: skip
+    assert problems == [] or all("apart" in each for each in problems), problems
+    gears = made["train"]["gears"] if not problems else []
+    assert [(each["driver_teeth"], each["driven_teeth"]) for each in gears] == [("18", "87")], problems
+
+
+def test_the_axes_of_a_chain_with_unequal_sprockets_are_as_far_apart_as_its_links() -> None:
+    assert "chains.grippers: puts the axes 866.754 mm apart" in told(
+        ("teeth: 30/30, chain: 12B, links: 240", "teeth: 30/28, chain: 12B, links: 120")
+    )
+
+
+@pytest.mark.parametrize("where", ["main_drive", "crank_drive"])
+def test_shafts_that_drive_each_other_are_refused_at_once(where: str) -> None:
+    text = told((f"  {where}: {{pair", f"  back: {{pair: [crank.back, main.back], teeth: 30/30, module: 4, width: 30}}\n  {where}: {{pair"),
+                ("      - {gear: wheel, at: 200,", "      - {gear: back, at: 270, hub: 30, key: 28}\n      - {gear: wheel, at: 200,"),
+                ("      - {clutch: clutch, at: 130,", "      - {gear: back, at: 200, hub: 30, key: 28}\n"
+         "      - {clutch: clutch, at: 130,"))  # fmt: skip
+    assert "drives" in text and "name the driving part of each join first" in text or "closes a ring" in text
+
+
 # Teeth and shafts.
 
 
