@@ -315,8 +315,7 @@ class Calculation:
 
     def existing(self, step: Step, values: Array) -> Array:
         """Return a quantity's numbers, NaN for the machines that do not have it."""
-        nothing: Any = None if values.dtype == object else np.nan
-        return values if step.exists is None else np.where(self.apply(step.exists), values, nothing)
+        return values if step.exists is None else np.where(self.apply(step.exists), values, np.nan)
 
     def sample(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> Array:
         """Return a curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""

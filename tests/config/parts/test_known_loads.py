@@ -362,7 +362,7 @@ def test_shafts_that_drive_each_other_are_refused_at_once(where: str) -> None:
                 ("      - {gear: wheel, at: 200,", "      - {gear: back, at: 270, hub: 30, key: 28}\n      - {gear: wheel, at: 200,"),
                 ("      - {clutch: clutch, at: 130,", "      - {gear: back, at: 200, hub: 30, key: 28}\n"
          "      - {clutch: clutch, at: 130,"))  # fmt: skip
-    assert "drives" in text and "name the driving part of each join first" in text or "closes a ring" in text
+    assert ("drives" in text and "name the driving part of each join first" in text) or "closes a ring" in text
 
 
 # Teeth and shafts.
