@@ -426,9 +426,8 @@ def _all_columns(variants: CalculatedVariants, found: Verdicts) -> dict[str, Arr
     for name, calc in variants.calculations.items():
         for column, values in output_values(name, calc).items():
             plain = values.astype(object) if values.dtype in (bool, object) else values.astype(float)
-            plain = (
-                np.where(plain == plain, plain, None) if plain.dtype == object else plain
-            )  # a text that a machine does not have
+            if plain.dtype == object:
+                plain[plain != plain] = None  # a text that a machine does not have
             outputs[column] = np.broadcast_to(plain, (variants.count,))
     for name, codes, ratios, left in zip(found.names, found.codes, found.ratios, found.left, strict=True):
         outputs |= {f"{name}.utilisation": ratios, f"{name}.status": np.where(left, NOT_CHECKED, STATUS[codes])}
