@@ -320,7 +320,7 @@ class Demands:
         """Return whether the lines of the cyclogram are what the parts take from the main shaft: no other torque, and no mechanism elsewhere."""
         block = self.blocks.get(self.named("cyclogram") or "", {})
         lines = block.get("lines", []) if isinstance(block.get("lines", []), list) else []
-        timed = {line.get("mechanism") for line in lines if isinstance(line, dict)}
+        timed = {str(line.get("mechanism")) for line in lines if isinstance(line, dict)}
         ports = [
             (part, port) for shaft in self.parts.shafts.values() for part in shaft.parts if (port := self.port(part))
         ]

@@ -88,17 +88,18 @@ def stages(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 def rate(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """The motor, the pulleys and the teeth turn the main shaft as often as sheets are asked for."""
-    block = elements.blocks.get(elements.named("press_consistency") or "", {})
-    press = parts.reader.data.get("press")
-    given: Any = block.get("required_rate") or (press.get("productivity") if isinstance(press, dict) else None)
+    name, press = elements.named("press_consistency") or "", parts.reader.data.get("press")
+    required = elements.blocks.get(name, {}).get("required_rate")
+    given: Any = required or (press.get("productivity") if isinstance(press, dict) else None)
     try:
         asked = parse_quantity(given["value"] if isinstance(given, dict) else given, "1/h")
     except (KeyError, TypeError, UnitError):  # a reference, or what is told where the rate is read
         return
     for join in (each for each in parts.joins if each.word == "belts"):
         motor = join.drivers[0].shaft
-        if motor.keys.motor is None or motor.name not in parts.ratios:
+        if motor.keys.motor is None or motor.name not in parts.ratios or asked <= 0:
             continue
+        parts.reader.read.add(f"{name}.required_rate" if required else "press.productivity")
         there = motor.keys.motor.speed / (2 * pi) / abs(parts.ratios[motor.name])
         if abs(there / asked - 1) > FURTHEST_RATE:
             template = "makes {there} sheets an hour of the motor's speed, but {asked} are asked for: change diameters, teeth or the rate"
@@ -111,7 +112,7 @@ def losses(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     timing = elements.named("cyclogram")
     lines = elements.blocks[timing].get("lines", []) if timing else []
     for index, line in enumerate(lines if isinstance(lines, list) else []):
-        name = line.get("mechanism") if isinstance(line, dict) else None
+        name = str(line.get("mechanism")) if isinstance(line, dict) else ""
         part = next(
             (each for shaft in parts.shafts.values() for each in shaft.parts if each.port == (name, "crank")), None
         )
