@@ -313,9 +313,7 @@ class Instance:
         self.bases, self.own = bases, own  # what comes from the user's own tables, as it was read
         self.without: frozenset[KeyPath] = frozenset()
         self.derived: frozenset[str] = frozenset()  # inputs taken from partners
-        self.founded: Mapping[
-            KeyPath, Any
-        ] = {}  # of varied inputs the values that are founded, as a basis is of one value
+        self.founded: Mapping[KeyPath, Any] = {}  # of varied inputs the values that their basis is of
 
     def take(self, found: Mapping[str, str]) -> None:
         """Take inputs from partners: names, and references that keep no value where a machine does not have what they name."""

@@ -315,10 +315,10 @@ def quoted(given: Any) -> str:
 
 ASSUMED, GIVEN = "assumed", "given"
 BASES = (ASSUMED, GIVEN, "catalogue", "drawing", "standard", "measured")
-OF_ONE_VALUE = ("catalogue", "standard", "measured")
-"""What founds the value that was looked up alone: another one in its place is assumed. What a drawing says is the designer's own to change."""
 """From the weakest to the strongest: an assumption can be anything; what is only given says nothing of where it comes from; a
 maker's catalogue tells what is sold, a drawing what is to be made, a standard what is agreed, a measurement what is there."""
+OF_ONE_VALUE = ("catalogue", "standard", "measured")
+"""What founds the value that was looked up alone: another one in its place is assumed. What a drawing says is the designer's own to change."""
 KEYS = ("value", "basis", "note", "beyond")
 LEAST_REASON = 20  # characters of a reason for a value beyond what any machine has
 

@@ -1,4 +1,4 @@
-"""What joins two shafts: ratio, pitch radii, distance of the axes, travel of a chain."""
+"""What joins two shafts: ratio, pitch radii, distance of the axes by teeth or by the links of a chain, travel of a chain."""
 
 from __future__ import annotations
 
@@ -44,3 +44,27 @@ def sprocket_diameter(pitch: Any, teeth: Any) -> Any:
 def chain_travel(teeth: Any, pitch: Any) -> Any:
     """Travel of a chain per radian of its sprocket."""
     return teeth * pitch / (2 * as_number(np.pi))
+
+
+@formula
+def free_links(links: Any, teeth_1: Any, teeth_2: Any) -> Any:
+    """Links that are not on the sprockets."""
+    return links - (teeth_1 + teeth_2) / 2
+
+
+@formula
+def links_discriminant(free: Any, teeth_1: Any, teeth_2: Any) -> Any:
+    """What must be above zero for the chain to go round both sprockets."""
+    return free**2 - 8 * ((teeth_2 - teeth_1) / (2 * as_number(np.pi))) ** 2
+
+
+@formula
+def chain_center_distance(pitch: Any, free: Any, root_of: Any) -> Any:
+    """Distance of the axes of two sprockets at which whole links fit."""
+    return pitch / 4 * (free + np.sqrt(root_of))
+
+
+@formula
+def root_diameter(diameter: Any, module: Any, dedendum: Any, shift: Any) -> Any:
+    """Root diameter of a gear, of its reference circle (ISO 21771)."""
+    return diameter - 2 * module * (dedendum - shift)

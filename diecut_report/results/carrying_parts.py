@@ -41,8 +41,7 @@ def carrying_parts(parts: MachineParts, train: str | None) -> Iterator[CarryingP
     for join in parts.joins:
         path, accepted = dotted(join.path), _accepted(join.keys)
         if join.word == "belts":
-            is_own: Callable[[CheckRecord], bool] = lambda check: check.id.startswith("vbelt")  # noqa: E731
-            yield CarryingPart(join.name, path, train or "", accepted, is_own)
+            yield CarryingPart(join.name, path, train or "", accepted, lambda check: check.id.startswith("vbelt"))
         else:
             yield CarryingPart(join.name, path, join.calculation, accepted)
 

@@ -142,14 +142,13 @@ class Tabular(ABC):
         table, units = self.to_arrow(), self.units(shown=shown)
         if not shown or not units:
             return table, units
-        columns = {}
-        for name, column in zip(table.column_names, table.columns, strict=True):
+        for index, name in enumerate(table.column_names):
             factor, said = unit(units.get(name, "1")).factor, pretty(units.get(name, "1"))
-            head = f"{name} [{said}]" if said else name
-            columns[head] = (
-                column if factor == 1 else [None if each is None else each / factor for each in column.to_pylist()]
-            )
-        return import_module("pyarrow").table(columns), units
+            column = table.column(index)
+            if factor != 1:
+                column = [[None if each is None else each / factor for each in column.to_pylist()]]  # one chunk
+            table = table.set_column(index, f"{name} [{said}]" if said else name, column)
+        return table, units
 
     def _library(self, name: str) -> Any:
         try:

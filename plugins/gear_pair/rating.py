@@ -39,8 +39,7 @@ for g, teeth in TEETH.items():
         bind(lambda diameter, module, height: diameter + 2 * module * height, diameter=f"pitch_diameter_{g}", height=f"tip_height_{g}"),
         source=ISO_21771, digits=6)
     sizes.value(f"root_diameter_{g}", f"d_f{g}", "mm", f"Root diameter of gear {g}",
-        bind(lambda diameter, module, dedendum, shift: diameter - 2 * module * (dedendum - shift), diameter=f"pitch_diameter_{g}",
-            shift=f"shift_{g}"), source=ISO_21771, digits=6)
+        bind(drive_line.root_diameter, diameter=f"pitch_diameter_{g}", shift=f"shift_{g}"), source=ISO_21771, digits=6)
     sizes.require(f"root_circle_{g}", bind(lambda diameter: diameter > 0, diameter=f"root_diameter_{g}"), key="dedendum",
         message=f"is {{dedendum}}, with which nothing is left of the gear {g} within its roots; take a smaller dedendum or more teeth")
 for g in TEETH:

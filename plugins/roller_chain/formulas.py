@@ -30,24 +30,6 @@ def even_links(exact: Any) -> Any:
 
 
 @formula
-def free_links(links: Any, teeth_1: Any, teeth_2: Any) -> Any:
-    """Links that are not on the sprockets."""
-    return links - (teeth_1 + teeth_2) / 2
-
-
-@formula
-def discriminant(free: Any, teeth_1: Any, teeth_2: Any) -> Any:
-    """What must be above zero for the chain to go round both sprockets."""
-    return free**2 - 8 * ((teeth_2 - teeth_1) / (2 * as_number(np.pi))) ** 2
-
-
-@formula
-def adjusted_center(pitch: Any, free: Any, root_of: Any) -> Any:
-    """Distance of the axes at which whole links fit."""
-    return pitch / 4 * (free + np.sqrt(root_of))
-
-
-@formula
 def polygon_links(center: Any, pitch: Any, teeth_1: Any, teeth_2: Any, diameter_1: Any, diameter_2: Any) -> Any:
     """Links over two sprockets: two straight runs, and the teeth that each sprocket has in its wrap."""
     slope = np.arcsin((diameter_2 - diameter_1) / (2 * center))

@@ -69,13 +69,13 @@ loop.value("links_exact", "X_0", "1", "Number of links required by the centre di
 loop.value("links", "X", "1", "Links: the next even number", bind(f.even_links, exact="links_exact"), needs=GIVEN_DISTANCE, source=SHIGLEY,
     whole=True)
 loop.value("links", "X", "1", "Links: as given", bind(lambda given: given, given="inputs.links"), lacks=GIVEN_DISTANCE, source="input", whole=True)
-loop.value("links_free", "B", "1", "Links that are not on the sprockets", bind(f.free_links, **BOTH), source=SHIGLEY, output=False, digits=6)
-loop.value("links_discriminant", "D_X", "1", "Condition for a whole number of links (positive)", bind(f.discriminant, free="links_free", **BOTH),
-    source=SHIGLEY, output=False, digits=6)
+loop.value("links_free", "B", "1", "Links that are not on the sprockets", bind(drive_line.free_links, **BOTH), source=SHIGLEY, output=False, digits=6)
+loop.value("links_discriminant", "D_X", "1", "Condition for a whole number of links (positive)",
+    bind(drive_line.links_discriminant, free="links_free", **BOTH), source=SHIGLEY, output=False, digits=6)
 loop.require("long_enough", lambda links_free, links_discriminant: (links_free > 0) & (links_discriminant > 0), key="links", lacks=GIVEN_DISTANCE,
     message="is {inputs.links}, too few to go round sprockets of {teeth_1} and {driven_teeth} teeth; give more links or fewer teeth")
 loop.value("center_distance_adjusted", "a_X", "mm", "Centre distance for this number of links",
-    bind(f.adjusted_center, free="links_free", root_of="links_discriminant"), source=SHIGLEY, digits=7)
+    bind(drive_line.chain_center_distance, free="links_free", root_of="links_discriminant"), source=SHIGLEY, digits=7)
 loop.require("adjusted_apart", lambda center_distance_adjusted, center_least: center_distance_adjusted > center_least, key="links",
     lacks=GIVEN_DISTANCE,
     message="is {inputs.links}, with which the sprockets overlap: the centre distance would be {center_distance_adjusted}, and they touch at "

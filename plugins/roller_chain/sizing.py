@@ -74,10 +74,10 @@ def _loop(known: Known, pitch: float, teeth: tuple[Any, Any]) -> tuple[Array, Ar
     wanted = known["distance_wanted"]
     from_distance = f.even_links(f.exact_links(np.where(wanted > 0, wanted, np.nan), pitch, *teeth))
     links = np.where(wanted > 0, from_distance, known["links_wanted"])
-    free = f.free_links(links, *teeth)
-    inner = f.discriminant(free, *teeth)
+    free = drive_line.free_links(links, *teeth)
+    inner = drive_line.links_discriminant(free, *teeth)
     room = np.where((inner > 0) & (free > 0), inner, np.nan)
-    return np.where(wanted > 0, wanted, f.adjusted_center(pitch, free, room)), links
+    return np.where(wanted > 0, wanted, drive_line.chain_center_distance(pitch, free, room)), links
 
 
 def _motion(

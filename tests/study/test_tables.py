@@ -92,9 +92,9 @@ def test_a_number_of_excel_has_the_unit_that_its_cell_shows(tmp_path: Path) -> N
         ["1200 mm"],
         ["3 MPa"],
         ["7"],
-        ["12000 shown in thousands"],
+        ["12000 shown as 0.0,"],
         ["5 °"],
-        ["5 shown in thousands"],
+        ['5 shown as [>=10]0.0" m"'],
     ]
 
 

@@ -71,11 +71,8 @@ class Elements(ShaftElements):
         if what == "driven_inertia":
             return " + ".join(self._inertia_behind(each.driven[0].shaft) for each in meshes) or None
         if what == "efficiency":
-            return (
-                self.efficiency(toothed)
-                if (toothed := [join for join in way if isinstance(join.keys, MeshKeys)])
-                else None
-            )
+            toothed = [join for join in way if isinstance(join.keys, MeshKeys)]
+            return self.efficiency(toothed) if toothed else None
         if what == "ratio":
             return " * ".join(join.ratio_text for join in way).strip("()" if len(way) == 1 else "") or None
         if what == "pinion_radius" and meshes:

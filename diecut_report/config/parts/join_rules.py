@@ -237,16 +237,16 @@ def wall(parts: MachineParts) -> Iterator[Finding]:
         for part in (*join.drivers, *join.driven):
             if not part.keys.key or part.section is None or (root := join.root(part)) is None:
                 continue
+            keyway = table_row("parallel_keys", part.seat)["t2"]
             if isinstance(join.keys, MeshKeys):
-                module = join.keys.module
-                left = root / 2 - part.seat / 2 - table_row("parallel_keys", part.seat)["t2"]
+                module, left = join.keys.module, (root - part.seat) / 2 - keyway
                 if left < WALL_WARNED * module * (1 - 1e-9):
                     level: Level = "error" if left < WALL_LEAST * module else "warning"
                     template = "leaves {left} between teeth and keyway, {modules} modules; {wanted} are wanted: take a larger gear or a thinner seat"
                     yield finding(parts, "wall", level, part.path, template, (*join.path, "module"), left=mm(left), modules=f"{left / module:.3g}",
                         wanted=WALL_WARNED)  # fmt: skip
             if root < HUB_OUTSIDE * part.seat * (1 - 1e-9):
-                is_gone = root < part.seat + 2 * table_row("parallel_keys", part.seat)["t2"]
+                is_gone = root < part.seat + 2 * keyway
                 template = "is {root} thick below its teeth, less than {share} times its seat of {seat}; take more teeth, or a thinner seat"
                 yield finding(parts, "wall", "error" if is_gone else "warning", part.path, template, join.path, root=mm(root), share=HUB_OUTSIDE,
                     seat=mm(part.seat))  # fmt: skip

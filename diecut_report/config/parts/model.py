@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import hypot, pi
+from math import hypot
 from typing import Any, Literal
 
 from diecut_report.config.parts.keys import PART_KINDS, BeltKeys, ChainKeys, MachineKeys, MeshKeys, PartKeys, ShaftKeys
@@ -26,8 +26,7 @@ SIDES = {
 }
 """Of each word the kind of the parts that are joined, and where the driving and the driven ones are named."""
 SAME_PLACE = 0.05e-3  # m, by which two places that are one may differ
-
-
+DEDENDUM = 1.25  # modules, of the basic rack (ISO 53, profile A)
 BEARING_TABLES = {"deep_groove": "ball_bearings", "roller": "roller_bearings"}  # by the type of their bearings
 
 
@@ -292,7 +291,7 @@ class Join:
     def root(self, part: ShaftPart) -> float | None:
         """Return the diameter of a gear or sprocket below its teeth, m; None of a pulley."""
         if isinstance(self.keys, MeshKeys):
-            return 2 * self.radius(part) - 2.5 * self.keys.module
+            return float(drive_line.root_diameter(2 * self.radius(part), self.keys.module, DEDENDUM, 0))
         if isinstance(self.keys, ChainKeys):
             rollers = standard_table("iso_606_roller_diameters")
             return 2 * self.radius(part) - float(rollers.values[self.keys.chain] * unit(rollers.unit).factor)
@@ -305,8 +304,9 @@ class Join:
             return float(drive_line.center_distance(self.radius(self.drivers[0]), self.radius(self.driven[0])))
         if isinstance(self.keys, ChainKeys) and self.driven:
             first, second = self.keys.teeth_1, self.keys.teeth_2 or self.keys.teeth_1
-            straight, rise = self.keys.links - (first + second) / 2, ((first - second) / (2 * pi)) ** 2
-            return float(straight + max(straight**2 - 8 * rise, 0.0) ** 0.5) / 4 * chain_pitch(self.keys)
+            free = drive_line.free_links(self.keys.links, first, second)
+            room = max(float(drive_line.links_discriminant(free, first, second)), 0.0)
+            return float(drive_line.chain_center_distance(chain_pitch(self.keys), free, room))
         return None
 
 

@@ -253,8 +253,7 @@ MAX_ROWS = 1_048_576  # of a sheet
 MAX_PLACES = 20 * MAX_CELLS[".xlsx"]  # with the empty ones before the last cell of each row
 ENCODINGS = {"", "utf-8", "us-ascii", "iso-8859-1"}  # in which "<" is the byte that it is in ASCII
 LITERAL = re.compile(r'"([^"]*)"|\\(.)|\[\$([^\]-]*)[^\]]*\]')  # text within a number format
-SCALED = re.compile(r"[0#?],+(?![0#?])")  # a number that is shown in thousands
-CONDITION = re.compile(r"\[[<>=]")  # a format that depends on the number
+CHANGING = re.compile(r"[0#?],+(?![0#?])|\[[<>=]")  # shows a number in thousands, or by what it is
 SIGNS = re.compile("[°‰′″µΩ]")  # units that stand in a format without quotation marks
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 COMMENTS = ((b"<!--", b"-->"), (b"<?", b"?>"))
@@ -292,8 +291,8 @@ def _shown(cell: Any) -> Any:
     beside, rest = "".join("".join(found) for found in LITERAL.findall(form)).strip(), LITERAL.sub("", form)
     if "%" in rest:
         return f"{value * 100:.15g} %"
-    if SCALED.search(rest) or CONDITION.search(rest):
-        return f"{value} shown in thousands"  # which is refused as it stands there
+    if CHANGING.search(rest):
+        return f"{value} shown as {form}"  # which is refused as it stands there
     beside += "".join(SIGNS.findall(rest))
     return f"{value} {beside}" if beside else value
 

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from diecut_report.config.loader import examined
 from diecut_report.config.yaml import parse
+from diecut_report.results.warm_press import WarmPress
 from tests.config.parts.test_parts import DISCOVERY, FILE
 
 TEXT = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
@@ -197,20 +199,24 @@ def test_an_idle_shaft_of_the_cylinders_chains_counts_in_its_inertia() -> None:
     assert "${shafts_idle_body.inertia}" in made["drive"]["pinion_inertia"]
 
 
-def test_a_far_shaft_counts_by_the_square_of_its_chains_ratio() -> None:
-    made, problems = read(
-        ("far: [2216.254, 520]", "far: [2273.084, 520]"), ("teeth: 30/30, chain: 12B", "teeth: 30/18, chain: 12B")
+def test_what_a_geneva_wheel_moves_is_what_its_shafts_and_chains_have_at_it() -> None:
+    """By hand: conveyor, far shaft (chains 30/18) and chains turn 120/20 times as fast as the wheel; its energy is theirs."""
+    changes = ("far: [2216.254, 520]", "far: [2273.084, 520]"), ("teeth: 30/30, chain: 12B", "teeth: 30/18, chain: 12B")
+    text = TEXT
+    for old, new in changes:
+        text = text.replace(old, new, 1)
+    config, problems = examined(parse(text, str(FILE)), DISCOVERY)
+    assert problems == []
+    results = WarmPress(is_advised=False).calculate(config).document().mechanisms
+
+    def inertia(shaft: str) -> float:
+        return float(results[f"shafts_{shaft}_body"].outputs["inertia"].value)
+
+    chains = 2 * 240 * 19.05e-3 * 1.15 + 9.6  # kg
+    conveyor = inertia("conveyor") + inertia("far") * (30 / 18) ** 2 + chains * (30 * 19.05e-3 / (2 * np.pi)) ** 2
+    assert results["cross"].inputs["driven_inertia"].value == pytest.approx(
+        inertia("geneva") + conveyor * 6**2, rel=1e-9
     )
-    assert all("thick below its teeth" in each for each in problems)
-    made, problems = read(
-        ("far: [2216.254, 520]", "far: [2273.084, 520]"), ("teeth: 30/30, chain: 12B", "teeth: 30/18, chain: 12B"),
-        ("far:\n    sections: 55x40 r1.5, 65x640 r1.5, 55x40", "far:\n    sections: 55x40, 55x640, 55x40"),
-    )  # fmt: skip
-    text = made["cross"]["driven_inertia"] if not problems else "\n".join(problems)
-    assert (
-        "${shafts_far_body.inertia} * " in text
-        and "(${drive_line.chains.1.teeth_1} / ${drive_line.chains.1.teeth_2})**2" in text
-    ), text
 
 
 def test_two_stages_behind_a_wheel_are_its_gear_ratio() -> None:
@@ -222,8 +228,9 @@ def test_two_stages_behind_a_wheel_are_its_gear_ratio() -> None:
          "  step_up: {pair: [geneva.large, lay.small], teeth: 120/20"),
         ("60x40 r1.4, 70x120 r2, 75x520 r1.4, 60x40", "60x40 r1.4, 75x640 r1.4, 60x40"),
     )  # fmt: skip
-    ratio = made["cross"]["gear_ratio"] if not problems else "\n".join(problems)
-    assert ratio.count("teeth_1") == 2 == ratio.count("teeth_2"), ratio
+    assert problems == []
+    ratio = made["cross"]["gear_ratio"]
+    assert ratio.count("teeth_1") == 2 == ratio.count("teeth_2")
 
 
 def test_a_cylinder_has_one_pair_behind_its_rocker() -> None:
@@ -264,7 +271,8 @@ def test_a_cylinder_has_one_pair_behind_its_rocker() -> None:
 )
 def test_what_the_cyclogram_says_of_the_main_shaft_is_what_its_parts_take(changes: list[tuple[str, str]]) -> None:
     """Else neither the main shaft nor what drives it is rated."""
-    made, _ = read(*changes)
+    made, problems = read(*changes)
+    assert all("there is no mechanism 'cross2'" in each for each in problems)
     assert not MAIN & made.keys() and {"shafts_crank", "shafts_geneva"} <= made.keys()
     assert read()[0].keys() >= MAIN
 
@@ -281,8 +289,7 @@ def test_a_mechanism_on_a_shaft_before_the_main_one_is_not_counted_twice() -> No
         ("  crank_drive: {pair: [main.pinion,", "  one: {pair: [lay.one, main.wheel], teeth: 40/40, module: 5, width: 50}\n"
          "  crank_drive: {pair: [lay.two,"),
     )  # fmt: skip
-    assert problems == [] or all("stands" in each or "left" in each for each in problems), problems
-    assert not {"shafts_main", "shafts_lay"} & made.keys()
+    assert problems == [] and not {"shafts_main", "shafts_lay"} & made.keys()
 
 
 def test_losses_that_the_cyclogram_does_not_know_of_warn() -> None:
