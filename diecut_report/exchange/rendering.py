@@ -117,10 +117,12 @@ def said_changes(
 
 
 def _head(name: str, side: ChangedDocumentRecord, words: Catalogue) -> Cells:
-    counts = [f"{n} {words[status]}" for status, n in side.checks.items() if n and status != "pass"]
+    """What a side is; that all checks hold is no verdict, as values may be open."""
+    counts = [f"{n} {words[status]}" for status, n in side.checks.items() if n]
+    status = words[side.status] if side.status != "pass" else ""
     revision = say("revision {name}", name=side.revision) if side.revision else ""
     governing = say("governing {check}", check=side.governing) if side.governing else ""
-    return name, side.file, revision, words[side.status], ", ".join(counts), governing
+    return name, side.file, revision, status, ", ".join(counts), governing
 
 
 def _check(row: ChangedCheck, words: Catalogue) -> Cells:

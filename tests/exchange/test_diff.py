@@ -150,6 +150,18 @@ def test_a_report_its_results_and_its_configuration_are_the_same_side(tmp_path: 
     assert told[0] == told[1] == told[2] and told[0]["checks"]
 
 
+def test_a_machine_whose_checks_hold_is_called_no_pass(tmp_path: Path, capfd: Capture) -> None:
+    """Something may be open of it, of which changes tell nothing."""
+    good, bad = saved(tmp_path, LIMITED, "good.yaml"), saved(tmp_path, LIMITED.replace("2 kN", "3 kN"), "bad.yaml")
+    assert run("diff", bad, good) == 0
+    old, new = (" ".join(line.split()) for line in capfd.readouterr().out.splitlines()[:2])
+    assert "bad.yaml fail 1 fail" in old and "good.yaml 1 pass" in new
+    assert results(tmp_path, LIMITED, "good")["summary"]["verdict"] == "conditional"
+    assert run("diff", bad, good, "--format", "html", "-o", tmp_path / "page.html") == 0
+    sides = (tmp_path / "page.html").read_text("utf-8").partition("</table>")[0]
+    assert 'class="badge fail"' in sides and 'class="badge pass"' not in sides and "1 pass" in sides
+
+
 def test_a_page_of_changes_needs_neither_network_nor_scripts(tmp_path: Path) -> None:
     good, bad = saved(tmp_path, LIMITED, "good.yaml"), saved(tmp_path, LIMITED.replace("2 kN", "3 kN"), "bad.yaml")
     pages = []
