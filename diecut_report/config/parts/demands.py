@@ -425,13 +425,20 @@ class Demands:
         return first | {"ratio": Ratio(-1, first["ratio"].factors), "inertia": inertia}
 
     def inertia_of(self, shaft: MachineShaft) -> dict[str, Any] | None:
-        """Return the torque that the inertia of a shaft takes that swings or turns in steps; None of others."""
+        """Return the torque that a shaft which swings or turns in steps takes by its inertia and by the chains that roll a cylinder; None of others."""
         moving = self.moved_by(shaft)
         if moving is None or not moving.port.acceleration or any(self._of_swing(part) for part in shaft.parts):
             return None
         factors = tuple(each.ratio_text for each in self.chain_from(moving.part.shaft.name, shaft.name))
         found = self._source("inertia", moving.mechanism, moving.port.acceleration, -1)
-        return found | {"ratio": Ratio(-1, factors), "inertia": f"${{{shaft.body}.inertia}}"}
+        rolling = (each for each in self.parts.joins if self.is_rolling(each) and each.drivers[0].shaft is shaft)
+        own = " + ".join([f"${{{shaft.body}.inertia}}", *(self.conveyor_inertia(each) for each in rolling)])
+        return found | {"ratio": Ratio(-1, factors), "inertia": own}
+
+    def is_rolling(self, join: Join) -> bool:
+        """Return whether a join is a chain that rolls a cylinder."""
+        mechanism, _, what = (getattr(join.keys, "moves", None) or "").partition(".")
+        return what == "cylinder" and self.parts.mechanisms.get(mechanism) == "cylinder_drive"
 
     def torques_of(self, shaft: MachineShaft) -> list[dict[str, Any]]:
         """Return all torques on a shaft but the one that balances them; none where its parts take none."""
@@ -442,8 +449,7 @@ class Demands:
     def _moved(self, join: Join, share: int) -> dict[str, Any] | None:
         """What chains take from their sprockets to move the part of a mechanism that they name, each its share."""
         mechanism, _, what = (join.keys.moves or "").partition(".")
-        kind = self.parts.mechanisms.get(mechanism)
-        if kind == "cylinder_drive" and what == "cylinder":
+        if self.is_rolling(join):
             if join.driven:  # what the shaft over there takes follows another curve
                 return None
             losses = f"1 / (${{{mechanism}.efficiency_chain}} * ${{{mechanism}.efficiency_bearings}})"  # also where it brakes: safe

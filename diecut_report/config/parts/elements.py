@@ -62,14 +62,15 @@ class Elements(ShaftElements):
     def _provided(self, part: ShaftPart, what: str) -> Any:
         """What the parts give a mechanism at one of its ports; nothing where several meshes there are not alike."""
         meshes = [join for join in self.parts.joins if join.word == "meshes" and join.drivers[0].shaft is part.shaft]
-        chains = self._conveyors(part)
+        chains = self._chains_that_move(part, "conveyor")
         way = self.chain_from(part.shaft.name, chains[0].drivers[0].shaft.name) if chains else meshes[:1]
         if len({mesh.ratio for mesh in meshes}) > 1 and not chains:
             return None
         if what == "own_inertia":
             return f"${{{part.shaft.body}.inertia}}" if meshes and self.is_made(part.shaft.body) else None
         if what == "driven_inertia":
-            return " + ".join(self._inertia_behind(each.driven[0].shaft) for each in meshes) or None
+            rolled = self._chains_that_move(part, "cylinder")
+            return " + ".join(self._inertia_behind(each.driven[0].shaft, *rolled) for each in meshes) or None
         if what == "efficiency":
             toothed = [join for join in way if isinstance(join.keys, MeshKeys)]
             return self.efficiency(toothed) if toothed else None
@@ -85,9 +86,9 @@ class Elements(ShaftElements):
             return TypedNumber(millimetres(chain_pitch(chains[0].keys)), (*chains[0].path, "chain"))
         return None
 
-    def _conveyors(self, part: ShaftPart) -> list[Join]:
-        """The chains that are the conveyor of the mechanism that moves a part's shaft."""
-        name = f"{part.port[0]}.conveyor" if part.port else ""
+    def _chains_that_move(self, part: ShaftPart, what: str) -> list[Join]:
+        """The chains that move the conveyor or cylinder of the mechanism that moves a part's shaft."""
+        name = f"{part.port[0]}.{what}" if part.port else ""
         return [join for join in self.parts.joins if isinstance(join.keys, ChainKeys) and join.keys.moves == name]
 
     def _inertia_behind(self, start: MachineShaft, *chains: Join) -> str:
@@ -146,9 +147,9 @@ class Elements(ShaftElements):
 
     def _rolling(self, join: Join) -> dict[str, Any] | None:
         """A chain that rolls a cylinder."""
-        mechanism, _, what = (getattr(join.keys, "moves", None) or "").partition(".")
-        if what != "cylinder" or self.parts.mechanisms.get(mechanism) != "cylinder_drive":
+        if not self.is_rolling(join):
             return None
+        mechanism = join.keys.moves.partition(".")[0]
         home = f"${{{join.home}."
         return {
             "name": join.name,
@@ -261,7 +262,7 @@ class Elements(ShaftElements):
             "teeth_2": f"${{{join.home}.teeth_2}}", "links": f"${{{join.home}.links}}",
         }  # fmt: skip
         kind = self.parts.mechanisms.get(mechanism)
-        if kind == "cylinder_drive" and what == "cylinder":
+        if self.is_rolling(join):
             inputs |= {"acceleration": f"${{{mechanism}.acceleration}}", "velocity": f"${{{mechanism}.velocity}}",
                        "moving_mass": {"value": f"${{{mechanism}.reduced_inertia}} / ${{{mechanism}.cylinder_radius}}**2",
                                     "beyond": "the chains move the cylinder, not gripper bars with a sheet"},

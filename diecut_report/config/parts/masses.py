@@ -105,15 +105,30 @@ class Masses(Demands):
 
     def _mass(self, part: ShaftPart, mass: str) -> dict[str, Any]:
         """The mass of a part, and its inertia: typed, or of a Geneva wheel or a disc without bore of that ``mass``."""
-        join = next(self.parts.joins_of(part), None)
         found: dict[str, Any] = {"mass": self.mass_on(part) or 0}
         if "inertia" in part.more:
             found["inertia"] = TypedValue((*part.path, "inertia"))
-        elif join is not None:
-            found["inertia"] = f"${{{mass}}} * ({millimetres(join.radius(part))})**2 / 2"
         elif section := wheel_section(self.parts, part):
             found["inertia"] = f"${{{mass}}} * {section[1] / section[0] * 1e6:.12g} mm**2"
+        elif radius := self._disc_radius(part):
+            found["inertia"] = f"${{{mass}}} * ({millimetres(radius)})**2 / 2"
         return found
+
+    def _disc_radius(self, part: ShaftPart) -> float | None:
+        """The radius of the disc that a part of typed mass counts as, m: of an arm that swings or turns in steps that of its pin.
+
+        The arm has a third of m r² where it is a bar, and up to all of it where its mass sits at the pin. What joins to nothing and turns
+        steadily takes no torque by its inertia, and counts by its mass alone.
+        """
+        if any(self.parts.joins_of(part)):
+            return self.parts.body_radius(part)
+        is_steady = part.shaft.name in self.parts.ratios
+        return None if is_steady else self.parts.body_radius(part) or self._pin_radius(part)
+
+    def has_no_inertia(self, part: ShaftPart) -> bool:
+        """Return whether a part has a mass on a shaft that swings or turns in steps, and no inertia follows from its dimensions or is typed."""
+        is_steady, section = part.shaft.name in self.parts.ratios, wheel_section(self.parts, part)
+        return not is_steady and {"mass"} == {"mass", "inertia"} & set(part.more) and not (section or self._disc_radius(part))
 
     def full_mass(self, part: ShaftPart) -> float | None:
         """Return the mass of the full steel body of a part's dimensions, kg; None where these are not known.

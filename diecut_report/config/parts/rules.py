@@ -482,6 +482,10 @@ def _weighed(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             template = "has no {missing}, so that it counts for nothing; give it, or refer with inertia to flywheel_inertia of the drive train"
             missing = "inertia" if not has_inertia else "mass"
             yield finding(parts, "mass", "error", part.path, template, missing=missing)
+        elif elements.has_no_inertia(part):
+            template = "has a mass and no inertia on a shaft that does not turn steadily, so that the torque to move it would be left out; give "\
+                "inertia, about the shaft's axis, or outside"
+            yield finding(parts, "mass", "error", part.path, template)
 
 
 def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
