@@ -147,6 +147,9 @@ def _table() -> dict[str, Any]:
     return table
 
 
+_TWO_MEANINGS = {"grad": ("deg", "gon"), "ton": ("t", "short_ton"), "tons": ("t", "short_ton"), "gr": ("g", "grain")}
+"""Names that pint reads as a unit which is rarely meant here: a gon is 0.9°, the American ton has 907 kg, a grain 65 mg."""
+
 _FACTOR = r"\(*(?:[^\W\d]\w*|%)(?:\*\*-?[1-9]\d?)?\)*"  # no power of zero: "4O0 mm" is a slip
 _GRAMMAR = re.compile(rf"(?:1/)?{_FACTOR}(?:[*/]{_FACTOR})*")
 
@@ -187,6 +190,10 @@ def _canonical(text: str) -> str:
 
 
 def _read_with_pint(canonical: str, typed: str) -> Unit:
+    for word in re.findall(r"\w+", canonical):
+        if meant := _TWO_MEANINGS.get(word):
+            template = "{text} may be {one} or {other}; write the one that is meant."
+            raise UnitError(template, text=_shortened(typed), one=meant[0], other=meant[1])
     # The grammar also bounds what pint is given: no numbers, no towers of powers.
     readable = len(canonical) <= MAX_UNIT_LENGTH and _GRAMMAR.fullmatch(canonical)
     measured = measure_with_pint(canonical) if readable else None

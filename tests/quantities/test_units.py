@@ -294,6 +294,15 @@ def test_what_is_no_unit_is_refused_at_once(text: str) -> None:
         unit(text)
 
 
+@pytest.mark.parametrize(
+    ("text", "one", "other"), [("10 grad", "deg", "gon"), ("0.026 ton", "t", "short_ton"), ("3 gr", "g", "grain")]
+)
+def test_a_name_of_two_units_is_asked_about(text: str, one: str, other: str) -> None:
+    assert parse_quantity(f"1 {other}", one) > 0
+    with pytest.raises(UnitError, match=f"may be {one} or {other}; write the one that is meant"):
+        parse_quantity(text, one)
+
+
 @pytest.mark.parametrize("text", ["degC", "°C", "degF"])
 def test_a_unit_without_fixed_zero_is_refused(text: str) -> None:
     with pytest.raises(UnitError, match="has no fixed zero; give a temperature difference in K"):

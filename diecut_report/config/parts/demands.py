@@ -425,7 +425,7 @@ class Demands:
         return first | {"ratio": Ratio(-1, first["ratio"].factors), "inertia": inertia}
 
     def inertia_of(self, shaft: MachineShaft) -> dict[str, Any] | None:
-        """Return the torque that a shaft which swings or turns in steps takes by its inertia and by the chains that roll a cylinder; None of others."""
+        """Return the torque that a shaft which swings or turns in steps takes by its inertia and the chains that roll a cylinder; None of others."""
         moving = self.moved_by(shaft)
         if moving is None or not moving.port.acceleration or any(self._of_swing(part) for part in shaft.parts):
             return None

@@ -127,8 +127,12 @@ class Masses(Demands):
 
     def has_no_inertia(self, part: ShaftPart) -> bool:
         """Return whether a part has a mass on a shaft that swings or turns in steps, and no inertia follows from its dimensions or is typed."""
-        is_steady, section = part.shaft.name in self.parts.ratios, wheel_section(self.parts, part)
-        return not is_steady and {"mass"} == {"mass", "inertia"} & set(part.more) and not (section or self._disc_radius(part))
+        has_mass_alone = {"mass", "inertia"} & set(part.more) == {"mass"}
+        is_steady, is_known = (
+            part.shaft.name in self.parts.ratios,
+            wheel_section(self.parts, part) or self._disc_radius(part),
+        )
+        return has_mass_alone and not is_steady and not is_known
 
     def full_mass(self, part: ShaftPart) -> float | None:
         """Return the mass of the full steel body of a part's dimensions, kg; None where these are not known.

@@ -79,7 +79,20 @@ def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
     """Return what is wrong with the parts; what only warns or fails a check is kept in ``parts.findings``."""
     of_mechanisms = (
         rule(parts, elements)
-        for rule in (ports, ratios, rate, stages, losses, _weighed, _massive, _filled, _typed_twice, _untied, _unused)
+        for rule in (
+            ports,
+            ratios,
+            rate,
+            stages,
+            losses,
+            _weighed,
+            _inert,
+            _massive,
+            _filled,
+            _typed_twice,
+            _untied,
+            _unused,
+        )
     )
     found = [each for own in (*(rule(parts) for rule in RULES), *of_mechanisms) for each in own]
     parts.findings[:] = [each for each in found if each.level != "error"]
@@ -482,10 +495,16 @@ def _weighed(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
             template = "has no {missing}, so that it counts for nothing; give it, or refer with inertia to flywheel_inertia of the drive train"
             missing = "inertia" if not has_inertia else "mass"
             yield finding(parts, "mass", "error", part.path, template, missing=missing)
-        elif elements.has_no_inertia(part):
-            template = "has a mass and no inertia on a shaft that does not turn steadily, so that the torque to move it would be left out; give "\
-                "inertia, about the shaft's axis, or outside"
-            yield finding(parts, "mass", "error", part.path, template)
+
+
+def _inert(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """What swings or turns in steps has an inertia, a free force with a mass too."""
+    template = (
+        "has a mass and no inertia on a shaft that does not turn steadily, so that the torque to move it would be left out; give inertia, about "
+        "the shaft's axis, or outside"
+    )
+    for part in (each for shaft in parts.shafts.values() for each in shaft.parts if elements.has_no_inertia(each)):
+        yield finding(parts, "mass", "error", part.path, template)
 
 
 def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:

@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
+from math import pi
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -370,9 +371,13 @@ def test_a_reference_to_a_part_stands_for_what_is_calculated_of_it(reference: st
 
 
 def test_what_swings_or_steps_counts_with_its_inertia() -> None:
-    """The drive gets the inertias of both shafts; each shaft's own takes its torque, and what is before it carries what is behind."""
+    """The drive gets the inertias of both shafts; each shaft's own takes its torque, and what is before it carries what is behind.
+
+    The chains that roll the cylinder run as fast as the pinion's sprockets.
+    """
     data = whole().tree.data["mechanisms"]
-    assert data["drive"]["pinion_inertia"] == "${shafts_pinion_body.inertia}"
+    chain = "${drive_line.cylinder_chain_mass} * (${drive_line.cylinder_chain_travel} / 1 rad)**2"
+    assert data["drive"]["pinion_inertia"] == f"${{shafts_pinion_body.inertia}} + {chain}"
     assert data["drive"]["rocker_inertia"] == "${shafts_rocker_body.inertia}"
     torques = {
         shaft: {each["name"]: each["curve"] for each in data[f"shafts_{shaft}_loads"]["torques"]}
@@ -385,6 +390,26 @@ def test_what_swings_or_steps_counts_with_its_inertia() -> None:
     }
     assert torques["rocker"] == {"sector": "rocker_torque"}  # with the inertias and losses behind it
     assert torques["geneva"]["inertia"] == "wheel_acceleration"
+    drive = calculated("shaft_body", "drive_line", "cylinder_sizing", "cylinder_drive").calculations["drive"]
+    moved = 2 * 240 * 12.7 * MM * 0.69 * (52 * 12.7 * MM / (2 * pi)) ** 2  # two chains of 240 links
+    assert drive["pinion_inertia"].item() == pytest.approx(0.03467 + moved, rel=1e-3)
+    assert drive["rocker_inertia"].item() == pytest.approx(
+        1.2609 + 10 * 0.205**2 / 2, rel=1e-3
+    )  # the arm with its pin at 205 mm
+
+
+@pytest.mark.parametrize(
+    ("beside", "part", "is_refused"),
+    [
+        ("bearing: b, at: 230", "mass: 5 kg", True), ("bearing: b, at: 230", "mass: 5 kg, outside: 200", False),
+        ("bearing: b, at: 230", "mass: 5 kg, inertia: 0.02 kg*m**2", False), ("bearing: b, at: 250", "mass: 5 kg", False),
+    ],
+)  # fmt: skip
+def test_a_mass_without_inertia_is_refused_on_a_shaft_that_does_not_turn_steadily(
+    beside: str, part: str, is_refused: bool
+) -> None:
+    _, problems = changed(f"      - {{{beside},", f"      - {{load: balance, at: 60, {part}}}\n      - {{{beside},")
+    assert is_refused == any("has a mass and no inertia" in each for each in problems)
 
 
 BEHIND = """  behind:
