@@ -202,6 +202,11 @@ class CurveHandle:
     def rate(self) -> Array:
         return cycle_rate(self.calculation, self.cycle)
 
+    @property
+    def turns(self) -> float:
+        of = unit(self.abscissa.unit)
+        return float(np.max(self.domain.period)) / (2 * np.pi) if of.si == "rad" else 1.0
+
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         calc, domain, axis = self.calculation, self.domain, self.calculation.axis[self.curve_id]
         places = share, middle, rows

@@ -59,6 +59,10 @@ class RowsOf:
     def rate(self) -> Array:
         return self._own(self.curve.rate)
 
+    @property
+    def turns(self) -> float:
+        return self.curve.turns
+
     def _own(self, table: Array) -> Array:
         return table[self.rows] if len(table) > 1 else table
 

@@ -121,6 +121,10 @@ class Curve(Protocol):
     def rate(self) -> Array:
         """Return how often the curve comes again, as a speed (one turn each time), shape (variants, 1); 0 where nothing tells it."""
 
+    @property
+    def turns(self) -> float:
+        """Return the revolutions of its period, of all variants the most; 1 where it does not run over an angle."""
+
 
 @dataclass(frozen=True)
 class FromPress:

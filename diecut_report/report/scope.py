@@ -8,7 +8,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Collection, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -103,7 +103,7 @@ def _taken(mechanisms: Mapping[str, MechanismRecord], assumed: list[str]) -> Ite
 
 @contextmanager
 def settings_of_its_own() -> Iterator[None]:
-    """Import Matplotlib with nothing but the settings that it comes with, and without a screen.
+    """Import Matplotlib with nothing but the settings that it comes with; the user's backend, of a notebook too, stays for what he draws.
 
     It looks for a ``matplotlibrc`` in the current folder before all others, so that is the folder of its own meanwhile. Where it cannot write
     into the user's folders, it would tell that at each start, and leave one among the temporary files: the command line ends without its help.
@@ -115,11 +115,14 @@ def settings_of_its_own() -> Iterator[None]:
     temporary = tempfile.tempdir
     logger = logging.getLogger("matplotlib")
     level = logger.level
-    os.environ["MPLBACKEND"] = "agg"
+    os.environ.pop("MPLBACKEND", None)  # nothing here needs one, and one that cannot be loaded ends the import
     logger.setLevel(logging.ERROR)
     try:
         with _inside(own), TemporaryDirectory(prefix="diecut-report-") as tempfile.tempdir:
             yield
+        if "matplotlib" in sys.modules and before["MPLBACKEND"]:
+            with suppress(ValueError):
+                sys.modules["matplotlib"].rcParams["backend"] = before["MPLBACKEND"]
     finally:
         logger.setLevel(level)
         tempfile.tempdir = temporary

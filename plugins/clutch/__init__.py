@@ -30,6 +30,11 @@ MECHANISM = Mechanism(
               consequence="the wedge locks itself: without P_1 the clutch stays engaged, and the cone must be pulled out with "
               "{release_force}.",
               advise=(Vary("wedge_angle", "up"), Vary("wedge_friction", "down"))),
+        Check(id="transmitted_torque", check_class="function", title="Torque that the clutch transmits",
+              demand="transmitted_torque_max", limit="design_torque", unit="N*m", only_with=("torque_curve",),
+              demand_label="maximum over the cycle", limit_label="design torque", source="statics",
+              consequence="the clutch slips in every cycle, and wears and heats; it is to be designed for the torque that passes it.",
+              advise=(Vary("torque", "up"), Vary("service_factor", "up"))),
         Check(id="pressure", check_class="strength", title="Pressure on the lining",
               demand="pressure", limit="allowable_pressure", tolerance=ROUNDING, unit="MPa",
               sized_unless=("shoe_width",), demand_label="pressure", limit_label="allowed", source="002 eq. 17",

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
-from diecut_report.api import Annotated, Block, Inputs, OneOf, Quantity
+from diecut_report.api import POINTS, Annotated, Block, CurveInput, Inputs, OneOf, Quantity
 
 # fmt: off
 
@@ -22,6 +22,8 @@ class Clutch(Inputs):
     one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("torque",), ("power", "speed"), shared=("speed",)),)
 
     torque: Annotated[float | None, Quantity("M", "N*m", "Torque to be transmitted by the clutch", gt=0)] = None
+    torque_curve: Annotated[Any | None,
+        CurveInput("M_φ", "N*m", "Torque that the clutch transmits over a cycle; of a machine's parts that which passes it")] = None
     power: Annotated[float | None, Quantity("W", "kW", "Power to be transmitted by the clutch at the given speed", gt=0)] = None
     speed: Annotated[float | None, Quantity("ω", "rpm", "Speed of the driving shaft, constant; required for heat, slip time and q·v", gt=0)] = None
     service_factor: Annotated[float, Quantity("k_s", "1", "Service factor on the torque for the design", ge=1)] = 1.5
@@ -52,3 +54,4 @@ class Clutch(Inputs):
         Quantity("[p_A]", "W/cm**2", "Allowable mean friction power per unit area of lining", gt=0)] = None
     allowable_pv: Annotated[float | None, Quantity("[qv]", "MPa*m/s", "Allowable product of pressure and sliding speed", gt=0)] = None
     allowable_temperature_rise: Annotated[float | None, Quantity("[ΔT]", "K", "Allowable temperature rise of the lining above ambient", gt=0)] = None
+    n_points: Annotated[int, POINTS] = 360

@@ -16,6 +16,13 @@ torque.value("power", "W", "kW", "Power at this torque", lambda torque, speed: t
 torque.value("design_torque", "M_c", "N*m", "Design torque of the clutch", lambda service_factor, torque: service_factor * torque,
     source="this method")
 
+transmitted = Chapter("Torque over the cycle", needs=("torque_curve",),
+    text="One period of the referenced curve is mapped to one revolution of the cycle angle. Where it is above the design torque the clutch slips.")
+transmitted.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution per period of the torque", period=2 * np.pi,
+    shown_at="transmitted_torque_max_at")
+transmitted.from_curve("transmitted_torque", "M_φ", "N*m", "Transmitted torque", given="torque_curve", abscissa="cycle_angle")
+transmitted.reduction("transmitted_torque_max", "M_φ,max", "N*m", "Maximum absolute transmitted torque", "abs_max", of="transmitted_torque")
+
 wedge = Chapter("Wedge",
     text="The force N_2 normal to the cone's face and the friction f·N_2 on it balance P_1 along the axis and the pressing force P of the shoes "
         "along the radius: P_1 = P·tan(α + ρ) with the angle of friction ρ. All forces are those of the whole ring of shoes.")
@@ -147,4 +154,4 @@ warming.value("drum_temperature_rise_warm", "ΔT_w", "K", "Temperature rise of t
         drum_temperature_rise / (1 - np.exp(-1 / (engagements_per_hour * cooling_time))), source="energy", needs=("drum_mass",),
     exists=lambda engagements_per_hour: engagements_per_hour > 0)
 
-SECTIONS = (torque, wedge, release, lining, travel, sliding, heat, temperature, warming)
+SECTIONS = (torque, transmitted, wedge, release, lining, travel, sliding, heat, temperature, warming)

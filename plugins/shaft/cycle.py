@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from math import gcd
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,8 +14,10 @@ from diecut_report.api import GRAVITY, Curve, Extremes, Phrase, Refusal, named
 from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
-INSTANTS = 720  # of a cycle, beside both limits at each joint of a curve
-SPARSE = 6  # of the even instants every so many are looked at first, then those beside the best
+INSTANTS = 720  # of a cycle of up to two revolutions, beside both limits at each joint of a curve
+OF_TURN = INSTANTS // 2  # of each revolution of a longer cycle
+MOST_INSTANTS = 8 * INSTANTS  # of the longest: they fall on other places in each of its revolutions
+PHASES = 60  # of a shaft that turns, at least, in which what comes again meets it
 COMPONENTS = ("force_y", "force_z", "axial_force", "torque", "couple_xy", "couple_xz")
 
 
@@ -167,8 +170,10 @@ class Cycle:
         """Return the shaft's angle at the instants that are looked at, (rows, instants)."""
         share, middle = self.share[rows], self.middle[rows]
         if isinstance(self.rotation, str):
-            if share.shape[1] == 1:  # loads that are constant, beneath which the shaft turns all the same
-                share = np.tile(np.arange(INSTANTS) / INSTANTS, (len(rows), 1))
+            if share.shape[1] == 1:  # loads that are constant, beneath which the shaft turns once
+                return np.tile(np.arange(INSTANTS) / INSTANTS, (len(rows), 1)) * (
+                    2 * np.pi if self.rotation == "turning" else 0.0
+                )
             return share * (2 * np.pi * self.turns[rows][:, None] if self.rotation == "turning" else 0.0)
         return np.broadcast_to(_value(self.rotation, share, middle, rows, len(self.turns)), share.shape)
 
@@ -251,7 +256,9 @@ def cycle(
         *(columns(each, count, variants, 0.0) for each in (pressure, helix, mesh)),
     )
     joints = _unlike(np.broadcast_to(curve.joints, (variants, curve.joints.shape[1])) for curve in curves.values())
-    share, middle, edges = _instants(joints, variants, INSTANTS if curves else 1)
+    share, middle, edges = _instants(
+        joints, variants, _count([each.turns for each in curves.values()], turns) if curves else 1
+    )
     return Cycle(
         tuple(names), columns(places, count, variants), columns(offset, count, variants, 0.0), columns(mass, count, variants, 0.0),
         given, gears, rotation if is_curve(rotation) or isinstance(rotation, str) else "none", turns[:, 0], share, middle, edges,
@@ -341,9 +348,19 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
             )
 
 
-def looked_at_first(count: int) -> Array:
-    """Return which of the instants are looked at first: some of the even ones, and all limits, so that doubled joints change nothing."""
-    return np.union1d(np.arange(0, count, SPARSE), np.arange(min(INSTANTS, count), count))
+def _count(revolutions: Sequence[float], turns: Array) -> int:
+    """How many even instants a cycle has: 360 of each revolution of its loads, up to the most.
+
+    In a long cycle the loads come again many times, and the shaft in as many phases: the number has no divisor in common with either that
+    would let the instants fall on few of them.
+    """
+    whole = {round(each) for each in (*revolutions, *np.unique(turns)) if each > 1}
+    count = int(np.clip(OF_TURN * max(revolutions), INSTANTS, MOST_INSTANTS))
+    while any(count // gcd(count, round(each)) < OF_TURN for each in revolutions) or any(
+        count // gcd(count, each) < PHASES for each in whole
+    ):
+        count += 1
+    return count
 
 
 def _instants(joints: list[Array], variants: int, count: int) -> tuple[Array, Array, Array]:

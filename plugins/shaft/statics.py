@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
 from diecut_report.plugins.shaft.body import Body
-from diecut_report.plugins.shaft.cycle import COMPONENTS, SPARSE, Cycle, Gears, Instants, looked_at_first
+from diecut_report.plugins.shaft.cycle import COMPONENTS, Cycle, Gears, Instants
 from diecut_report.plugins.shaft.elastic import ElasticShaft
 
 Array = NDArray[Any]
@@ -203,12 +203,7 @@ class Statics:
     @cached_property
     def greatest_deflection(self) -> tuple[Array, Array]:
         """Return the greatest deflection of all (variants,), and at which instant it is, its index."""
-        count = self.loads.torque.shape[2]
-        some = looked_at_first(count)
-        near = some[self.some_instants(some).instant_of_deflection]
-        window = np.clip(near[:, None] + np.arange(1 - SPARSE, SPARSE), 0, count - 1)
-        chosen = self.at_instants(window).instant_of_deflection
-        instant = np.take_along_axis(window, chosen[:, None], axis=1)[:, 0]
+        instant = self.instant_of_deflection
         return np.max(self.at_instant(instant)._resultant(self.elastic.closely.deflection), axis=(0, 2)), instant
 
     @property

@@ -23,7 +23,7 @@ CYCLE = ("loads.name", "loads.position", "loads.force_y", "loads.force_z", "load
 LOADED = ("body", "cycle", "bearing_a", "bearing_b", "locating", "elastic_modulus", "shear_modulus", "density")
 CASES = ("load_cases",)
 TOOTHED = ("loads.gear.pitch_radius",)
-OVER_CYCLE = "over 720 instants of the cycle and both limits at each breakpoint of the loads"
+OVER_CYCLE = "over at least 720 instants of the cycle and both limits at each breakpoint of the loads"
 INTEGRATED = "E I v″ = M exactly, piece by piece, " + OVER_CYCLE
 FACTORS = {"k_f": "k_f", "k_fs": "k_fs", "endurance": "place_endurance", "area": "place_area", "modulus": "place_modulus",
            "tensile_strength": "tensile_strength"}

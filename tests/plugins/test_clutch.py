@@ -19,6 +19,7 @@ from diecut_report.plugins.clutch import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.origins import Provenance
 from tests.machines import inputs, number
+from tests.plugins.bearings import Over
 from tests.plugins.clutches import BASE, checks, clutch
 
 WEDGE = ("wedge_angle", "wedge_friction")
@@ -118,6 +119,17 @@ def test_the_lining_carries_the_torque() -> None:
     sized = clutch(shoe_coverage=0.8)
     assert number(sized, "pressure") == pytest.approx(0.3e6)
     assert number(sized, "lining_width") == number(sized, "shoe_width") == number(calc, "shoe_width")
+
+
+@pytest.mark.parametrize(("greatest", "status"), [(1.49, "pass"), (1.51, "fail")])
+def test_a_clutch_holds_the_torque_that_passes_it(greatest: float, status: str) -> None:
+    """Also where it acts backwards; up to the design torque, which has the service factor of 1.5."""
+    torque = clutch()["torque"].item()
+    curve = Over(lambda angle: -greatest * torque * np.cos(angle) ** 2)
+    calculation = clutch(torque_curve=curve, service_factor=1.5)
+    assert number(calculation, "transmitted_torque_max") == pytest.approx(greatest * torque)
+    assert checks(calculation)["transmitted_torque"].status == status
+    assert "transmitted_torque" not in checks(clutch())
 
 
 def test_a_width_is_checked_and_one_that_is_sized_reaches_the_allowed_pressure() -> None:

@@ -109,8 +109,8 @@ class Turned:
     curve_id, cycle = "turned", "crank_angle"
     breakpoints = joints = np.empty((1, 0))
 
-    def __init__(self, function: Any) -> None:
-        self.function = function
+    def __init__(self, function: Any, turns: float = 1) -> None:
+        self.function, self.turns = function, turns
 
     def values(self, share: Any, middle: Any, rows: Any) -> Any:
         """Return the force at shares of the cycle."""
@@ -129,6 +129,39 @@ def test_a_load_that_turns_with_the_shaft_does_not_tire_it_one_against_it_does(s
     modulus = np.pi * 0.055**3 / 32
     stress = 1000 * 0.12 * 0.105 / 0.225 / modulus
     assert row(calculation, "sigma_a")[GEAR_KEY] == pytest.approx(amplitude * stress, rel=1e-4, abs=1e-3)
+
+
+PEAK, ARM, SPAN = 3000.0, 0.105, 0.225  # N, and m from bearing A to the load and to bearing B
+
+
+@pytest.mark.parametrize(("again", "turns"), [(40, 387), (12, 115), (3, 29), (361, 2), (40, 721), (90, 1)])
+def test_a_load_that_comes_again_in_a_long_cycle_is_seen_at_its_peak_and_in_all_phases(again: int, turns: int) -> None:
+    """A peak of a twentieth of its period; the amplitude is that of brute force over material points."""
+    peak = Turned(lambda a: PEAK * np.cos(a * again / 2 + 0.3) ** 100, turns=2 * again)
+    long = shaft(CRANKSHAFT, loads=[{"name": "peak", "position": 130, "force_y": peak}], turns_per_cycle=turns)
+    still = shaft(CRANKSHAFT, loads=[{"name": "peak", "position": 130, "force_y": PEAK}], rotation="none")
+    assert number(long, "reaction_b_max") == pytest.approx(PEAK * ARM / SPAN, rel=2e-3)
+    assert number(long, "deflection_max") == pytest.approx(number(still, "deflection_max"), rel=2e-3)
+    stress = PEAK * (SPAN - ARM) * ARM / SPAN / (np.pi * 0.055**3 / 32)
+    angle = np.linspace(0, 2 * np.pi, 200_000)
+    turned = peak.function(angle) / PEAK * np.exp(1j * turns * angle)
+    amplitude = max(np.ptp((turned * np.exp(1j * psi)).real) / 2 for psi in np.linspace(0, np.pi, 61))
+    assert row(long, "sigma_a")[GEAR_KEY] == pytest.approx(amplitude * stress, rel=0.02)
+
+
+@pytest.mark.parametrize("turns", [1, 7, 240, 360, 720, 1000])
+def test_a_constant_load_bends_a_turning_shaft_to_and_fro_however_often_it_turns(turns: int) -> None:
+    calculation = shaft(CRANKSHAFT, loads=[{"name": "pull", "position": 130, "force_y": PEAK}], turns_per_cycle=turns)
+    stress = PEAK * (SPAN - ARM) * ARM / SPAN / (np.pi * 0.055**3 / 32)
+    assert row(calculation, "sigma_a")[GEAR_KEY] == pytest.approx(stress, rel=1e-4)
+
+
+@pytest.mark.parametrize("turns", [1, 240, 720])
+def test_a_load_that_hardly_varies_bends_it_so_too(turns: int) -> None:
+    pull = Turned(lambda a: PEAK * (1 - 1e-4 * np.cos(a)))
+    calculation = shaft(CRANKSHAFT, loads=[{"name": "pull", "position": 130, "force_y": pull}], turns_per_cycle=turns)
+    stress = PEAK * (SPAN - ARM) * ARM / SPAN / (np.pi * 0.055**3 / 32)
+    assert row(calculation, "sigma_a")[GEAR_KEY] == pytest.approx(stress, rel=2e-3)
 
 
 def test_the_fatigue_of_any_loads_is_that_of_brute_force() -> None:

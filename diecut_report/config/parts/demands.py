@@ -347,19 +347,34 @@ class Demands:
         follows_motor = self.flywheel(part.shaft) is not None and any(part in each.driven for each in joins)
         is_asked = follows_motor and bool(self.torques_of(part.shaft))
         is_shared = any(part in each.driven[1:] for each in joins) and self._takes(part.shaft)
-        return is_asked or is_shared or any(part in each.drivers and not self._is_idle(each) for each in joins)
+        is_pulled = any(
+            part in each.driven
+            and each.word == "chains"
+            and not self.torque_on(each.drivers[0])
+            and not self._takes_nothing(each)
+            for each in joins
+        )
+        return (
+            is_asked
+            or is_shared
+            or is_pulled
+            or any(part in each.drivers and not self._is_idle(each) for each in joins)
+        )
 
     def _takes(self, shaft: MachineShaft) -> bool:
         """Whether a shaft drives others, or a mechanism."""
         return any(part.port or any(part in join.drivers for join in self.parts.joins_of(part)) for part in shaft.parts)
 
     def _is_idle(self, join: Join) -> bool:
-        """Whether a join drives a shaft that takes nothing."""
+        """Whether a join drives a shaft of which is known that it takes nothing."""
+        return self._takes_nothing(join) and not self.lacks_torque(join.driven[0].shaft)
+
+    def _takes_nothing(self, join: Join) -> bool:
+        """Whether a join drives a shaft of whose parts none is known to take a torque, and moves nothing else."""
         if not join.driven or getattr(join.keys, "moves", None):
             return False
         shaft = join.driven[0].shaft
-        is_loaded = any(each.port or "torque" in each.more for each in shaft.parts)
-        return not is_loaded and not self.torques_of(shaft) and not self.lacks_torque(shaft)
+        return not any(each.port or "torque" in each.more for each in shaft.parts) and not self.torques_of(shaft)
 
     def flywheel(self, shaft: MachineShaft) -> ShaftPart | None:
         """Return the flywheel on a shaft that a motor drives by a belt; None where there is none, or nothing is known of the motor."""

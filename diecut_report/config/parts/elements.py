@@ -52,12 +52,14 @@ class Elements(ShaftElements):
                         key: value for key, of in port.fills.items() if (value := self._provided(part, of)) is not None
                     }
                     self.fills.setdefault(part.port[0], {}).update(given)
-                if (
-                    part.kind == "clutch"
-                    and self.parts.mechanisms.get(part.name) == "clutch"
-                    and shaft.name in self.parts.ratios
-                ):
-                    self.fills.setdefault(part.name, {}).update({"speed": self.speed(shaft.name)})
+                if part.kind == "clutch" and self.parts.mechanisms.get(part.name) == "clutch":
+                    self.fills.setdefault(part.name, {}).update(self._of_clutch(part))
+
+    def _of_clutch(self, part: ShaftPart) -> dict[str, Any]:
+        """What a clutch is given: the speed of its shaft, and the torque that passes it."""
+        name, torque = part.shaft.name, self._passed(part) if self.is_made(part.shaft.loads) else None
+        speed = {"speed": self.speed(name)} if name in self.parts.ratios else {}
+        return speed | ({"torque_curve": torque} if torque else {})
 
     def _provided(self, part: ShaftPart, what: str) -> Any:
         """What the parts give a mechanism at one of its ports; nothing where several meshes there are not alike."""

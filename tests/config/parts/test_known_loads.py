@@ -166,6 +166,8 @@ def test_a_clutch_on_a_shaft_that_drives_two_parts_is_engaged_through_both() -> 
     assert problems == []
     cases = [(each["name"], each["enters"], each["leaves"]) for each in made["shafts_main"]["load_cases"]]
     assert cases == [("engage", "wheel", "disc"), ("engage_2", "wheel", "pinion")]
+    assert made["clutch"]["torque_curve"] == "${shafts_main_loads.balance}"
+    assert read()[0]["clutch"]["torque_curve"] == "${shafts_crank_loads.balance}"
 
 
 # Other machines than the example: what is not known of them is not rated, and what is known counts.
@@ -189,13 +191,13 @@ def with_shaft(name: str, *parts: str) -> tuple[str, str]:
 
 
 def test_an_idle_shaft_of_the_cylinders_chains_counts_in_its_inertia() -> None:
-    """What it takes follows another curve than the cylinder's moment: the pinion's shaft is not rated."""
+    """What it takes follows another curve than the cylinder's moment: neither shaft is rated, by the pretension alone or at all."""
     made, problems = read(
         ("pinion: [500, -494],", "pinion: [500, -494], idle: [1681.1, -494],"),
         with_shaft("idle", PINION, "{sprocket: right, at: 285, hub: 60, key: 50}"),
         (CYLINDER, "cylinder: {sprockets: [pinion.left, pinion.right], to: [idle.left, idle.right], teeth: 27/27,"),
     )
-    assert problems == [] and "shafts_pinion" not in made
+    assert problems == [] and not {f"shafts_{name}" for name in ("pinion", "pinion_bearings", "idle", "idle_bearings")} & made.keys()
     assert "${shafts_idle_body.inertia}" in made["drive"]["pinion_inertia"]
 
 
