@@ -302,13 +302,15 @@ class CurveResult(OfRecord):
         return self.values / unit(other).factor
 
     def plot(self, axes: Any = None, **style: Any) -> Any:
-        """Draw it over its abscissa, in the units of a report; return the axes of matplotlib, whose ``figure`` a notebook shows."""
+        """Draw it over its abscissa, in the units of a report, with its jumps; return the axes of matplotlib, whose ``figure`` a notebook shows."""
+        from diecut_report.report.chapters.tables import continuous, period_of
         from diecut_report.report.figures.style import plotted
 
         over = self.abscissa or self
         labels = axis_label(over.description, over.display_unit), axis_label(self.description, self.display_unit)
-        style = {"label": self.description, **style}
-        return plotted(over.to(over.display_unit), self.to(self.display_unit), labels, axes, **style)
+        style, own = {"label": self.description, **style}, (self.values, self.values)
+        x, y = continuous(self.record, over.record, period_of(over.record)) if self.abscissa else own
+        return plotted(x / unit(over.display_unit).factor, y / unit(self.display_unit).factor, labels, axes, **style)
 
     def __len__(self) -> int:
         return len(self.values)

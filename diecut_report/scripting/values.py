@@ -215,7 +215,8 @@ def scalar(given: Any, path: str) -> float | int | bool | str:
     if isinstance(given, bool | str):
         return given
     if isinstance(given, QuantityValue):
-        return given.value if given.unit == "1" else f"{given.value!r} {given.unit}"
+        number = scalar(given.value, path)  # of a column of a table it is one of NumPy
+        return number if given.unit == "1" else f"{number!r} {given.unit}"
     # of pint; its unit in the short form is read back as the same one
     if hasattr(given, "magnitude") and hasattr(given, "units"):
         number, own = scalar(given.magnitude, path), f"{given.units:~C}"

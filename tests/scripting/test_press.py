@@ -62,6 +62,7 @@ def test_inputs_tell_path_value_unit_range_and_what_they_rest_on(press: dr.Loade
         np.float64(120),
         np.int64(120),
         dr.QuantityValue(12, "cm"),
+        dr.QuantityValue(np.float64(0.12), "m"),  # of a column of a table
         pint.Quantity(12, "cm"),
         pint.Quantity(0.12, "m"),
     ],

@@ -106,7 +106,9 @@ def test_a_curve_draws_itself_in_the_units_of_a_report(knife: dr.Results) -> Non
     curves = knife["knife"].curves
     axes = curves["torque"].plot(color="red")
     x, y = axes.lines[0].get_data()
-    assert x[-1] == pytest.approx(360, rel=0.01) and y.max() == pytest.approx(curves["torque"].to("N*m").max())
+    assert x[-1] == pytest.approx(360) and y.max() == pytest.approx(knife["knife"].torque_max.m_as("N*m"))
+    starts, ends = (knife["knife"][f"angle_{side}"].m_as("deg") for side in ("start", "end"))
+    assert [np.isclose(x, place).sum() for place in (starts, ends)] == [2, 2], "upright where it jumps"
     assert axes.get_xlabel().endswith(", °") and axes.get_ylabel().endswith(", N·m")
     assert curves["knife_angle"].plot(axes) is axes and len(axes.lines) == 2
 

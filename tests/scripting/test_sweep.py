@@ -13,6 +13,7 @@ import pyarrow as pa
 import pytest
 
 import diecut_report as dr
+from diecut_report.report.figures.style import plotted
 from tests.configs import BROKEN, EXAMPLE, GOOD, HEAD
 
 TEXT = (
@@ -118,6 +119,15 @@ def test_columns_are_drawn_in_the_units_of_a_report(press: dr.LoadedPress) -> No
     axes = table.plot("press.productivity", "a.moment")
     assert axes.lines[0].get_xdata().tolist() == [6000, 3000] and axes.get_xlabel().endswith(", 1/h")
     assert axes.get_ylabel() == "Moment, N·m" and table.plot("press.productivity", "a.moment", axes) is axes
+
+
+def test_a_long_label_is_set_in_lines_so_that_its_unit_is_seen() -> None:
+    label = "Planetary drive: maximum acceleration in the working stroke, m/s²"
+    axes = plotted([0, 1], [0, 1], ("Angle, °", label))
+    axes.figure.draw_without_rendering()
+    extent, page = axes.yaxis.label.get_window_extent(), axes.figure.bbox
+    assert page.y0 <= extent.y0 and extent.y1 <= page.y1
+    assert axes.get_ylabel().replace("\n", " ") == label
 
 
 def made(name: str, **parts: Any) -> ModuleType:

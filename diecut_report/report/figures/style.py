@@ -9,6 +9,7 @@ from contextlib import AbstractContextManager
 from enum import Enum
 from functools import cache, partial
 from itertools import groupby
+from textwrap import fill
 from typing import Any, NamedTuple
 from xml.sax.saxutils import escape
 
@@ -192,11 +193,23 @@ def canvas(width: float, height: float) -> Figure:
     return figure
 
 
+WIDE, TALL = 60, 45  # letters along the sides of a figure of matplotlib's own size
+
+
+class ShownFigure(Figure):
+    """A figure that a notebook shows, also where pyplot, which would teach it to, is not loaded."""
+
+    def _repr_png_(self) -> bytes:
+        buffer = io.BytesIO()
+        self.savefig(buffer, format="png")
+        return buffer.getvalue()
+
+
 def plotted(x: Any, y: Any, labels: tuple[str, str], axes: Any = None, **style: Any) -> Any:
-    """Draw a line into axes of matplotlib, or into those of a figure of its own; return the axes."""
-    axes = Figure(layout="constrained").add_subplot() if axes is None else axes
+    """Draw a line into axes of matplotlib, or into those of a figure of its own, with labels of several lines; return the axes."""
+    axes = ShownFigure(layout="constrained").add_subplot() if axes is None else axes
     axes.plot(x, y, **style)
-    axes.set(xlabel=labels[0], ylabel=labels[1])
+    axes.set(xlabel=fill(labels[0], WIDE), ylabel=fill(labels[1], TALL))
     return axes
 
 
