@@ -1,8 +1,10 @@
-"""The page on Python, the notebook and the script do what they say."""
+"""The page on Python, the notebooks and the script do what they say."""
 
 from __future__ import annotations
 
+import ast
 import doctest
+import re
 import runpy
 from pathlib import Path
 from typing import Any
@@ -31,17 +33,54 @@ def test_the_script_runs(capfd: pytest.CaptureFixture[str], tmp_path: Path) -> N
     assert (tmp_path / "examples" / "build" / "knife.html").stat().st_size > 10_000
 
 
+NOTEBOOKS = sorted(EXAMPLES.glob("*.ipynb"))
+FIRST = EXAMPLES / "first_calculation.ipynb"  # the one that runs in a kernel, which takes seconds to start
+
+
+def read(file: Path) -> Any:
+    found: Any = nbformat.read(file, as_version=4)
+    nbformat.validate(found)
+    return found
+
+
+def test_the_notebooks_are_kept_without_outputs_and_the_page_names_each() -> None:
+    for file in NOTEBOOKS:
+        cells = [cell for cell in read(file).cells if cell.cell_type == "code"]
+        assert not any(cell.outputs or cell.execution_count for cell in cells), f"keep {file.name} without outputs"
+    named = set(re.findall(r"examples/(\w+\.ipynb)", (ROOT / "docs" / "python.md").read_text(encoding="utf-8")))
+    assert len(NOTEBOOKS) > 4 and named == {file.name for file in NOTEBOOKS}
+
+
 def test_the_notebook_runs_and_shows_what_it_promises() -> None:
-    notebook: Any = nbformat.read(EXAMPLES / "press_in_python.ipynb", as_version=4)
-    assert not any(cell.outputs or cell.execution_count for cell in notebook.cells if cell.cell_type == "code"), (
-        "keep it without outputs"
-    )
     made: Any = NotebookClient(
-        notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(EXAMPLES)}}
+        read(FIRST), timeout=300, kernel_name="python3", resources={"metadata": {"path": str(EXAMPLES)}}
     ).execute()
     cells = [cell for cell in made.cells if cell.cell_type == "code"]
     assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))
-    shown = ["".join(part.get("data", {}).get("text/html", "") for part in cell.outputs) for cell in cells]
+    given = [[part.get("data", {}) for part in cell.outputs] for cell in cells]
+    shown = ["".join(part.get("text/html", "") for part in parts) for parts in given]
     assert "knife.eccentricity" in shown[0] and "No check fails, but " in shown[1] and "not checked" in shown[1]
+    assert "image/png" in given[3][0], "the figure of a curve is shown without pyplot"
     assert shown[4].count("<math") > 10 and shown[4].count("<svg") == 5
     assert not any("<script" in html for html in shown)
+
+
+def answer(code: str, name: str, space: dict[str, Any]) -> Any:
+    """Run a cell; return the value of its last line, as a kernel would show it."""
+    body = ast.parse(code, name).body
+    last = body.pop() if isinstance(body[-1], ast.Expr) else None
+    exec(compile(ast.Module(body, []), name, "exec"), space)
+    return eval(compile(ast.Expression(last.value), name, "eval"), space) if isinstance(last, ast.Expr) else None
+
+
+@pytest.mark.parametrize("file", [file for file in NOTEBOOKS if file != FIRST], ids=lambda file: file.stem)
+@pytest.mark.usefixtures("without_advice")
+def test_a_notebook_runs_in_this_process(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(EXAMPLES)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    space: dict[str, Any] = {}
+    answers = [answer(cell.source, file.name, space) for cell in read(file).cells if cell.cell_type == "code"]
+    pages = [page() for page in (getattr(each, "_repr_html_", None) for each in answers) if page]
+    pictures = [picture() for picture in (getattr(each, "_repr_png_", None) for each in answers) if picture]
+    assert pages or pictures
+    assert not any("<script" in page for page in pages if page) and all(len(each) > 5000 for each in pictures)

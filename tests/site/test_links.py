@@ -23,6 +23,8 @@ def links() -> Links:
     [
         ("README.md", "see [trust](docs/trust.md#how)", "see [trust](trust.md#how)"),
         ("README.md", "[`shaft`](docs/mechanisms/shaft.md)", "[`shaft`](gallery/shaft.md)"),
+        ("docs/python.md", "[sweep](../examples/sweep.ipynb)", "[sweep](notebooks/sweep.md)"),
+        ("examples/sweep.ipynb", "[studies](../docs/studies.md)", "[studies](../studies.md)"),
         ("docs/limits.md", "[tables](mechanisms)", "[tables](gallery/index.md)"),
         ("docs/trust.md", "[rules](../CONTRIBUTING.md)", "[rules](contributing.md)"),
         ("docs/trust.md", "[start](../README.md) and [here](#part)", "[start](index.md) and [here](#part)"),
@@ -63,7 +65,7 @@ def test_each_document_is_a_page_and_stands_in_the_contents() -> None:
     assert {page for page in pages if "/" not in page} | {"how-to/index"} <= listed
     beside = {page.removeprefix("how-to/") for page in pages if page.startswith("how-to/")} - {"index"}
     assert beside and beside <= set(sources.files["how-to/index.md"].decode().splitlines())
-    made = {"gallery/index", "reports", "reference/index"}
+    made = {"gallery/index", "notebooks/index", "reports", "reference/index"}
     named = {name for part in PARTS for name in part.names if "*" not in name} - made
     assert named <= pages, "a page that the contents name must be there"
 

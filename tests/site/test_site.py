@@ -12,9 +12,13 @@ import yaml
 from diecut_report.config.plugins import Discovery
 from tests.plugins.machine_parts import OF_PARTS
 from tools.site.__main__ import mechanisms
+from tools.site.documents import places
 from tools.site.examples import Example as ConfigExample
 from tools.site.examples import configurations, shown_kinds
 from tools.site.gallery import page
+from tools.site.links import Links
+from tools.site.notebooks import add_notebooks
+from tools.site.sources import ROOT, Sources
 
 
 def test_a_page_of_the_gallery_tells_all_that_is_declared() -> None:
@@ -75,3 +79,14 @@ def test_a_page_that_is_in_no_contents_and_a_name_without_a_page_fail(tmp_path: 
     (tmp_path / "sources" / "trust.md").unlink()
     done = subprocess.run([sys.executable, "-m", *map(str, command)], capture_output=True, text=True, check=False)
     assert done.returncode != 0 and "trust" in done.stderr
+
+
+def test_each_notebook_has_a_page_with_its_texts_and_cells_and_its_file() -> None:
+    sources = Sources()
+    add_notebooks(sources, Links(places()))
+    text = sources.files["notebooks/sweep.md"].decode()
+    assert text.startswith("\n# A sweep\n") and "[Studies](../studies.md)" in text and 'href="sweep.ipynb"' in text
+    assert text.count("``````python") == 5 and 'press = dr.load("../configs/folding_knife.yaml")' in text
+    for file in (ROOT / "examples").glob("*.ipynb"):
+        assert sources.files[f"_extra/notebooks/{file.name}"] == file.read_bytes()
+        assert f"({file.stem}.md)" in sources.files["notebooks/index.md"].decode()

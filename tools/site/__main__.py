@@ -8,10 +8,12 @@ from pathlib import Path
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.mechanism.mechanism import Mechanism
-from tools.site.documents import add_documents
+from tools.site.documents import add_documents, places
 from tools.site.examples import examples, shown_kinds
 from tools.site.frame import add_frame
 from tools.site.gallery import add_gallery
+from tools.site.links import Links
+from tools.site.notebooks import add_notebooks
 from tools.site.reference import add_reference
 from tools.site.reports import add_reports
 from tools.site.sources import Sources
@@ -28,6 +30,7 @@ def site(*, quick: bool) -> Sources:
     """Return all that the site is made of."""
     sources, found = Sources(), examples(quick=quick)
     add_gallery(sources, mechanisms(), shown_kinds(found))
+    add_notebooks(sources, Links(places()))
     add_reports(sources, found)
     add_reference(sources)
     add_documents(sources)

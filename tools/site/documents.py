@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from tools.site.links import Links
 from tools.site.markup import contents
+from tools.site.notebooks import notebooks
 from tools.site.sources import ROOT, Sources
 
 AT_ROOT = ("README", "ARCHITECTURE", "CONTRIBUTING", "DECISIONS", "CHANGELOG", "SECURITY")
@@ -28,7 +29,7 @@ PARTS = (
     Part("Using it", ("configuration", "commands", "comparing-machines", "questions", "live", "studies", "results", "results-file",
                       "reports-and-revisions", "office-files", "house-style", "own-tables", "limits", "mending-a-press",
                       "correcting-a-drive-line", "python", "own-repository")),
-    Part("Examples", ("gallery/index", "reports")),
+    Part("Examples", ("gallery/index", "notebooks/index", "reports")),
     Part("Writing a mechanism", ("tutorial", "how-to/index", "plugins", "reference/index")),
     Part("Whether to trust it", ("need-and-field", "trust", "validation", "standards", "plausible-values")),
     Part("The project", ("architecture", "contributing", "decisions", "changelog", "security", "glossary")),
@@ -50,7 +51,7 @@ def documents() -> dict[str, str]:
 def places() -> dict[str, str]:
     """Return the page of each path of the repository to which documents may link."""
     own = {file.relative_to(ROOT).as_posix(): f"gallery/{file.name}" for file in (ROOT / GALLERY).glob("*.md")}
-    return documents() | own | {GALLERY: "gallery/index.md"}
+    return documents() | notebooks() | own | {GALLERY: "gallery/index.md"}
 
 
 def add_documents(sources: Sources) -> None:
