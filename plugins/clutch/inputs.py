@@ -23,7 +23,7 @@ class Clutch(Inputs):
 
     torque: Annotated[float | None, Quantity("M", "N*m", "Torque to be transmitted by the clutch", gt=0)] = None
     torque_curve: Annotated[Any | None,
-        CurveInput("M_φ", "N*m", "Torque that the clutch transmits over a cycle; of a machine's parts that which passes it")] = None
+        CurveInput("M_z", "N*m", "Torque that the clutch transmits over a cycle; of a machine's parts that which passes it")] = None
     power: Annotated[float | None, Quantity("W", "kW", "Power to be transmitted by the clutch at the given speed", gt=0)] = None
     speed: Annotated[float | None, Quantity("ω", "rpm", "Speed of the driving shaft, constant; required for heat, slip time and q·v", gt=0)] = None
     service_factor: Annotated[float, Quantity("k_s", "1", "Service factor on the torque for the design", ge=1)] = 1.5

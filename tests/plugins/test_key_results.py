@@ -23,7 +23,6 @@ WITHOUT = {
         "cut_speed_max": "no limit of the cut is known that depends on it; the board's rate follows from the press"
     },
     "clutch": {
-        "design_torque": "what the clutch is sized for",
         "pressing_force": "judged as pressure of the lining",
         "release_force": "judged by whether the clutch releases by itself",
     },

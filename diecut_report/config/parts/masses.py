@@ -1,19 +1,23 @@
-"""Masses and moments of inertia of the shafts with their parts."""
+"""Masses and moments of inertia of the shafts with their parts, and the rules that hold typed ones against the parts' dimensions."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import pi, prod
 from typing import Any
 
 from diecut_report.config.parts.demands import Demands, TypedNumber, TypedValue, millimetres
+from diecut_report.config.parts.findings import Finding, Level, finding, hubs, mm
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
 from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart, chain_pitch
+from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanics.geneva_wheel import area_and_polar, crank_radius
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_table
 
 STEEL = 7850  # kg/m³
+# shares of the full steel body; of a clutch, which has shoes in place of a disc, less is usual
+MASS_SHARE, MASS_POSSIBLE = (0.3, 1.05), (0.05, 1.5)
 
 
 class Masses(Demands):
@@ -212,3 +216,79 @@ def tooth_width(keys: ChainKeys) -> float:
     table = standard_table("iso_606_inner_widths")
     share = 0.93 if chain_pitch(keys) <= 12.7e-3 * (1 + 1e-9) else 0.95
     return int(share * table.values[keys.chain] * 10) / 10 * unit(table.unit).factor
+
+
+def weighed(parts: MachineParts, elements: Masses) -> Iterator[Finding]:
+    """Each body has a mass that loads its shaft, and an inertia: a Geneva wheel by its width, a flywheel as it is typed."""
+    for _, part in hubs(parts):
+        has_inertia = "inertia" in part.more
+        if part.kind == "geneva_wheel" and elements.mass_on(part) is None:
+            template = "has no mass, so that its weight and its inertia would be left out; give width or mass"
+            yield finding(parts, "mass", "error", part.path, template)
+        elif part.kind == "geneva_wheel" and not has_inertia and wheel_section(parts, part) is None:
+            template = (
+                "has no inertia, as slots, center_distance or roller_radius of its mechanism is not typed; give inertia"
+            )
+            yield finding(parts, "mass", "error", part.path, template)
+        elif part.kind == "flywheel" and (elements.mass_on(part) is None or not has_inertia):
+            template = "has no {missing}, so that it counts for nothing; give it, or refer with inertia to flywheel_inertia of the drive train"
+            missing = "inertia" if not has_inertia else "mass"
+            yield finding(parts, "mass", "error", part.path, template, missing=missing)
+
+
+def inert(parts: MachineParts, elements: Masses) -> Iterator[Finding]:
+    """What swings or turns in steps has an inertia, a free force with a mass too."""
+    template = (
+        "has a mass and no inertia on a shaft that does not turn steadily, so that the torque to move it would be left out; give inertia, about "
+        "the shaft's axis, or outside"
+    )
+    for part in (each for shaft in parts.shafts.values() for each in shaft.parts if elements.has_no_inertia(each)):
+        yield finding(parts, "mass", "error", part.path, template)
+
+
+def massive(parts: MachineParts, elements: Masses) -> Iterator[Finding]:
+    """A mass or moment of inertia is that of a steel body of the part's dimensions, as far as these are known, and never nothing."""
+    for _, part in hubs(parts):
+        bodies = ("mass", "kg", elements.full_mass(part)), ("inertia", "kg·m²", elements.full_inertia(part))
+        for key, of, full in bodies:
+            typed, path = parts.reader.typed_body(part.path, key), (*part.path, key)
+            refers_to_train = part.kind == "flywheel" and elements.is_of_train(part, key)
+            if parts.reader.is_of_results(part.path, key) and not refers_to_train:
+                template = "is of what is calculated, which nothing holds against the part; type it. A flywheel may refer to the drive train's"
+                yield finding(parts, "mass", "error", path, template)
+            elif typed == 0:
+                template = "is zero, as nothing is that turns; give its own, or leave the key out"
+                yield finding(parts, "mass", "error", path, template)
+            elif typed is not None and full is not None:
+                yield from _share_of_body(parts, part, path, (typed, full), of)
+
+
+def filled(parts: MachineParts, elements: Masses) -> Iterator[Finding]:
+    """A body is not much less than the full disc of its dimensions, and a Geneva wheel as wide as its roller wants."""
+    for _, part in hubs(parts):
+        share, width = elements.share_of_disc(part), part.keys.width
+        if share is not None and share < MASS_SHARE[0]:
+            template = "leaves by fill, bore and width {share} of its full steel disc; {least} at least is usual"
+            level: Level = "warning" if share >= MASS_POSSIBLE[0] else "error"
+            yield finding(parts, "mass", level, part.path, template, share=f"{share:.3g}", least=MASS_SHARE[0])
+        if part.kind == "geneva_wheel" and part.port and width is not None:
+            roller = parts.reader.typed_number(part.port[0], "roller_width") or 0.0
+            if width < roller / 2:
+                template = (
+                    "is {width} wide, less than half of the roller of {roller} that runs in it; give its own width"
+                )
+                yield finding(
+                    parts, "mass", "error", (*part.path, "width"), template, width=mm(width), roller=mm(roller)
+                )
+
+
+def _share_of_body(
+    parts: MachineParts, part: ShaftPart, path: KeyPath, bodies: tuple[float, float], of: str
+) -> Iterator[Finding]:
+    typed, full = bodies
+    least, most = MASS_SHARE[0] if part.kind != "clutch" else MASS_POSSIBLE[0], MASS_SHARE[1]
+    if not least <= typed / full <= most:
+        is_possible = MASS_POSSIBLE[0] <= typed / full <= MASS_POSSIBLE[1]
+        template = "is {typed}, but the full steel body of its dimensions has {full}; {least} to {most} of it are usual"
+        yield finding(parts, "mass", "warning" if is_possible else "error", path, template, typed=f"{typed:.4g} {of}", full=f"{full:.3g} {of}",
+            least=least, most=most)  # fmt: skip

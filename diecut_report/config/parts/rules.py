@@ -26,7 +26,7 @@ from diecut_report.config.parts.join_rules import (
     wall,
 )
 from diecut_report.config.parts.keys import WORDS, MeshKeys
-from diecut_report.config.parts.masses import wheel_section
+from diecut_report.config.parts.masses import filled, inert, massive, weighed
 from diecut_report.config.parts.model import (
     SAME_PLACE,
     MachineParts,
@@ -48,7 +48,6 @@ from diecut_report.config.parts.naming import (
 )
 from diecut_report.config.references import WHOLE
 from diecut_report.config.validation import ConfigPlace
-from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_series
@@ -59,8 +58,6 @@ from diecut_report.text.phrases import joined as joined_phrases
 LONGEST_KEY = 1.3  # of the shaft's diameter, over which a key bears
 KEY_TO_FILLET = 0.1  # of the shaft's diameter
 INTEGRAL_WARNED, INTEGRAL_MOST = 2.0, 4.0  # diameters of the seat, below the teeth
-# shares of the full steel body; of a clutch, which has shoes in place of a disc, less is usual
-MASS_SHARE, MASS_POSSIBLE = (0.3, 1.05), (0.05, 1.5)
 HARDNESS = (0.69, 260e6)  # σ_Hlim of R_m, Pa: quality ME of ISO 6336-5, with HV = R_m / 3.2 MPa
 SIDES = {
     ("left",): phrase("on the left"),
@@ -85,10 +82,10 @@ def coherence(parts: MachineParts, elements: Elements) -> list[Problem]:
             rate,
             stages,
             losses,
-            _weighed,
-            _inert,
-            _massive,
-            _filled,
+            weighed,
+            inert,
+            massive,
+            filled,
             _typed_twice,
             _untied,
             _unused,
@@ -477,82 +474,6 @@ def pins(parts: MachineParts) -> Iterator[Finding]:
             template = "reaches from {start} to {end}, but the pin from {first} to {last}; move it, or the supports"
             yield finding(parts, "pin_plane", "error", path, template, (*part.path, "pin", "span"), start=mm(place - width / 2),
                 end=mm(place + width / 2), first=mm(0), last=mm(pin.length))  # fmt: skip
-
-
-def _weighed(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """Each body has a mass that loads its shaft, and an inertia: a Geneva wheel by its width, a flywheel as it is typed."""
-    for _, part in hubs(parts):
-        has_inertia = "inertia" in part.more
-        if part.kind == "geneva_wheel" and elements.mass_on(part) is None:
-            template = "has no mass, so that its weight and its inertia would be left out; give width or mass"
-            yield finding(parts, "mass", "error", part.path, template)
-        elif part.kind == "geneva_wheel" and not has_inertia and wheel_section(parts, part) is None:
-            template = (
-                "has no inertia, as slots, center_distance or roller_radius of its mechanism is not typed; give inertia"
-            )
-            yield finding(parts, "mass", "error", part.path, template)
-        elif part.kind == "flywheel" and (elements.mass_on(part) is None or not has_inertia):
-            template = "has no {missing}, so that it counts for nothing; give it, or refer with inertia to flywheel_inertia of the drive train"
-            missing = "inertia" if not has_inertia else "mass"
-            yield finding(parts, "mass", "error", part.path, template, missing=missing)
-
-
-def _inert(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """What swings or turns in steps has an inertia, a free force with a mass too."""
-    template = (
-        "has a mass and no inertia on a shaft that does not turn steadily, so that the torque to move it would be left out; give inertia, about "
-        "the shaft's axis, or outside"
-    )
-    for part in (each for shaft in parts.shafts.values() for each in shaft.parts if elements.has_no_inertia(each)):
-        yield finding(parts, "mass", "error", part.path, template)
-
-
-def _massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """A mass or moment of inertia is that of a steel body of the part's dimensions, as far as these are known, and never nothing."""
-    for _, part in hubs(parts):
-        bodies = ("mass", "kg", elements.full_mass(part)), ("inertia", "kg·m²", elements.full_inertia(part))
-        for key, of, full in bodies:
-            typed, path = parts.reader.typed_body(part.path, key), (*part.path, key)
-            refers_to_train = part.kind == "flywheel" and elements.is_of_train(part, key)
-            if parts.reader.is_of_results(part.path, key) and not refers_to_train:
-                template = "is of what is calculated, which nothing holds against the part; type it. A flywheel may refer to the drive train's"
-                yield finding(parts, "mass", "error", path, template)
-            elif typed == 0:
-                template = "is zero, as nothing is that turns; give its own, or leave the key out"
-                yield finding(parts, "mass", "error", path, template)
-            elif typed is not None and full is not None:
-                yield from _share_of_body(parts, part, path, (typed, full), of)
-
-
-def _filled(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
-    """A body is not much less than the full disc of its dimensions, and a Geneva wheel as wide as its roller wants."""
-    for _, part in hubs(parts):
-        share, width = elements.share_of_disc(part), part.keys.width
-        if share is not None and share < MASS_SHARE[0]:
-            template = "leaves by fill, bore and width {share} of its full steel disc; {least} at least is usual"
-            level: Level = "warning" if share >= MASS_POSSIBLE[0] else "error"
-            yield finding(parts, "mass", level, part.path, template, share=f"{share:.3g}", least=MASS_SHARE[0])
-        if part.kind == "geneva_wheel" and part.port and width is not None:
-            roller = parts.reader.typed_number(part.port[0], "roller_width") or 0.0
-            if width < roller / 2:
-                template = (
-                    "is {width} wide, less than half of the roller of {roller} that runs in it; give its own width"
-                )
-                yield finding(
-                    parts, "mass", "error", (*part.path, "width"), template, width=mm(width), roller=mm(roller)
-                )
-
-
-def _share_of_body(
-    parts: MachineParts, part: ShaftPart, path: KeyPath, bodies: tuple[float, float], of: str
-) -> Iterator[Finding]:
-    typed, full = bodies
-    least, most = MASS_SHARE[0] if part.kind != "clutch" else MASS_POSSIBLE[0], MASS_SHARE[1]
-    if not least <= typed / full <= most:
-        is_possible = MASS_POSSIBLE[0] <= typed / full <= MASS_POSSIBLE[1]
-        template = "is {typed}, but the full steel body of its dimensions has {full}; {least} to {most} of it are usual"
-        yield finding(parts, "mass", "warning" if is_possible else "error", path, template, typed=f"{typed:.4g} {of}", full=f"{full:.3g} {of}",
-            least=least, most=most)  # fmt: skip
 
 
 def _typed_twice(parts: MachineParts, elements: Elements) -> Iterator[Finding]:

@@ -197,7 +197,10 @@ def test_an_idle_shaft_of_the_cylinders_chains_counts_in_its_inertia() -> None:
         with_shaft("idle", PINION, "{sprocket: right, at: 285, hub: 60, key: 50}"),
         (CYLINDER, "cylinder: {sprockets: [pinion.left, pinion.right], to: [idle.left, idle.right], teeth: 27/27,"),
     )
-    assert problems == [] and not {f"shafts_{name}" for name in ("pinion", "pinion_bearings", "idle", "idle_bearings")} & made.keys()
+    assert (
+        problems == []
+        and not {f"shafts_{name}" for name in ("pinion", "pinion_bearings", "idle", "idle_bearings")} & made.keys()
+    )
     assert "${shafts_idle_body.inertia}" in made["drive"]["pinion_inertia"]
 
 
