@@ -133,6 +133,7 @@ def test_a_body_without_a_length_is_bounded_too(server: Server) -> None:
 
 
 @pytest.mark.parametrize("begun", few([b"", b"GET / HTTP/1.1\r\nHost: x\r\nX: "], keep=bool))
+@pytest.mark.nightly
 def test_a_connection_that_asks_nothing_is_closed(server: Server, begun: bytes) -> None:
     with raw(server, begun) as connection:
         start = time.monotonic()

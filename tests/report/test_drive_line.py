@@ -337,6 +337,7 @@ def test_each_part_leads_to_its_chapter_and_the_report_of_the_results_file_draws
     assert html.page(Material(again)) == page
 
 
+@pytest.mark.nightly
 def test_a_machine_of_parts_is_drawn_in_word_and_pdf_too() -> None:
     material = Material(small())
     assert [number for number, _ in material.document.drive_line] == ["1.1", "1.2"]

@@ -114,7 +114,9 @@ def follow_advice_of_random_machines(kind: str, count: int, seed: int) -> int:
     return ways
 
 
-@pytest.mark.parametrize("kind", OF_KINDS)
+@pytest.mark.parametrize(
+    "kind", few(OF_KINDS, keep=lambda kind: kind not in ("elastic_follower", "cam_gear_transport"))
+)
 def test_advice_of_the_examples_makes_its_check_hold(kind: str) -> None:
     for machine in machines(kind):
         require_advice_holds(machine.mechanism, machine.values)

@@ -105,6 +105,7 @@ def end(run: subprocess.Popen[str], by: Callable[[], None]) -> tuple[str, str]:
     return said
 
 
+@pytest.mark.nightly
 def test_killed_run_is_continued_without_its_study(tmp_path: Path, finished: Run) -> None:
     out = tmp_path / "out"
     with begun(tmp_path, 3) as run:

@@ -18,6 +18,7 @@ from diecut_report.testing.scaffold import contents
 from diecut_report.text.catalogues import catalogue
 from diecut_report.text.po_files import changed, read
 from tests.configs import BROKEN, SMALL, saved
+from tests.examples import few
 
 Capture = pytest.CaptureFixture[str]
 SOUND = contents("toggle", as_package=False)
@@ -77,6 +78,7 @@ def test_its_chapter_is_written_where_it_is_asked_for_and_nowhere_else(
     assert sorted(home.rglob("*.html")) == sorted([*before, home / "chapter.html", home / "build" / "toggle.html"])
 
 
+@pytest.mark.nightly
 def test_a_plugin_is_tried_on_all_machines_of_its_kind(tmp_path: Path, capfd: Capture) -> None:
     home = toggle(tmp_path)
     example = home / "examples" / "toggle.yaml"
@@ -137,7 +139,7 @@ UNLIKE = {
 }
 
 
-@pytest.mark.parametrize("name", UNLIKE)
+@pytest.mark.parametrize("name", few(UNLIKE, keep=lambda name: name == "kept between two calls"))
 def test_what_differs_between_new_processes_is_told(tmp_path: Path, name: str) -> None:
     test = contract(tmp_path, *UNLIKE[name])
     assert test.tried_alone("example").status == "pass"
@@ -147,6 +149,7 @@ def test_what_differs_between_new_processes_is_told(tmp_path: Path, name: str) -
     assert re.match(words, tried.faults[0]), tried.faults
 
 
+@pytest.mark.nightly
 def test_a_figure_that_differs_between_new_processes_is_told(tmp_path: Path) -> None:
     change = ('view["travel"], 25', 'view["travel"] * (1 + 1e-9 * getattr(np.random, "ra" + "nd")()), 25')
     tried = contract(tmp_path, change).tried_alone("again")
@@ -314,6 +317,7 @@ def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.nightly
 def test_a_text_that_nothing_says_any_more_becomes_obsolete_and_comes_back(tmp_path: Path, capfd: Capture) -> None:
     home = toggle(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"'))
     file, page = home / "plugins" / "toggle.uk.po", ("-o", str(tmp_path / "page.html"))
