@@ -271,9 +271,10 @@ class CheckList(PartList[CheckResult], Tabular):
 
 
 class CurveResult(OfRecord):
-    """Hold a curve: ``values`` at the places of its abscissa, in ``unit`` (SI). A place that stands twice is a jump, before and after it.
+    """Hold a curve: ``values`` at the even places of its abscissa, in ``unit`` (SI).
 
-    ``abscissa`` is the curve that it runs over, None of an abscissa itself. At ``breakpoints`` it may jump: from ``left`` to ``right``.
+    ``abscissa`` is the curve that it runs over, None of an abscissa itself. At ``breakpoints``, which lie between these places, it may jump
+    from ``left`` to ``right``, and there its greatest value may be.
     What else a curve of the results file has is an attribute, too.
     """
 
