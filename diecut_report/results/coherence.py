@@ -283,9 +283,6 @@ def _pitch_radius(pair: LinkedPart) -> Array | None:
     return None if diameter is None else diameter / 2
 
 
-LONG_KEY = 2.0  # diameters from the middle of a key to its ends, at most
-
-
 def torque_seats(machine: Machine) -> Iterator[Disagreement]:
     """Where a torque goes into a shaft there is a keyseat or press fit, if the shaft has any, no farther off than its diameter."""
     for shaft in machine.of("shaft"):
@@ -297,12 +294,11 @@ def torque_seats(machine: Machine) -> Iterator[Disagreement]:
             is_free = torque is None or shaft.inputs["loads.seat"][index] == "none"
             if is_free or not np.any(torque != 0) or not seats_of or place is None or diameters is None:
                 continue
-            off = np.stack(np.broadcast_arrays(*(_of(shaft.number("notches.position", i)) - place for i in seats_of)))
-            ways = np.abs(off)
+            ways = np.stack(
+                np.broadcast_arrays(*(np.abs(place - _of(shaft.number("notches.position", i))) for i in seats_of))
+            )
             thick = np.max(np.where(shaft.sections_at(place), diameters, 0.0), axis=1)
             wrong = np.min(ways, axis=0) > thick + LENGTH
-            near = ways <= LONG_KEY * thick  # a load in the middle of a long key has both of its ends about it
-            wrong &= ~((near & (off < 0)).any(axis=0) & (near & (off > 0)).any(axis=0))
             wrong = wrong & (np.asarray(torque) != 0) if isinstance(torque, float | np.ndarray) else wrong
             nearest = seats_of[int(np.argmin(ways[:, np.argmax(wrong) % ways.shape[1]]))]
             yield Disagreement(

@@ -72,14 +72,6 @@ def test_a_blunder_is_refused_with_its_place(
     assert told[0].file == str(file) and (key in line or f"{key}:" not in text)
 
 
-def test_a_torque_in_the_middle_of_a_key_longer_than_twice_the_diameter_is_carried_by_it(
-    warm: WarmPress, tmp_path: Path
-) -> None:
-    own = "position: {value: 130 mm, basis: assumed}, type"
-    ends = "position: 70 mm, type: keyseat_end_mill}\n      - {position: 190 mm, type"
-    warm.calculate(load_config(changed(tmp_path, own, ends), Discovery()))
-
-
 def test_a_contradiction_names_both_places(warm: WarmPress, tmp_path: Path) -> None:
     file = changed(tmp_path, "module: {value: 5 mm", "module: {value: 4 mm")
     with pytest.raises(UserError) as refused:
