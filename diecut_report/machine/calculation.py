@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import isfinite
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple, Self, cast
 from weakref import WeakKeyDictionary, proxy
 
 import numpy as np
@@ -17,8 +19,9 @@ from diecut_report.machine.numerics.domain import Domain, Inside, PieceSeries, R
 from diecut_report.machine.numerics.samples import SampleCache
 from diecut_report.mechanism.chapters import in_form, taken
 from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.curve_inputs import InOtherUnit, TakenWhole
 from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, texts_given
-from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.mechanism import Machines, Mechanism
 from diecut_report.mechanism.names import Misdeclared, Written, bound
 from diecut_report.mechanism.steps import Abscissa, FromCurve, ResultName, Step, named, names_ahead, numbered_symbol
 from diecut_report.mechanism.steps.protocols import Impossible as Impossible
@@ -179,15 +182,27 @@ class Unproven(Exception):
 
 @dataclass(frozen=True)
 class CurveHandle:
-    """Hand a curve of one mechanism to the input of another: function, breakpoints and period travel together."""
+    """Hand a curve of one mechanism to the input of another: function, breakpoints and period travel together.
+
+    ``rows`` says for each machine which variant of the calculation it is, where they are not one by one the same.
+    """
 
     calculation: Calculation
     curve_id: str
+    rows: Array | None = field(default=None, compare=False)
 
-    @property
+    @cached_property
     def domain(self) -> Domain:
         """Return the abscissa that the curve runs over."""
+        return self._own_domain if self.rows is None else self._own_domain.of_rows(self.rows)
+
+    @property
+    def _own_domain(self) -> Domain:
         return self.calculation.domains[self.calculation.axis[self.curve_id]]
+
+    def of_rows(self, rows: Array) -> CurveHandle:
+        """Return the curve of machines each of which is one of these."""
+        return replace(self, rows=rows if self.rows is None else self.rows[rows])
 
     @property
     def abscissa(self) -> Step:
@@ -200,7 +215,8 @@ class CurveHandle:
 
     @property
     def rate(self) -> Array:
-        return cycle_rate(self.calculation, self.cycle)
+        found = cycle_rate(self.calculation, self.cycle)
+        return found if self.rows is None else found[self.rows]
 
     @property
     def turns(self) -> float:
@@ -208,7 +224,9 @@ class CurveHandle:
         return float(np.max(self.domain.period)) / (2 * np.pi) if of.si == "rad" else 1.0
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        calc, domain, axis = self.calculation, self.domain, self.calculation.axis[self.curve_id]
+        calc, domain, axis = self.calculation, self._own_domain, self.calculation.axis[self.curve_id]
+        if self.rows is not None:
+            rows = self.rows if rows is None else self.rows[rows]
         places = share, middle, rows
         if calc.count == 1:
             x, mid, inside = domain.placed(*places)
@@ -233,6 +251,26 @@ class CurveHandle:
     @property
     def joints(self) -> Array:
         return self.domain.joints[:, 1:-1] / self.domain.period
+
+
+def of_rows(value: Any, rows: Array, count: int) -> Any:
+    """Return what an input or a result of so many variants is of machines each of which is one of them."""
+    match value:
+        case np.ndarray() if value.shape[:1] == (count,):
+            return value[rows]
+        case Machines():
+            return Machines(value[row] for row in rows)
+        case tuple():
+            return tuple(of_rows(part, rows, count) for part in value)
+        case Extremes(low=low, high=high):
+            return replace(value, low=of_rows(low, rows, count), high=of_rows(high, rows, count))
+        case InOtherUnit(value=own):
+            return replace(value, value=of_rows(own, rows, count))
+        case CurveHandle() if value.calculation.count > 1:
+            return value.of_rows(rows)
+        case TakenWhole(calculation=calc) if calc.count > 1:
+            return replace(value, calculation=calc.of_rows(rows))
+    return value
 
 
 def cycle_rate(calc: Calculation, axis: str) -> Array:
@@ -291,6 +329,8 @@ class Calculation:
         self.advised: dict[str, Any] = {}
         self.chosen_units = NONE_CHOSEN  # what a report chose to show quantities in
         self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
+        # of machines that are some of another calculation's variants: that one, by which its curves go on, and which variant each is
+        self.made_of: tuple[Calculation, Array] | None = None
 
     def __getitem__(self, name: str) -> Array:
         """A number of all variants, shape (variants, 1) or (variants, parts)."""
@@ -302,6 +342,30 @@ class Calculation:
             return len(self.part_names[over])
         rows = (value for name, value in self.inputs.items() if name.startswith(f"{over}."))
         return next((each.shape[1] if isinstance(each, np.ndarray) else len(each) for each in rows), None)
+
+    def of_rows(self, rows: Array) -> Self:
+        """Return the calculation of machines each of which is one of these variants; its curves stay those of the variants."""
+        found, count = copy(self), len(rows)
+        found.count, found.made_of = (
+            count,
+            (self, rows) if self.made_of is None else (self.made_of[0], self.made_of[1][rows]),
+        )
+        found.inputs = {name: of_rows(value, rows, self.count) for name, value in self.inputs.items()}
+        found.values = {name: of_rows(value, rows, self.count) for name, value in self.values.items()}
+        found.domains = {name: domain.of_rows(rows) for name, domain in self.domains.items()}
+        found.judged = {
+            name: Side(*(of_rows(part, rows, self.count) for part in side)) for name, side in self.judged.items()
+        }
+        found.withheld = {name: missed[rows] for name, missed in self.withheld.items()}
+        found.flaws = {row: self.flaws[int(own)] for row, own in enumerate(rows) if int(own) in self.flaws}
+        found._kept, found._tables, found.searches, found.extremes = {}, {}, {}, {}
+        found.recent, found.shared = RecentPlaces[CurveSampler](32), SharedPlaces()
+        return found
+
+    def handle(self, curve: str) -> CurveHandle:
+        """Return a curve as the input of another mechanism takes it."""
+        calc, rows = self.made_of or (self, None)
+        return CurveHandle(calc, curve, rows)
 
     @property
     def possible(self) -> Array:
@@ -354,6 +418,9 @@ class Calculation:
 
     def curve_samples(self, curve: str) -> Array:
         """Return a curve at the samples of its abscissa, shape (variants, points)."""
+        if self.made_of:
+            calc, rows = self.made_of
+            return calc.curve_samples(curve)[rows]
         axis = self.axis[curve]
         sampler = self.kept("samples", axis, lambda domain: (domain.samples, domain.middle_of(domain.samples)))
         with np.errstate(all="ignore"):  # among variants some may be impossible
@@ -367,6 +434,8 @@ class Calculation:
 
     def release(self) -> None:
         """Forget the curves at all places: they hold this calculation, and no reference count would ever free them."""
+        if self.made_of:
+            self.made_of[0].release()
         self._tables.clear()
         self.searches.clear()
         self._kept.clear()

@@ -261,7 +261,7 @@ class MechanismHandle(TakenWhole):
         return rows(self.calculation, step) if isinstance(step, Listing) else []
 
     def curve(self, name: str) -> CurveHandle | None:
-        return CurveHandle(self.calculation, name) if name in self.calculation.curves else None
+        return self.calculation.handle(name) if name in self.calculation.curves else None
 
     def period(self, abscissa: str = "") -> float:
         return _of_row(self.calculation.domains[abscissa or self._first()].period, self.row)

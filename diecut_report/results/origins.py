@@ -16,7 +16,7 @@ from diecut_report.config.validation import ASSUMED, Basis, is_founded, keys_of,
 from diecut_report.config.validation import GIVEN as BASES_GIVEN
 from diecut_report.config.yaml import KeyPath
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation, CurveHandle, declared_unit
+from diecut_report.machine.calculation import Calculation, declared_unit
 from diecut_report.machine.mechanism import MechanismHandle, PhaseHandle
 from diecut_report.machine.steps import soundness
 from diecut_report.machine.steps.needed import needed
@@ -80,7 +80,7 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
             raise Absent(phrase("does not apply to this machine."))
         return phase
     if calc.axis.get(name) in calc.domains:
-        return CurveHandle(calc, name)
+        return calc.handle(name)
     numbers = number(calc, name)
     if numbers is None:
         raise Absent(phrase("does not exist for this machine."))

@@ -20,7 +20,7 @@ from diecut_report.config.validation import declared, validate
 from diecut_report.errors import MAX_COMPARISONS, PluginError, Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.formulas.conditions import ConditionError
-from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUnits, CurveHandle, Impossible
+from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUnits, Impossible
 from diecut_report.machine.steps.needed import needed
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form, taken
@@ -128,7 +128,7 @@ def _block(case: Found, values: Mapping[str, Any]) -> Block:
 def _taken(calc: Calculation, name: str) -> Any:
     """A number with its SI unit, a text, a curve; None where there is none."""
     if calc.axis.get(name) in calc.domains:
-        return CurveHandle(calc, name)
+        return calc.handle(name)
     values = calc.values.get(name, calc.inputs.get(name))
     if not isinstance(values, np.ndarray):
         return values

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from hashlib import blake2b
 from typing import Any, Generic, Protocol, TypeVar
@@ -115,6 +115,12 @@ class Domain:
 
     def __post_init__(self) -> None:
         self.edges = self.joints = np.concatenate([np.zeros_like(self.period), self.period], axis=1)
+
+    def of_rows(self, rows: Array) -> Domain:
+        """Return the range of machines each of which is one of these variants."""
+        found = replace(self, period=self.period[rows], samples=self.samples[rows])
+        found.edges, found.joints = self.edges[rows], self.joints[rows]
+        return found
 
     def cut(self, places: Array) -> None:
         """Add breakpoints, shape (variants, any number); NaN stands for none."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
-from dataclasses import replace
 from itertools import chain
 from typing import Any
 
@@ -12,10 +11,10 @@ import numpy as np
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible, Unproven
+from diecut_report.machine.calculation import Calculation, Impossible, Unproven, of_rows
 from diecut_report.machine.steps.needed import needed
-from diecut_report.mechanism.inputs import Extremes, Key, Quantity, keys, texts_given
-from diecut_report.mechanism.mechanism import Mechanism, RowsOf
+from diecut_report.mechanism.inputs import Key, Quantity, keys, texts_given
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps import Step, named
 from diecut_report.quantities.units import pretty
@@ -150,17 +149,3 @@ def _alike(changed: Mapping[str, Any], count: int) -> Iterator[tuple[Array, dict
     for trial, said in enumerate(zip(*columns, strict=True)):
         trials.setdefault(said, []).append(trial)
     yield from ((np.array(own), dict(zip(texts, said, strict=True))) for said, own in trials.items())
-
-
-def of_rows(value: Any, rows: Array, count: int) -> Any:
-    """Return an input of these rows of a calculation of so many variants."""
-    match value:
-        case np.ndarray():
-            return value[rows]
-        case tuple():
-            return tuple(of_rows(part, rows, count) for part in value)
-        case Extremes(low=low, high=high):
-            return replace(value, low=of_rows(low, rows, count), high=of_rows(high, rows, count))
-        case CurveHandle() if count > 1:
-            return RowsOf(value, rows)
-    return value

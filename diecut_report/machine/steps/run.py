@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation, Impossible, ImpossibleTogether, Unproven
+from diecut_report.machine.calculation import Calculation, Impossible, ImpossibleTogether, Unproven, of_rows
 from diecut_report.machine.mechanism import MechanismHandle, PhaseHandle
 from diecut_report.machine.numerics import extremes, roots_integrals
 from diecut_report.machine.numerics.curves import SampledCurve
@@ -18,7 +18,7 @@ from diecut_report.machine.numerics.domain import Domain
 from diecut_report.machine.printing.substitution import filled
 from diecut_report.machine.steps import needed as needs
 from diecut_report.machine.steps import soundness
-from diecut_report.machine.steps.again import Again, of_rows
+from diecut_report.machine.steps.again import Again
 from diecut_report.machine.steps.needed import needed, needed_again
 from diecut_report.mechanism.checks import Refusal, by_part
 from diecut_report.mechanism.inputs import list_inputs, texts_given

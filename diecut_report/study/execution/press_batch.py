@@ -18,10 +18,19 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import PluginError, Problem
 from diecut_report.formulas import Array
 from diecut_report.formulas.condition_parts import WITHOUT_VALUE
-from diecut_report.machine.calculation import Calculation, Impossible, ImpossibleTogether, Unproven
+from diecut_report.machine.calculation import (
+    Calculation,
+    CurveHandle,
+    Impossible,
+    ImpossibleTogether,
+    Unproven,
+    of_rows,
+)
 from diecut_report.machine.mechanism import PhaseHandle
 from diecut_report.machine.steps.run import calculate
-from diecut_report.mechanism.inputs import Quantity, flatten
+from diecut_report.mechanism.curve_inputs import InOtherUnit, TakenWhole
+from diecut_report.mechanism.inputs import Block, Extremes, Quantity, flatten
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI
 from diecut_report.mechanism.steps import PREFIX
 from diecut_report.quantities.plausible import without_rounding
@@ -34,6 +43,7 @@ from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import contained
 
 Values = Mapping[Input, Array | str]
+MOSTLY = 0.8  # of the variants: where more of them differ, all are calculated
 
 
 class NotOnArrays(Exception):
@@ -119,6 +129,7 @@ class _Rows(Run):
 
     def __init__(self, config: Config, variants: CalculatedVariants, tell: Tell) -> None:
         self.variants = variants
+        self.alike: dict[int, Array] = {}  # for each calculation by its id which variants are the same there
         super().__init__(config, tell)
         self._all_wrong(self.problems)
 
@@ -232,7 +243,7 @@ class _Rows(Run):
         self.tell(name)
         try:
             with of_plugin(instance.mechanism.kind):
-                found = calculate(instance.mechanism, flatten(block), self.variants.count)
+                found = self._each_once(instance.mechanism, flatten(block))
         except ImpossibleTogether as fault:
             words = Phrase("it refuses some of many: {reasons}", reasons=fault.reasons[0][1])
             raise NotOnArrays(instance.mechanism.kind, words) from fault
@@ -248,6 +259,48 @@ class _Rows(Run):
             self._reason([row], _flaw_text(instance, key, message))
         for missed in found.withheld.values():
             self._require_alike(missed)
+
+    def _each_once(self, mechanism: Mechanism, inputs: dict[str, Any]) -> Calculation:
+        """Calculate a mechanism; of variants that have the same inputs, as another mechanism is varied, one for all."""
+        count = self.variants.count
+        _, first, alike = np.unique(self._alike(inputs), return_index=True, return_inverse=True)
+        if len(first) > MOSTLY * count:
+            found = calculate(mechanism, inputs, count)
+        else:
+            if len(first) == 1:  # plain code is asked for a single machine in another way
+                first = first.repeat(2)
+            own = {name: of_rows(value, first, count) for name, value in inputs.items()}
+            found = calculate(mechanism, own, len(first)).of_rows(alike)
+        self.alike[id(found)] = alike
+        return found
+
+    def _alike(self, inputs: Mapping[str, Any]) -> Array:
+        """A number for each variant, which those with the same inputs have in common."""
+        found = np.zeros(self.variants.count, dtype=int)
+        for column in self._columns(tuple(inputs.values())):
+            own = np.unique(column, return_inverse=True)[1].reshape(-1)
+            found = np.unique(found * (own.max() + 1) + own, return_inverse=True)[1]
+        return found
+
+    def _columns(self, value: Any) -> Iterator[Array]:
+        """What differs between variants of an input, shape (variants,) each."""
+        every = np.arange(self.variants.count)
+        match value:
+            case tuple():
+                for each in value:
+                    yield from self._columns(each)
+            case np.ndarray() if value.size > 1:
+                yield value.reshape(-1)
+            case Extremes(low=low, high=high):
+                yield from self._columns((low, high))
+            case InOtherUnit(value=own):
+                yield from self._columns(own)
+            case CurveHandle(calculation=calc, rows=rows) if calc.count > 1:
+                yield self.alike.get(id(calc), every) if rows is None else rows
+            case TakenWhole(calculation=calc) if calc.count > 1:
+                yield self.alike.get(id(calc), every)
+            case Block():  # a list within the parts of a list: not looked into
+                yield every
 
 
 def _flaw_text(instance: Instance, path: str, message: str) -> str:
