@@ -41,6 +41,7 @@ def part(first: int, count: int) -> dict[str, Any]:
     """Columns of some variants, each value a plain function of its number."""
     number = np.arange(first, first + count)
     return {
+        "variant": number,
         SPEED: number / 7,
         MASS: np.where(number % 5 == 0, np.nan, number * 2.0),
         "train.teeth": number + 17,

@@ -117,10 +117,11 @@ def written(
     study = StudySource("study.yaml", sha256(text.encode()).hexdigest(), text.encode())
     kept = StudySource("press.yaml", sha256(base.encode()).hexdigest(), base.encode())
     store = Store.create(folder, Description(study, kept, tuple(columns), count, every))
+    numbered = {"variant": range(len(values["status"])), **values}
     with store.lock():
         for index in range(store.description.parts):
             at = slice(index * every, (index + 1) * every)
-            store.write_part(index, {name: column[at] for name, column in values.items()})
+            store.write_part(index, {name: column[at] for name, column in numbered.items()})
         store.finish()
         store.note({"slow": {}, "seconds": 1.5} | facts)
     return folder

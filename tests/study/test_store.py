@@ -100,7 +100,7 @@ def expect(folder: Path, now: Description) -> str:
 def test_each_column_has_its_type_and_missing_values_are_null(tmp_path: Path) -> None:
     store = filled(tmp_path / "out")
     table = store.read().to_table()
-    assert table.column_names == ["variant", *part(0, 1)]
+    assert table.column_names == list(part(0, 1))
     kinds = [
         pa.int64(),
         pa.float64(),
@@ -141,7 +141,9 @@ def test_parts_are_read_by_other_programs(tmp_path: Path) -> None:
 def test_what_is_no_finite_number_is_null(tmp_path: Path, values: Any) -> None:
     store = Store.create(tmp_path, description(3))
     with store.lock():
-        store.write_part(0, {"status": ["pass"] * 3, MASS: values, "train.teeth": np.array([1.0, np.nan, 3.0])})
+        store.write_part(
+            0, {"variant": range(3), "status": ["pass"] * 3, MASS: values, "train.teeth": np.array([1.0, np.nan, 3.0])}
+        )
     table = store.read().to_table()
     assert table[MASS].to_pylist() == [1.0, None, None]
     assert table["train.teeth"].to_pylist() == [1, None, 3]
@@ -151,7 +153,9 @@ def test_what_is_no_finite_number_is_null(tmp_path: Path, values: Any) -> None:
 def test_curves_are_lists(tmp_path: Path) -> None:
     store = Store.create(tmp_path / "out", description(2, columns=(ResultColumn("drive.torque", "curve", "N*m"),)))
     with store.lock():
-        store.write_part(0, {"status": ["pass", "error"], "drive.torque": [np.array([1.0, np.nan]), None]})
+        store.write_part(
+            0, {"variant": [0, 1], "status": ["pass", "error"], "drive.torque": [np.array([1.0, np.nan]), None]}
+        )
     assert store.read().to_table()["drive.torque"].to_pylist() == [[1.0, None], None]
     [told] = export(store, ["csv", "xlsx"])
     assert "torque" not in (tmp_path / "out/variants.csv").read_text()
@@ -164,7 +168,7 @@ def test_curves_of_unlike_lengths_are_as_they_were(tmp_path: Path) -> None:
     store = Store.create(tmp_path / "out", description(5, columns=(ResultColumn("drive.torque", "curve", "N*m"),)))
     given = [np.array([1.0, 2.0, 3.0]), None, np.array([]), [4, np.inf], np.array([5.0])]
     with store.lock():
-        store.write_part(0, {"status": ["pass"] * 5, "drive.torque": given})
+        store.write_part(0, {"variant": range(5), "status": ["pass"] * 5, "drive.torque": given})
     assert store.read().to_table()["drive.torque"].to_pylist() == [[1, 2, 3], None, [], [4, None], [5]]
     assert store.done_parts() == {0}
     with duckdb.connect() as connection:
@@ -175,13 +179,10 @@ def test_curves_of_unlike_lengths_are_as_they_were(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("columns", "words"),
     [
-        ({"status": ["pass"], "train.teeth": np.array([0.5])}, "train.teeth cannot hold"),
-        ({"status": ["pass"], MASS: ["heavy"]}, "cylinder.mass cannot hold"),
-        ({"status": ["pass"], MASS: [1.0, 2.0]}, "2 values for 1 variants"),
-        ({"status": ["pass"], "strange": [1.0]}, "strange"),
-        ({MASS: [1.0]}, "needs its status"),
-        ({"status": ["pass"], "variant": [10]}, "variants 0 to 9"),
-        ({"status": ["pass"] * 2, "variant": [4, 3]}, "in their order"),
+        ({"variant": [0], "status": ["pass"], "train.teeth": np.array([0.5])}, "train.teeth cannot hold"),
+        ({"variant": [0], "status": ["pass"], MASS: ["heavy"]}, "cylinder.mass cannot hold"),
+        ({"variant": [0], "status": ["pass"], MASS: [1.0, 2.0]}, "2 values for 1 variants"),
+        ({"variant": [0], "status": ["pass"], "strange": [1.0]}, "strange"),
     ],
 )
 def test_part_of_another_shape_is_refused(tmp_path: Path, columns: dict[str, Any], words: str) -> None:
@@ -374,7 +375,9 @@ def test_mechanism_may_be_called_as_a_column(tmp_path: Path) -> None:
         tmp_path / "out", description(2, columns=(ResultColumn("status.mass"), ResultColumn("variant.status", "text")))
     )
     with store.lock():
-        store.write_part(0, {"status": ["pass", "fail"], "status.mass": [1, 2], "variant.status": ["a", "b"]})
+        store.write_part(
+            0, {"variant": [0, 1], "status": ["pass", "fail"], "status.mass": [1, 2], "variant.status": ["a", "b"]}
+        )
     assert store.counts() == {"sample": 2, "variants": 2, "pass": 1, "fail": 1}
     assert exported(store, "csv").read_text().splitlines()[1:] == ['0,1,"a","pass",,', '1,2,"b","fail",,']
 
@@ -519,7 +522,7 @@ def test_workbook_has_as_many_sheets_as_the_rows_need(tmp_path: Path, monkeypatc
 def test_texts_of_a_workbook_stay_texts(tmp_path: Path) -> None:
     store = Store.create(tmp_path / "out", description(2))
     with store.lock():
-        store.write_part(0, {"status": ["error"] * 2, "error": ["=1+1", "a\x00b"]})
+        store.write_part(0, {"variant": [0, 1], "status": ["error"] * 2, "error": ["=1+1", "a\x00b"]})
     path = exported(store, "xlsx")
     rows = list(openpyxl.load_workbook(path).worksheets[0].iter_rows(min_row=2))
     assert [row[-1].value for row in rows] == ["=1+1", "a\N{REPLACEMENT CHARACTER}b"]
@@ -549,10 +552,3 @@ def test_workbook_that_finds_no_room_leaves_nothing(tmp_path: Path, monkeypatch:
     assert hidden(tmp_path) == [] and not (tmp_path / "out/variants.xlsx").exists()
     monkeypatch.undo()
     assert exported(store, "xlsx").exists()
-
-
-def test_unknown_format_is_told_before_anything_is_written(tmp_path: Path) -> None:
-    store = filled(tmp_path / "out")
-    with pytest.raises(UserError, match=r"'xls' is not a format of a table \(did you mean 'xlsx'\?\)"):
-        export(store, ["csv", "xls"])
-    assert not (tmp_path / "out/variants.csv").exists()

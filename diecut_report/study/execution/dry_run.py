@@ -19,7 +19,7 @@ from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.study_file import Optimise, Study
 from diecut_report.study.definition.variables import RangeVariable, Values
 from diecut_report.study.execution.study_run import SMALL, described
-from diecut_report.study.execution.worker import Chunk, Done, calculate, judged, judged_rows
+from diecut_report.study.execution.worker import Chunk, calculate, judged, judged_rows
 from diecut_report.study.storage.description import JUDGED, Description
 from diecut_report.study.storage.parts import part_content, schema_of, table_of
 from diecut_report.text.phrases import phrase
@@ -148,7 +148,8 @@ def _measured(study: Study, known: Description, first: int) -> Measured:
         done = calculate(study, Chunk(0, first, stop))
         seconds = time.process_time() - began
         kept = int(np.sum(judged(study, study.sample.rows(first, stop), stop - first).holds))
-        found.append((kept, seconds, _size(known, done)))
+        table = table_of(schema_of(known), done.columns, len(done.columns["variant"]))
+        found.append((kept, seconds, len(part_content(table))))
         if seconds > ENOUGH or stop == study.sample.count:
             break
     status = done.columns["status"]
@@ -162,11 +163,6 @@ def _rates(found: list[tuple[int, float, int]]) -> tuple[float, float, float]:
         return seconds / max(many, 1), size / max(many, 1), 0.0
     slope, each = (seconds - some_seconds) / (many - few), max(size - some_bytes, 0) / (many - few)
     return (slope if slope > 0 else seconds / many), each, max(size - each * many, 0.0)
-
-
-def _size(known: Description, done: Done) -> int:
-    columns = {name: values for name, values in done.columns.items() if name != "variant"}
-    return len(part_content(table_of(schema_of(known), columns, np.asarray(done.columns["variant"], dtype=np.int64))))
 
 
 # --- as lines for people, in the language that is spoken, and as plain data --------------------------------------------
@@ -272,7 +268,6 @@ def _scaled(value: float, scales: tuple[tuple[float, str], ...]) -> str:
 
 
 def data(found: DryRun) -> dict[str, Any]:
-    """Return it as plain data."""
     measured, asked = found.measured, found.study.optimise
     made: dict[str, Any] = {
         "rows": found.rows, "variants": found.variants, "exact": found.is_exact, "dropped_by": dict(found.dropped_by),

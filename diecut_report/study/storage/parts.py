@@ -56,20 +56,17 @@ def _field(column: ResultColumn) -> pa.Field:
     return pa.field(column.name, TYPES[column.kind], column.name != VARIANT.name, about)
 
 
-def table_of(schema: pa.Schema, columns: Mapping[str, Values], variants: NDArray[np.int64]) -> pa.Table:
-    """Return the columns as a table; one that is not given holds nulls, for an output that applies to none of the variants."""
-    strange = [name for name in columns if name not in schema.names]
-    if strange or STATUS not in columns:
-        raise ValueError(f"a part needs its status and no columns without description: {', '.join(strange)}")
-    arrays = [array_of(field, columns.get(field.name), len(variants)) for field in schema if field.name != VARIANT.name]
-    return pa.Table.from_arrays([pa.array(variants), *arrays], schema=schema)
+def table_of(schema: pa.Schema, columns: Mapping[str, Values | None], count: int) -> pa.Table:
+    """Return columns of so many variants as a table; one that is not given holds nulls, for an output that applies to none of them."""
+    if strange := [name for name in columns if name not in schema.names]:
+        raise ValueError(f"columns without description: {', '.join(strange)}")
+    return pa.Table.from_arrays([_array_of(field, columns.get(field.name), count) for field in schema], schema=schema)
 
 
 def described_table(columns: Mapping[ResultColumn, Values | None], count: int) -> pa.Table:
     """Return columns of so many variants as a table in memory, with unit, symbol and description of each."""
-    fields = [_field(column) for column in columns]
-    arrays = [array_of(field, values, count) for field, values in zip(fields, columns.values(), strict=True)]
-    return pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+    schema = pa.schema([_field(column) for column in columns])
+    return table_of(schema, {column.name: values for column, values in columns.items()}, count)
 
 
 def plain_table(rows: Iterable[dict[str, Any]]) -> pa.Table:
@@ -77,7 +74,7 @@ def plain_table(rows: Iterable[dict[str, Any]]) -> pa.Table:
     return pa.Table.from_pylist(list(rows))
 
 
-def array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:
+def _array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:
     """Return the values of a column in its type; what is missing, not a number or infinite is null."""
     if values is None:
         return pa.nulls(count, field.type)
@@ -146,9 +143,7 @@ def columns_of_part(path: Path, schema: pa.Schema, names: Sequence[str]) -> pa.T
 # The memory is the user's own, outside the folder of results: asking writes nothing there, and a copy of a folder is verified anew.
 
 
-REMEMBERED_SIZE = (
-    4_000_000  # bytes of parts up to which they are verified at each command, in some hundredths of a second
-)
+REMEMBERED_SIZE = 4_000_000  # bytes of parts up to which they are verified at each command, which is soon done
 SETTLED = 2_000_000_000  # ns after which a change of a file shows in its times
 MAX_FOLDERS = 100  # studies that are remembered
 MARK = ("st_size", "st_mtime_ns", "st_ctime_ns", "st_ino")

@@ -17,7 +17,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.dataset
 import pyarrow.parquet as pq
@@ -87,9 +86,8 @@ class Store:
                 )
                 raise UserError([Problem(phrase(template), str(directory)), *found])
             study = replace(description.study, file=before.study.file)  # its copy in the folder has another name
-            before = replace(
-                before, study=study, base=description.base, tables=description.tables
-            )  # with their contents
+            # with their contents
+            before = replace(before, study=study, base=description.base, tables=description.tables)
         return cls(directory, before)
 
     @contextmanager
@@ -141,9 +139,7 @@ class Store:
         """
         state.write_copies(self.directory, self.description)
         before = state.read_state(self.directory, sealed=False)
-        if not state.is_sealed(
-            before
-        ):  # what follows from the study is written anew, the parts have hashes of their own
+        if not state.is_sealed(before):  # what follows from the study is written anew, parts have their own hashes
             before = {key: before[key] for key in ("part_files", "libraries") if key in before}
         names = {state.part_name(index) for index in range(self.description.parts)}
         files = {name: entry for name, entry in before["part_files"].items() if name in names}
@@ -174,12 +170,12 @@ class Store:
     def write_part(self, index: int, columns: Mapping[str, Values]) -> None:
         """Write the variants of one part, whole or not at all.
 
-        Columns: SI floats (NaN becomes null), integers, booleans, texts, curves or None; `status` is needed, others may be
-        missing. A column ``variant`` numbers those that constraints have left; without it they are the part's first ones.
+        Columns: SI floats (NaN becomes null), integers, booleans, texts, curves or None; ``variant`` (those that constraints have left,
+        ascending) and ``status`` are needed, others may be missing.
         """
         if not self._lock.is_locked:
             raise RuntimeError("the folder is not locked for writing")
-        table = table_of(self.schema, columns, self._variants(index, columns))
+        table = table_of(self.schema, columns, len(columns[VARIANT.name]))
         with in_words(self._folder):
             self._folder.mkdir(exist_ok=True)
         content = part_content(table)
@@ -187,16 +183,6 @@ class Store:
         # first its hash: a run that is killed in between leaves no part that nobody knows
         self.note({"part_files": self.state["part_files"] | {self.part(index).name: known}})
         write(self.part(index), content)
-
-    def _variants(self, index: int, columns: Mapping[str, Values]) -> Any:
-        rows = self.description.part_rows(index)
-        count = len(next(iter(columns.values()), ()))
-        found = np.asarray(columns.get(VARIANT.name, range(rows.start, rows.start + count)), np.int64)
-        if len(found) and not (rows.start <= found[0] and found[-1] < rows.stop and (np.diff(found) > 0).all()):
-            raise ValueError(
-                f"part {index} holds the variants {rows.start} to {rows.stop - 1}, once each, in their order"
-            )
-        return found
 
     def parts(self) -> dict[int, Path]:
         """Return the part files that are there, by index; UserError for a file that only looks like one."""
