@@ -42,8 +42,6 @@ from diecut_report.text.translation import decimal_sign, localised, said, say, s
 
 SEPARATORS = {"comma": ",", "semicolon": ";", "tab": "\t"}
 DECIMALS = {"point": ".", "comma": ","}
-UNITS = ("si", "display")
-FORMATS = ("table", "csv", "json")
 BLOCK = 1 << 16  # letters that are given at a time
 MAX_COMPARED = 1_000  # variants side by side
 
@@ -57,10 +55,6 @@ class Notation:
     decimal: str = "point"
 
     def __post_init__(self) -> None:
-        for given, allowed in ((self.units, UNITS), (self.separator, SEPARATORS), (self.decimal, DECIMALS)):
-            if given not in allowed:
-                template = "{given} is not known here; allowed: {allowed}."
-                raise refusal(template, given=repr(given), allowed=", ".join(allowed))
         if self.separator == self.decimal == "comma":
             raise refusal("A comma cannot separate both values and decimals; add --separator semicolon, or tab.")
 
@@ -99,9 +93,6 @@ def answer(
     With ``transposed`` it has a line for each quantity and a column for each variant. UserError for what cannot be asked.
     A table that compares variants leaves out what is the same for all, and says how much that is, unless the columns are named.
     """
-    if format not in FORMATS:
-        template = "{format} is not a format of variants; known: {formats}."
-        raise refusal(template, format=repr(format), formats=", ".join(FORMATS))
     if transposed and format == "json":
         raise refusal("JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx.")
     if width is None and sys.stdout.isatty():

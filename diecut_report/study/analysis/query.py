@@ -189,8 +189,6 @@ def question(stored: Stored, asked: Request, *, is_table: bool) -> Question:
 
     A table for people shows the varied quantities and what the question names, of at most 20 variants; other answers hold all.
     """
-    if asked.top is not None and asked.top < 1:
-        raise refusal("--top is {top}; a number of variants from 1 on is needed.", top=asked.top)
     _refuse_strange(stored, asked.picked)
     where = (asked.where or "").strip()
     found, names_asked = condition(where, stored.columns) if where else (Sql("true"), [])

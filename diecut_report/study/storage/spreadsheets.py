@@ -9,7 +9,7 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from diecut_report.errors import nearest, refusal
+from diecut_report.errors import refusal
 from diecut_report.files import replaced, room
 from diecut_report.study.storage.store import PARTS, Store
 from diecut_report.text.phrases import Phrase, named
@@ -21,24 +21,19 @@ NAME, PROGRAM = "variants", "diecut-report"
 SHEET_ROWS, SHEET_COLUMNS = 1_048_576, 16_384  # what a sheet of a workbook holds
 
 
-def export(store: Store, formats: Iterable[str]) -> list[str]:
+def export(store: Store, formats: Sequence[str]) -> list[str]:
     """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; returns what is to be known of the files."""
-    wanted = list(dict.fromkeys(formats))
-    if strange := [name for name in wanted if name not in WRITERS]:
-        template = "{strange} is not a format of a table{nearest}. Allowed: {writers}."
-        near = nearest(strange[0], WRITERS)
-        raise refusal(template, strange=repr(strange[0]), nearest=near, writers=", ".join(WRITERS))
-    for name in wanted:
+    for name in formats:
         path = store.directory / f"{NAME}.{name}"
         with replaced(path) as temporary:
             WRITERS[name](store, temporary, path)
     notes: list[str] = []
     curves = ", ".join(column.name for column in store.description.columns if column.kind == "curve")
-    if curves and wanted:
+    if curves and formats:
         template = "{files}: without the curves {curves}, which only the Parquet files in {folder} hold."
-        files = named([f"{NAME}.{name}" for name in wanted], " and ")
+        files = named([f"{NAME}.{name}" for name in formats], " and ")
         notes.append(Phrase(template, files=files, curves=curves, folder=store.directory / PARTS))
-    if "xlsx" in wanted and (count := store.counts()["variants"]) >= SHEET_ROWS:
+    if "xlsx" in formats and (count := store.counts()["variants"]) >= SHEET_ROWS:
         template = "{file}: {count} variants in {sheets} sheets, as a sheet holds {rows} rows."
         notes.append(Phrase(template, file=f"{NAME}.xlsx", count=count, sheets=_sheets(count), rows=SHEET_ROWS))
     return notes
