@@ -437,7 +437,7 @@ def test_the_example_study_is_valid_and_names_what_the_press_gives() -> None:
     found = load_study(EXAMPLE.with_name("flat_cylinder_study.yaml"), Discovery([]))
     rows = found.sample.rows(0, 1000)
     held = found.constraints[0].judged(rows).holds
-    assert (found.sample.count, len(found.sample.paths), found.reports) == (100_000, 6, Reports("best", 3))
+    assert (found.sample.count, len(found.inputs), found.reports) == (100_000, 6, Reports("best", 3))
     assert held.mean() == pytest.approx(0.64, abs=0.05)  # the triangle of bore and segment that leaves the wall
 
 

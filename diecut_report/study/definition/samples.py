@@ -33,23 +33,13 @@ class Sample(ABC):
         """Return the number of rows."""
 
     @property
-    @abstractmethod
-    def paths(self) -> tuple[str, ...]:
-        """Return what each row sets."""
-
-    @property
     def note(self) -> str | None:
         """Return what a user should know about this sample before it runs, in a sentence or two."""
         return None
 
+    @abstractmethod
     def rows(self, start: int, stop: int) -> dict[str, Values]:
         """Return the rows start … stop − 1: an array of SI floats, or a list of texts, for each path."""
-        if not 0 <= start <= stop <= self.count:
-            raise IndexError(f"rows {start} to {stop} of a sample of {self.count}")
-        return self._rows(start, stop)
-
-    @abstractmethod
-    def _rows(self, start: int, stop: int) -> dict[str, Values]: ...
 
 
 @dataclass(frozen=True)
@@ -62,21 +52,13 @@ class TableSample(Sample):
     def count(self) -> int:
         return len(next(iter(self.columns.values())))
 
-    @property
-    def paths(self) -> tuple[str, ...]:
-        return tuple(self.columns)
-
-    def _rows(self, start: int, stop: int) -> dict[str, Values]:
+    def rows(self, start: int, stop: int) -> dict[str, Values]:
         return {path: column[start:stop] for path, column in self.columns.items()}
 
 
 @dataclass(frozen=True)
 class _Varied(Sample):
     variables: tuple[Variable, ...]
-
-    @property
-    def paths(self) -> tuple[str, ...]:
-        return tuple(variable.path for variable in self.variables)
 
 
 # --- lists and ranges ------------------------------------------------------------------------------------------------
@@ -98,14 +80,13 @@ class Grid(_Varied):
 
     @cached_property
     def counts(self) -> tuple[int, ...]:
-        """Return the number of values of each variable."""
         return tuple(variable.count or 0 for variable in self.variables)
 
     @property
     def count(self) -> int:
         return math.prod(self.counts)
 
-    def _rows(self, start: int, stop: int) -> dict[str, Values]:
+    def rows(self, start: int, stop: int) -> dict[str, Values]:
         numbers = self._numbers(np.arange(start, stop, dtype=np.int64))
         listed = (variable for variable in self.variables if not isinstance(variable, Distribution))
         return {variable.path: variable.at(number) for variable, number in zip(listed, numbers, strict=True)}
@@ -127,8 +108,8 @@ class Zip(Grid):
     def __post_init__(self) -> None:
         super().__post_init__()
         if len(set(self.counts)) > 1:
-            counts = zip(self.paths, self.counts, strict=True)
-            lengths = joined((Phrase("{path} has {count}", path=path, count=count) for path, count in counts), ", ")
+            template = "{path} has {count}"
+            lengths = joined((Phrase(template, path=each.path, count=each.count) for each in self.variables), ", ")
             template = "sample: zip needs as many values of each path: {lengths}. Fill up, or use sample: grid"
             raise SampleError(template, lengths=lengths)
 
@@ -162,7 +143,7 @@ class LatinHypercube(_Varied):
         template = "The Latin hypercube holds {held} MB in each process; method: sobol holds nothing."
         return Phrase(template, held=f"{size / 2**20:.0f}")
 
-    def _rows(self, start: int, stop: int) -> dict[str, Values]:
+    def rows(self, start: int, stop: int) -> dict[str, Values]:
         shares = _hypercube(self.points, len(self.variables), self.seed)[:, start:stop]
         return {variable.path: variable.quantile(share) for variable, share in zip(self.variables, shares, strict=True)}
 
@@ -224,7 +205,7 @@ class Sobol(_Varied):
         )
         return Phrase(template, below=below, above=2 * below, points=self.points)
 
-    def _rows(self, start: int, stop: int) -> dict[str, Values]:
+    def rows(self, start: int, stop: int) -> dict[str, Values]:
         point, place = np.divmod(np.arange(start, stop), self.size)
         first = start // self.size
         shares = _sobol(self._dimensions, self.seed, first, -(-stop // self.size))
