@@ -51,7 +51,7 @@ for name in sys.argv[2:]:
     start = time.process_time()
     try:
         table = read_table(Path(name))
-        told = [f"{{table.count}} rows of {{len(table.columns)}}"]
+        told = [f"{{len(next(iter(table.columns.values())).cells)}} rows of {{len(table.columns)}}"]
         for column in table.columns.values():
             try:
                 column.si("mm")

@@ -97,11 +97,10 @@ class ReadColumn:
 
 @dataclass(frozen=True, eq=False)
 class TableFile:
-    """Hold a table that was read: its columns by their names, in the file's order, all with `count` cells, and the SHA-256 of its bytes."""
+    """Hold a table that was read: its columns by their names, in the file's order, and the SHA-256 of its bytes."""
 
     file: str
     columns: dict[str, ReadColumn]
-    count: int
     sha256: str
 
     def column(self, name: str) -> ReadColumn:
@@ -130,12 +129,11 @@ def read_table(path: Path) -> TableFile:
         name, own = (matched[1], matched[2]) if matched else (text, None)
         columns.append(ReadColumn(str(path), name, own or stored_unit, number, under))
     problems = list(_wrong_headers(columns))
-    count = len(cells[0]) if cells else 0
-    if not problems and count == 0:
+    if not problems and not (cells and len(cells[0])):
         problems.append(Problem(NO_ROWS, str(path)))
     if problems:
         raise UserError(problems)
-    return TableFile(str(path), {column.name: column for column in columns}, count, sha256)
+    return TableFile(str(path), {column.name: column for column in columns}, sha256)
 
 
 def _read(path: Path) -> tuple[Columns, str]:
