@@ -19,6 +19,7 @@ from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.report.figures.style import Svg
+from diecut_report.report.pages.pdf import printed_page
 from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variants import opened, titles
 from diecut_report.study.storage.description import STATUSES, ResultColumn
@@ -28,7 +29,7 @@ from diecut_report.study.summary import content as contents
 from diecut_report.study.summary import data, figures, summarise
 from diecut_report.study.summary.charts import near
 from diecut_report.study.summary.data import WORST, display, utilised, value_text
-from diecut_report.study.summary.pages import page, sheets
+from diecut_report.study.summary.pages import page
 from tests.hostile.bounded import PEAK
 from tests.study.questions import variants
 from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
@@ -506,7 +507,7 @@ def test_the_pages_say_the_counts(small_summary: contents.Summary, small_page: s
     assert "The run is not complete." in text
     assert re.search(r"Excluded by constraints\s*3 variants", text)
     assert "bore_radius 0.104 m leaves no wall" in text
-    document = PdfReader(BytesIO(sheets(small_summary)))
+    document = PdfReader(BytesIO(printed_page(page(small_summary, "print"))))
     assert "/StructTreeRoot" in document.trailer["/Root"]
     paper = " ".join("\n".join(sheet.extract_text() for sheet in document.pages).split())
     assert "3 of 10 variants pass all performed checks" in paper

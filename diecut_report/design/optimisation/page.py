@@ -45,10 +45,20 @@ from diecut_report.study.summary import best
 from diecut_report.study.summary import content as questions
 from diecut_report.study.summary.best import StoredObjective
 from diecut_report.study.summary.charts import COLOURS, HEAD, LABEL, panel
-from diecut_report.study.summary.data import display, factor, named, quantity, titled, utilised, value_text, wrapped
+from diecut_report.study.summary.data import (
+    counted,
+    display,
+    factor,
+    named,
+    quantity,
+    titled,
+    utilised,
+    value_text,
+    wrapped,
+)
 from diecut_report.study.summary.figures import SummaryFigure
 from diecut_report.text.phrases import capital
-from diecut_report.text.translation import localised, said, say, say_counted
+from diecut_report.text.translation import localised, said, say
 
 # The figures of an optimisation, in the style of a study's summary: the front, how it was found, where it lies within the bounds.
 
@@ -194,15 +204,10 @@ def _filled(found: OptimisationResult, kind: str) -> str:
         counts=capital(counts(found)), suggested=capital(suggested(found)), present=capital(present(found, named)),
         held=_held(found), rechecked=[capital(line) for line in recheck_lines(found)],
         conflict=list(conflict_lines(found.conflict)) if found.conflict else [],
-        words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, counted=_counted,
+        words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, counted=counted,
         files=_files(found), localised=localised, value_text=value_text,
         example=int(found.front.variants[found.front.suggested or 0]) if found.conflict is None else found.conflict.nearest,
     )  # fmt: skip
-
-
-def _counted(one: str, many: str, count: int, **more: object) -> str:
-    """What a template says of a number of things."""
-    return say_counted(count, one, many, n=number(str(count)), **more)
 
 
 def _title(found: OptimisationResult) -> str:

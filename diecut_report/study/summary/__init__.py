@@ -19,14 +19,16 @@ def summarise(directory: Path, formats: Sequence[str] = FORMATS, discovery: Disc
     UserError in words where nothing is stored or the files cannot be written; OSError where the system has no pango (PDF).
     """
     import diecut_report.report.figures  # noqa: F401  # before Matplotlib, for its settings
-    from diecut_report.files import write_all
+    from diecut_report.files import room, write_all
     from diecut_report.study.summary.content import content  # with matplotlib
 
     with opened(directory) as stored:
         found = content(stored, discovery or Discovery())
-    from diecut_report.study.summary.pages import page, sheets  # with WeasyPrint
+    from diecut_report.report.pages.pdf import printed_page  # with WeasyPrint
+    from diecut_report.study.summary.pages import page
 
-    contents = {"html": lambda: page(found).encode(), "pdf": lambda: sheets(found)}
-    files = {directory / f"summary.{ending}": contents[ending]() for ending in formats}
+    contents = {"html": lambda: page(found).encode(), "pdf": lambda: printed_page(page(found, "print"))}
+    with room():
+        files = {directory / f"summary.{ending}": contents[ending]() for ending in formats}
     write_all(files, keep=directory / "study.json")
     return list(files)

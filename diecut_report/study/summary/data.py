@@ -108,8 +108,12 @@ def utilised(value: float) -> str:
     return localised("< 0.01" if text == "0.00" and value > 0 else text)
 
 
+def counted(one: str, many: str, count: int, **more: object) -> str:
+    """Return what a template says of a number of things."""
+    return say_counted(count, one, many, n=number(str(count)), **more)
+
+
 def variants(count: int) -> str:
-    """Return how many variants."""
     return say_counted(count, "{n} variant", "{n} variants", n=number(str(count)))
 
 

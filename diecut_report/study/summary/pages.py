@@ -1,4 +1,4 @@
-"""The summary of a study as HTML and PDF."""
+"""The summary of a study as HTML, for the screen and for paper."""
 
 from __future__ import annotations
 
@@ -11,16 +11,14 @@ from typing import Any
 
 from markupsafe import Markup
 
-from diecut_report.files import room
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.pages import html
 from diecut_report.report.pages.html import styled_page
-from diecut_report.report.pages.pdf import printed_page
 from diecut_report.report.text import number
 from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.summary.content import Summary
-from diecut_report.study.summary.data import WORDS, display, named, percent, titled, utilised, variants
-from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted
+from diecut_report.study.summary.data import WORDS, counted, display, named, percent, titled, utilised, variants
+from diecut_report.text.translation import decimal_sign, localised, said, say
 
 DIGITS = 4  # of the numbers that a browser draws
 
@@ -30,18 +28,8 @@ def page(summary: Summary, kind: str = "screen") -> str:
     return styled_page(
         "summary.html.j2", kind, ("summary",), _script(), s=summary, figure=partial(_figure, summary, kind),
         points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display,
-        counted=_counted, variants=variants, percent=percent, utilised=utilised, number=number, pretty=pretty, localised=localised,
+        counted=counted, variants=variants, percent=percent, utilised=utilised, number=number, pretty=pretty, localised=localised,
     )  # fmt: skip
-
-
-def sheets(summary: Summary) -> bytes:
-    """Return the summary as PDF."""
-    with room():
-        return printed_page(page(summary, "print"))
-
-
-def _counted(one: str, many: str, count: int, **named: object) -> str:
-    return say_counted(count, one, many, n=number(str(count)), **named)
 
 
 def _script() -> str:
