@@ -75,8 +75,7 @@ def test_another_study_is_loaded_anew(tmp_path: Path) -> None:
     assert len(list(tmp_path.glob("loaded.*"))) == 2
 
 
-@pytest.mark.parametrize("limit", [pytest.param(1, marks=pytest.mark.nightly), 5])
-def test_chunks_are_taken_only_as_they_are_needed(tmp_path: Path, limit: int) -> None:
+def test_chunks_are_taken_only_as_they_are_needed(tmp_path: Path) -> None:
     taken = 0
 
     def chunks() -> Iterator[int]:
@@ -86,8 +85,8 @@ def test_chunks_are_taken_only_as_they_are_needed(tmp_path: Path, limit: int) ->
             yield taken
 
     with Pool(2, warm(tmp_path)) as pool:
-        for given, _ in enumerate(results(pool, square, chunks(), limit)):
-            assert taken - given <= limit
+        for given, _ in enumerate(results(pool, square, chunks())):
+            assert taken - given <= pool.limit
     assert taken == 300
 
 

@@ -82,17 +82,14 @@ class Dask(Engine):
             raise self._gone() from error
 
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
-        """Send a chunk to the scheduler."""
         future: Future[Any] = self._executor.submit(_work, __version__, self.setup.key, function, chunk)
         return future
 
     def cancel(self, begun: Iterable[Future[Any]]) -> None:
-        """Take them from the scheduler."""
         for future in begun:
             future.cancel()
 
     def check(self) -> None:
-        """Raise UserError where the scheduler is gone."""
         if self._client.status != "running":
             raise self._gone()
 

@@ -85,16 +85,14 @@ class Engine(ABC):
         return
 
 
-def results(
-    engine: Engine, function: Function, chunks: Iterable[Chunk], limit: int | None = None
-) -> Iterator[tuple[Chunk, Any]]:
+def results(engine: Engine, function: Function, chunks: Iterable[Chunk]) -> Iterator[tuple[Chunk, Any]]:
     """Yield the chunks with their results, in the order in which they are ready; to be used within ``with engine:``.
 
-    At most ``limit`` chunks are pending (default: what keeps the engine busy), so memory stays flat however many there are.
+    No more chunks are pending than keep the engine busy, so memory stays flat however many there are.
     Ends with what a chunk raises, with a note of which it was, and with UserError where its process was lost three times. Pending
     chunks are cancelled when it ends early, by an exception, Ctrl-C or the caller.
     """
-    pending = _PendingChunks(engine, function, iter(chunks), limit)
+    pending = _PendingChunks(engine, function, iter(chunks))
     try:
         while pending.fill():
             yield from pending.completed()
@@ -110,7 +108,6 @@ class _PendingChunks:
     engine: Engine
     function: Function
     source: Iterator[Chunk]
-    limit: int | None
     waiting: dict[Future[Any], tuple[Chunk, int]] = field(default_factory=dict)  # with the processes lost so far
     retries: deque[tuple[Chunk, int]] = field(default_factory=deque)
 
@@ -119,7 +116,7 @@ class _PendingChunks:
 
         A chunk that lost its process twice runs alone: if it is lost again, it and no other is the cause.
         """
-        while len(self.waiting) < (self.limit or self.engine.limit):
+        while len(self.waiting) < self.engine.limit:
             alone = [lost for _, lost in (*self.waiting.values(), *tuple(self.retries)[:1]) if lost == MAX_TRIES - 1]
             if alone and self.waiting:
                 break
@@ -213,7 +210,6 @@ class InProcess(Engine):
         forget(self.setup.key)
 
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
-        """Calculate the chunk now."""
         future: Future[Any] = Future()
         try:
             future.set_result(work(self.setup.key, function, chunk))
@@ -256,7 +252,6 @@ class Pool(Engine):
             self._executor.shutdown()
 
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
-        """Begin a chunk in the next process that is free."""
         with _interrupt_held_back(), _current_folder_apart():
             if self._executor is None:
                 self._executor = ProcessPoolExecutor(self._jobs, self._context, _begin, (self.setup,))
