@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -36,18 +37,7 @@ class Chosen:
 
 
 @dataclass(frozen=True)
-class ReportPlace:
-    """Hold what a process needs to make reports: the folder of the study, folders of plugins, a language that is asked for."""
-
-    directory: Path
-    plugins: tuple[str, ...]
-    language: str | None = None
-
-
-@dataclass(frozen=True)
 class VariantReport:
-    """Hold one full report."""
-
     variant: int
 
     def __str__(self) -> str:
@@ -75,12 +65,13 @@ def write_chosen(
         return (*chosen.notes, note), {}
     broken: dict[str, str] = {}
     if missing:
-        plugins = tuple(where.plugins)
-        key = "\n".join(["reports", str(store.directory), *plugins, where.language or ""])
-        setup = WorkerSetup(key, ReportPlace, (store.directory, plugins, where.language))
+        setup = WorkerSetup(
+            "\n".join(["reports", *where.plugins]), Discovery, ([Path(each) for each in where.plugins],)
+        )
+        write = partial(_write, directory=store.directory, language=where.language)
         with local_engine(where.jobs, len(missing), setup) as engine:
             tell(Phrase("full reports: {n} of {total}", n=0, total=len(missing)))
-            for done, (report, faults) in enumerate(results(engine, _write, map(VariantReport, missing)), 1):
+            for done, (report, faults) in enumerate(results(engine, write, map(VariantReport, missing)), 1):
                 template = "in the full report of variant {number}: {why}"
                 broken |= {
                     kind: Phrase(template, number=report.variant, why=phrase(why)) for kind, why in faults.items()
@@ -89,12 +80,11 @@ def write_chosen(
     return chosen.notes, broken
 
 
-def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
-    discovery = Discovery([Path(plugin) for plugin in place.plugins])
-    config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
+def _write(discovery: Discovery, report: VariantReport, directory: Path, language: str | None) -> dict[str, str]:
+    config = variant_config(directory, report.variant, discovery, f"{report.variant}.yaml")
     press = Press.read(config, discovery)
     press.require_reportable(FORMATS)
-    outcome = press.calculate().report(place.directory / FOLDER, FORMATS, AskedReport(place.language))
+    outcome = press.calculate().report(directory / FOLDER, FORMATS, AskedReport(language))
     return {error.kind: error.message for error in outcome.broken}
 
 
