@@ -110,7 +110,6 @@ class MachineComparison:
 
     @property
     def names(self) -> list[str]:
-        """Return what the machines are called."""
         return [each.machine for each in self.machines]
 
     @property

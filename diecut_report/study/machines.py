@@ -53,7 +53,6 @@ class CheckedMachine:
 
     @property
     def mechanisms(self) -> Mapping[str, MechanismRecord]:
-        """Return the results of its mechanisms."""
         return self.results.mechanisms if self.results else {}
 
 
@@ -212,6 +211,4 @@ def language_of(machines: Sequence[CheckedMachine]) -> str:
 
 def in_language(machines: Sequence[CheckedMachine], catalogues: Catalogues) -> list[CheckedMachine]:
     """Return machines with their texts in the language of the catalogues."""
-    if catalogues.language == SOURCE_LANGUAGE:
-        return list(machines)
     return [replace(each, results=translated(each.results, catalogues)) if each.results else each for each in machines]

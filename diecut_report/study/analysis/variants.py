@@ -91,7 +91,6 @@ class Stored:
 
     @cached_property
     def outputs(self) -> list[StoredColumn]:
-        """Return the kept outputs."""
         other = {*FIXED, *(column.name for column in self.varied)}
         return [each for name, each in self.columns.items() if name not in other and ".checks." not in name]
 

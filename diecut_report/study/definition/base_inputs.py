@@ -202,11 +202,8 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
         _put(data, key, value)
     declared_as = instance.mechanism.inputs if instance.mechanism else PressBlock
     former = {key: said for key in own if (said := instance.bases.get(key)) is not None and said.basis in OF_ONE_VALUE}
-    place, bases, taken = (
-        instance.place,
-        {**instance.bases, **{key: replace(said, basis=ASSUMED) for key, said in former.items()}},
-        instance.own,
-    )
+    place, taken = instance.place, instance.own
+    bases = {**instance.bases, **{key: replace(said, basis=ASSUMED) for key, said in former.items()}}
     if not taken.naming.keys().isdisjoint(own):
         taken = taken.anew(declared_as, data, own, place)
         data, place, bases = taken.data, taken.place, {**bases, **taken.bases}
@@ -235,9 +232,7 @@ def _wrong_keys(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
         for node, target in base.links.items():
             if node[0] == name and not target.is_default:
                 known[node[1:]] = Pending(target.path, target.unit, target.is_curve)
-                if (
-                    declared(instance.model, node[1:]) is None
-                ):  # the values of a curve that is given as a list must be numbers
+                if declared(instance.model, node[1:]) is None:  # the values of a curve that is a list must be numbers
                     known[node[1:]] = SI(0.0, str(target.unit), target.path)
         own = [asked for asked in values if asked.instance == name and asked.unit]
         known |= {asked.key: Pending(asked.path, asked.unit) for asked in own}

@@ -117,9 +117,7 @@ def load_study(
     reader = _StudyReader(tree, discovery, places or {}, base)
     study = reader.study()
     if study is None or reader.problems or tree.problems:
-        found = dict.fromkeys(
-            beside(tree, reader.problems)
-        )  # those of the study first, then of its base and its tables
+        found = dict.fromkeys(beside(tree, reader.problems))  # of the study first, then of its base and its tables
         raise UserError(sorted(found, key=lambda p: (p.file != tree.file, p.file, p.line or 0, p.column or 0)))
     return study
 
@@ -157,7 +155,7 @@ class _StudyReader:
         if optimise:  # it is judged by what is stored
             wanted += [name for each in constraints for name in each.outputs]
         outputs = self._outputs(results, [name for name in wanted if name not in sampled.inputs])
-        curves = results.curves(self.data.get("curves", []))
+        curves = results.kept("curves", self.data.get("curves", []))
         count = max(sample.count if sample else 0, optimise.evaluations if optimise else 0) or None
         has_objectives = bool(self.data.get("objectives") or optimise)
         reports = results.reports(self.data.get("reports"), count, has_objectives)
@@ -173,7 +171,7 @@ class _StudyReader:
         if "outputs" not in self.data:
             return None
         needed = (name for name in wanted if ".checks." not in name)
-        return tuple(dict.fromkeys([*results.outputs(self.data["outputs"]), *needed]))
+        return tuple(dict.fromkeys([*results.kept("outputs", self.data["outputs"]), *needed]))
 
     def _fault(self, key: KeyPath, template: str, *, at_key: bool = False, **values: object) -> None:
         self.problems.append(self.place.problem(key, message(template, values), at_key=at_key))

@@ -56,14 +56,10 @@ class ResultReader:
             many = [key for key, (_, is_many) in instance.results.items() if is_many]
             self.sorts |= {f"{instance.name}.{key}": "row" if key in instance.rows else "curve" for key in many}
 
-    def outputs(self, given: list[str]) -> tuple[str, ...]:
-        """Return the outputs to keep."""
-        kept = [name for index, name in enumerate(given) if self._is_output(("outputs", index), name)]
-        return tuple(dict.fromkeys(kept))
-
-    def curves(self, given: list[str]) -> tuple[str, ...]:
-        """Return the curves to keep."""
-        return tuple(dict.fromkeys(name for index, name in enumerate(given) if self._is_curve(("curves", index), name)))
+    def kept(self, key: Literal["outputs", "curves"], given: list[str]) -> tuple[str, ...]:
+        """Return the outputs or the curves to keep."""
+        is_one = self._is_output if key == "outputs" else self._is_curve
+        return tuple(dict.fromkeys(name for index, name in enumerate(given) if is_one((key, index), name)))
 
     def objectives(self, given: list[dict[str, Any]], home: tuple[str, ...] = ()) -> tuple[Objective, ...]:
         """Return the objectives in their order; ``home`` is the block that they stand in."""

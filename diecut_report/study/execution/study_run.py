@@ -241,7 +241,6 @@ def _doubtful(study: Study) -> dict[str, list[str]]:
 
 
 def varied_columns(study: Study) -> list[ResultColumn]:
-    """Return a column for each varied path."""
     columns = []
     for path, asked in study.inputs.items():
         if isinstance(asked.meta, Quantity):

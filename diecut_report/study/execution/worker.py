@@ -39,7 +39,6 @@ class ChunkClock:
     slowest: float = 0.0  # seconds for each variant
 
     def measure(self, variants: int, seconds: float) -> None:
-        """Note how long a chunk took."""
         self.slowest = max(self.slowest, seconds / max(variants, 1))
 
     def limit(self, variants: int) -> float | None:

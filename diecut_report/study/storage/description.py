@@ -89,7 +89,6 @@ class Description:
 
     @property
     def all_columns(self) -> tuple[ResultColumn, ...]:
-        """Return the columns of the part files."""
         return (VARIANT, *self.columns, *VERDICT)
 
 

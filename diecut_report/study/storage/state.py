@@ -48,8 +48,6 @@ class _Form(BaseModel):
 
 
 class NotedProgram(_Form):
-    """The program that calculated the variants."""
-
     name: Literal["diecut-report"]
     version: str
 
@@ -194,7 +192,6 @@ def _disagreeing(form: StateForm) -> Iterator[Fault]:
 
 
 def part_name(index: int) -> str:
-    """Return the name of a part file."""
     return f"part-{index:05d}.parquet"
 
 

@@ -44,7 +44,6 @@ class StoredObjective:
 
     @property
     def label(self) -> str:
-        """Return the objective in words."""
         return say("{quantity} minimised" if self.is_less else "{quantity} maximised", quantity=named(self.column))
 
 
@@ -360,7 +359,6 @@ class Matrix(NamedTuple):
 
     @property
     def rows(self) -> list[MatrixRow]:
-        """Return the rows of all groups."""
         return [row for _, rows in self.groups for row in rows]
 
 
@@ -482,6 +480,5 @@ def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn])
 
 
 def reports(stored: Stored, variants: Sequence[int]) -> list[MatrixRow]:
-    """Return the full reports of these variants."""
     states = _of_variants(stored, variants, ["status"])
     return [MatrixRow(one, report_of(stored.folder, one), *states[one]) for one in variants if one in states]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -73,29 +73,21 @@ def shares(counts: dict[str, int]) -> Figure:
     return sheet
 
 
-class Bar(NamedTuple):
-    """Hold a bar of counts: its name, its parts, and what stands behind it."""
-
-    name: str
-    parts: Sequence[float]
-    text: str
-
-
-def stacked(rows: Sequence[Bar], colours: Sequence[str]) -> Figure:
-    """Build horizontal bars of counts, each of several parts."""
-    labels = [wrapped(row.name, LABEL, FONT_SIZE, 1) for row in rows]
+def stacked(rows: Sequence[tuple[str, Sequence[float], str]], colours: Sequence[str]) -> Figure:
+    """Build horizontal bars of counts, each with its name, its parts and what stands behind it."""
+    labels = [wrapped(name, LABEL, FONT_SIZE, 1) for name, _, _ in rows]
     sheet, names = canvas(WIDTH, 17.0 * len(rows) + 8), max(text_size(label)[0] for label in labels) + 10
-    behind = max(text_size(row.text, 8)[0] for row in rows) + 10
+    behind = max(text_size(text, 8)[0] for _, _, text in rows) + 10
     axes = panel(sheet, names, 4, WIDTH - names - behind, 17.0 * len(rows))
-    for place, row in zip(range(len(rows))[::-1], rows, strict=True):
+    for place, (_, parts, text) in zip(range(len(rows))[::-1], rows, strict=True):
         start = 0.0
-        for part, colour in zip(row.parts, colours, strict=True):
+        for part, colour in zip(parts, colours, strict=True):
             axes.barh(place, part, 0.66, start, color=colour)
             start += part
-        axes.annotate(row.text, (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8)
+        axes.annotate(text, (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8)
     axes.set_yticks(range(len(rows))[::-1], labels, va="center_baseline")
     _bare(axes, len(rows))
-    axes.set_xlim(0, max(sum(row.parts) for row in rows) or 1)
+    axes.set_xlim(0, max(sum(parts) for _, parts, _ in rows) or 1)
     return sheet
 
 

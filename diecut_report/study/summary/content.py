@@ -44,20 +44,13 @@ class AskedInput(NamedTuple):
     values: str
 
 
-class AskedText(NamedTuple):
-    """Hold an objective or a constraint: in words, and as the study file has it."""
-
-    text: str
-    typed: str
-
-
 class Asked(NamedTuple):
-    """Hold what was studied: facts, varied inputs, objectives, constraints, and what ``reports`` asks for."""
+    """Hold what was studied: facts, varied inputs, what ``reports`` asks for; objectives and constraints in words and as they are typed."""
 
     facts: list[tuple[str, str]]
     inputs: list[AskedInput]
-    objectives: list[AskedText]
-    constraints: list[AskedText]
+    objectives: list[tuple[str, str]]
+    constraints: list[tuple[str, str]]
     reports: str
 
 
@@ -77,7 +70,7 @@ def asked_questions(stored: Stored) -> Asked | None:
         list(_asked_facts(stored, tree)),
         [_input(stored, tree, path) for path in stored.study.get("varied") or ()],
         [_objective(_column_of(stored, name), way, name) for way, name in objectives],
-        [AskedText(_quantities(stored, str(each)), str(each)) for each in given.get("constraints") or ()],
+        [(_quantities(stored, str(each)), str(each)) for each in given.get("constraints") or ()],
         say("none") if given.get("reports") is None else written(tree, ("reports",)),
     )
 
@@ -103,9 +96,9 @@ def _dropped(counts: Mapping[str, Any]) -> str:
     return variants(int(counts.get("dropped") or 0)) + said(why_dropped(counts))
 
 
-def _objective(column: StoredColumn | None, way: str, name: str) -> AskedText:
+def _objective(column: StoredColumn | None, way: str, name: str) -> tuple[str, str]:
     typed = f"{way}: {name}"
-    return AskedText(best.StoredObjective(column, way == "minimise").label, typed) if column else AskedText(typed, "")
+    return (best.StoredObjective(column, way == "minimise").label, typed) if column else (typed, "")
 
 
 def _quantities(stored: Stored, expression: str) -> str:
@@ -166,8 +159,6 @@ MAX_PANELS, MAX_CHECKS, MAX_RANGES, MAX_QUANTITIES = 12, 4, 36, 30
 
 @dataclass
 class Summary:
-    """Hold the whole page."""
-
     title: str
     folder: str
     study: Any
@@ -230,7 +221,6 @@ class Summary:
 
 
 def content(stored: Stored, discovery: Discovery) -> Summary:
-    """Return the summary of the stored variants."""
     data.prepare(stored)
     states = data.statuses(stored)
     total = sum(states.values())

@@ -46,8 +46,6 @@ class SummaryFigure(NamedTuple):
 
 @dataclass(frozen=True)
 class Figures:
-    """Make the charts of a study."""
-
     stored: Stored
     states: dict[str, int]
     sample: SampledVariants
@@ -57,7 +55,6 @@ class Figures:
 
     @property
     def total(self) -> int:
-        """Return how many variants there are."""
         return sum(self.states.values())
 
     def all(
@@ -95,8 +92,8 @@ class Figures:
             one = "{n} less frequent check is omitted."
             caption += " " + say_counted(left, one, "{n} less frequent checks are omitted.")
         colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
-        parts = [(row.governing, row.failing - row.governing, row.warning) for row, _ in rows]
-        bars = [charts.Bar(name, part, _behind(row)) for (row, name), part in zip(rows, parts, strict=True)]
+        parts = ((row.governing, row.failing - row.governing, row.warning) for row, _ in rows)
+        bars = [(name, part, _behind(row)) for (row, name), part in zip(rows, parts, strict=True)]
         return SummaryFigure(drawn(partial(charts.stacked, bars, colours), f"{told}.", "failures"), caption, told)
 
     def _distributions(self, spreads: Sequence[Spread]) -> SummaryFigure:
@@ -209,7 +206,6 @@ class Figures:
 
 
 def influence_figure(found: Influence) -> SummaryFigure:
-    """Return the influence of the inputs on a quantity."""
     target = named(found.target)
     if found.is_sobol:
         template = (
