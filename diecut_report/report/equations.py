@@ -10,7 +10,7 @@ from typing import NamedTuple
 import mathra
 from math_core import LatexToMathML
 
-from diecut_report.report.mathematics import Latex, Linear, Tree, escaped, factors, terms, with_units
+from diecut_report.report.mathematics import LEVEL, Latex, Linear, Tree, escaped, factors, terms, with_units
 from diecut_report.results.mechanism_record import ItemRecord, PlaceRecord, ShownRecord
 
 Measure = Callable[[str], float]  # the width of LaTeX in em
@@ -132,28 +132,24 @@ class Equations:
         return Link(self.latex(tree), self.linear(tree), tree)
 
     def _result(self, result: ShownRecord | PlaceRecord) -> Link:
-        text, unit = result.text, result.unit
-        return Link(self.latex.quantity(text, unit), self.linear.quantity(text, unit), ["qty", text, unit])
+        return self._link(["qty", result.text, result.unit])
 
     def _symbol(self, name: str) -> Link:
-        return Link(self.latex.symbol(name), self.linear.symbol(name), ["sym", name]) if name else Link()
+        return self._link(["sym", name]) if name else Link()
 
     def _reduced(self, item: ItemRecord) -> list[Link]:
         """What is taken of a curve or of repeated parts: max V, mean M …"""
         name, operation = item.of, item.operation
         if not name or operation == "pick":
             return []
-        curve, plain, of = self.latex.symbol(name), self.linear.symbol(name), ["sym", name]
+        curve = self._symbol(name)
         if operation == "abs_max":
-            return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|", ["call", "max", ["call", "abs", of]])]
+            return [self._link(["call", "max", ["call", "abs", curve.form]])]
         if item.over or operation in ("derivative", "accumulated"):
-            return [self._of_calculus(item, self._symbol(name))]
-        word = SIGNS.get(operation, operation)
-        if operation in OPERATORS:
-            form = ["nary", SIGNS[operation], of] if operation in SIGNS else ["call", operation, of]
-            return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}", form)]
-        word = self.words[operation]
-        return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}", ["call", word, of])]
+            return [self._of_calculus(item, curve)]
+        if sign := SIGNS.get(operation):
+            return [Link(f"{OPERATORS[operation]} {curve.latex}", f"{sign} {curve.text}", ["nary", sign, curve.form])]
+        return [self._link(["call", operation if operation in LEVEL else self.words[operation], curve.form])]
 
     def _of_calculus(self, item: ItemRecord, curve: Link) -> Link:
         """The derivative of a curve, or its integral: up to the place that is shown, or over all of its abscissa."""

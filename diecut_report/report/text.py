@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from diecut_report.quantities.formatting import ABOVE, shown
@@ -160,22 +160,13 @@ def one(key: str) -> str:
     return COUNTED.get(key) or ENGLISH[key]
 
 
-class Catalogue(Mapping[str, str]):
+class Catalogue(dict[str, str]):
     """The words of one language; in templates ``t.summary``. A missing key is an error, one that is not translated is English."""
 
     def __init__(self, language: str) -> None:
         self.language = language
         self._own = own = program_catalogue(language) if language != "en" else None
-        self._texts = {key: (own and own.text(one(key), key)) or text for key, text in ENGLISH.items()}
-
-    def __getitem__(self, key: str) -> str:
-        return self._texts[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._texts)
-
-    def __len__(self) -> int:
-        return len(self._texts)
+        super().__init__({key: (own and own.text(one(key), key)) or text for key, text in ENGLISH.items()})
 
     def say(self, key: str, **parts: object) -> str:
         """A sentence with its parts filled in, in the form that goes with their number ``n``."""

@@ -54,10 +54,10 @@ TEXT = frozenset({
 })  # fmt: skip
 METHODS: Mapping[type, frozenset[str]] = {
     str: TEXT,
+    Catalogue: frozenset({"get", "language", "say"}),
     dict: frozenset({"get", "items", "keys", "values"}),
     list: frozenset({"count", "index"}),
     tuple: frozenset({"count", "index"}),
-    Catalogue: frozenset({"get", "language", "say"}),
     Cycler: frozenset({"current", "next", "reset"}),
     LoopContext: frozenset({"changed", "cycle", "depth", "depth0", "first", "index", "index0", "last", "length", "nextitem",
                             "previtem", "revindex", "revindex0"}),
