@@ -26,67 +26,6 @@ from diecut_report.report.text import Catalogue, given_names, quantity
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, QuantityRecord, ShownRecord
 
 
-class ChapterInputs:
-    """Fills in the inputs of a chapter: in lines, in tables of repeated parts, and those at their defaults or taken from others in paragraphs.
-
-    In a report with all each stands with all that is known of it.
-    """
-
-    def __init__(self, part: PrintedChapter, words: Catalogue, tables: Tables, told: ToldBefore) -> None:
-        self.part, self.words, self.tables, self.told = part, words, tables, told
-        self.is_full, self.decimal = told.is_full, words["decimal"]
-
-    def fill(self, inputs: Mapping[str, QuantityRecord]) -> None:
-        """Fill in these inputs."""
-        single, lists = gathered(inputs, FEWEST_GIVEN)
-        left = {key for key, row in single.items() if not self.is_full and _is_left_alone(row)}
-        for place, parts in enumerate([] if self.is_full else lists):
-            columns = parts.columns.items()
-            alone = [name for name, rows in columns if all(_is_left_alone(row) for _, row in rows.values())]
-            left |= {key for name in alone for key, _ in parts.columns[name].values()}
-            lists[place] = parts.without(alone)
-        taken = set() if self.is_full else self._take(single)
-        self.part.inputs = [self._input(key, row) for key, row in single.items() if key not in left | taken]
-        self._leave({key: row for key, row in inputs.items() if key in left})
-        self.part.input_parts = [table for parts in lists if parts.columns for table in self.tables.of_records(parts)]
-
-    def _take(self, inputs: Mapping[str, QuantityRecord]) -> set[str]:
-        """Gather what nobody typed: mechanisms that were found, and what is taken from them. Return their keys."""
-        found = {key: row for key, row in inputs.items() if is_partner(row)}
-        given = {key: row for key, row in inputs.items() if is_taken(row)}
-        self.part.partners = [self._input(key, row) for key, row in found.items()]
-        self.part.taken = taken_groups((row.path, self._input(key, row)) for key, row in given.items())
-        return found.keys() | given.keys()
-
-    def _leave(self, inputs: Mapping[str, QuantityRecord]) -> None:
-        """Inputs that are left alone: each once, none without a value, and none that an earlier chapter of the kind tells."""
-        rows = [self._input(key, row) for key, row in inputs.items()]
-        told = {f"{row.description} {row.value} {row.unit}": row for row in rows if row.value}
-        new = self.told.new([*told])
-        self.part.defaults = [told[text] for text in new]
-        self.part.are_defaults_told = len(new) < len(told)
-
-    def _input(self, key: str, row: QuantityRecord) -> QuantityRow:
-        shown, path = quantity_row(row, self.decimal), row.path
-        typed = str(row.text or (path if row.origin == "reference" else ""))
-        origin = self._origin(row.origin, path, typed)
-        if not self.is_full and row.origin == "given":
-            plain, origin = row.display.text + row.display.unit, ""
-            typed = "" if typed.replace(" ", "") in (plain, row.display.text) else typed
-        return rested(replace(shown, typed=typed, origin=origin, key=key), row, self.words)
-
-    def _origin(self, origin: str, path: str, typed: str) -> str:
-        """Where an input comes from; the path of a reference stands in what was typed."""
-        is_seen = "${" in typed or (path and path in typed)
-        if is_seen and not self.is_full:
-            return ""  # what was typed says it
-        if not path:
-            return self.words[origin]
-        if path in typed:
-            return self.words["reference"]
-        return self.words.say("refers" if origin == "reference" else "from_press", path=path)
-
-
 def _is_left_alone(row: QuantityRecord) -> bool:
     """Whether an input is a default of the program's own, of which nothing is said."""
     return row.origin == "default" and not row.path and (row.basis or "given") == "given" and not row.note
@@ -134,7 +73,7 @@ class _Filler:
         part.told_in, part.assumptions = self.told.letter, self.told.new(mechanism.assumptions)
         self._head("purpose")
         self._head("inputs")
-        ChapterInputs(part, self.words, self.tables, self.told).fill(mechanism.inputs)
+        self._inputs(mechanism.inputs)
         part.figures = [(each.number, each.figure) for each in self.placed]
         part.pairs = tuple(tuple(each.number for each in row) for row in self.rows if len(row) > 1)
         part.sections = [
@@ -159,6 +98,59 @@ class _Filler:
         for each in mechanism.errata:
             touched = ", ".join(rows[key].description if key in rows else key for key in each.touches)
             part.errata.append((each.source, each.text, touched))
+
+    def _inputs(self, inputs: Mapping[str, QuantityRecord]) -> None:
+        """The inputs: in lines, in tables of repeated parts, and those at their defaults or taken from others in paragraphs.
+
+        In a report with all each stands with all that is known of it.
+        """
+        single, lists = gathered(inputs, FEWEST_GIVEN)
+        left = {key for key, row in single.items() if not self.is_full and _is_left_alone(row)}
+        for place, parts in enumerate([] if self.is_full else lists):
+            columns = parts.columns.items()
+            alone = [name for name, rows in columns if all(_is_left_alone(row) for _, row in rows.values())]
+            left |= {key for name in alone for key, _ in parts.columns[name].values()}
+            lists[place] = parts.without(alone)
+        taken = set() if self.is_full else self._take(single)
+        self.part.inputs = [self._input(key, row) for key, row in single.items() if key not in left | taken]
+        self._leave({key: row for key, row in inputs.items() if key in left})
+        self.part.input_parts = [table for parts in lists if parts.columns for table in self.tables.of_records(parts)]
+
+    def _take(self, inputs: Mapping[str, QuantityRecord]) -> set[str]:
+        """Gather what nobody typed: mechanisms that were found, and what is taken from them. Return their keys."""
+        found = {key: row for key, row in inputs.items() if is_partner(row)}
+        given = {key: row for key, row in inputs.items() if is_taken(row)}
+        self.part.partners = [self._input(key, row) for key, row in found.items()]
+        self.part.taken = taken_groups((row.path, self._input(key, row)) for key, row in given.items())
+        return found.keys() | given.keys()
+
+    def _leave(self, inputs: Mapping[str, QuantityRecord]) -> None:
+        """Inputs that are left alone: each once, none without a value, and none that an earlier chapter of the kind tells."""
+        rows = [self._input(key, row) for key, row in inputs.items()]
+        told = {f"{row.description} {row.value} {row.unit}": row for row in rows if row.value}
+        new = self.told.new([*told])
+        self.part.defaults = [told[text] for text in new]
+        self.part.are_defaults_told = len(new) < len(told)
+
+    def _input(self, key: str, row: QuantityRecord) -> QuantityRow:
+        shown, path = quantity_row(row, self.decimal), row.path
+        typed = str(row.text or (path if row.origin == "reference" else ""))
+        origin = self._origin(row.origin, path, typed)
+        if not self.is_full and row.origin == "given":
+            plain, origin = row.display.text + row.display.unit, ""
+            typed = "" if typed.replace(" ", "") in (plain, row.display.text) else typed
+        return rested(replace(shown, typed=typed, origin=origin, key=key), row, self.words)
+
+    def _origin(self, origin: str, path: str, typed: str) -> str:
+        """Where an input comes from; the path of a reference stands in what was typed."""
+        is_seen = "${" in typed or (path and path in typed)
+        if is_seen and not self.is_full:
+            return ""  # what was typed says it
+        if not path:
+            return self.words[origin]
+        if path in typed:
+            return self.words["reference"]
+        return self.words.say("refers" if origin == "reference" else "from_press", path=path)
 
     def _symbols(self) -> list[SymbolRow]:
         """The symbols that no earlier chapter of the kind lists: of a standard report with the places where each is explained."""
@@ -240,10 +232,8 @@ class _Filler:
                 words = self.words.say("not_written", title=export.title, error=export.error)
                 yield File(f"{self.stem}.{self.part.name}.{export.id}", words)
                 continue
-            count, columns = (
-                len(mechanism.curves[export.abscissa].values),
-                ", ".join([export.abscissa, *export.columns]),
-            )
+            count = len(mechanism.curves[export.abscissa].values)
+            columns = ", ".join([export.abscissa, *export.columns])
             for ending, suffix in suffixes(self.part.name, export).items():
                 key = "dxf_profile" if ending == "dxf" and len(export.columns) <= 2 else ending
                 yield File(f"{self.stem}.{suffix}", self.words.say(key, title=export.title, n=count, columns=columns))
