@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from diecut_report.report.chapters.drive_line import DriveLineFigure
 from diecut_report.report.figures.charts import bars, chart, polar, tornado
 from diecut_report.report.figures.drawing import drawing
-from diecut_report.report.figures.drive_line import front_view, linked, side_view
+from diecut_report.report.figures.drive_line import linked, view
 from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, plain, styled, text_size
 from diecut_report.report.model import Drawn
 from diecut_report.report.text import Catalogue
@@ -21,7 +21,7 @@ from diecut_report.results.mechanism_record import CurveRecord
 
 DRAW: dict[str, Callable[..., Figure]] = {
     "plot": chart, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing, "tornado": tornado,
-    "front_view": front_view, "side_view": side_view,
+    "front_view": view, "side_view": view,
 }  # fmt: skip
 DENSITY = 200  # points an inch
 MARGIN, LARGEST = 0.9, 14.0  # share of a picture that a text may fill, points of its letters

@@ -34,7 +34,7 @@ from diecut_report.report.figures.style import (  # fmt: skip
     sampled,
     text_size,
 )
-from diecut_report.report.text import Catalogue, displayed, joined
+from diecut_report.report.text import displayed, joined
 from diecut_report.results.drive_line_record import JoinRecord, MachineShaftRecord, PlacedPartRecord
 
 Array = NDArray[Any]
@@ -53,8 +53,8 @@ _round = partial(circular, fewest=8, in_radian=14)  # as close as a sketch needs
 class ViewSheet:
     """A view in work, in points: what is drawn, what texts keep clear of, and what all of it takes."""
 
-    def __init__(self, figure: DriveLineFigure, words: Catalogue) -> None:
-        self.figure, self.words = figure, words
+    def __init__(self, figure: DriveLineFigure) -> None:
+        self.figure, self.words = figure, figure.words
         self.places = {key: index for index, key in enumerate(figure.looks)}
         self.boxes: list[Box] = []
         self.lines: list[Array] = []
@@ -143,12 +143,7 @@ class ViewSheet:
 
 
 RIM = 7.0  # points that the rim of a wheel is drawn wide
-FRONT = {
-    SizesSize.LARGE: 112 * MM,
-    SizesSize.LOW: 92 * MM,
-    SizesSize.HALF: 92 * MM,
-    SizesSize.SKETCH: 80 * MM,
-}  # height
+FRONT = {SizesSize.LARGE: 112 * MM, SizesSize.LOW: 92 * MM, SizesSize.SKETCH: 80 * MM}  # height
 WHEELS = ("gear", "pulley", "sprocket", "clutch", "coupling", "flywheel", "cam")
 ARMS = ("crank", "rocker")
 JOINED = {"mesh": "gear", "chain": "sprocket", "belt": "pulley"}
@@ -159,16 +154,17 @@ NEARER = 0.75  # as far to its own axis as to any other a name stands at most
 FAR = 14.0  # points from its axis to a name, beyond which a line leads there
 
 
-def front_view(
-    figure: DriveLineFigure, _curves: Any, words: Catalogue, size: SizesSize = SizesSize.LARGE
-) -> Figure:  # fmt: skip
-    """Draw the axes where the frame has them, with what stands on them and joins them."""
-    return _Front(figure, words, FRONT[size]).drawn()
+def view(figure: DriveLineFigure, _curves: Any, _words: Any, size: SizesSize) -> Figure:
+    """Draw a view of the drive line."""
+    made = _Front(figure, FRONT[size]) if figure.type == "front_view" else _Side(figure, SIDE[size])
+    return made.drawn()
 
 
 class _Front:
-    def __init__(self, figure: DriveLineFigure, words: Catalogue, height: float) -> None:
-        self.sheet = ViewSheet(figure, words)
+    """The axes where the frame has them, with what stands on them and joins them."""
+
+    def __init__(self, figure: DriveLineFigure, height: float) -> None:
+        self.sheet = ViewSheet(figure)
         self.shafts = [each for each in figure.line.shafts if each.axis]
         self.joins = figure.line.joins
         placed = np.array([each.axis for each in self.shafts])
@@ -319,12 +315,7 @@ def _loop(one: Array, own: float, other: Array, far: float) -> Array:
 # The shafts side by side.
 
 
-SIDE = {
-    SizesSize.LARGE: 150 * MM,
-    SizesSize.LOW: 126 * MM,
-    SizesSize.HALF: 126 * MM,
-    SizesSize.SKETCH: 112 * MM,
-}  # height
+SIDE = {SizesSize.LARGE: 150 * MM, SizesSize.LOW: 126 * MM, SizesSize.SKETCH: 112 * MM}  # height
 NAMES = 30 * MM  # room for the names at the left
 GAP = 16.0  # points between two rows, for the names of the parts
 HUB = 0.8  # radius of a hub in diameters of its shaft
@@ -334,16 +325,11 @@ SERIFS = 2.2  # points of the teeth of a broken edge
 LEAST = 4.0  # points that a part is drawn wide whose length is not known
 
 
-def side_view(
-    figure: DriveLineFigure, _curves: Any, words: Catalogue, size: SizesSize = SizesSize.LARGE
-) -> Figure:  # fmt: skip
-    """Draw the shafts below each other, each where it stands along the axes, with its parts."""
-    return _Side(figure, words, SIDE[size]).drawn()
-
-
 class _Side:
-    def __init__(self, figure: DriveLineFigure, words: Catalogue, height: float) -> None:
-        self.sheet, self.line = ViewSheet(figure, words), figure.line
+    """The shafts below each other, each where it stands along the axes, with its parts."""
+
+    def __init__(self, figure: DriveLineFigure, height: float) -> None:
+        self.sheet, self.line = ViewSheet(figure), figure.line
         rows = [_ShaftRow(each) for each in self.line.shafts]
         ends = np.array([row.ends for row in rows])
         across = max(float(np.ptp(ends)), SMALLEST)
