@@ -88,6 +88,12 @@ class WordBody:
         if rows:
             self.parts += [table(columns, rows, headed=headed), paragraph("", "TableText")]
 
+    def titled_table(self, title: str, heads: str, rows: Sequence[Sequence[Inline]]) -> None:
+        """A table under its title; nothing where it has no rows."""
+        if rows:
+            self.subheading(title)
+            self.table(self.heads(heads), rows)
+
     def heads(self, heads: str) -> list[TableColumn]:
         """Columns with words of the catalogue as their heads: ``check:5 demand:2> :0.6``, each with its share, > stands right."""
         parted = ([*head.rstrip(">").split(":"), head[-1]] for head in heads.split())

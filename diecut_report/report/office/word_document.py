@@ -83,10 +83,8 @@ def summary(body: WordBody, document: ReportDocument) -> None:
     if document.checks and document.detail == FULL:
         body.subheading(words["checks"])
         check_table(body, document.checks)
-    if document.unchecked:
-        body.subheading(words["not_checked"].capitalize())
-        left = [[_named(body, row), run(row.demand), key(", ".join(row.missing))] for row in document.unchecked]
-        body.table(body.heads("check:5 demand:2> missing:4"), left)
+    left = [[_named(body, row), run(row.demand), key(", ".join(row.missing))] for row in document.unchecked]
+    body.titled_table(words["not_checked"].capitalize(), "check:5 demand:2> missing:4", left)
     _open(body, document)
     if document.detail != BRIEF:
         for chapter in document.chapters:
@@ -205,35 +203,29 @@ def changes(body: WordBody, document: ReportDocument, found: PrintedChanges) -> 
 
 
 def _pairs(body: WordBody, title: str, what: str, rows: Sequence[tuple[str, str, str]]) -> None:
-    if rows:
-        body.subheading(body.words[title])
-        columns = body.heads(f"{what}:5 before:3 after:3")
-        body.table(columns, [[key(name), run(old), run(new)] for name, old, new in rows])
+    cells = [[key(name), run(old), run(new)] for name, old, new in rows]
+    body.titled_table(body.words[title], f"{what}:5 before:3 after:3", cells)
 
 
 def _changed_checks(body: WordBody, rows: Sequence[ChangedCheck]) -> None:
     def side(status: str, used: str) -> Inline:
         return body.status(status) + run(f" {used}") if status else run("–")
 
-    if rows:
-        body.subheading(body.words["changed_checks"])
-        cells = [
-            [rich(prose(row.title)) + new_line() + key(row.mechanism), side(row.old_status, row.old),
-             side(row.new_status, row.new), run(row.change)]
-            for row in rows
-        ]  # fmt: skip
-        body.table(body.heads("check:5 before:3 after:3 change:2"), cells)
+    cells = [
+        [rich(prose(row.title)) + new_line() + key(row.mechanism), side(row.old_status, row.old),
+         side(row.new_status, row.new), run(row.change)]
+        for row in rows
+    ]  # fmt: skip
+    body.titled_table(body.words["changed_checks"], "check:5 before:3 after:3 change:2", cells)
 
 
 def _changed_rows(body: WordBody, title: str, rows: Sequence[ChangedRow]) -> None:
-    if rows:
-        body.subheading(body.words[title])
-        cells = [
-            [rich(prose(row.description)) + run(" ") + rich(row.symbol) + new_line() + key(row.path), run(row.old), run(row.new),
-             run(row.change) + (new_line() + small(row.note) if row.note else "")]
-            for row in rows
-        ]  # fmt: skip
-        body.table(body.heads("quantity:5 before:3 after:3 change:2"), cells)
+    cells = [
+        [rich(prose(row.description)) + run(" ") + rich(row.symbol) + new_line() + key(row.path), run(row.old), run(row.new),
+         run(row.change) + (new_line() + small(row.note) if row.note else "")]
+        for row in rows
+    ]  # fmt: skip
+    body.titled_table(body.words[title], "quantity:5 before:3 after:3 change:2", cells)
 
 
 HASH = 12  # letters of a hash

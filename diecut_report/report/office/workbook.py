@@ -96,10 +96,8 @@ class _Filled:
 
         self.into, self.sheet = into, sheet
         self.cells: dict[tuple[int, str], Any] = {}
-        self.bold, self.fill_of_heads = (
-            Font(name="Calibri", size=11, bold=True),
-            PatternFill("solid", fgColor=HEAD_COLOUR),
-        )
+        self.bold = Font(name="Calibri", size=11, bold=True)
+        self.fill_of_heads = PatternFill("solid", fgColor=HEAD_COLOUR)
         self.top = Alignment(vertical="top", indent=1)
         self.wrapped = Alignment(vertical="top", indent=1, wrap_text=True)
 
