@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
-from functools import reduce
+from functools import cache, partial, reduce
 from typing import NamedTuple
 
 import mathra
@@ -252,31 +252,26 @@ class Typesetter:
     """Keeps what it has set, so that a formula is converted once in a report."""
 
     def __init__(self) -> None:
-        self._outlines: dict[tuple[str, bool], Outline] = {}
-        self._mathml: dict[tuple[str, bool], str] = {}
-        self._core = LatexToMathML()
-
-    def outline(self, latex: str, *, display: bool = True) -> Outline:
-        """The formula as outlines; invalid LaTeX raises ValueError."""
-        key = latex, display
-        if key not in self._outlines:
-            svg = mathra.tex_to_svg(latex, display=display, strict=True)
-            found = _SIZE.search(svg)
-            if found is None:
-                raise ValueError(f"a typeset formula without a size: {latex}")
-            self._outlines[key] = Outline(svg, *map(float, found.groups()))
-        return self._outlines[key]
+        self.outline = cache(_outline)
+        self.mathml = cache(partial(_mathml, LatexToMathML()))
 
     def measure(self, latex: str) -> float:
         """The width of a formula in em."""
         return self.outline(latex).width / 1000
 
-    def mathml(self, latex: str, *, display: bool = True) -> str:
-        """The formula as MathML."""
-        key = latex, display
-        if key not in self._mathml:
-            if len(latex) > SHALLOW:
-                # this refuses what is nested so deep that the other library would overrun its stack
-                self.outline(latex, display=display)
-            self._mathml[key] = self._core.convert_with_local_state(latex, displaystyle=display)
-        return self._mathml[key]
+
+def _outline(latex: str, *, display: bool = True) -> Outline:
+    """A formula as outlines; invalid LaTeX raises ValueError."""
+    svg = mathra.tex_to_svg(latex, display=display, strict=True)
+    found = _SIZE.search(svg)
+    if found is None:
+        raise ValueError(f"a typeset formula without a size: {latex}")
+    return Outline(svg, *map(float, found.groups()))
+
+
+def _mathml(core: LatexToMathML, latex: str, *, display: bool = True) -> str:
+    """A formula as MathML."""
+    if len(latex) > SHALLOW:
+        # this refuses what is nested so deep that the other library would overrun its stack
+        _outline(latex, display=display)
+    return core.convert_with_local_state(latex, displaystyle=display)

@@ -85,11 +85,11 @@ def printed(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
         rendering: Rendering = request.getfixturevalue("rendering")
         rendering.html()
         handler, logger = Records(), logging.getLogger("weasyprint")
-        known = len(rendering.typesetter._outlines)
+        known = rendering.typesetter.outline.cache_info().currsize
         logger.addHandler(handler)
         (folder / "sample.pdf").write_bytes(rendering.pdf())
         logger.removeHandler(handler)
-        anew = len(rendering.typesetter._outlines) - known
+        anew = rendering.typesetter.outline.cache_info().currsize - known
         told = {"warnings": handler.messages, "set_for_html": known, "set_anew": anew}
         (folder / "told.json").write_text(json.dumps(told))
 
