@@ -8,6 +8,7 @@ import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from functools import total_ordering
 from typing import TYPE_CHECKING, Any
 
@@ -216,17 +217,22 @@ def scalar(given: Any, path: str) -> float | int | bool | str:
         return given
     if isinstance(given, QuantityValue):
         number = scalar(given.value, path)  # of a column of a table it is one of NumPy
-        return number if given.unit == "1" else f"{number!r} {given.unit}"
+        return _pure(number) if given.unit == "1" else f"{number!r} {given.unit}"
     # of pint; its unit in the short form is read back as the same one
     if hasattr(given, "magnitude") and hasattr(given, "units"):
         number, own = scalar(given.magnitude, path), f"{given.units:~C}"
-        return float(number) if own == "" else f"{number!r} {own}"
+        return _pure(number) if own == "" else f"{number!r} {own}"
     if hasattr(given, "item") and not _is_array(given):  # a number of NumPy
         given = given.item()
     if isinstance(given, bool | str | int) or (isinstance(given, float) and math.isfinite(given)):
         return given
     message = Phrase("is {kind}; {needed}.", kind=f"{given!r:.60}", needed=NEEDED)
     raise ConfigError(Problem(message, path=path))
+
+
+def _pure(number: Any) -> str:
+    """A pure number with its unit, so that a key of another kind refuses it; a bare one would count in the unit of the key."""
+    return f"{Decimal(repr(number)) * 100:f} %"
 
 
 def _is_array(given: Any) -> bool:

@@ -43,8 +43,10 @@ speeds.require("belt_steps_down", lambda vbelt_ratio: vbelt_ratio > 1 - 1e-12, k
 speeds.value("driven_diameter_exact", "d_2′", "mm", "Diameter of the driven pulley for this ratio",
     bind(lambda vbelt_ratio, driver_diameter: vbelt_ratio * driver_diameter, driver_diameter="vbelt.driver_diameter"), source="kinematics",
     output=False)
+speeds.value("driven_diameter", "d_2", "mm", "Datum diameter of the driven pulley: as given",
+    bind(lambda given: given, given="vbelt.driven_diameter"), source="input", needs=("vbelt.driven_diameter",))
 speeds.pick("driven_diameter", "d_2", "mm", "Datum diameter of the driven pulley", "nearest", of="driven_diameter_exact", series=belts.PULLEYS,
-    beyond="last", source="R40 series")
+    beyond="last", source="R40 series", lacks=("vbelt.driven_diameter",))
 speeds.value("vbelt_ratio_actual", "i_b′", "1", "Ratio of the V-belt with this diameter",
     bind(lambda driven_diameter, driver_diameter: driven_diameter / driver_diameter, driver_diameter="vbelt.driver_diameter"), source="kinematics")
 speeds.value("shaft_1_speed", "ω_1", "rpm", "Speed of shaft 1, the motor shaft", lambda motor_speed: motor_speed)

@@ -48,6 +48,11 @@ CHECKS = (
         founded=("single_position",), unit="1", demand_label="drives that lose synchronism", limit_label="accepted", source="kinematics",
         consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "
             "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only.", advise=("single_position",)),
+    Check(id="carriages", check_class="strength", title="Mass of the carriages", demand="stopped_mass", limit="cylinder_mass", unit="kg",
+        severity="warn", tolerance=ROUNDING, only_with=("damper_mass", "carriage_mass", "cylinder_mass"), source="dynamics",
+        demand_label="cylinder and carriages at the dampers", limit_label="in the drive",
+        consequence="the carriages move with the cylinder's axis, but the forces of drive, chain, joints and shafts are calculated without them: "
+            "give the drive a cylinder_mass of at least {stopped_mass:up}."),
     Check(id="damper_velocity", check_class="strength", title="Speed at the dampers", demand="contact_speed", limit="damper_velocity", unit="m/s",
         severity="warn", demand_label="speed at contact", limit_label="speed used for the dampers", source="kinematics", presumed=True,
         consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and {way_outer} before the "

@@ -82,6 +82,9 @@ ends_chapter.computed("way_inner", "d_in", "mm", "Distance before the inner end 
 ends_chapter.computed("way_outer", "d_out", "mm", "Distance before the outer end at which it occurs", function=ends.outer_way,
     takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics", needs=("damper_velocity",))
 
+ends_chapter.value("stopped_mass", "m_s", "kg", "Mass that moves with the cylinder's axis, with the carriages",
+    lambda damper_mass, carriage_mass: damper_mass + carriage_mass, source="this method", needs=("damper_mass", "carriage_mass"))
+
 motor_chapter = Chapter("Motor behind its flywheel",
     text="With linear slip the motor follows the load as a first-order lag, M_m + τ·dM_m/dt = M_f: a flywheel shields it only if τ is long compared "
         "with the time of a stroke.", needs=MOTOR, absent="not calculated: there is no drive train with a torque curve to use, or there are several")

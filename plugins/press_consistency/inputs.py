@@ -93,6 +93,9 @@ class PressConsistency(Inputs):
     damper_velocity: Annotated[float | None, Quantity("v_d", "m/s", "Speed at contact used in the dampers' calculation", gt=0)] = None
     contact_distance: Annotated[float | None,
         Quantity("d_c", "mm", "Distance before the ends of the travel at which the dampers are met; 0: only beyond them", ge=0)] = None
+    damper_mass: Annotated[float | None, Quantity("m_d", "kg", "Mass of the cylinder used in the dampers' calculation", gt=0)] = None
+    carriage_mass: Annotated[float | None,
+        Quantity("m_car", "kg", "Mass of the carriages, which move with the cylinder's axis, used in the dampers' calculation", ge=0)] = None
     damper_impacts: Annotated[float | None, Quantity("z_d", "1/h", "Impacts at one end of the travel used in the dampers' calculation", gt=0)] = None
 
     flywheel_torque: Annotated[Any | None,

@@ -29,5 +29,6 @@ PARTNERS = (
     Partner(key="timing", kinds=("cyclogram",), always=True, takes={
         "timing_slack": "best_margin", "shaft_torque_mean": "torque_mean", "lines_energy": "kinetic_energy_mean"}),
     Partner(key="damper", kinds=("damper",), takes={
-        "damper_velocity": "velocity", "contact_distance": "contact_distance", "damper_impacts": "impacts_per_hour"}),
+        "damper_velocity": "velocity", "contact_distance": "contact_distance", "damper_impacts": "impacts_per_hour",
+        "damper_mass": "mass", "carriage_mass": "carriage_mass"}),
 )  # fmt: skip

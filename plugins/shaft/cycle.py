@@ -17,6 +17,7 @@ Array = NDArray[Any]
 INSTANTS = 720  # of a cycle of up to two revolutions, beside both limits at each joint of a curve
 OF_TURN = INSTANTS // 2  # of each revolution of a longer cycle
 MOST_INSTANTS = 8 * INSTANTS  # of the longest: they fall on other places in each of its revolutions
+OF_OWN_TURN = 8  # of each revolution of the shaft itself
 PHASES = 60  # of a shaft that turns, at least, in which what comes again meets it
 COMPONENTS = ("force_y", "force_z", "axial_force", "torque", "couple_xy", "couple_xz")
 
@@ -349,13 +350,13 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
 
 
 def _count(revolutions: Sequence[float], turns: Array) -> int:
-    """How many even instants a cycle has: 360 of each revolution of its loads, up to the most.
+    """How many even instants a cycle has: 360 of each revolution of its loads, up to the most, and some of each of the shaft's own.
 
     In a long cycle the loads come again many times, and the shaft in as many phases: the number has no divisor in common with either that
-    would let the instants fall on few of them.
+    would let the instants fall on few of them, and the shaft turns far from once between two of them.
     """
     whole = {round(each) for each in (*revolutions, *np.unique(turns)) if each > 1}
-    count = int(np.clip(OF_TURN * max(revolutions), INSTANTS, MOST_INSTANTS))
+    count = int(max(np.clip(OF_TURN * max(revolutions), INSTANTS, MOST_INSTANTS), OF_OWN_TURN * turns.max()))
     while any(count // gcd(count, round(each)) < OF_TURN for each in revolutions) or any(
         count // gcd(count, each) < PHASES for each in whole
     ):

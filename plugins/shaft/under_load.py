@@ -172,12 +172,22 @@ class UnderLoad:
         for variants, block in self.blocks():
             own = {name: each[variants].T for name, each in factors.items()}
             sides = block.sides(block.body.x)
-            rows.append(_yielding(sides, own) | worst_points(sides, self.cycle.angle(variants), own))
+            cases = block.in_cases
+            every = [sides] if cases is None else [sides, cases.sides(block.body.x)]
+            rows.append(_yielding(every, own) | worst_points(sides, self.cycle.angle(variants), own))
         return {name: np.concatenate([each[name] for each in rows]) for name in rows[0]}
 
 
-def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
-    """The forces at the instant and on the side where the stress with the notch is greatest, (variants, places)."""
+def _yielding(every: list[Sides], own: dict[str, Array]) -> dict[str, Array]:
+    """The forces, of the run or a load case, where the stress with the notch is greatest, (variants, places)."""
+    (stress, run), *others = (_greatest_in_notch(sides, own) for sides in every)
+    for other, case in others:
+        run = {name: np.where(other > stress, case[name], each) for name, each in run.items()}
+    return run
+
+
+def _greatest_in_notch(sides: Sides, own: dict[str, Array]) -> tuple[Array, dict[str, Array]]:
+    """The greatest stress with the notch, with the forces at its instant and on its side, (variants, places) each."""
     forces = {"yield_axial": sides.axial_size, "yield_moment": sides.bending, "yield_torque": sides.torque_size}
     factors = (own[name][None, :, :, None] for name in ("area", "modulus", "k_f", "k_fs"))
     stress = formulas.yield_stress(*forces.values(), *factors)
@@ -185,4 +195,4 @@ def _yielding(sides: Sides, own: dict[str, Array]) -> dict[str, Array]:
     side, instant = np.unravel_index(np.argmax(flat.reshape(*flat.shape[:2], -1), axis=2), flat.shape[2:])
     place, variant = np.indices(flat.shape[:2])
     at = side, place, variant, instant
-    return {name: np.broadcast_to(each, stress.shape)[at].T for name, each in forces.items()}
+    return stress[at].T, {name: np.broadcast_to(each, stress.shape)[at].T for name, each in forces.items()}

@@ -44,6 +44,14 @@ def test_the_belt_is_as_long_as_a_string_around_the_pulleys(driver: float, apart
     assert hull_length(*radii, number(calc, "center_distance")) == pytest.approx(nearest / 1e3, rel=1e-8)
 
 
+def test_a_pulley_that_is_given_is_taken_and_turns_the_press_as_fast_as_it_does() -> None:
+    sized = train()
+    own = {"driver_diameter": 125, "driven_diameter": 368, "center_distance": 600}
+    calc = train(vbelt=own)
+    assert number(calc, "driven_diameter") == pytest.approx(0.368) != number(sized, "driven_diameter")
+    assert number(calc, "shaft_2_speed") == pytest.approx(number(calc, "motor_speed") * 125 / 368)
+
+
 def test_the_wrap_is_what_the_tangents_leave() -> None:
     calc = train()
     small, large, apart = 0.0625, number(calc, "driven_diameter") / 2, number(calc, "center_distance")

@@ -101,6 +101,12 @@ def verdicts(calculation: Calculation) -> dict[str, str]:
     return {check.id: check.status for check in checks.verdicts(calculation) if check.status != "not_checked"}
 
 
+@pytest.mark.parametrize(("mass", "status"), [(80, "warn"), (119.9, "warn"), (120, "pass")])
+def test_carriages_at_the_dampers_are_moved_by_the_drive_too(mass: float, status: str) -> None:
+    own = {"damper_mass": "80 kg", "carriage_mass": "40 kg", "cylinder_mass": f"{mass} kg"}
+    assert verdicts(consistency(example_keys() | own))["carriages"] == status
+
+
 PRINTED = {  # SI, of the derivation
     "step_room": (0.1008, 1e-9), "actual_rate": (5918.367 / 3600, 1e-6), "rate_error": (-0.0136, 1e-4),
     "crank_inertia_mean": (7.18859, 1e-5), "crank_inertia_max": (15.34397, 1e-5), "crank_inertia_max_at": (np.radians(328.928), 1e-4),

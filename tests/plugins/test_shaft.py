@@ -134,7 +134,9 @@ def test_a_load_that_turns_with_the_shaft_does_not_tire_it_one_against_it_does(s
 PEAK, ARM, SPAN = 3000.0, 0.105, 0.225  # N, and m from bearing A to the load and to bearing B
 
 
-@pytest.mark.parametrize(("again", "turns"), [(40, 387), (12, 115), (3, 29), (361, 2), (40, 721), (90, 1)])
+@pytest.mark.parametrize(
+    ("again", "turns"), [(40, 387), (12, 115), (3, 29), (361, 2), (40, 721), (90, 1), (1, 719), (1, 720), (1, 999)]
+)
 def test_a_load_that_comes_again_in_a_long_cycle_is_seen_at_its_peak_and_in_all_phases(again: int, turns: int) -> None:
     """A peak of a twentieth of its period; the amplitude is that of brute force over material points."""
     peak = Turned(lambda a: PEAK * np.cos(a * again / 2 + 0.3) ** 100, turns=2 * again)
@@ -278,6 +280,22 @@ def test_a_load_case_twists_the_shaft_by_its_torque_alone_where_nothing_bends_it
     )  # the thinnest section that it passes
     assert calc["yield_case"][0, 0] == "engagement of the clutch"
     assert number(calc, "fatigue_safety") == number(shaft(CRANKSHAFT, loads=loads), "fatigue_safety")
+
+
+def test_a_load_case_yields_in_a_notch_as_the_same_torque_of_the_run_does() -> None:
+    """Of the run where that is greater."""
+
+    def turned_by(torque: float, **more: Any) -> Calculation:
+        through = [
+            {"name": "gear", "position": 130, "torque": torque},
+            {"name": "driver", "position": 310, "torque": "balance"},
+        ]
+        return shaft(CRANKSHAFT, loads=through, **more)
+
+    case, run = turned_by(100, load_cases=[CASE | {"torque": 900}]), turned_by(900)
+    assert row(case, "place_yield_safety") == pytest.approx(row(run, "place_yield_safety"))
+    small = turned_by(900, load_cases=[CASE | {"torque": 100}])
+    assert row(small, "place_yield_safety") == pytest.approx(row(run, "place_yield_safety"))
 
 
 def test_what_bends_the_shaft_in_a_load_case_is_the_run_grown_with_its_torque() -> None:

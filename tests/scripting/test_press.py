@@ -76,6 +76,13 @@ def test_other_values_give_another_press_and_leave_the_first_as_it_is(press: dr.
     assert other.inputs["b.hard"].value is not None and other.inputs["b.hard"].value.value is True
 
 
+@pytest.mark.parametrize("one", [dr.QuantityValue(3, "m") / dr.QuantityValue(2, "m"), pint.Quantity(1.5, "")])
+def test_a_pure_number_with_its_unit_is_none_of_another_kind(press: dr.LoadedPress, one: object) -> None:
+    with pytest.raises(dr.ConfigError, match="is a pure number; a length is needed"):
+        press.with_values({"a.arm": one})
+    assert press.with_values({"a.teeth": dr.QuantityValue(24, "1")}).inputs["a.teeth"].value == 24
+
+
 def test_a_reference_is_written_over_and_may_be_given(press: dr.LoadedPress) -> None:
     other = press.with_values({"b.force": "3 kN", "a.arm": "${press.sheet.length} / 7"})
     assert [other.calculate()[name].moment.value for name in "ab"] == pytest.approx([200, 300])

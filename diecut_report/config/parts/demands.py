@@ -455,6 +455,11 @@ class Demands:
         mechanism, _, what = (getattr(join.keys, "moves", None) or "").partition(".")
         return what == "cylinder" and self.parts.mechanisms.get(mechanism) == "cylinder_drive"
 
+    def is_calculated(self, chain: Join) -> bool:
+        """Return whether a chain is calculated as a conveyor: one that says what of a mechanism it moves."""
+        mechanism, _, what = (chain.keys.moves or "").partition(".")
+        return self.is_rolling(chain) or (what == "conveyor" and mechanism in self.parts.mechanisms)
+
     def torques_of(self, shaft: MachineShaft) -> list[dict[str, Any]]:
         """Return all torques on a shaft but the one that balances them; none where its parts take none."""
         found = [torque for part in shaft.parts if (torque := self.torque_on(part))]

@@ -266,7 +266,9 @@ class Elements(ShaftElements):
         kind = self.parts.mechanisms.get(mechanism)
         if self.is_rolling(join):
             inputs |= {"acceleration": f"${{{mechanism}.acceleration}}", "velocity": f"${{{mechanism}.velocity}}",
-                       "moving_mass": {"value": f"${{{mechanism}.reduced_inertia}} / ${{{mechanism}.cylinder_radius}}**2",
+                       # with the unbalance, which counts most at the ends of the travel, where the acceleration is greatest
+                       "moving_mass": {"value": f"(${{{mechanism}.reduced_inertia}} + 2 * ${{{mechanism}.cylinder_radius}} * "
+                                                f"${{{mechanism}.static_unbalance}}) / ${{{mechanism}.cylinder_radius}}**2",
                                     "beyond": "the chains move the cylinder, not gripper bars with a sheet"},
                        "process_force": f"${{{mechanism}.cutting_moment}} / ${{{mechanism}.cylinder_radius}}"}  # fmt: skip
         elif kind is not None and what == "conveyor":
@@ -299,6 +301,7 @@ class Elements(ShaftElements):
             vbelt["service_factor"] = TypedNumber(f"{self._service_factor(train):g}", ("machine", typed[0]))
         more = (key for key in join.more if key != "power_per_belt")
         vbelt |= self._beside(vbelt, more, path, ("machine",), {"center_distance"})
+        vbelt["driven_diameter"] = TypedNumber(millimetres(keys.diameter_2), (*path, "diameters"))
         fills: dict[str, Any] = {"vbelt": vbelt, "gears": self._train_gears(join.driven[0].shaft.name)}
         if "power_per_belt" in join.more:
             fills["power_per_belt"] = TypedValue((*path, "power_per_belt"))

@@ -77,7 +77,7 @@ class ShaftElements(Masses, LoadCases):
         return join, [each for each in self._directions(part, cos(angle), sin(angle)) if abs(each[1]) > NOTHING]
 
     def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
-        """The pull of a chain on its sprocket, by the torque of the driving one; losses behind it count as if they always added."""
+        """The pull of a chain on its sprocket, by the torque of the driving one and with what it always pulls; losses behind it count in full."""
         join, shares = self._chain_shares(part)
         torque = None if join is None else self.torque_on(join.drivers[0])
         if join is None or torque is None:
@@ -85,21 +85,25 @@ class ShaftElements(Masses, LoadCases):
         pull = {key: value for key, value in torque.items() if key != "efficiency"}
         losses = prod(each.keys.efficiency for each in torque.get("efficiency", ()))
         for direction, share in shares:
-            constant = {"constant": self._pretension(join, share)} if "pretension" in join.more else {}
+            always = self._always_pulled(join, share)
+            constant = {"constant": always} if always else {}
             number = abs(pull["ratio"].number) * share / losses
             yield pull | {"name": f"{part.name}_{direction}", "ratio": Ratio(number, pull["ratio"].factors).text, "absolute": True,
                 "lever": f"${{drive_line.{join.name}_chain_travel}} / 1 rad"} | constant  # fmt: skip
 
     def _idle_chain_force(self, part: ShaftPart) -> dict[str, str]:
-        """The force of a chain that carries nothing on its sprocket: its pretension."""
+        """The force of a chain that carries nothing on its sprocket: what it always pulls."""
         join, shares = self._chain_shares(part)
-        if join is None or "pretension" not in join.more or self.torque_on(join.drivers[0]):
+        if join is None or self.torque_on(join.drivers[0]):
             return {}
-        return {f"force_{direction}": self._pretension(join, share) for direction, share in shares}
+        found = ((f"force_{direction}", self._always_pulled(join, share)) for direction, share in shares)
+        return {name: force for name, force in found if force}
 
-    @staticmethod
-    def _pretension(join: Join, share: float) -> str:
-        return f"2 * ${{{join.home}.pretension}} * {share:.12g}"
+    def _always_pulled(self, join: Join, share: float) -> str:
+        """The pull of both strands by pretension and, as far as the chain is calculated, by their sag; nothing where neither is known."""
+        tensions = [f"${{{join.home}.pretension}}"] if "pretension" in join.more else []
+        tensions += [f"${{{join.calculation}.sag_tension}}"] if self.is_calculated(join) else []
+        return f"2 * ({' + '.join(tensions)}) * {share:.12g}" if tensions else ""
 
     def _shaft(self, shaft: MachineShaft) -> None:
         home = shaft.calculation

@@ -10,7 +10,7 @@ import pytest
 from diecut_report.config.loader import examined
 from diecut_report.config.yaml import parse
 from diecut_report.results.warm_press import WarmPress
-from tests.config.parts.test_parts import DISCOVERY, FILE
+from tests.config.parts.test_parts import DISCOVERY, FILE, calculated
 
 TEXT = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
 CONVEYOR = "60x40 r1.4, 70x120 r2, 75x520 r1.4, 60x40"
@@ -81,7 +81,7 @@ def test_a_chain_between_two_shafts_loads_both() -> None:
     for shaft, part, sign in (("main", "pinion", 1), ("crank", "wheel", -1)):
         [force] = [row for row in made[f"shafts_{shaft}_loads"]["forces"] if row["name"] == f"{part}_y"]
         assert force["lever"] == "${drive_line.crank_drive_chain_travel} / 1 rad" and force["absolute"]
-        assert force["constant"].startswith("2 * ${drive_line.chains.") and float(
+        assert force["constant"].startswith("2 * (${drive_line.chains.") and float(
             force["constant"].rpartition("* ")[2]
         ) == pytest.approx(sign)
         load = next(row for row in made[f"shafts_{shaft}"]["loads"] if row["name"] == part)
@@ -89,6 +89,39 @@ def test_a_chain_between_two_shafts_loads_both() -> None:
     torque = next(row for row in made["shafts_main_loads"]["torques"] if row["name"] == "pinion")
     force = next(row for row in made["shafts_main_loads"]["forces"] if row["name"] == "pinion_y")
     assert (force["mechanism"], force["curve"]) == (torque["mechanism"], torque["curve"])
+
+
+def test_a_chain_pulls_its_sprockets_by_its_sag_too() -> None:
+    """That of the grippers moves the carriages of the cross; of one that is not calculated no sag is known."""
+    made, _ = read()
+    constants = {row["name"]: row["constant"] for row in made["shafts_far_loads"]["forces"]}
+    sag = "${chains_grippers.sag_tension}"
+    assert {name: text.startswith("2 * (${drive_line.chains.") and sag in text for name, text in constants.items()} == {
+        "left_y": True,
+        "right_y": True,
+    }
+    without, problems = read(("pretension: 1000 N, ", ""))
+    assert problems == [] and without["shafts_far_loads"]["forces"][0]["constant"].startswith(f"2 * ({sag}) * ")
+
+
+def test_the_chain_of_the_cylinder_moves_its_unbalance_too() -> None:
+    """What the joints bear is no less than what accelerates the cylinder, by the drive."""
+    [moved] = [
+        line for line in read()[0]["chains_cylinder"]["moving_mass"]["value"].split(" / ") if "static_unbalance" in line
+    ]
+    assert moved == "(${drive.reduced_inertia} + 2 * ${drive.cylinder_radius} * ${drive.static_unbalance})"
+    drive = calculated("shaft_body", "drive_line", "cylinder_sizing", "cylinder_drive").calculations["drive"]
+    radius, unbalance = drive["cylinder_radius"].item(), drive["static_unbalance"].item()
+    tension = (drive["reduced_inertia"].item() + 2 * radius * unbalance) / radius**2 * drive["acceleration_max"].item()
+    assert (
+        unbalance > 0
+        and tension >= max(abs(drive["inertia_moment_max"].item()), abs(drive["inertia_moment_min"].item())) / radius
+    )
+
+
+def test_the_drive_train_has_the_pulleys_of_the_machine() -> None:
+    vbelt = read()[0]["train"]["vbelt"]
+    assert vbelt["driver_diameter"]["value"] == "125 mm" and vbelt["driven_diameter"]["value"] == "375 mm"
 
 
 def test_what_chains_move_is_named() -> None:
