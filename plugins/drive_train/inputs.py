@@ -27,7 +27,7 @@ class VBelt(Block):
     section: Annotated[Section, Text("Section of the V-belt (ISO 4184)")] = "SPA"
     driver_diameter: Annotated[float, Quantity("d_1", "mm", "Datum diameter of the motor pulley, not less than the section's minimum", gt=0)]
     driven_diameter: Annotated[float | None,
-        Quantity("d_2", "mm", "Datum diameter of the driven pulley; default: the size of the R40 series for the output speed", gt=0)] = None
+        Quantity("d_2g", "mm", "Datum diameter of the driven pulley; default: the size of the R40 series for the output speed", gt=0)] = None
     center_distance: Annotated[float, Quantity("a_0", "mm", "Wanted centre distance of the shafts; it is corrected for a standard belt", gt=0)]
     efficiency: Annotated[float, Quantity("η_b", "1", "Efficiency of the V-belt", gt=0, le=1)] = 0.95
     groove_friction: Annotated[float,

@@ -49,7 +49,7 @@ CHECKS = (
         consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "
             "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only.", advise=("single_position",)),
     Check(id="carriages", check_class="strength", title="Mass of the carriages", demand="stopped_mass", limit="cylinder_mass", unit="kg",
-        severity="warn", tolerance=ROUNDING, only_with=("damper_mass", "carriage_mass", "cylinder_mass"), source="dynamics",
+        severity="warn", tolerance=ROUNDING, only_with=("damper_mass", "carriage_mass"), source="dynamics", presumed=True,
         demand_label="cylinder and carriages at the dampers", limit_label="in the drive",
         consequence="the carriages move with the cylinder's axis, but the forces of drive, chain, joints and shafts are calculated without them: "
             "give the drive a cylinder_mass of at least {stopped_mass:up}."),

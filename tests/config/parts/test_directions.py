@@ -23,6 +23,7 @@ KINDS = (
     "shaft_body",
     "drive_line",
     "shaft_loads",
+    "roller_chain",
     "drive_train",
 )
 GENEVA = "geneva: [180, 240], conveyor: [180, 520], far: [2180.254, 520]"
