@@ -140,7 +140,7 @@ def test_who_accepts_a_chain_without_a_rating_is_said_at_it() -> None:
 # What is not known of a torque.
 
 TWO_SECTORS = (
-    ("- {gear: sector, at: 105, hub: 100, key: 90, key_count: 2, mass: 18 kg}",
+    ("- {gear: sector, at: 105, hub: 100, key: 100, key_count: 2, mass: 18 kg}",
      "- {gear: sector, at: 95, hub: 60, key: 50, key_count: 2, mass: 18 kg}\n"
      "      - {gear: sector2, at: 156, hub: 41, key: 40, key_count: 2, mass: 18 kg}"),
     ("of: drive.rocker, at: 215,", "of: drive.rocker, at: 227,"),
