@@ -253,6 +253,13 @@ class CurveHandle:
         return self.domain.joints[:, 1:-1] / self.domain.period
 
 
+@dataclass(frozen=True)
+class TakenOfMachines(TakenWhole):
+    """Be something of a calculated mechanism that an input of another one takes whole."""
+
+    calculation: Calculation
+
+
 def of_rows(value: Any, rows: Array, count: int) -> Any:
     """Return what an input or a result of so many variants is of machines each of which is one of them."""
     match value:
@@ -268,7 +275,7 @@ def of_rows(value: Any, rows: Array, count: int) -> Any:
             return replace(value, value=of_rows(own, rows, count))
         case CurveHandle() if value.calculation.count > 1:
             return value.of_rows(rows)
-        case TakenWhole(calculation=calc) if calc.count > 1:
+        case TakenOfMachines(calculation=calc) if calc.count > 1:
             return replace(value, calculation=calc.of_rows(rows))
     return value
 

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation, CurveHandle
+from diecut_report.machine.calculation import Calculation, CurveHandle, TakenOfMachines
 from diecut_report.mechanics.timing.intervals import TOUCHING, Interval, Intervals, complement, merged
-from diecut_report.mechanism.curve_inputs import TakenWhole
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps import PREFIX, Abscissa, Cell, ListedColumn, Listing, Phase
@@ -26,13 +25,12 @@ from diecut_report.text.phrases import Phrase, phrase
 
 
 @dataclass(frozen=True)
-class PhaseHandle(TakenWhole):
+class PhaseHandle(TakenOfMachines):
     """Hand a phase of one mechanism to the input of another, as ``GivenPhase``.
 
     ``text`` is how a config refers to it, ``row`` the variant that is meant where none is named.
     """
 
-    calculation: Calculation
     name: str
     text: str = ""
     row: int = 0
@@ -196,13 +194,12 @@ def _text(cell: Cell, head: ListedColumn) -> str:
 
 
 @dataclass(frozen=True)
-class MechanismHandle(TakenWhole):
+class MechanismHandle(TakenOfMachines):
     """Hand a whole mechanism to the input of another, as ``GivenMechanism``: what it may be asked for is told there.
 
     Of many variants it is that of one, ``row``; ``numbers`` and ``curve`` are those of all.
     """
 
-    calculation: Calculation
     name: str
     is_mechanism: bool = True
     row: int = 0

@@ -23,12 +23,13 @@ from diecut_report.machine.calculation import (
     CurveHandle,
     Impossible,
     ImpossibleTogether,
+    TakenOfMachines,
     Unproven,
     of_rows,
 )
 from diecut_report.machine.mechanism import PhaseHandle
 from diecut_report.machine.steps.run import calculate
-from diecut_report.mechanism.curve_inputs import InOtherUnit, TakenWhole
+from diecut_report.mechanism.curve_inputs import InOtherUnit
 from diecut_report.mechanism.inputs import Block, Extremes, Quantity, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI
@@ -297,7 +298,7 @@ class _Rows(Run):
                 yield from self._columns(own)
             case CurveHandle(calculation=calc, rows=rows) if calc.count > 1:
                 yield self.alike.get(id(calc), every) if rows is None else rows
-            case TakenWhole(calculation=calc) if calc.count > 1:
+            case TakenOfMachines(calculation=calc) if calc.count > 1:
                 yield self.alike.get(id(calc), every)
             case Block():  # a list within the parts of a list: not looked into
                 yield every
