@@ -9,7 +9,11 @@ EXAMPLE = ExampleBlock(
     {
         "cylinder_radius": Wired("${<cylinder_sizing>.radius}", otherwise="105.5 mm"),
         "cylinder_length": Wired("${<cylinder_sizing>.generatrix_length}", otherwise="${press.sheet.length}"),
-        "cylinder_mass": Wired("${<cylinder_sizing>.mass}", otherwise="104 kg"),
+        # the carriages move with the axis
+        "cylinder_mass": Wired(
+            "${<cylinder_sizing>.mass} + ${<damper>.carriage_mass}",
+            otherwise=Wired("${<cylinder_sizing>.mass}", otherwise="104 kg"),
+        ),
         "cylinder_inertia": Wired("${<cylinder_sizing>.inertia}", otherwise="0.74 kg*m**2"),
         "static_unbalance": Wired("${<cylinder_sizing>.static_unbalance}", otherwise="2 kg*m"),
         "cutting_arc_fraction": Wired("${<cylinder_sizing>.cutting_arc_fraction}", otherwise=0.71),
