@@ -201,8 +201,14 @@ class CurveHandle:
         return self.calculation.domains[self.calculation.axis[self.curve_id]]
 
     def of_rows(self, rows: Array) -> CurveHandle:
-        """Return the curve of machines each of which is one of these."""
+        """Return the curve of machines each of which is one of these; that of a single machine is the same for all."""
+        if self.calculation.count == 1:
+            return self
         return replace(self, rows=rows if self.rows is None else self.rows[rows])
+
+    def of_machine(self, row: int) -> CurveHandle:
+        """Return the curve of one of the machines."""
+        return self.of_rows(np.array([row]))
 
     @property
     def abscissa(self) -> Step:
@@ -219,14 +225,14 @@ class CurveHandle:
         return found if self.rows is None else found[self.rows]
 
     @property
-    def turns(self) -> float:
-        of = unit(self.abscissa.unit)
-        return float(np.max(self.domain.period)) / (2 * np.pi) if of.si == "rad" else 1.0
+    def turns(self) -> Array:
+        period = self.domain.period
+        return period / (2 * np.pi) if unit(self.abscissa.unit).si == "rad" else np.ones_like(period)
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         calc, domain, axis = self.calculation, self._own_domain, self.calculation.axis[self.curve_id]
         if self.rows is not None:
-            rows = self.rows if rows is None else self.rows[rows]
+            rows = np.broadcast_to(self.rows if rows is None else self.rows[rows], len(share))
         places = share, middle, rows
         if calc.count == 1:
             x, mid, inside = domain.placed(*places)
@@ -273,7 +279,7 @@ def of_rows(value: Any, rows: Array, count: int) -> Any:
             return replace(value, low=of_rows(low, rows, count), high=of_rows(high, rows, count))
         case InOtherUnit(value=own):
             return replace(value, value=of_rows(own, rows, count))
-        case CurveHandle() if value.calculation.count > 1:
+        case CurveHandle():
             return value.of_rows(rows)
         case TakenOfMachines(calculation=calc) if calc.count > 1:
             return replace(value, calculation=calc.of_rows(rows))

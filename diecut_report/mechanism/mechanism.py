@@ -11,13 +11,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from diecut_report.formulas import Array
 from diecut_report.mechanism.chapters import Chapter, in_unit
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit
 from diecut_report.mechanism.figures import Figure, Spectrum
 from diecut_report.mechanism.inputs import Inputs, fields, keys, list_inputs, rules
-from diecut_report.mechanism.names import Curve, Misdeclared, When, placed
+from diecut_report.mechanism.names import Misdeclared, When, placed
 from diecut_report.mechanism.steps import Fact, Phase, SilentStep, Step, names_ahead, read
 from diecut_report.mechanism.steps.naming import with_texts
 from diecut_report.quantities.units import unit
@@ -32,41 +31,6 @@ class Machines(tuple[Any, ...]):
     __slots__ = ()
 
 
-@dataclass(frozen=True)
-class RowsOf:
-    """Hold a curve of other machines: which one of them for each, the only one for all."""
-
-    curve: Curve
-    rows: Array
-
-    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        own = self.rows if rows is None else self.rows[rows]
-        return self.curve.values(share, middle, np.broadcast_to(own, len(share)))
-
-    @property
-    def breakpoints(self) -> Array:
-        return self._own(self.curve.breakpoints)
-
-    @property
-    def joints(self) -> Array:
-        return self._own(self.curve.joints)
-
-    @property
-    def cycle(self) -> str:
-        return self.curve.cycle
-
-    @property
-    def rate(self) -> Array:
-        return self._own(self.curve.rate)
-
-    @property
-    def turns(self) -> float:
-        return self.curve.turns
-
-    def _own(self, table: Array) -> Array:
-        return table[self.rows] if len(table) > 1 else table
-
-
 def of_machine(value: Any, row: int, count: int) -> Any:
     """Return what a value of many machines is of one of them: arrays with one row, texts as they are."""
     match value:
@@ -79,9 +43,7 @@ def of_machine(value: Any, row: int, count: int) -> Any:
             return value[row : row + 1]
         case tuple():
             return tuple(of_machine(each, row, count) for each in value)
-    if hasattr(value, "of_machine"):
-        return value.of_machine(row)
-    return RowsOf(value, np.array([row])) if hasattr(value, "breakpoints") else value
+    return value.of_machine(row) if hasattr(value, "of_machine") else value
 
 
 # An example of a kind: values with which it can be calculated, and how it is wired to mechanisms of other kinds.

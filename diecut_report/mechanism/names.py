@@ -122,8 +122,8 @@ class Curve(Protocol):
         """Return how often the curve comes again, as a speed (one turn each time), shape (variants, 1); 0 where nothing tells it."""
 
     @property
-    def turns(self) -> float:
-        """Return the revolutions of its period, of all variants the most; 1 where it does not run over an angle."""
+    def turns(self) -> Array:
+        """Return the revolutions of its period, shape (variants, 1); 1 where it does not run over an angle."""
 
 
 @dataclass(frozen=True)

@@ -253,7 +253,7 @@ class Typesetter:
 
     def __init__(self) -> None:
         self.outline = cache(_outline)
-        self.mathml = cache(partial(_mathml, LatexToMathML()))
+        self.mathml = cache(partial(_mathml, LatexToMathML(), self.outline))
 
     def measure(self, latex: str) -> float:
         """The width of a formula in em."""
@@ -269,9 +269,9 @@ def _outline(latex: str, *, display: bool = True) -> Outline:
     return Outline(svg, *map(float, found.groups()))
 
 
-def _mathml(core: LatexToMathML, latex: str, *, display: bool = True) -> str:
+def _mathml(core: LatexToMathML, outline: Callable[..., Outline], latex: str, *, display: bool = True) -> str:
     """A formula as MathML."""
     if len(latex) > SHALLOW:
         # this refuses what is nested so deep that the other library would overrun its stack
-        _outline(latex, display=display)
+        outline(latex, display=display)
     return core.convert_with_local_state(latex, displaystyle=display)

@@ -103,7 +103,7 @@ def _taken(mechanisms: Mapping[str, MechanismRecord], assumed: list[str]) -> Ite
 
 @contextmanager
 def settings_of_its_own() -> Iterator[None]:
-    """Import Matplotlib with nothing but the settings that it comes with; the user's backend, of a notebook too, stays for what he draws.
+    """Import Matplotlib with nothing but the settings that it comes with; the user's backend, of a notebook too, stays for what they draw.
 
     It looks for a ``matplotlibrc`` in the current folder before all others, so that is the folder of its own meanwhile. Where it cannot write
     into the user's folders, it would tell that at each start, and leave one among the temporary files: the command line ends without its help.

@@ -230,9 +230,9 @@ def scalar(given: Any, path: str) -> float | int | bool | str:
     raise ConfigError(Problem(message, path=path))
 
 
-def _pure(number: Any) -> str:
-    """A pure number with its unit, so that a key of another kind refuses it; a bare one would count in the unit of the key."""
-    return f"{Decimal(repr(number)) * 100:f} %"
+def _pure(value: float | int | bool | str) -> bool | str:
+    """A pure number with its unit, so that a key of another kind refuses it: a bare one would count in the unit of the key; texts and flags stay."""
+    return value if isinstance(value, bool | str) else f"{Decimal(repr(value)) * 100:f} %"
 
 
 def _is_array(given: Any) -> bool:

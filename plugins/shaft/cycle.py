@@ -257,8 +257,13 @@ def cycle(
         *(columns(each, count, variants, 0.0) for each in (pressure, helix, mesh)),
     )
     joints = _unlike(np.broadcast_to(curve.joints, (variants, curve.joints.shape[1])) for curve in curves.values())
+    revolutions = (
+        np.concatenate([np.broadcast_to(each.turns, (variants, 1)) for each in curves.values()], axis=1)
+        if curves
+        else None
+    )
     share, middle, edges = _instants(
-        joints, variants, _count([each.turns for each in curves.values()], turns) if curves else 1
+        joints, np.ones(variants, dtype=int) if revolutions is None else _counts(revolutions, turns)
     )
     return Cycle(
         tuple(names), columns(places, count, variants), columns(offset, count, variants, 0.0), columns(mass, count, variants, 0.0),
@@ -349,27 +354,37 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
             )
 
 
-def _count(revolutions: Sequence[float], turns: Array) -> int:
+def _counts(revolutions: Array, turns: Array) -> Array:
+    """How many even instants the cycle of each variant has, (variants,), by the revolutions of its loads (variants, curves) and of the shaft."""
+    # of a variant that cannot be nothing is known, and a part of a revolution is one
+    whole = np.maximum(np.nan_to_num(np.concatenate([turns, revolutions], axis=1), nan=1.0).round(), 1).astype(int)
+    unlike, which = np.unique(whole, axis=0, return_inverse=True)
+    found: Array = np.array([_count(*each) for each in unlike.tolist()])[which.reshape(-1)]
+    return found
+
+
+def _count(turns: int, *revolutions: int) -> int:
     """How many even instants a cycle has: 360 of each revolution of its loads, up to the most, and some of each of the shaft's own.
 
     In a long cycle the loads come again many times, and the shaft in as many phases: the number has no divisor in common with either that
     would let the instants fall on few of them, and the shaft turns far from once between two of them.
     """
-    whole = {round(each) for each in (*revolutions, *np.unique(turns)) if each > 1}
-    count = int(max(np.clip(OF_TURN * max(revolutions), INSTANTS, MOST_INSTANTS), OF_OWN_TURN * turns.max()))
-    while any(count // gcd(count, round(each)) < OF_TURN for each in revolutions) or any(
-        count // gcd(count, each) < PHASES for each in whole
-    ):
+    count = max(INSTANTS, min(OF_TURN * max(revolutions), MOST_INSTANTS), OF_OWN_TURN * turns)
+    while any(count // gcd(count, each) < OF_TURN for each in revolutions) or count // gcd(count, turns) < PHASES:
         count += 1
     return count
 
 
-def _instants(joints: list[Array], variants: int, count: int) -> tuple[Array, Array, Array]:
-    """Shares of the cycle with the middles of their pieces (variants, instants), and the pieces' edges (variants, edges)."""
+def _instants(joints: list[Array], counts: Array) -> tuple[Array, Array, Array]:
+    """Shares of the cycle with the middles of their pieces (variants, instants), and the pieces' edges (variants, edges).
+
+    A variant with fewer instants than others has its first ones again, so that it is as it is alone.
+    """
+    variants = len(counts)
     ends = np.zeros((variants, 1)), np.ones((variants, 1))
     edges = np.sort(np.nan_to_num(np.concatenate([*ends, *joints], axis=1)), axis=1)
     middles = (edges[:, :-1] + edges[:, 1:]) / 2
-    even = np.tile(np.arange(count) / count, (variants, 1))
+    even = np.arange(counts.max()) % counts[:, None] / counts[:, None]
     piece = np.minimum(np.sum(edges[:, :, None] <= even[:, None], axis=1) - 1, middles.shape[1] - 1)
     if not joints:
         return even, np.take_along_axis(middles, piece, axis=1), edges

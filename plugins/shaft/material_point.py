@@ -13,9 +13,7 @@ from diecut_report.plugins.shaft.statics import Sides
 
 Array = NDArray[Any]
 DIRECTIONS = np.arange(120) * np.pi / 60  # of the material point that are looked at first
-ROUGHLY = (
-    5  # every so many of them all instants are looked at: between two, their extremes tell the others' but for 1 %
-)
+ROUGHLY = 5  # at every so many of them all instants are looked at: their extremes tell those between but for 1 %
 NEAR = np.linspace(-1, 1, 21)  # of a step between directions, at each turn of the bounded search
 NARROWED = 0.1
 TOGETHER = 48  # places at once, so that what is computed stays in the processor's cache

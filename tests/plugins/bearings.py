@@ -28,7 +28,7 @@ class Over:
     cycle: str = "crank_angle"
     curve_id: str = "curve"
     rate: Array = field(default_factory=lambda: np.zeros((1, 1)))
-    turns: float = 1.0
+    turns: Array = field(default_factory=lambda: np.ones((1, 1)))
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         """Values at shares of the cycle; of a place where the curve jumps on the side of the middle."""

@@ -320,7 +320,8 @@ def test_a_flywheel_as_heavy_as_is_advised_is_enough_and_a_lighter_one_is_not(ch
     assert verdicts(consistency(keys, flywheel_inertia=f"{0.99 * needed} kg*m**2"))[check] != "pass"
 
 
-@pytest.mark.parametrize("check", few(["motor_thermal", "motor_peak"], keep=lambda check: False))
+@pytest.mark.nightly
+@pytest.mark.parametrize("check", ["motor_thermal", "motor_peak"])
 def test_a_motor_of_the_slip_or_of_the_power_that_is_advised_is_enough(check: str) -> None:
     keys = example_keys() | HOT[check]
     message = message_of(check, keys)

@@ -110,7 +110,7 @@ class Turned:
     breakpoints = joints = np.empty((1, 0))
 
     def __init__(self, function: Any, turns: float = 1) -> None:
-        self.function, self.turns = function, turns
+        self.function, self.turns = function, np.full((1, 1), turns)
 
     def values(self, share: Any, middle: Any, rows: Any) -> Any:
         """Return the force at shares of the cycle."""

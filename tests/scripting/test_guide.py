@@ -53,7 +53,9 @@ def test_the_notebooks_are_kept_without_outputs_and_the_page_names_each() -> Non
 
 def test_the_notebook_runs_and_shows_what_it_promises() -> None:
     notebook = read(FIRST)
-    own = "import matplotlib.pyplot as plt; assert 'inline' in plt.get_backend()  # what the reader draws himself is still shown"
+    own = (
+        "import matplotlib.pyplot as plt; assert 'inline' in plt.get_backend()  # what the reader draws is still shown"
+    )
     notebook.cells.append(nbformat.v4.new_code_cell(own))
     made: Any = NotebookClient(
         notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(EXAMPLES)}}

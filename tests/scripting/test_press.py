@@ -83,6 +83,15 @@ def test_a_pure_number_with_its_unit_is_none_of_another_kind(press: dr.LoadedPre
     assert press.with_values({"a.teeth": dr.QuantityValue(24, "1")}).inputs["a.teeth"].value == 24
 
 
+def test_the_value_of_an_input_may_be_given_again(press: dr.LoadedPress) -> None:
+    """Of any kind: numbers with and without a unit, counts, texts and flags."""
+    given = {each.path: each.value for each in press.inputs if each.path.startswith("a.")}
+    kinds = {type(each.value) for each in given.values() if isinstance(each, dr.QuantityValue)}
+    assert {bool, str, float} <= kinds
+    again = press.with_values({path: each for path, each in given.items() if each is not None})
+    assert {path: again.inputs[path].value for path in given} == given
+
+
 def test_a_reference_is_written_over_and_may_be_given(press: dr.LoadedPress) -> None:
     other = press.with_values({"b.force": "3 kN", "a.arm": "${press.sheet.length} / 7"})
     assert [other.calculate()[name].moment.value for name in "ab"] == pytest.approx([200, 300])

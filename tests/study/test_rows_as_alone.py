@@ -11,14 +11,28 @@ from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.inputs import design_input, given_numbers
 from diecut_report.errors import UserError
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.press import Press
 from diecut_report.study.definition.base_inputs import find_input
+from diecut_report.study.execution import press_batch
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 from tests.configs import DISCOVERY, EXAMPLES, saved
 
-PLATEN, KNIFE = (
-    next(path for path in EXAMPLES if path.stem == stem) for stem in ("platen_press_zppt30", "circular_knife")
+PLATEN, KNIFE, MENDED = (
+    next(path for path in EXAMPLES if path.stem == stem)
+    for stem in ("platen_press_zppt30", "circular_knife", "flat_cylinder_press_mended")
 )
+SHAFT = """
+  bent:
+    kind: shaft
+    sections: [{length: 500 mm, diameter: 40 mm}]
+    bearing_a: 50 mm
+    bearing_b: 450 mm
+    tensile_strength: 900 MPa
+    yield_strength: 650 MPa
+    loads: [{name: knife, position: 250 mm, force_y: "${knife.force}"}]
+"""
 
 
 def rows(config: Config, path: str, *values: float) -> Rows:
@@ -190,3 +204,46 @@ def test_rows_of_a_plugin_with_faults_in_its_formulas_are_conditional(tmp_path: 
     design = next(each for each in given_numbers(config) if each.asked.instance == names[0])
     found = calculate_rows(config, {design.asked: np.array([design.present, design.present])}, 2)
     assert found.verdict.tolist() == ["conditional", "conditional"]
+
+
+def test_a_mechanism_that_is_calculated_once_for_those_that_are_the_same_to_it_gives_what_each_would(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A grid of two numbers of two mechanisms: the drive sees two unlike machines of eight. Curves too."""
+    config = Press.read(MENDED, DISCOVERY).config
+    first, last = np.meshgrid([20e3, 30e3], [0.15, 0.2, 0.25, 0.3], indexing="ij")
+    varied = {"drive.cutting_force_per_length": first.ravel(), "clutch.shoe_friction": last.ravel()}
+    given = {find_input(config, f"mechanisms.{path}"): values for path, values in varied.items()}
+    curves = ["drive.crank_torque", "timing.main_shaft_torque", "crankshaft.reaction_b", "drive.crank_angle"]
+    counts: list[int] = []
+
+    def calculated(*asked: object) -> Calculation:
+        counts.append(asked[2] if isinstance(asked[2], int) else 0)
+        return calculate(*asked)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(press_batch, "calculate", calculated)
+    shared = calculate_rows(config, given, 8, curves)
+    assert not shared.slow and set(counts) == {2, 8}
+    monkeypatch.setattr(press_batch, "MOSTLY", 0.0)
+    whole = calculate_rows(config, given, 8, curves)
+    assert shared.columns.keys() == whole.columns.keys()
+    for name, column in shared.columns.items():
+        for value, other in zip(column, whole.columns[name], strict=True):
+            if isinstance(value, str | None):
+                assert value == other, name
+            else:
+                flat = name == "timing.clearance_angle"  # the place of an extreme of a curve that is flat there
+                np.testing.assert_allclose(value, other, rtol=1e-5 if flat else 1e-9, atol=1e-12, err_msg=name)
+    assert shared.verdict.tolist() == whole.verdict.tolist() and shared.governing.tolist() == whole.governing.tolist()
+
+
+def test_shafts_that_turn_unlike_often_in_a_cycle_are_as_each_alone(tmp_path: Path) -> None:
+    """Each has so many instants of its cycle as alone; loads are those of a curve."""
+    config = Press.read(saved(tmp_path, KNIFE.read_text("utf-8") + SHAFT), DISCOVERY).config
+    turns = 1, 100, 720
+    found = rows(config, "bent.turns_per_cycle", *turns)
+    for row, count in enumerate(turns):
+        alone = rows(config, "bent.turns_per_cycle", count)
+        for name in ("fatigue_safety", "deflection_max", "yield_safety", "reaction_b_max"):
+            assert found.columns[f"bent.{name}"][row] == pytest.approx(alone.columns[f"bent.{name}"][0], rel=1e-12)
+    assert len(set(found.columns["bent.fatigue_safety"])) == 3

@@ -183,6 +183,7 @@ def test_curves_of_unlike_lengths_are_as_they_were(tmp_path: Path) -> None:
         ({"variant": [0], "status": ["pass"], MASS: ["heavy"]}, "cylinder.mass cannot hold"),
         ({"variant": [0], "status": ["pass"], MASS: [1.0, 2.0]}, "2 values for 1 variants"),
         ({"variant": [0], "status": ["pass"], "strange": [1.0]}, "strange"),
+        ({"variant": [0], MASS: [1.0]}, "needs its status"),
     ],
 )
 def test_part_of_another_shape_is_refused(tmp_path: Path, columns: dict[str, Any], words: str) -> None:

@@ -258,12 +258,11 @@ class Elements(ShaftElements):
 
     def _chain(self, join: Join) -> None:
         keys: ChainKeys = join.keys
-        mechanism, _, what = (keys.moves or "").partition(".")
+        mechanism = (keys.moves or "").partition(".")[0]
         inputs: dict[str, Any] = {
             "chain": keys.chain, "use": "conveyor", "strands": len(keys.sprockets), "teeth_1": f"${{{join.home}.teeth_1}}",
             "teeth_2": f"${{{join.home}.teeth_2}}", "links": f"${{{join.home}.links}}",
         }  # fmt: skip
-        kind = self.parts.mechanisms.get(mechanism)
         if self.is_rolling(join):
             inputs |= {"acceleration": f"${{{mechanism}.acceleration}}", "velocity": f"${{{mechanism}.velocity}}",
                        # with the unbalance, which counts most at the ends of the travel, where the acceleration is greatest
@@ -271,7 +270,7 @@ class Elements(ShaftElements):
                                                 f"${{{mechanism}.static_unbalance}}) / ${{{mechanism}.cylinder_radius}}**2",
                                     "beyond": "the chains move the cylinder, not gripper bars with a sheet"},
                        "process_force": f"${{{mechanism}.cutting_moment}} / ${{{mechanism}.cylinder_radius}}"}  # fmt: skip
-        elif kind is not None and what == "conveyor":
+        elif self.is_calculated(join):
             inputs |= {
                 "acceleration": f"${{{mechanism}.sheet_acceleration}}",
                 "velocity": f"${{{mechanism}.sheet_velocity}}",

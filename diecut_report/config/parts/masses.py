@@ -132,11 +132,9 @@ class Masses(Demands):
     def has_no_inertia(self, part: ShaftPart) -> bool:
         """Return whether a part has a mass on a shaft that swings or turns in steps, and no inertia follows from its dimensions or is typed."""
         has_mass_alone = {"mass", "inertia"} & set(part.more) == {"mass"}
-        is_steady, is_known = (
-            part.shaft.name in self.parts.ratios,
-            wheel_section(self.parts, part) or self._disc_radius(part),
-        )
-        return has_mass_alone and not is_steady and not is_known
+        if part.shaft.name in self.parts.ratios or not has_mass_alone:
+            return False
+        return wheel_section(self.parts, part) is None and self._disc_radius(part) is None
 
     def full_mass(self, part: ShaftPart) -> float | None:
         """Return the mass of the full steel body of a part's dimensions, kg; None where these are not known.

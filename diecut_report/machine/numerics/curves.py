@@ -114,7 +114,7 @@ class SampledCurve:
     joints = breakpoints
     cycle = "list"  # of values, over whatever takes it
     rate = np.zeros((1, 1))  # which nothing tells
-    turns = 1.0
+    turns = np.ones((1, 1))
 
     def gain(self, rows: Array | None) -> Array:
         """Return nothing: the curve closes."""

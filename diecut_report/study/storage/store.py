@@ -28,6 +28,7 @@ from diecut_report.study.storage import state
 from diecut_report.study.storage.description import VARIANT, Description, as_data, changes, libraries
 from diecut_report.study.storage.parts import (
     MISSING,
+    STATUS,
     CheckedPart,
     PartChecks,
     Values,
@@ -175,6 +176,8 @@ class Store:
         """
         if not self._lock.is_locked:
             raise RuntimeError("the folder is not locked for writing")
+        if missing := {VARIANT.name, STATUS} - columns.keys():
+            raise ValueError(f"a part needs its {' and '.join(sorted(missing))}")
         table = table_of(self.schema, columns, len(columns[VARIANT.name]))
         with in_words(self._folder):
             self._folder.mkdir(exist_ok=True)
