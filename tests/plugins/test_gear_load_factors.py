@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
@@ -119,6 +119,7 @@ def by_hand(calc: Calculation, keys: dict[str, Any]) -> tuple[float, float, floa
 def test_the_factors_are_those_of_a_second_calculation(changes: dict[str, Any]) -> None:
     keys = GRADED | changes
     calc = pair(keys)
+    assume("dynamic_factor" in calc.values)  # beyond method C it is asked for, as a test below holds
     found = [number(calc, name) for name in (*FACTORS, "transverse_load_root")]
     assert found == pytest.approx(by_hand(calc, keys), rel=1e-9)
 

@@ -12,7 +12,7 @@ from tests.plugins.shafts import CRANKSHAFT, shaft
 
 def test_the_edges_of_each_machines_cycle_ascend_by_themselves() -> None:
     joints = [np.array([[0.7], [0.1]]), np.array([[0.2], [0.4]])]
-    share, middle, edges = _instants(joints, 2, 4)
+    share, middle, edges = _instants(joints, np.array([4, 4]))
     assert edges == pytest.approx(np.array([[0, 0.2, 0.7, 1], [0, 0.1, 0.4, 1]]))
     assert share.shape == middle.shape
 

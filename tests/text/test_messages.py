@@ -58,7 +58,7 @@ OF_PROGRAM = {  # faults of the program itself, or of a plugin's code, which nob
     "mechanism/steps/computed.py": 1, "mechanism/steps/from_curve.py": 1,
     "mechanics/motion_laws.py": 1, "mechanics/timing/intervals.py": 2, "report/mathematics.py": 1,
     "report/figures/drawing.py": 1, "report/pages/pdf_math.py": 1, "report/profile_files.py": 1, "report/equations.py": 1,
-    "study/definition/sample.py": 1, "study/storage/parts.py": 3, "study/storage/store.py": 2,
+    "study/definition/sample.py": 1, "study/storage/parts.py": 3, "study/storage/store.py": 3,
 }  # fmt: skip
 
 
