@@ -19,7 +19,7 @@ GREATEST = "that with the greatest torque"
 
 def called(index: int, names: Sequence[str] = ()) -> str:
     """Return what a load case is called, by its place among their names; 0 is the run."""
-    return CASE_NAMES[names[index - 1]] if index else RUN
+    return CASE_NAMES[names[index - 1].partition("_")[0]] if index else RUN  # numbered where there are several
 
 
 def governing_case(run: NDArray[Any], names: Sequence[str] = (), torques: NDArray[Any] | None = None) -> list[str]:

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 
-from diecut_report.api import Block, Chapter, Check, ExampleBlock, Inputs, Mechanism, Quantity, Text, as_number, bind
+from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, as_number, bind
 
 # fmt: off
 
@@ -35,23 +35,14 @@ class ShaftBody(Inputs):
 
     discs: Annotated[list[Disc], Text("Sections of the shaft and parts on it, as discs")]
     bodies: Annotated[list[KnownMass], Text("Parts of known mass")] = []  # noqa: RUF012
-    flywheel_inertia: Annotated[float | None, Quantity("J_F", "kg*m**2", "Moment of inertia of the flywheel on the shaft", gt=0)] = None
-    required_inertia: Annotated[float | None, Quantity("J_req", "kg*m**2", "Moment of inertia for which the drive train is calculated", gt=0)] = None
 
 
 OF_DISC = {key: f"discs.{key}" for key in ("diameter", "bore", "width", "density", "fill")}
 BODIES = ("bodies",)
-FLYWHEEL = ("flywheel_inertia", "required_inertia")
 
 body = Chapter("Mass and moment of inertia")
 body.require("bored", bind(lambda bore, diameter: bore < diameter, bore="discs.bore", diameter="discs.diameter"), key="discs.{index}.bore",
     message="is not smaller than the diameter of {part}; take a smaller bore")
-body.require("flywheel",
-    lambda flywheel_inertia, required_inertia:
-        (flywheel_inertia <= 2 * required_inertia) & (required_inertia <= 2 * flywheel_inertia),
-    key="flywheel_inertia", needs=FLYWHEEL,
-    message="is less than half or more than twice the {required_inertia} for which the drive train is calculated; mount another flywheel, or "
-        "change speed_fluctuation of the drive train")
 body.value("disc_mass", "m_k", "kg", "Mass of the section or part",
     bind(lambda fill, density, diameter, bore, width: fill * density * as_number(np.pi) / 4 * (diameter ** 2 - bore ** 2) * width, **OF_DISC),
     source="geometry", output=False, named_by="discs.name")
@@ -69,9 +60,6 @@ body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its p
     lambda discs_inertia, bodies_inertia: discs_inertia + bodies_inertia, needs=BODIES)
 body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its parts", lambda discs_inertia: discs_inertia, lacks=BODIES)
 
-body.value("accepted_inertia", "[J_F]", "kg*m**2", "Inertia that the motor still runs up as calculated",
-    lambda required_inertia: 1.1 * required_inertia, source="this method", output=False, needs=FLYWHEEL)
-
 EXAMPLE = ExampleBlock("shaft_body", {
     "discs": [{"name": "journal", "diameter": "50 mm", "width": "40 mm"}, {"name": "seat", "diameter": "60 mm", "width": "320 mm"},
               {"name": "wheel", "diameter": "348 mm", "bore": "60 mm", "width": "50 mm"}],
@@ -87,14 +75,5 @@ MECHANISM = Mechanism(
     example=EXAMPLE,
     chapters=(body,),
     key_results=("mass", "inertia"),
-    checks=(
-        Check(id="flywheel", check_class="function", title="Inertia of the flywheel", demand="required_inertia", limit="flywheel_inertia",
-            unit="kg*m**2", only_with=("required_inertia",), demand_label="required by the drive train", limit_label="on the shaft", source="energy",
-            consequence="the speed swings further than the drive train is calculated for, and the motor takes more of the peak."),
-        Check(id="heavy_flywheel", check_class="function", severity="warn", title="Flywheel that the drive train runs up",
-            demand="flywheel_inertia", limit="accepted_inertia", unit="kg*m**2", only_with=("required_inertia",), source="this method",
-            demand_label="on the shaft", limit_label="1.1 of that of the drive train",
-            consequence="the motor runs up longer, and a stop takes longer, than the drive train is calculated for."),
-    ),
     assumptions=("Keyways, teeth and fillets are neglected; a part is a disc without hub and recesses, of which the given fraction is there.",),
 )

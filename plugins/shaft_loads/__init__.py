@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, ExampleBlock, Mechanism, Wired
-from diecut_report.plugins.shaft_loads.curves import angle, balance, curves_of, joints, values
+from diecut_report.plugins.shaft_loads.curves import angle, balance, curves_of, hub, joints, values
 from diecut_report.plugins.shaft_loads.inputs import KEYS, ShaftLoads
 
 # fmt: off
@@ -22,6 +22,8 @@ cycle.computed_curve("torque", "T", "N*m", "Torque on the shaft", values("torque
     "from the curve of the mechanism, at the angle of the main shaft", joints=joints, named_by="torques.name", needs=("torques",))
 cycle.computed_curve("balance", "T_0", "N*m", "Torque that balances the others", balance, OBJECT, "main_angle", "the negative sum of the others",
     joints=joints, needs=("torques",), source="statics")
+cycle.computed_curve("hub", "T_h", "N*m", "Torque through the joint of the part with the shaft", hub, OBJECT, "main_angle",
+    "the torque at its teeth or chain, with that of its own inertia", joints=joints, named_by="hubs.name", needs=("hubs",), source="statics")
 cycle.computed_curve("force", "F", "N", "Force on the shaft", values("forces"), OBJECT, "main_angle",
     "from the curve of the mechanism, at the angle of the main shaft", joints=joints, named_by="forces.name", needs=("forces",))
 cycle.computed_curve("shaft_angle", "θ", "deg", "Angle of the shaft", angle, OBJECT, "main_angle",

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
+from math import isclose
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from diecut_report.mechanics.timing.shaft_curves import PIECES, PieceRows, Shaft
 
 Array = NDArray[Any]
 TURN = 2 * np.pi
+BALANCE = "balance"  # the torque that balances the others, by its name among them
 MAIN = (
     "main"  # what runs over the angle of the main shaft itself, for as many of its revolutions as it takes to come back
 )
@@ -84,6 +86,9 @@ class Loads:
     """Hold the loads of a shaft."""
 
     torques: tuple[CurveLoad, ...]
+    hubs: tuple[
+        tuple[int | None, int], ...
+    ]  # places of the torques at their teeth and of their inertia; None of the balance
     forces: tuple[CurveLoad, ...]
     motion: CurveLoad | None
     period: Array
@@ -118,6 +123,14 @@ def balance(loads: Loads, x: Array, middle: Array, rows: Array | None) -> Array:
     return found
 
 
+def hub(index: int, loads: Loads, x: Array, middle: Array, rows: Array | None) -> Array:
+    """Return the torque that passes the joint of a part with its shaft."""
+    joined, own = loads.hubs[index]
+    torque = values("torques")
+    at_teeth = balance(loads, x, middle, rows) if joined is None else torque(joined, loads, x, middle, rows)
+    return at_teeth + torque(own, loads, x, middle, rows)
+
+
 def angle(loads: Loads, x: Array, middle: Array, rows: Array | None) -> Array:
     """Return the angle of the shaft."""
     assert loads.motion is not None  # the step needs it
@@ -133,7 +146,23 @@ def curves_of(given: Mapping[str, Any]) -> Loads:
         for of in ("torques", "forces")
     )
     motion = _load(given, "motion", None, count) if "motion.mechanism" in given else None
-    return Loads(torques, forces, motion, TURN * np.reshape(turns, (-1, 1)).astype(float))
+    return Loads(torques, _hubs(given), forces, motion, TURN * np.reshape(turns, (-1, 1)).astype(float))
+
+
+def _hubs(given: Mapping[str, Any]) -> tuple[tuple[int | None, int], ...]:
+    known = {name: place for place, name in enumerate(given.get("torques.name", ()))}
+
+    def place(key: str, index: int) -> int:
+        if (name := given[f"hubs.{key}"][index]) not in known:
+            template = "is “{name}”, which is not the name of a torque; there are {known}"
+            raise Refusal(f"hubs.{index}.{key}", Phrase(template, name=name, known=", ".join(known) or "none"))
+        return known[name]
+
+    every = range(len(given.get("hubs.name", ())))
+    return tuple(
+        (None if given["hubs.torque"][index] == BALANCE else place("torque", index), place("inertia", index))
+        for index in every
+    )
 
 
 def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> CurveLoad:
@@ -153,6 +182,11 @@ def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> C
     curve = mechanism.curve(name)
     if curve is None:
         template = "is “{curve}”, but {mechanism} has no curve of this name"
+        raise Refusal(f"{home}.curve", Phrase(template, curve=name, mechanism=mechanism.name))
+    if not isclose(mechanism.period(), mechanism.cycle()):
+        template = (
+            "is “{curve}”, which is over a part of the cycle of {mechanism} alone; a load is needed over all of it"
+        )
         raise Refusal(f"{home}.curve", Phrase(template, curve=name, mechanism=mechanism.name))
     inertia, lever = number("inertia", 0.0), number("lever", 0.0)
     factor = number("ratio", 1.0) * np.where(inertia > 0, inertia, 1.0) / np.where(lever > 0, lever, 1.0)

@@ -42,6 +42,14 @@ class Force(LoadCurve):
     constant: Annotated[float, Quantity("F_0", "N", "Force that acts all the time")] = 0
 
 
+class Hub(Block):
+    """A part whose joint with its shaft passes the torque at its teeth or chain less what its own inertia takes."""
+
+    name: Annotated[str, Text("Name of the part")]
+    torque: Annotated[str, Text("Name of the torque at its teeth or chain, or balance for that which balances the others")]
+    inertia: Annotated[str, Text("Name of the torque of its inertia")]
+
+
 class Motion(Block):
     """How the shaft swings or turns in steps."""
 
@@ -57,6 +65,7 @@ class ShaftLoads(Inputs):
 
     main_turns: Annotated[int, Quantity("N_m", "1", "Revolutions of the main shaft in the cycle", ge=1, le=1000, integer=True)]
     torques: Annotated[list[Torque], Text("Torques on the parts")] = []  # noqa: RUF012
+    hubs: Annotated[list[Hub], Text("Parts whose inertia counts at their own place")] = []  # noqa: RUF012
     forces: Annotated[list[Force], Text("Forces on the parts")] = []  # noqa: RUF012
     motion: Annotated[Motion | None, Text("How the shaft swings or turns in steps; without it, it turns steadily")] = None
     n_points: Annotated[int, POINTS] = 720
@@ -66,6 +75,7 @@ OF_CURVE = ("name", "mechanism", "curve", "turns_per_sheet", "offset", "ratio")
 KEYS = (
     "main_turns",
     *(f"torques.{key}" for key in (*OF_CURVE, "inertia", "efficiency", "lag")),
+    *(f"hubs.{key}" for key in ("name", "torque", "inertia")),
     *(f"forces.{key}" for key in (*OF_CURVE, "inertia", "lever", "absolute", "constant")),
     *(f"motion.{key}" for key in OF_CURVE[1:]),
 )

@@ -16,7 +16,6 @@ OF_PARTS = {"drive_line", "machine_inertia", "shaft_body", "shaft_loads"}
 """Kinds that the parts of a machine are calculated by: no example in configs/ has parts, so none has these."""
 
 BODY: Data = {
-    "flywheel_inertia": "3 kg*m**2", "required_inertia": "2.7 kg*m**2",
     "discs": [
         {"name": "journal", "diameter": "50 mm", "width": "40 mm"},
         {"name": "tube", "diameter": "60 mm", "bore": "59.7 mm", "width": "0.3 m"},  # a little more bore, and nothing is left

@@ -175,7 +175,7 @@ class Demands:
         if moving is None or not moving.port.advance:
             return Fraction(0)
         steps = self.parts.reader.typed_number(moving.mechanism, moving.port.advance)
-        found = Fraction(1, max(int(USUAL_STEPS if steps is None else steps), 1))
+        found = self.line(moving.mechanism)[0] / max(int(USUAL_STEPS if steps is None else steps), 1)
         for join in self.chain_from(moving.part.shaft.name, shaft):
             found *= Fraction(abs(join.ratio)).limit_denominator(10_000)
         return found
@@ -329,7 +329,25 @@ class Demands:
             not block.get("friction")
             and timed == {part.port[0] for part in taking if part.port and self._is_behind(part.shaft)}
             and all(self._is_behind(part.shaft) for part in taking)
+            and not self._takes_more()
         )
+
+    def _takes_more(self) -> bool:
+        """Whether a shaft behind the main one, or one that a mechanism moves, takes a torque that no mechanism knows of."""
+        anchor = self.parts.shafts[self.parts.keys.anchor]
+        after = [
+            shaft for shaft in self.parts.shafts.values() if shaft is not anchor and not self._drives(shaft, anchor)
+        ]
+        joins = [join for join in self.parts.joins if join.drivers[0].shaft in after]
+        return (
+            any("torque" in part.more for shaft in after for part in shaft.parts)
+            or any(not join.driven and not getattr(join.keys, "moves", None) for join in joins)
+            or any(self._is_unknown(part) for shaft in after if self._is_behind(shaft) for part in shaft.parts)
+        )
+
+    def _drives(self, shaft: MachineShaft, other: MachineShaft) -> bool:
+        """Whether a shaft drives another one, maybe by others between."""
+        return bool(self.chain_from(shaft.name, other.name))
 
     def _is_behind(self, shaft: MachineShaft | None) -> bool:
         """Whether the main shaft drives a shaft, or is it."""
@@ -398,6 +416,8 @@ class Demands:
         if isinstance(join.keys, ChainKeys) and (join.keys.moves or not join.is_between_shafts):
             return self._moved(join, share)
         driven = join.driven[0].shaft
+        if any(each is not join and {*each.driven} & {*driven.parts} for each in self.parts.joins):
+            return None  # how joins side by side share a torque is not known
         if driven.name == self.parts.keys.anchor and (timing := self.named("cyclogram")):
             if not self.is_whole:
                 return None
@@ -407,6 +427,8 @@ class Demands:
                 "turns_per_sheet": "main",
                 "ratio": Ratio(-1),
             }
+        elif any(self._is_unknown(part) for part in driven.parts if part not in join.driven):
+            return None
         else:
             demand = self._added([each for each in self.torques_of(driven) if "lag" not in each])
         if demand is None:
@@ -458,6 +480,8 @@ class Demands:
     def is_calculated(self, chain: Join) -> bool:
         """Return whether a chain is calculated as a conveyor: one that says what of a mechanism it moves."""
         mechanism, _, what = (chain.keys.moves or "").partition(".")
+        if chain.driven and self._drives_a_torque(chain.driven[0].shaft):
+            return False
         return self.is_rolling(chain) or (what == "conveyor" and mechanism in self.parts.mechanisms)
 
     def torques_of(self, shaft: MachineShaft) -> list[dict[str, Any]]:
@@ -485,11 +509,42 @@ class Demands:
             return None
         factors = tuple(each.ratio_text for each in self.chain_from(wheel[0].shaft.name, join.drivers[0].shaft.name))
         found = self._source("", mechanism, wheel[1].torque, -1)
-        far = dict.fromkeys(part.shaft.body for part in join.driven)
-        inertia = " + ".join(
-            [self.conveyor_inertia(join), *(f"${{{each}.inertia}} * {join.ratio_text}**2" for each in far)]
+        if join.driven and self._drives_a_torque(join.driven[0].shaft):
+            return None
+        far = (
+            [f"({self.inertia_behind(join.driven[0].shaft, has_losses=True)}) * {join.ratio_text}**2"]
+            if join.driven
+            else []
         )
+        inertia = " + ".join([self.conveyor_inertia(join), *far])
         return found | {"ratio": Ratio(-1 / share, factors), "inertia": inertia}
+
+    def _drives_a_torque(self, start: MachineShaft) -> bool:
+        """Whether a shaft, or one that it drives, takes a torque beside those of inertias."""
+        driven = (
+            shaft for shaft in self.parts.shafts.values() if shaft is start or self.chain_from(start.name, shaft.name)
+        )
+        return any(part.port or "torque" in part.more for shaft in driven for part in shaft.parts)
+
+    def inertia_behind(self, start: MachineShaft, *chains: Join, has_losses: bool = False) -> str:
+        """Return the inertia of a shaft with all that it drives, and with what these chains move, at that shaft.
+
+        With the losses of the meshes between it counts for the torque that drives it; where it brakes that is safe.
+        """
+        group = [self.parts.shafts[name] for name in self.parts.shafts if name in self.parts.group(start.name)]
+        terms = []
+        for shaft in (each for each in group if each.has_body):
+            way = self.chain_from(start.name, shaft.name)
+            if shaft is start or way:
+                meshes = [join for join in way if isinstance(join.keys, MeshKeys) and has_losses]
+                lost = [f"{1 / prod(join.keys.efficiency for join in meshes):.12g}"] if meshes else []
+                terms.append(
+                    " * ".join([f"${{{shaft.body}.inertia}}", *(f"{join.ratio_text}**2" for join in way), *lost])
+                )
+        for chain in chains:
+            way = self.chain_from(start.name, chain.drivers[0].shaft.name)
+            terms.append(" * ".join([self.conveyor_inertia(chain), *(f"{join.ratio_text}**2" for join in way)]))
+        return " + ".join(terms)
 
     @staticmethod
     def conveyor_inertia(chain: Join) -> str:

@@ -9,6 +9,7 @@ from diecut_report.config.parts.demands import Element, Ratio, TypedNumber, Type
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
 from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, chain_pitch
 from diecut_report.config.parts.shafts import ShaftElements
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.standards import standard_table
 
 GEAR_LIMITS = ("sigma_h_lim", "sigma_f_lim")
@@ -24,12 +25,22 @@ SERVICE_FACTORS = {"light": ((1.1, 1.1, 1.2), (1.1, 1.2, 1.3)), "medium": ((1.1,
 HIGH_RUN_UP = 1.8  # times the motor's rated torque
 
 
+OF_TRAIN = frozenset({"vbelt", "motor_speed"})
+"""Keys that a drive train needs and a machine's belt gives."""
+
+
+def given_by_parts(mechanism: Mechanism) -> frozenset[str]:
+    """Return the keys of a mechanism that the parts of a machine may give it."""
+    ports = frozenset(key for port in mechanism.ports for key in port.fills)
+    return ports | OF_TRAIN if mechanism.kind == "drive_train" else ports
+
+
 class Elements(ShaftElements):
     """Make all calculations of the parts."""
 
     def all(self) -> list[Element]:
         """Return all calculations."""
-        for shaft in (each for each in self.parts.shafts.values() if each.is_rated and each.sections):
+        for shaft in (each for each in self.parts.shafts.values() if each.has_body):
             self._body(shaft)
             self._loads(shaft)
             self._shaft(shaft)
@@ -72,7 +83,7 @@ class Elements(ShaftElements):
             return f"${{{part.shaft.body}.inertia}}" if meshes and self.is_made(part.shaft.body) else None
         if what == "driven_inertia":
             rolled = self._chains_that_move(part, "cylinder")
-            return " + ".join(self._inertia_behind(each.driven[0].shaft, *rolled) for each in meshes) or None
+            return " + ".join(self.inertia_behind(each.driven[0].shaft, *rolled) for each in meshes) or None
         if what == "efficiency":
             toothed = [join for join in way if isinstance(join.keys, MeshKeys)]
             return self.efficiency(toothed) if toothed else None
@@ -81,7 +92,7 @@ class Elements(ShaftElements):
         if what == "pinion_radius" and meshes:
             return self._pitch_radius(meshes[0], meshes[0].driven[0])
         if what == "inertia":
-            return self._inertia_behind(part.shaft, *chains) if chains else None
+            return self.inertia_behind(part.shaft, *chains) if chains else None
         if what == "teeth" and chains:
             return TypedNumber(str(chains[0].keys.teeth_1), (*chains[0].path, "teeth"))
         if what == "pitch" and chains:
@@ -93,26 +104,13 @@ class Elements(ShaftElements):
         name = f"{part.port[0]}.{what}" if part.port else ""
         return [join for join in self.parts.joins if isinstance(join.keys, ChainKeys) and join.keys.moves == name]
 
-    def _inertia_behind(self, start: MachineShaft, *chains: Join) -> str:
-        """The inertia of a shaft with all that it drives, and with what these chains move, at that shaft."""
-        group = [self.parts.shafts[name] for name in self.parts.shafts if name in self.parts.group(start.name)]
-        terms = []
-        for shaft in group:
-            way = self.chain_from(start.name, shaft.name)
-            if (shaft is start or way) and self.is_made(shaft.body):
-                terms.append(" * ".join([f"${{{shaft.body}.inertia}}", *(f"{join.ratio_text}**2" for join in way)]))
-        for chain in chains:
-            way = self.chain_from(start.name, chain.drivers[0].shaft.name)
-            terms.append(" * ".join([self.conveyor_inertia(chain), *(f"{join.ratio_text}**2" for join in way)]))
-        return " + ".join(terms)
-
     def _drive_line(self) -> None:
         bodies = {each.name for each in self.made if each.kind == "shaft_body"}
         speeds: list[dict[str, Any]] = []
         turning, moving = list[dict[str, Any]](), list[dict[str, Any]]()
         for name, shaft in self.parts.shafts.items():
             home = shaft.body
-            mass = {"name": name, "mass": f"${{{home}.mass}}"}
+            mass = {"name": name, "mass": self.whole(shaft, "mass")}
             if name in self.parts.ratios:
                 ratio = Ratio(
                     1,
@@ -122,7 +120,13 @@ class Elements(ShaftElements):
                     ),
                 )
                 turning += (
-                    [mass | {"ratio": f"${{drive_line.shafts.{len(speeds)}.ratio}}", "inertia": f"${{{home}.inertia}}"}]
+                    [
+                        mass
+                        | {
+                            "ratio": f"${{drive_line.shafts.{len(speeds)}.ratio}}",
+                            "inertia": self.whole(shaft, "inertia"),
+                        }
+                    ]
                     if home in bodies
                     else []
                 )
@@ -263,6 +267,8 @@ class Elements(ShaftElements):
             "chain": keys.chain, "use": "conveyor", "strands": len(keys.sprockets), "teeth_1": f"${{{join.home}.teeth_1}}",
             "teeth_2": f"${{{join.home}.teeth_2}}", "links": f"${{{join.home}.links}}",
         }  # fmt: skip
+        if not self.is_calculated(join):
+            return
         if self.is_rolling(join):
             inputs |= {"acceleration": f"${{{mechanism}.acceleration}}", "velocity": f"${{{mechanism}.velocity}}",
                        # with the unbalance, which counts most at the ends of the travel, where the acceleration is greatest
@@ -270,15 +276,13 @@ class Elements(ShaftElements):
                                                 f"${{{mechanism}.static_unbalance}}) / ${{{mechanism}.cylinder_radius}}**2",
                                     "beyond": "the chains move the cylinder, not gripper bars with a sheet"},
                        "process_force": f"${{{mechanism}.cutting_moment}} / ${{{mechanism}.cylinder_radius}}"}  # fmt: skip
-        elif self.is_calculated(join):
+        else:
             inputs |= {
                 "acceleration": f"${{{mechanism}.sheet_acceleration}}",
                 "velocity": f"${{{mechanism}.sheet_velocity}}",
             }
             if join.driven:
-                inputs["driven_inertia"] = f"${{{join.driven[0].shaft.body}.inertia}}"
-        else:
-            return
+                inputs["driven_inertia"] = self.inertia_behind(join.driven[0].shaft, has_losses=True)
         typed = self._beside(inputs, join.more, join.path, (*join.path, "moves"), OF_CHAIN)
         inputs |= typed | {key: f"${{{join.home}.{key}}}" for key in ("moving_mass", "pretension") if key in typed}
         self._add(join.calculation, "roller_chain", inputs, join.path)
@@ -302,6 +306,7 @@ class Elements(ShaftElements):
         vbelt |= self._beside(vbelt, more, path, ("machine",), {"center_distance"})
         vbelt["driven_diameter"] = TypedNumber(millimetres(keys.diameter_2), (*path, "diameters"))
         fills: dict[str, Any] = {"vbelt": vbelt, "gears": self._train_gears(join.driven[0].shaft.name)}
+        fills |= self._shafts_inertia(join.driven[0].shaft)
         if "power_per_belt" in join.more:
             fills["power_per_belt"] = TypedValue((*path, "power_per_belt"))
         motor = join.drivers[0].shaft
@@ -310,6 +315,21 @@ class Elements(ShaftElements):
             if motor.keys.motor.radial_force is not None:
                 fills["allowable_radial_force"] = TypedValue((*motor.path, "motor", "radial_force"))
         self.fills.setdefault(train, {}).update(fills)
+
+    def _shafts_inertia(self, shaft: MachineShaft) -> dict[str, Any]:
+        """What the motor runs up beside the flywheel and the lines: the flywheel's shaft, and the steadily turning ones behind it."""
+        flywheel = self.flywheel(shaft)
+        is_typed = flywheel is not None and "inertia" in flywheel.more and not self.is_sized(flywheel)
+        mounted = {"mounted_inertia": TypedValue((*flywheel.path, "inertia"))} if flywheel and is_typed else {}
+        if flywheel and is_typed and flywheel.keys.outside is not None:
+            mounted["mounted_diameter"] = TypedValue((*flywheel.path, "outside"))
+        behind = [name for name in self.parts.ratios if self.chain_from(shaft.name, name)]
+        own = self.inertia_without(shaft, {flywheel.name} if flywheel else ()) if self.is_made(shaft.body) else ""
+        found = {
+            "shaft_2_inertia": own,
+            "output_shafts_inertia": self.inertia_of_steady(self.parts.keys.anchor, behind),
+        }
+        return mounted | {key: text for key, text in found.items() if text}
 
     def _service_factor(self, train: str) -> float:
         """The factor on the motor's power for the belts: the greater one where the run-up torque is not a number of the file."""

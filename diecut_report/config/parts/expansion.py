@@ -132,7 +132,6 @@ class _Writer:
 
     def __init__(self, tree: Tree, parts: MachineParts, elements: Elements) -> None:
         self.tree, self.parts, self.elements = tree, parts, elements
-        self.names = {each.name for each in elements.made}
 
     def written(self, made: list[Element]) -> Tree:
         """Return the file with the calculations beside its mechanisms."""
@@ -217,7 +216,7 @@ class _Writer:
             case ["shafts", shaft, "speed"] if shaft in self.parts.ratios:
                 return self.elements.speed(shaft)
             case ["shafts", name, "inertia" | "mass" as what] if name in shafts:
-                return f"${{{shafts[name].body}.{what}}}"
+                return self.elements.whole(shafts[name], what)
             case ["shafts", name, "inertia_total"] if name in shafts:
                 return self._total_inertia(shafts[name])
             case ["shafts", name, "bearings", bearing, what] if name in shafts:
@@ -234,11 +233,9 @@ class _Writer:
 
     def _total_inertia(self, shaft: MachineShaft) -> str:
         """Everything that turns with a shaft, referred to it."""
-        own = self.parts.ratios.get(shaft.name)
-        if own is None:
-            return f"${{{shaft.body}.inertia}}"
-        every = ((self.parts.shafts[name].body, abs(ratio / own)) for name, ratio in self.parts.ratios.items())
-        return " + ".join(f"${{{body}.inertia}} * {ratio:.15g}**2" for body, ratio in every if body in self.names)
+        if shaft.name not in self.parts.ratios:
+            return self.elements.whole(shaft, "inertia")
+        return self.elements.inertia_of_steady(shaft.name, self.parts.ratios)
 
     def _of_bearing(self, shaft: MachineShaft, name: str, what: str) -> str | None:
         for part, end in zip(shaft.bearings, "ab", strict=False):

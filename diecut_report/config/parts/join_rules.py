@@ -19,6 +19,7 @@ from diecut_report.config.parts.model import (
 from diecut_report.quantities.units import UnitError, parse_quantity
 
 RATIO = 1e-3  # relative, by which ratios may differ
+SAME_RATIO = 1e-9  # relative: rounding
 FURTHEST_RATE = 0.02  # relative, by which the press may be slower or faster than is asked for
 BELT_CENTER = 0.02  # relative, by which tensioning moves an axis
 WIDTH_TO_DIAMETER = 1.2  # of the pinion
@@ -38,7 +39,6 @@ def driven(parts: MachineParts) -> Iterator[Finding]:
     """A shaft is driven by one other, or by a mechanism: joins name the driving part first, from the motor on and from each mechanism on."""
     for shaft in parts.shafts.values():
         joins = [each for each in parts.joins if any(part.shaft is shaft for part in each.driven)]
-        others = {each.drivers[0].shaft.name: each for each in joins}
         port = parts.motion_port(shaft)
         if port is not None and port.shaft is shaft and joins:
             template = "drives {shaft}, which {mechanism} moves; name the part of {shaft} first, as the driving one"
@@ -50,10 +50,15 @@ def driven(parts: MachineParts) -> Iterator[Finding]:
             yield finding(
                 parts, "driven", "error", shaft.path, template, port.path, mechanism=port.keys.of, other=port.shaft.name
             )
-        elif len(others) > 1:
-            one, other = list(others.values())[:2]
+        elif len({each.drivers[0].shaft.name for each in joins}) > 1:
+            one, other = list({each.drivers[0].shaft.name: each for each in joins}.values())[:2]
             template = "drives {shaft}, which {other} drives too; name the driving part of each join first"
             yield finding(parts, "driven", "error", other.path, template, one.path, shaft=shaft.name, other=one.name)
+        elif unlike := next((each for each in joins[1:] if abs(each.ratio / joins[0].ratio - 1) > SAME_RATIO), None):
+            one = joins[0]
+            template = "turns {shaft} {there} times as fast as {driver}, but {other} {ratio} times, so that neither can turn; give both one ratio"
+            yield finding(parts, "driven", "error", unlike.path, template, one.path, shaft=shaft.name, driver=one.drivers[0].shaft.name,
+                there=f"{unlike.ratio:.6g}", other=one.name, ratio=f"{one.ratio:.6g}")  # fmt: skip
         elif joins and _drives_itself(parts, shaft):
             template = "closes a ring of shafts that drive each other; take one of its joins away"
             yield finding(parts, "driven", "error", joins[0].path, template)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import Any
 
 from diecut_report.config.parts.demands import Demands
@@ -16,22 +17,25 @@ FREQUENT = "1e6"  # engagements of a clutch, whose number is not known: they cou
 
 @dataclass(frozen=True, eq=False)
 class Passing:
-    """Hold a torque that passes a shaft in a load case, from one part to another one, as an expression."""
+    """Hold a torque that passes a shaft in a load case, as an expression: from a part to another one, or sprockets side by side in even shares."""
 
     case: str
     torque: str
-    enters: ShaftPart
-    leaves: ShaftPart
+    enters: Sequence[ShaftPart]
+    leaves: Sequence[ShaftPart]
 
     @property
     def shaft(self) -> MachineShaft:
         """Return the shaft that it passes."""
-        return self.enters.shaft
+        return self.enters[0].shaft
 
-    def ends_at(self, part: ShaftPart) -> bool:
-        """Return whether it passes what joins a part to its shaft, or one that rides on it."""
-        riders = (part.name, *(each.name for each in part.shaft.parts if each.keys.rides_on == part.name))
-        return part.shaft is self.shaft and bool({self.enters.name, self.leaves.name} & {*riders})
+    def at(self, part: ShaftPart) -> str:
+        """Return what of it passes the joint of a part, or of one that rides on it, with the shaft; empty for nothing."""
+        riders = {part.name, *(each.name for each in part.shaft.parts if each.keys.rides_on == part.name)}
+        sides = [side for side in (self.enters, self.leaves) if riders & {each.name for each in side}]
+        if part.shaft is not self.shaft or not sides:
+            return ""
+        return self.torque if len(sides[0]) == 1 else f"({self.torque}) / {len(sides[0])}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,20 +79,24 @@ class LoadCases(Demands):
         flywheel = next((part for part in shaft.parts if part.kind == "flywheel"), None)
         if driving is not None and flywheel is None:
             yield from self._towards_flywheel(driving, torque)
-        if enters := flywheel or (driving.driven[0] if driving else None):
+        if enters := (flywheel,) if flywheel else driving.driven if driving else ():
             yield from self._onward(enters, torque)
 
-    def _onward(self, enters: ShaftPart, torque: str) -> Iterator[Passing | Meshing]:
+    def _onward(self, enters: Sequence[ShaftPart], torque: str) -> Iterator[Passing | Meshing]:
         """The torque on a shaft from the part that drives it, and on the steadily turning shafts that it drives."""
-        driving = self.parts.driving_join(enters.shaft)
-        driven = (enters, *(driving.driven if driving else ()))
-        for part in (each for each in enters.shaft.parts if each not in driven and self.torque_on(each)):
-            yield Passing("engage", torque, enters, part)
-            for join in (each for each in self.parts.joins_of(part) if part in each.drivers):
+        shaft = enters[0].shaft
+        driving = self.parts.driving_join(shaft)
+        driven = (*enters, *(driving.driven if driving else ()))
+        for part in (each for each in shaft.parts if each not in driven and self.torque_on(each)):
+            joins = [each for each in self.parts.joins_of(part) if part in each.drivers]
+            beside = joins[0].drivers if joins else (part,)
+            if part is beside[0]:
+                yield Passing("engage", torque, enters, beside)
+            for join in (each for each in joins if part is each.drivers[0]):
                 if join.driven and join.driven[0].shaft.name in self.parts.ratios:
                     if isinstance(join.keys, MeshKeys):
                         yield Meshing("engage", torque, join)
-                    yield from self._onward(join.driven[0], f"{torque} / {join.ratio_text}")
+                    yield from self._onward(join.driven, f"{torque} / {join.ratio_text}")
 
     def _towards_flywheel(self, join: Join, torque: str) -> Iterator[Passing | Meshing]:
         """The torque on the driving side of a join and of all before it, up to the shaft with the flywheel."""
@@ -98,13 +106,13 @@ class LoadCases(Demands):
                 yield Meshing("engage", torque, join)
             else:
                 torque = f"{torque} * {join.ratio_text}"
-            driver = join.drivers[0]
-            flywheel = next((part for part in driver.shaft.parts if part.kind == "flywheel"), None)
-            before = self.parts.driving_join(driver.shaft)
-            source = flywheel or (before.driven[0] if before else None)
-            if source is None:
+            shaft = join.drivers[0].shaft
+            flywheel = next((part for part in shaft.parts if part.kind == "flywheel"), None)
+            before = self.parts.driving_join(shaft)
+            source = (flywheel,) if flywheel else before.driven if before else ()
+            if not source:
                 return
-            yield Passing("engage", torque, source, driver)
+            yield Passing("engage", torque, source, join.drivers)
             if flywheel is not None or before is None:
                 return
             join = before
@@ -118,22 +126,26 @@ class LoadCases(Demands):
             flywheel = next((part for part in pulley.shaft.parts if part.kind == "flywheel"), None)
             if flywheel is not None and join.drivers[0].shaft.keys.motor is not None:
                 torque = f"${{{train}.vbelt_peak_torque}} * ${{drive_line.{join.name}_belt_ratio}}"
-                yield Passing("start", torque, pulley, flywheel)
+                yield Passing("start", torque, (pulley,), (flywheel,))
 
     # As inputs.
 
     def cases_of_shaft(self, shaft: MachineShaft) -> list[dict[str, Any]]:
-        """Return the load cases of a shaft as its calculation takes them: numbered where a torque may leave at several parts."""
+        """Return the load cases of a shaft as its calculation takes them: numbered where a torque may pass between several parts.
+
+        Between sprockets side by side all of it may pass one of them, which is safe.
+        """
         found: list[dict[str, Any]] = []
         for each in self.passing(shaft):
-            count = sum(row["name"].startswith(each.case) for row in found)
-            name = f"{each.case}_{count + 1}" if count else each.case
-            found.append({"name": name, "torque": each.torque, "enters": each.enters.name, "leaves": each.leaves.name})
+            for enters, leaves in product(each.enters, each.leaves):
+                count = sum(row["name"].startswith(each.case) for row in found)
+                name = f"{each.case}_{count + 1}" if count else each.case
+                found.append({"name": name, "torque": each.torque, "enters": enters.name, "leaves": leaves.name})
         return found
 
     def cases_of_key(self, part: ShaftPart) -> list[dict[str, Any]]:
         """Return the load cases of the key of a part."""
-        own = dict.fromkeys((each.case, each.torque) for each in self.passing(part.shaft) if each.ends_at(part))
+        own = dict.fromkeys((each.case, torque) for each in self.passing(part.shaft) if (torque := each.at(part)))
         return [{"name": case, "torque": torque} for case, torque in own]
 
     def cases_of_mesh(self, join: Join, pinion: ShaftPart) -> list[dict[str, Any]]:

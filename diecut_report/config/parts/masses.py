@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from math import pi, prod
 from typing import Any
 
@@ -30,19 +30,60 @@ class Masses(Demands):
         for part in shaft.parts:
             if disc := self._disc(part):
                 discs.append({"name": part.name} | disc)
-            elif "mass" in part.more or part.kind == "geneva_wheel" or "inertia" in part.more:
+            elif self._is_body(part):
                 bodies.append({"name": part.name} | self._mass(part, f"{home}.bodies.{len(bodies)}.mass"))
-        inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {}) | self._mounted(shaft)
+        inputs: dict[str, Any] = {"discs": discs} | ({"bodies": bodies} if bodies else {})
         self._add(home, "shaft_body", inputs, shaft.path)
 
-    def _mounted(self, shaft: MachineShaft) -> dict[str, Any]:
-        """The flywheel's typed inertia, and that for which the drive train is calculated; nothing where it has that one."""
-        part, train = self.flywheel(shaft), self.named("drive_train") or ""
-        is_known = "torque_curve" in self.blocks.get(train, {})  # without it none is asked for
-        if part is None or not is_known or self.is_sized(part) or "inertia" not in part.more:
-            return {}
-        typed = TypedValue((*part.path, "inertia"))
-        return {"flywheel_inertia": typed, "required_inertia": f"${{{train}.flywheel_inertia}}"}
+    def own_inertias(self, shaft: MachineShaft) -> dict[str, str]:
+        """Return the references to the moments of inertia of the parts on a shaft, by their names; nothing of those that have none."""
+        found: dict[str, str] = {}
+        bodies = 0
+        for part in shaft.parts:
+            if self._disc(part):
+                found[part.name] = f"${{{shaft.body}.{part.name}_disc_inertia}}"
+            elif self._is_body(part):
+                if "inertia" in self._mass(part, ""):
+                    found[part.name] = f"${{{shaft.body}.bodies.{bodies}.inertia}}"
+                bodies += 1
+        return found
+
+    def section_inertia(self, shaft: MachineShaft) -> str:
+        """Return the moment of inertia of a shaft without its parts."""
+        return " + ".join(f"${{{shaft.body}.section_{index + 1}_disc_inertia}}" for index in range(len(shaft.sections)))
+
+    def inertia_without(self, shaft: MachineShaft, left_out: Container[str]) -> str:
+        """Return the moment of inertia of a shaft with its parts, but for those that are named."""
+        parts = (text for name, text in self.own_inertias(shaft).items() if name not in left_out)
+        return " + ".join([self.section_inertia(shaft), *parts])
+
+    def inertia_of_steady(self, start: str, names: Iterable[str]) -> str:
+        """Return the moment of inertia of shafts that turn steadily, with their parts, at one of them; nothing where no mass of them is known."""
+        own = self.parts.ratios[start]
+        every = ((self.parts.shafts[name], abs(self.parts.ratios[name] / own)) for name in names)
+        known = ((shaft, ratio) for shaft, ratio in every if self.is_made(shaft.body))
+        return " + ".join(f"({self.whole(shaft, 'inertia')}) * {ratio:.15g}**2" for shaft, ratio in known)
+
+    def whole(self, shaft: MachineShaft, what: str) -> str:
+        """Return the mass or inertia of a shaft with all its parts."""
+        parts = (part for part in shaft.parts if self._is_apart(part))
+        return " + ".join([f"${{{shaft.body}.{what}}}", *(self._typed_text(part, what) for part in parts)])
+
+    def _is_apart(self, part: ShaftPart) -> bool:
+        """Whether a part is the flywheel that follows from the drive train, which takes the inertia of the others from its shaft's body."""
+        return part.kind == "flywheel" and any(self.is_of_train(part, key) for key in ("mass", "inertia"))
+
+    def _typed_text(self, part: ShaftPart, what: str) -> str:
+        """The mass or inertia of a flywheel, a number or a reference to the drive train's."""
+        typed = self.parts.reader.typed_body(part.path, what)
+        unit_ = "kg" if what == "mass" else "kg*m**2"
+        return f"${{{self.named('drive_train')}.flywheel_{what}}}" if typed is None else f"{typed:.12g} {unit_}"
+
+    def _is_body(self, part: ShaftPart) -> bool:
+        """Whether a part that is no disc has a mass or inertia in its shaft's body."""
+        if self._is_apart(part):
+            return False
+        return "mass" in part.more or part.kind == "geneva_wheel" or "inertia" in part.more
 
     def _section_disc(self, shaft: MachineShaft, index: int) -> dict[str, Any]:
         section = self._section(shaft, index)

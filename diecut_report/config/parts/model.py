@@ -229,6 +229,11 @@ class MachineShaft:
         """Return whether it is calculated: one of a motor is its maker's."""
         return self.keys.motor is None
 
+    @property
+    def has_body(self) -> bool:
+        """Return whether its mass and inertia are calculated."""
+        return self.is_rated and bool(self.sections)
+
 
 @dataclass(frozen=True, eq=False)
 class Join:
@@ -503,10 +508,10 @@ class MachineParts:
     @cached_property
     def planes(self) -> list[tuple[ShaftPart, float, ShaftPart, float]]:
         """Return what must lie in one plane: two parts, each with its plane from its shaft's left end, m."""
-        found = [
-            (each.drivers[0], each.drivers[0].keys.at, each.driven[0], each.driven[0].keys.at)
-            for each in self.joins if each.is_between_shafts
-        ]  # fmt: skip
+        pairs = (
+            pair for each in self.joins for pair in zip(each.drivers, each.driven, strict=False)
+        )  # of strands each
+        found = [(one, one.keys.at, other, other.keys.at) for one, other in pairs]
         ports = {part.port: part for shaft in self.shafts.values() for part in shaft.parts if part.port}
         for (mechanism, port), part in ports.items():
             other = ports.get((mechanism, {"crank": "rocker", "disc": "gear"}.get(port, "wheel")))

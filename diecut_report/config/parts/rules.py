@@ -462,6 +462,10 @@ def pins(parts: MachineParts) -> Iterator[Finding]:
     for part, pin in ((part, part.keys.pin) for _, part in hubs(parts) if part.keys.pin is not None):
         path, place = (*part.path, "pin", "plane"), pin.middle
         width = (catalogue_size(pin.bearing, "B") or 0.0) if pin.bearing else 0.0
+        if pin.held is not None and pin.held > part.hub + SAME_PLACE > SAME_PLACE:
+            template = "is {held}, but the hub of {name} is {hub} long; a pin is held within its disc"
+            yield finding(parts, "pin_plane", "error", (*part.path, "pin", "held"), template, (*part.path, "hub"), held=mm(pin.held),
+                name=part.called, hub=mm(part.hub))  # fmt: skip
         near = pin.supports[1] if pin.held is not None else min(pin.supports, key=lambda each: abs(place - each))
         if (off := abs(place - near)) < width / 2 - SAME_PLACE:
             support = (
@@ -503,6 +507,8 @@ def _untied(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """What is typed at a part beside its own keys goes into its calculation, and the efficiency of a mesh into a torque."""
     used = set(typed_paths([*(each.inputs for each in elements.made), *elements.fills.values()]))
+    wheels = (part for _, part in hubs(parts) if part.kind == "flywheel")
+    used |= {(*part.path, key) for part in wheels for key in ("mass", "inertia") if elements.is_of_train(part, key)}
     homes = [(shaft.path, shaft.more, f"shafts_{shaft.name}") for shaft in parts.shafts.values()]
     homes += [(part.path, part.more, f"shafts_{name}") for name, shaft in parts.shafts.items() for part in shaft.parts]
     for path, more, calculation in homes:

@@ -26,13 +26,17 @@ class ShaftElements(Masses, LoadCases):
     def _loads(self, shaft: MachineShaft) -> None:
         if self.lacks_torque(shaft):
             return
-        torques = [each | {"ratio": each["ratio"].text} for each in self.torques_of(shaft)]
+        own = self.inertias(shaft)
+        taken = (torque for part in shaft.parts if (torque := self.torque_on(part)))
+        torques = [each | {"ratio": each["ratio"].text} for each in (*taken, *own.values())]
         forces = [force for part in shaft.parts for force in (*self._port_forces(part), *self._chain_forces(part))]
         for each in (every for every in torques if "efficiency" in every):
             each["efficiency"] = self.efficiency(each["efficiency"])
         inputs: dict[str, Any] = {"main_turns": self.cycle(shaft.name)}
         if torques:
             inputs["torques"] = torques
+        if hubs := [row for part in shaft.parts if part in own and (row := self._hub(part))]:
+            inputs["hubs"] = hubs
         if forces:
             inputs["forces"] = forces
         if (moving := self.moved_by(shaft)) is not None:
@@ -43,6 +47,39 @@ class ShaftElements(Masses, LoadCases):
             }
         if len(inputs) > 1:
             self._add(shaft.loads, "shaft_loads", inputs, shaft.path)
+
+    def inertias(self, shaft: MachineShaft) -> dict[ShaftPart | None, dict[str, Any]]:
+        """Return the torques of the inertia of a shaft that swings or turns in steps: of each part with what rides on it, and of the shaft alone.
+
+        A chain that rolls a cylinder is of its driving sprockets, an even share of each.
+        """
+        whole = self.inertia_of(shaft)
+        if whole is None:
+            return {}
+        references = self.own_inertias(shaft)
+        found: dict[ShaftPart | None, dict[str, Any]] = {}
+        for part in (each for each in shaft.parts if not each.keys.rides_on):
+            riders = (each.name for each in shaft.parts if each.keys.rides_on == part.name)
+            terms = [references[name] for name in (part.name, *riders) if name in references]
+            rolling = (each for each in self.parts.joins_of(part) if self.is_rolling(each) and part in each.drivers)
+            terms += [f"{self.conveyor_inertia(each)} / {len(each.drivers)}" for each in rolling]
+            if terms:
+                found[part] = whole | {"name": f"{part.name}_inertia", "inertia": " + ".join(terms)}
+        found[None] = whole | {"inertia": self.section_inertia(shaft)}
+        return found
+
+    def _hub(self, part: ShaftPart) -> dict[str, str] | None:
+        """The torque that passes the joint of a part with its shaft; None where only its own inertia does, or the torque is not known."""
+        joined = self._joined(part)
+        if len(joined) != 1:
+            return None
+        torque = "balance" if self._balances(joined[0]) else joined[0].name
+        return {"name": part.name, "torque": torque, "inertia": f"{part.name}_inertia"}
+
+    def _joined(self, part: ShaftPart) -> list[ShaftPart]:
+        """What brings a torque through the joint of a part with its shaft: itself, or those which ride on it."""
+        every = (part, *(each for each in part.shaft.parts if each.keys.rides_on == part.name))
+        return [each for each in every if self.torque_on(each) or self._balances(each)]
 
     def _port_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The forces of a mechanism on a part, in the directions of its shaft; a second one in a direction is named across."""
@@ -120,15 +157,10 @@ class ShaftElements(Masses, LoadCases):
             "downwards": f"{-90 * self.sense(shaft.name)} deg",
         }  # fmt: skip
         place = next((part for part in shaft.parts if self._balances(part)), None)
-        if place is not None and self.inertia_of(shaft):
-            inputs["loads"].append(
-                {
-                    "name": "inertia",
-                    "position": TypedValue((*place.path, "at")),
-                    "torque": f"${{{shaft.loads}.inertia_torque}}",
-                    "seat": "none",
-                }
-            )
+        if place is not None:
+            for part, row in self.inertias(shaft).items():
+                own = {"name": row["name"], "torque": f"${{{shaft.loads}.{row['name']}_torque}}", "seat": "none"}
+                inputs["loads"].append(own | {"position": TypedValue((*(part or place).path, "at"))})
         derived = [notch for part in shaft.parts for notch in self._notches(part)]
         if notches := [*derived, *self._typed_notches(shaft)]:
             inputs["notches"] = notches
@@ -312,14 +344,12 @@ class ShaftElements(Masses, LoadCases):
 
     def _passed(self, part: ShaftPart) -> str | None:
         """The torque that passes the key of a part: its own, or that of the only part with one which rides on it."""
-        loads = part.shaft.loads
-        found = []
-        for each in (part, *(each for each in part.shaft.parts if each.keys.rides_on == part.name)):
-            if self.torque_on(each):
-                found.append(f"${{{loads}.{each.name}_torque}}")
-            elif self._balances(each):
-                found.append(f"${{{loads}.balance}}")
-        return found[0] if len(found) == 1 else None
+        loads, joined, has_own = part.shaft.loads, self._joined(part), part in self.inertias(part.shaft)
+        if len(joined) > 1 or not (joined or has_own):
+            return None
+        if has_own:
+            return f"${{{loads}.{part.name}_{'hub' if joined else 'inertia_torque'}}}"
+        return f"${{{loads}.{'balance' if self._balances(joined[0]) else f'{joined[0].name}_torque'}}}"
 
     def _pin(self, part: ShaftPart) -> None:
         pin, port = part.keys.pin, self.port(part)

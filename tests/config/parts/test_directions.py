@@ -201,9 +201,3 @@ def test_the_motor_drives_the_pulley_with_what_a_first_order_lag_leaves_of_the_l
     np.testing.assert_allclose(-motor, expected, atol=0.01 * np.ptp(load))
     assert np.mean(motor) == pytest.approx(-np.mean(load), rel=5e-3)
     assert np.abs(loads.curve_samples("balance")[0]).max() > np.abs(motor).max()  # most of it the flywheel gives
-
-
-def test_the_flywheel_that_the_train_sizes_has_a_mass() -> None:
-    run = run_in("above")
-    body, train = run.calculations["shafts_flywheel_body"], run.calculations["train"]
-    assert body["bodies.mass"][0, 0] == train["flywheel_mass"][0, 0] > 100

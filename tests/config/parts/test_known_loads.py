@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 
-from diecut_report.config.loader import examined
+from diecut_report.config.loader import Config, examined
+from diecut_report.config.parts.demands import Demands
+from diecut_report.config.parts.load_cases import LoadCases, Passing
 from diecut_report.config.yaml import parse
+from diecut_report.mechanics.load_cases import called
 from diecut_report.results.warm_press import WarmPress
 from tests.config.parts.test_parts import DISCOVERY, FILE, calculated
 
@@ -16,14 +21,20 @@ TEXT = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
 CONVEYOR = "60x40 r1.4, 70x120 r2, 75x520 r1.4, 60x40"
 
 
-def read(*changes: tuple[str, str]) -> tuple[dict[str, Any], list[str]]:
-    """The corrected machine with other texts: its mechanisms and the calculations of its parts, and what is wrong with it."""
+def changed(*changes: tuple[str, str]) -> tuple[Config, list[str]]:
+    """The corrected machine with other texts, and what is wrong with it."""
     text = TEXT
     for old, new in changes:
         assert old in text, old
         text = text.replace(old, new, 1)
     config, problems = examined(parse(text, str(FILE)), DISCOVERY)
-    return config.tree.data["mechanisms"], [str(each) for each in problems]
+    return config, [str(each) for each in problems]
+
+
+def read(*changes: tuple[str, str]) -> tuple[dict[str, Any], list[str]]:
+    """Its mechanisms and the calculations of its parts, and what is wrong with it."""
+    config, problems = changed(*changes)
+    return config.tree.data["mechanisms"], problems
 
 
 def told(*changes: tuple[str, str]) -> str:
@@ -237,6 +248,7 @@ def test_an_idle_shaft_of_the_cylinders_chains_counts_in_its_inertia() -> None:
     assert "${shafts_idle_body.inertia}" in made["drive"]["pinion_inertia"]
 
 
+@pytest.mark.nightly
 def test_what_a_geneva_wheel_moves_is_what_its_shafts_and_chains_have_at_it() -> None:
     """By hand: conveyor, far shaft (chains 30/18) and chains turn 120/20 times as fast as the wheel; its energy is theirs."""
     changes = ("far: [2216.254, 520]", "far: [2273.084, 520]"), ("teeth: 30/30, chain: 12B", "teeth: 30/18, chain: 12B")
@@ -445,3 +457,196 @@ def test_teeth_are_not_cut_into_a_thicker_shaft() -> None:
 )  # fmt: skip
 def test_a_join_the_wrong_way_round_is_refused(old: str, new: str, words: str) -> None:
     assert words in told((old, new))
+
+
+# Where the inertia of a part acts: at the part, so that its joint with the shaft passes it.
+
+
+@pytest.fixture(scope="module")
+def run() -> Any:
+    config, _ = examined(parse(TEXT, str(FILE)), DISCOVERY)
+    return WarmPress(is_advised=False).calculate(config).calculations
+
+
+def of_cycle(calc: Any, name: str) -> Any:
+    """A curve of loads at 4000 places of their cycle, none of them at an end of a smooth piece."""
+    domain = next(iter(calc.domains.values()))
+    places = np.atleast_2d((np.arange(4000) + 0.37) / 4000 * domain.period[0, 0])
+    return calc.sample(name, places, domain.middle_of(places))[0]
+
+
+def test_the_key_of_a_gear_on_a_stepping_shaft_passes_the_torque_of_its_inertia_too(run: Any) -> None:
+    """By Newton for the gear alone: what its key passes accelerates it, and the rest of what is behind its teeth."""
+    loads, cross = run["shafts_geneva_loads"], run["cross"]
+    gear = 26 * (120 * 4 / 2 * 1e-3) ** 2 / 2  # a disc of its typed mass
+    whole = run["shafts_geneva_body"]["inertia"].item()
+    acceleration = -of_cycle(loads, "large_inertia_torque") / gear
+    assert np.abs(acceleration).max() == pytest.approx(np.abs(cross["wheel_acceleration_max"]).item(), rel=1e-3)
+    teeth, hub = of_cycle(loads, "large_torque"), of_cycle(loads, "large_hub")
+    np.testing.assert_allclose(hub, teeth - gear * acceleration, rtol=0, atol=1e-9 * np.abs(hub).max())
+    assert np.abs(hub).max() > 1.05 * np.abs(teeth).max()
+    assert run["shafts_geneva_large_key"]["torque_peak"].item() == pytest.approx(np.abs(hub).max(), rel=1e-3)
+    wheel = of_cycle(loads, "balance") + of_cycle(loads, "cross_inertia_torque")
+    np.testing.assert_allclose(of_cycle(loads, "cross_hub"), wheel, rtol=0, atol=1e-9 * np.abs(wheel).max())
+    every = sum(of_cycle(loads, f"{name}_torque") for name in ("large_inertia", "cross_inertia", "inertia"))
+    np.testing.assert_allclose(every, -whole * acceleration, rtol=1e-9, atol=1e-9)
+
+
+def test_a_sprocket_accelerates_its_chain_that_rolls_the_cylinder(run: Any) -> None:
+    loads, line, body = run["shafts_pinion_loads"], run["drive_line"], run["shafts_pinion_body"]
+    chain = line["chain_mass"][0, 0] * line["chain_travel"][0, 0] ** 2 / 2  # of both strands
+    own = chain + body["disc_inertia"][0, list(body.inputs["discs.name"]).index("left")]
+    assert loads["torques.inertia"][0, list(loads.inputs["torques.name"]).index("left_inertia")] == pytest.approx(own)
+    assert np.abs(of_cycle(loads, "left_hub")).max() > 1.05 * np.abs(of_cycle(loads, "left_torque")).max()
+
+
+def test_the_motor_runs_up_all_that_turns(run: Any) -> None:
+    """The flywheel and its shaft, what is behind it by the ratio squared and with the losses, and the rotor."""
+    train, lines = run["train"], run["train"]["moved_inertia"].item()
+    second = train["flywheel_inertia"].item() + run["shafts_flywheel_body"]["inertia"].item()
+    output = lines + run["shafts_main_body"]["inertia"].item() + run["shafts_crank_body"]["inertia"].item() / 4
+    gears, belt = (87 / 18) ** 2 * 0.97, train["vbelt_ratio_actual"].item() ** 2 * train["vbelt.efficiency"].item()
+    inertia = train["motor_inertia"].item() + (second + output / gears) / belt
+    assert train["run_up_inertia"].item() == pytest.approx(inertia, rel=1e-6)
+    time = inertia * train["shaft_1_speed"].item() / train["accelerating_torque"].item()
+    assert train["run_up_time"].item() == pytest.approx(time, rel=1e-6)
+
+
+def test_a_flywheel_that_follows_from_the_drive_train_counts_in_the_machine(run: Any) -> None:
+    machine, train, body = run["machine_inertia"], run["train"], run["shafts_flywheel_body"]
+    place = list(machine.inputs["shafts.name"]).index("flywheel")
+    for what in ("mass", "inertia"):
+        alone, wheel = body[what].item(), train[f"flywheel_{what}"].item()
+        assert machine[f"shafts.{what}"][0, place] == pytest.approx(alone + wheel, rel=1e-12)
+    assert train["flywheel_mass"].item() > 100
+
+
+ROLL = (
+    ("conveyor: [216, 520], far: [2216.254, 520]}", "conveyor: [216, 520], far: [2216.254, 520], roll: [2216.254, 680]}"),
+    ("sprockets: [conveyor.left, conveyor.right], to: [far.left, far.right]", "sprockets: [conveyor.left], to: [far.left]"),
+    ("            {sprocket: right, at: 635, hub: 50, key: 45}, {bearing: b, at: 691",
+     "            {gear: out, at: 160, hub: 50, key: 45}, {bearing: b, at: 691"),
+    ("meshes:\n", "  roll:\n    sections: 55x40 r1.5, 65x300 r1.5, 55x40\n    parts: [{bearing: a, at: 29, designation: \"6211\"}, "
+     "{gear: in, at: 120, hub: 50, key: 45}, {load: roll, at: 240, mass: 40 kg, inertia: 0.3 kg*m**2}, "
+     "{bearing: b, at: 351, designation: \"6211\", floating: true}]\nmeshes:\n"
+     "  roll: {pair: [far.out, roll.in], teeth: 40/40, module: 4, width: 40}\n"),
+)  # fmt: skip
+
+
+def test_what_the_far_end_of_a_chain_drives_is_moved_by_all_before_it() -> None:
+    """A roll behind the conveyor's far shaft: the driving sprocket pulls what the driven one takes, and moves the chain besides."""
+    right = "      - {sprocket: right, at: 635, hub: 60, key: 50}\n"
+    config, problems = changed(*ROLL, (right, ""))
+    assert problems == []
+    run = WarmPress(is_advised=False).calculate(config).calculations
+    driving, driven, line = run["shafts_conveyor_loads"], run["shafts_far_loads"], run["drive_line"]
+    chain = list(line.inputs["chains.name"]).index("grippers")
+    mass = line["chain_mass"][0, chain] * line["chain_travel"][0, chain] ** 2
+    acceleration = -of_cycle(driving, "inertia_torque") / driving["torques.inertia"][0, -1]
+    both = mass * acceleration + of_cycle(driven, "balance")
+    pulled = -of_cycle(driving, "left_torque")
+    drives = both > 0  # where it brakes, losses help, and count against it here: safe
+    np.testing.assert_allclose(pulled[drives], both[drives], atol=1e-6 * both.max())
+    assert np.all(np.abs(pulled[~drives]) >= np.abs(both[~drives]) - 1e-6)
+    assert run["chains_grippers"]["inputs.driven_inertia"].item() == pytest.approx(
+        run["shafts_far_body"]["inertia"].item() + run["shafts_roll_body"]["inertia"].item() / 0.97, rel=1e-9
+    )
+
+
+FAR_PUMP = (
+    "{sprocket: right, at: 635, hub: 50, key: 45}",
+    "{load: pump, at: 400, torque: -300 N*m}, {sprocket: right, at: 635, hub: 50, key: 45}",
+)
+BRANCH = (
+    ("frame: {crank: [0, 0],", "frame: {lay: [0, 216], crank: [0, 0],"),
+    ("      - {bearing: b, at: 270,", "      - {gear: out, at: 210, hub: 60, key: 50}\n      - {bearing: b, at: 270,"),
+    ("meshes:\n", "  lay:\n    sections: 50x40 r1.6, 60x290 r1.6, 50x40\n    parts: [{bearing: a, at: 27, designation: \"6210\"}, "
+     "{gear: g, at: 110, hub: 60, key: 50}, {load: pump, at: 250, torque: 300 N*m}, "
+     "{bearing: b, at: 343, designation: \"6210\", floating: true}]\nmeshes:\n"
+     "  lay: {pair: [crank.out, lay.g], teeth: 36/36, module: 6, width: 50}\n"),
+)  # fmt: skip
+
+
+def test_nothing_before_a_torque_that_no_mechanism_knows_is_rated() -> None:
+    """Gear and key before the chain were rated with what was left: 309 N·m for 1408; a pump of the motor's power was free."""
+    rated = {
+        "shafts_geneva",
+        "shafts_geneva_large_key",
+        "meshes_step_up",
+        "chains_grippers",
+        "shafts_main",
+        "meshes_main_drive",
+    }
+    whole, _ = read()
+    assert rated < whole.keys()
+    made, problems = read(FAR_PUMP)
+    assert problems == [] and not rated & made.keys()
+    made, problems = read(*BRANCH)
+    before = {"shafts_crank", "meshes_crank_drive", "shafts_main", "meshes_main_drive", "shafts_flywheel"}
+    assert problems == [] and not before & made.keys() and {"shafts_geneva", "meshes_step_up"} < made.keys()
+
+
+@pytest.mark.parametrize(("turns", "cycle"), [("1", 6), ("1/2", 12), ("1/3", 18), ("2", 3)])
+def test_a_stepping_shaft_comes_back_after_all_its_steps_however_often_its_crank_turns(turns: str, cycle: int) -> None:
+    config, _ = changed(("- mechanism: cross #", f"- turns_per_sheet: {turns}\n        mechanism: cross #"))
+    assert config.parts is not None
+    data = yaml.safe_load(config.tree.text)["mechanisms"]
+    kinds = {kind: DISCOVERY.mechanism(kind) for kind in {block["kind"] for block in data.values()}}
+    assert Demands(config.parts, data, kinds).turns("geneva") == Fraction(1, cycle)
+
+
+@pytest.mark.parametrize(
+    ("outside", "status"), [("", "not_checked"), (", outside: 600", "pass"), (", outside: 1500", "fail")]
+)
+def test_the_rim_that_is_checked_is_that_of_the_mounted_wheel(outside: str, status: str) -> None:
+    """One of a bore's mass passed by the diameter of the wheel that the drive train would have."""
+    wheel = 'inertia: "${train.flywheel_inertia}"}'
+    config, problems = changed((wheel, f"inertia: 3.0 kg*m**2, mass: 66 kg{outside}}}"))
+    if problems:  # a wheel of 1.5 m is heavier
+        assert status == "fail" and "full steel body" in problems[0]
+        return
+    checks = WarmPress(is_advised=False).calculate(config).checks["train"]
+    assert {each.id: each.status for each in checks if "rim" in each.id} == {"mounted_rim_speed": status}
+
+
+def test_each_sprocket_side_by_side_has_its_share_where_the_clutch_engages() -> None:
+    config, _ = changed()
+    assert config.parts is not None
+    cases = LoadCases(config.parts, {}, {})
+    shaft = config.parts.shafts["conveyor"]
+    left, right = (part for part in shaft.parts if part.kind == "sprocket")
+    small = next(part for part in shaft.parts if part.kind == "gear")
+    cases.__dict__["load_cases"] = [Passing("engage", "100 N*m", (small,), (left, right))]
+    assert [cases.cases_of_key(part)[0]["torque"] for part in (left, right)] == ["(100 N*m) / 2"] * 2
+    assert [(each["name"], each["leaves"], each["torque"]) for each in cases.cases_of_shaft(shaft)] == [
+        ("engage", "left", "100 N*m"),  # all of it may pass one of them
+        ("engage_2", "right", "100 N*m"),
+    ]
+
+
+@pytest.mark.parametrize("name", ["engage", "engage_2", "engage_6", "start"])
+def test_a_load_case_has_words_whichever_number_it_has(name: str) -> None:
+    assert called(1, (name,)) in ("engagement of the clutch", "start of the motor")
+
+
+# Joins side by side.
+
+
+def test_pairs_of_unlike_ratio_between_the_same_shafts_are_refused() -> None:
+    old = "  crank_drive: {pair: [main.pinion, crank.wheel], teeth: 24/48, module: 6, width: 50,"
+    second = "  second: {pair: [main.pinion, crank.wheel], teeth: 30/42, module: 6, width: 50}"
+    assert "so that neither can turn; give both one ratio" in told((old, f"{second}\n{old}"))
+    made, _ = read((old, f"{second.replace('30/42', '24/48')}\n{old}"))
+    assert not {"shafts_main", "meshes_crank_drive", "meshes_second"} & made.keys()  # shares that nobody knows
+
+
+def test_each_strand_runs_in_one_plane() -> None:
+    places = [index for index in range(len(TEXT)) if TEXT.startswith("{sprocket: right, at: 635", index)]
+    assert len(places) == 2
+    moved = TEXT[: places[1]] + TEXT[places[1] :].replace("at: 635", "at: 560", 1)
+    _, problems = examined(parse(moved, str(FILE)), DISCOVERY)
+    assert any("stands 75 mm beside conveyor.right, with which it works" in str(each) for each in problems)
+
+
+def test_a_pin_is_held_within_its_disc() -> None:
+    assert "a pin is held within its disc" in told(("held: 60", "held: 150"))
