@@ -8,8 +8,6 @@ from diecut_report.plugins.cylinder_drive.example import EXAMPLE
 from diecut_report.plugins.cylinder_drive.figures import FIGURES
 from diecut_report.plugins.cylinder_drive.inputs import CylinderDrive
 
-ROUNDING = 1e-9  # relative: a size typed in at its limit reaches it
-
 MECHANISM = Mechanism(
     kind="cylinder_drive",
     version="1.0",
@@ -68,11 +66,11 @@ MECHANISM = Mechanism(
               limit="allowable_acceleration", unit="m/s**2", demand_label="maximum acceleration", limit_label="allowed", source="input",
               consequence="the cylinder slips on the board or its drive knocks.", advise=(Vary("crank_speed", "down"),)),
         Check(id="tooth_force", check_class="strength", title="Force of the sector's teeth", demand="tooth_force_max",
-              limit="allowable_tooth_force", unit="kN", tolerance=ROUNDING, demand_label="maximum tangential force",
+              limit="allowable_tooth_force", unit="kN", demand_label="maximum tangential force",
               limit_label="allowed", source="input",
               consequence="the teeth wear and break.", advise=(Vary("pinion_radius", "up"),)),
         Check(id="joint_force", check_class="strength", title="Force in the joints", demand="joint_force_max", limit="allowable_joint_force",
-              unit="kN", tolerance=ROUNDING, demand_label="maximum force", limit_label="allowed", source="input",
+              unit="kN", demand_label="maximum force", limit_label="allowed", source="input",
               consequence="pins and bearings are overloaded.", advise=(Vary("crank_length", "up"),)),
         Check(id="energy_balance", check_class="numerical", title="Energy balance over a revolution", demand="energy_residual", limit=1e-6, unit="1",
               demand_label="relative difference", limit_label="accepted", source="conservation of energy",

@@ -34,9 +34,12 @@ moments.value("total_moment", "M_Σ", "N*m", "Moment on the cylinder's axis, wit
 for id, symbol, words in (("cylinder_moment", "M_c", "Moment on the cylinder's axis, of the cylinder alone"),
                           ("pinion_moment", "M_p", "Moment on the pinion")):
     moments.value(id, symbol, "N*m", words, lambda total_moment: total_moment, lacks=SHAFTS, output=False, printed=False)
+moments.value("shafts_inertia", "I_s", "kg*m**2", "Inertia of the shafts of pinion and rocker, at the cylinder",
+    lambda pinion_inertia, rocker_inertia, sector_ratio: pinion_inertia + rocker_inertia / sector_ratio**2, needs=SHAFTS, source="energy")
+moments.value("shafts_inertia", "I_s", "kg*m**2", "Inertia of the shafts of pinion and rocker: neglected", lambda: 0, lacks=SHAFTS,
+    output=False, printed=False)
 moments.value("moved_inertia", "I_Σ", "kg*m**2", "Equivalent inertia at the cylinder, with the shafts of pinion and rocker",
-    lambda reduced_inertia, pinion_inertia, rocker_inertia, sector_ratio: reduced_inertia + pinion_inertia + rocker_inertia / sector_ratio**2,
-    needs=SHAFTS, source="energy")
+    lambda reduced_inertia, shafts_inertia: reduced_inertia + shafts_inertia, needs=SHAFTS, source="energy")
 moments.value("moved_inertia", "I_Σ", "kg*m**2", "Equivalent inertia at the cylinder", lambda reduced_inertia: reduced_inertia, lacks=SHAFTS,
     output=False, printed=False)
 moments.value("rocker_acceleration", "ε_3", "rad/s**2", "Angular acceleration of the rocker",

@@ -6,6 +6,7 @@ from diecut_report.api import Check, Vary
 from diecut_report.plugins.drive_train.belts import FASTEST_BELT, LARGEST_DEVIATION, LARGEST_RATIO, LEAST_WRAP, PULLEYS
 
 DRIVER = "vbelt.driver_diameter"
+MOUNTED = ("torque_curve", "mounted_inertia")
 STRONGER = (Vary("run_up_load", "down"), Vary("reserve_factor", "up"))
 RUN_UP = (Vary("load_inertia", "down"), Vary("speed_fluctuation", "up"), *STRONGER)
 
@@ -26,14 +27,14 @@ CHECKS = (
         consequence="the belts are overloaded and wear out.", advise=(Vary("vbelt.count", "up"), Vary(DRIVER, "up", PULLEYS))),
     Check(id="vbelt_slip", check_class="function", title="Slip of the V-belt", demand="vbelt_pull", limit="vbelt_slip_pull", unit="N",
         needs=("vbelt.tension",), founded=("vbelt.groove_friction",), demand_label="maximum pull", limit_label="slip limit",
-        tolerance=1e-9, source="Euler",
+        source="Euler",
         consequence="the belts slip when the motor runs up or is overloaded; check the shafts for the load that a higher tension puts on them.",
         advise=(Vary("vbelt.tension", "up"),)),
     Check(id="vbelt_bendings", check_class="practice", title="Bending frequency of the V-belt", demand="vbelt_bendings", limit=100.0, unit="1/s",
         severity="warn", demand_label="bending frequency", limit_label="allowed", source="Optibelt", consequence="the belt heats and ages.",
         advise=(Vary("vbelt.center_distance", "up"), Vary(DRIVER, "down", PULLEYS))),
     Check(id="output_speed_error", check_class="function", title="Output speed", demand="output_speed_error", limit=LARGEST_DEVIATION, unit="%",
-        tolerance=1e-9, demand_label="deviation", limit_label="allowed", source="this method",
+        demand_label="deviation", limit_label="allowed", source="this method",
         consequence="with driven pulleys of R40 the output turns at {output_speed}, not at {inputs.output_speed}; other gears may meet it, too.",
         advise=(Vary(DRIVER, series=PULLEYS), DRIVER)),
     Check(id="motor_power", check_class="function", title="Motor", demand="power_required", limit="motor_power", unit="kW",
@@ -53,6 +54,15 @@ CHECKS = (
         only_with=("torque_curve",), demand_label="rim speed", limit_label="allowed for the material", source="material",
         consequence="the wheel may burst; gears of a smaller ratio let it turn slower.",
         advise=("flywheel_material", Vary("speed_fluctuation", "up"))),
+    Check(id="mounted_rim_speed", check_class="strength", title="Rim of the mounted flywheel", demand="mounted_rim_speed", limit="flywheel_rim_limit",
+        unit="m/s", only_with=MOUNTED, needs=("mounted_diameter",), demand_label="rim speed", limit_label="allowed for the material",
+        source="material", consequence="the wheel may burst; gears of a smaller ratio let it turn slower.", advise=("flywheel_material",)),
+    Check(id="flywheel", check_class="function", title="Inertia of the flywheel", demand="flywheel_inertia", limit="wheel_inertia",
+        unit="kg*m**2", only_with=MOUNTED, demand_label="required", limit_label="mounted", source="energy",
+        consequence="the speed swings further than speed_fluctuation, and the motor takes more of the peak.", advise=("mounted_inertia",)),
+    Check(id="heavy_flywheel", check_class="function", severity="warn", title="Flywheel heavier than needed", demand="wheel_inertia",
+        limit="accepted_inertia", unit="kg*m**2", only_with=MOUNTED, source="this method", demand_label="mounted", limit_label="1.1 × the required",
+        consequence="the motor takes longer to run up, and the machine to stop.", advise=("mounted_inertia",)),
     Check(id="run_up_torque", check_class="function", title="Torque during run-up", demand="run_up_load_torque", limit="run_up_torque", unit="N*m",
         operator="<", demand_label="load torque at the motor", limit_label="torque of the motor", source="this method",
         consequence="the motor does not run up.", advise=STRONGER),

@@ -73,6 +73,14 @@ class DriveTrain(Inputs):
         Quantity("[F_r]", "N", "Radial force that the maker of the motor allows on its shaft, at the middle of the pulley", gt=0)] = None
     load_inertia: Annotated[float | None,
         Quantity("J_l", "kg*m**2", "Moment of inertia that runs up with the output shaft, referred to that shaft", ge=0)] = None
+    mounted_inertia: Annotated[float | None,
+        Quantity("J_F", "kg*m**2", "Moment of inertia of the flywheel that is mounted; without it the calculated one", gt=0)] = None
+    mounted_diameter: Annotated[float | None, Quantity("D_F", "mm", "Outer diameter of the flywheel that is mounted", gt=0)] = None
+    shaft_2_inertia: Annotated[float,
+        Quantity("J_s2", "kg*m**2", "Moment of inertia of the flywheel's shaft with its parts, without the flywheel; 0: neglected", ge=0)] = 0
+    output_shafts_inertia: Annotated[float,
+        Quantity("J_so", "kg*m**2", "Moment of inertia of the shafts behind it that turn steadily, at the output shaft; 0: neglected, or in J_l",
+            ge=0)] = 0
     allowable_run_up_time: Annotated[float,
         Quantity("[t_a]", "s", "Maximum run-up time permitted by the motor's protection (trip class 10)", gt=0)] = 10
     toothed_belt: Annotated[ToothedBelt | None, Text("Toothed belt that rolls the cylinder")] = None

@@ -46,6 +46,16 @@ flywheel.reduction("excess_energy_min", "E_min", "J", "Minimum energy taken: the
 flywheel.reduction("energy_fluctuation", "ΔE", "J", "Energy fluctuation over a revolution", "range", of="excess_energy", source="this method")
 flywheel.value("flywheel_inertia", "J", "kg*m**2", "Moment of inertia of the flywheel",
     lambda energy_fluctuation, speed_fluctuation, shaft_2_speed: energy_fluctuation / (speed_fluctuation * shaft_2_speed**2), source="energy")
+flywheel.require("mounted",
+    lambda mounted_inertia, flywheel_inertia: (mounted_inertia <= 2 * flywheel_inertia) & (flywheel_inertia <= 2 * mounted_inertia),
+    key="mounted_inertia", needs=("mounted_inertia",),
+    message="is less than half or more than twice the {flywheel_inertia} that the energy asks for; mount another flywheel, or change "
+        "speed_fluctuation")
+flywheel.value("accepted_inertia", "[J_F]", "kg*m**2", "Inertia of a flywheel without needless weight",
+    lambda flywheel_inertia: 1.1 * flywheel_inertia, source="this method", output=False, needs=("mounted_inertia",))
+for given, with_it, without in (("mounted_inertia", ("mounted_inertia",), ()), ("flywheel_inertia", (), ("mounted_inertia",))):
+    flywheel.value("wheel_inertia", "J_w", "kg*m**2", "Moment of inertia of the flywheel on its shaft", bind(lambda given: given, given=given),
+        source="this method", output=False, needs=with_it, lacks=without)
 flywheel.value("synchronous_speed", "n_s", "rpm", "Synchronous speed of the motor: as given",
     bind(lambda synchronous_speed: synchronous_speed, synchronous_speed="inputs.synchronous_speed"), source="input", needs=("synchronous_speed",))
 flywheel.pick("synchronous_speed", "n_s", "rpm", "Synchronous speed of the motor, at 50 Hz", "above", of="shaft_1_speed", series=SYNCHRONOUS,
@@ -66,7 +76,7 @@ flywheel.value("slip_stiffness", "k", "N*m*s/rad", "Torque of the motor per unit
 flywheel.value("flywheel_stiffness", "k_f", "N*m*s/rad", "The same at the flywheel's shaft",
     bind(motor_slip.stiffness_at_flywheel, ratio="vbelt_ratio_actual", efficiency="vbelt.efficiency"), source="energy", output=False, exists=SLIPS)
 flywheel.value("motor_time_constant", "τ_M", "ms", "Time constant with which the motor's torque follows the load's",
-    bind(motor_slip.time_constant, inertia="flywheel_inertia", stiffness_at_flywheel="flywheel_stiffness"), source="this method", exists=SLIPS)
+    bind(motor_slip.time_constant, inertia="wheel_inertia", stiffness_at_flywheel="flywheel_stiffness"), source="this method", exists=SLIPS)
 flywheel.lookup("flywheel_density", "ρ", "kg/m**3", "Density of the flywheel", DENSITIES, by="flywheel_material", source="material", output=False)
 flywheel.lookup("flywheel_rim_limit", "[v]", "m/s", "Allowable rim speed of the flywheel", RIM_SPEEDS, by="flywheel_material", source="material",
     output=False)
@@ -77,7 +87,9 @@ flywheel.value("flywheel_mass", "m_f", "kg", "Mass of the flywheel",
     lambda flywheel_density, flywheel_diameter, flywheel_width: flywheel_density * as_number(np.pi) * flywheel_diameter ** 2 / 4 * flywheel_width,
     source="geometry")
 flywheel.value("flywheel_rim_speed", "v_f", "m/s", "Rim speed of the flywheel",
-    bind(belts.rim_speed, speed="shaft_2_speed", diameter="flywheel_diameter"), source="kinematics")
+    bind(belts.rim_speed, speed="shaft_2_speed", diameter="flywheel_diameter"), source="kinematics", lacks=("mounted_inertia",))
+flywheel.value("mounted_rim_speed", "v_F", "m/s", "Rim speed of the mounted flywheel",
+    bind(belts.rim_speed, speed="shaft_2_speed", diameter="mounted_diameter"), source="kinematics", needs=("mounted_diameter",))
 
 run_up = Chapter("Run-up of the motor",
     text="From rest the motor accelerates rotor, flywheel and load to their speeds with its mean run-up torque less the load torque. Without "
@@ -87,15 +99,22 @@ INERTIAS = {"rotor_inertia": ("motor_inertia", "J_m1", "Moment of inertia of the
 for name, (given, symbol, words) in INERTIAS.items():
     run_up.value(name, symbol, "kg*m**2", f"{words}: as given", bind(lambda given: given, given=given), source="input", output=False, needs=(given,))
     run_up.value(name, symbol, "kg*m**2", f"{words}: neglected, since it is not given", lambda: 0, source="this method", output=False, lacks=(given,))
+run_up.value("own_inertia", "J_o2", "kg*m**2", "Moment of inertia of the flywheel with its shaft",
+    lambda wheel_inertia, shaft_2_inertia: wheel_inertia + shaft_2_inertia, source="mechanics", output=False, needs=("torque_curve",))
+run_up.value("own_inertia", "J_o2", "kg*m**2", "Moment of inertia of shaft 2, which has no flywheel", lambda shaft_2_inertia: shaft_2_inertia,
+    source="mechanics", output=False, lacks=("torque_curve",))
+run_up.value("output_inertia", "J_o3", "kg*m**2", "Moment of inertia at the output shaft",
+    lambda moved_inertia, output_shafts_inertia: moved_inertia + output_shafts_inertia, source="mechanics", output=False)
 run_up.value("flywheel_shaft_inertia", "J_2", "kg*m**2", "Moment of inertia at the flywheel's shaft",
-    bind(inertia.inertia_before, own="flywheel_inertia", behind="moved_inertia", ratio="gear_ratio_total", efficiency="gears_efficiency"),
-    source="energy", output=False, needs=("torque_curve",))
-run_up.value("flywheel_shaft_inertia", "J_2", "kg*m**2", "Moment of inertia at shaft 2, which has no flywheel",
-    lambda moved_inertia, gear_ratio_total, gears_efficiency: moved_inertia / (gear_ratio_total ** 2 * gears_efficiency), source="energy",
-    output=False, lacks=("torque_curve",))
+    bind(inertia.inertia_before, own="own_inertia", behind="output_inertia", ratio="gear_ratio_total", efficiency="gears_efficiency"),
+    source="energy", output=False)
 run_up.value("run_up_inertia", "J_1", "kg*m**2", "Equivalent inertia at the motor's shaft, belt and gear losses included",
     bind(inertia.inertia_before, own="rotor_inertia", behind="flywheel_shaft_inertia", ratio="vbelt_ratio_actual", efficiency="vbelt.efficiency"),
     source="energy")
+run_up.value("shafts_energy", "E_s", "J", "Kinetic energy of rotor and shafts, beside that of the flywheel and of what the output moves",
+    lambda rotor_inertia, shaft_1_speed, shaft_2_inertia, shaft_2_speed, output_shafts_inertia, output_speed:
+        (rotor_inertia * shaft_1_speed**2 + shaft_2_inertia * shaft_2_speed**2 + output_shafts_inertia * output_speed**2) / 2,
+    source="energy", output=False)
 run_up.value("run_up_torque", "M_a", "N*m", "Mean torque of the motor during run-up",
     lambda run_up_torque_ratio, motor_rated_torque: run_up_torque_ratio * motor_rated_torque, source="this method")
 run_up.value("run_up_load_torque", "M_l", "N*m", "Load torque at the motor during run-up",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from diecut_report.api import Check, Vary
 
-ROUNDING = 1e-9  # relative: a length that was taken over from the other is the same
 WHOLE = 1e-9  # by which pitches may miss a whole number
 FURTHEST_RATE = 0.02  # below the productivity, as for the speed of the drive train's output
 LARGEST_INERTIA_ERROR = 5.0  # percent
@@ -12,22 +11,22 @@ LARGEST_INERTIA_ERROR = 5.0  # percent
 MOTOR = (Vary("flywheel_inertia", "up"), Vary("motor_speed", "down"), Vary("motor_rated_torque", "up"))
 
 CHECKS = (
-    Check(id="timing", check_class="function", title="Timing of the press", demand=0.0, limit="timing_slack", unit="deg", tolerance=1e-9,
+    Check(id="timing", check_class="function", title="Timing of the press", demand=0.0, limit="timing_slack", unit="deg",
         demand_label="required", limit_label="minimum slack of the interlocks", source="this method",
         consequence="the mechanisms are in each other's way; the cyclogram says which, by how much, and which offset is best. Torques, motor and "
             "flywheel are then those of a press that cannot run: fix this first, then judge them."),
     Check(id="format_rolled", check_class="function", presumed=True, title="Sheet in the feed direction and cylinder", demand="side_in_feed",
-        limit="working_length", unit="mm", tolerance=ROUNDING, demand_label="sheet in the feed direction",
+        limit="working_length", unit="mm", demand_label="sheet in the feed direction",
         limit_label="length that the cylinder unrolls", source="geometry",
         consequence="the sheet is not cut over its whole {feed_side}; take a larger cylinder or a smaller sheet."),
     Check(id="format_generatrix", check_class="function", presumed=True, title="Sheet across the feed and cylinder", demand="side_across",
-        limit="generatrix_length", unit="mm", tolerance=ROUNDING, demand_label="sheet across the feed", limit_label="generatrix of the cylinder",
+        limit="generatrix_length", unit="mm", demand_label="sheet across the feed", limit_label="generatrix of the cylinder",
         source="geometry", consequence="the sheet reaches beyond the cylinder's end; take a longer cylinder or a smaller sheet."),
-    Check(id="step", check_class="function", title="Sheet and step", demand="side_in_feed", limit="sheet_step", unit="mm", tolerance=ROUNDING,
+    Check(id="step", check_class="function", title="Sheet and step", demand="side_in_feed", limit="sheet_step", unit="mm",
         demand_label="sheet in the feed direction", limit_label="step of the transport", source="geometry",
         consequence="the next sheet comes to lie on this one; the step must be longer, or the sheet shorter."),
     Check(id="sheet_gap", check_class="function", title="Gap between two sheets", demand="sheet_gap", limit="step_room", unit="mm",
-        tolerance=ROUNDING, demand_label="required for grippers and carriage", limit_label="gap after a step", source="geometry",
+        demand_label="required for grippers and carriage", limit_label="gap after a step", source="geometry",
         consequence="there is not room enough for grippers and carriage between two sheets; the step must be longer, or the sheet shorter."),
     Check(id="actual_rate", check_class="function", presumed=True, title="Productivity and gears", demand="rate_asked", limit="least_rate",
         unit="1/h", severity="warn", fails_beyond=1 / (1 - FURTHEST_RATE), tolerance=1e-6, demand_label="productivity",
@@ -49,7 +48,7 @@ CHECKS = (
         consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "
             "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only.", advise=("single_position",)),
     Check(id="carriages", check_class="strength", title="Mass of the carriages", demand="stopped_mass", limit="cylinder_mass", unit="kg",
-        severity="warn", tolerance=ROUNDING, only_with=("damper_mass", "carriage_mass"), source="dynamics", presumed=True,
+        severity="warn", only_with=("damper_mass", "carriage_mass"), source="dynamics", presumed=True,
         demand_label="cylinder and carriages at the dampers", limit_label="in the drive",
         consequence="the carriages move with the cylinder's axis, but the forces of drive, chain, joints and shafts are calculated without them: "
             "give the drive a cylinder_mass of at least {stopped_mass:up}."),
@@ -58,7 +57,7 @@ CHECKS = (
         consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and {way_outer} before the "
             "outer end: give the damper a velocity of at least {contact_speed:up}, or let it be met later."),
     Check(id="damper_impacts", check_class="strength", title="Impacts of the dampers", demand="end_impacts", limit="damper_impacts", unit="1/h",
-        tolerance=ROUNDING, demand_label="impacts at one end", limit_label="impacts used for the dampers", source="kinematics", presumed=True,
+        demand_label="impacts at one end", limit_label="impacts used for the dampers", source="kinematics", presumed=True,
         consequence="dampers that are met before the end of the travel are met in every stroke, and their heat is calculated for fewer: give the "
             "damper an impacts_per_hour of at least {end_impacts:up}, or leave it out; or set its contact_distance to 0, to be met beyond the "
             "stroke only."),

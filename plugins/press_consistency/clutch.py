@@ -11,7 +11,7 @@ from diecut_report.mechanics.timing.engagement import Slip, SlippingClutch, iner
 from diecut_report.mechanics.timing.shaft_curves import PieceRows
 
 TURN = 2 * np.pi
-CYLINDER = ("cylinder_inertia", "cylinder_mass", "cylinder_radius", "static_unbalance")
+CYLINDER = ("cylinder_inertia", "cylinder_mass", "cylinder_radius", "static_unbalance", "shafts_inertia")
 CLUTCH = ("clutch_torque", "clutch_load", "clutch_speed")
 TAKES = (
     "cylinder_rotation",

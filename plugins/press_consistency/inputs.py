@@ -68,6 +68,8 @@ class PressConsistency(Inputs):
     cylinder_inertia: Annotated[float | None, Quantity("I", "kg*m**2", "Moment of inertia of the cylinder about its axis", gt=0)] = None
     cylinder_radius: Annotated[float | None, Quantity("R", "mm", "Radius of the cylinder", gt=0)] = None
     static_unbalance: Annotated[float, Quantity("me", "kg*m", "Static unbalance of the cylinder", ge=0)] = 0
+    shafts_inertia: Annotated[float,
+        Quantity("I_s", "kg*m**2", "Moment of inertia of the shafts of pinion and rocker with their parts, at the cylinder", ge=0)] = 0
     cylinder_rotation: Annotated[Any | None, CurveInput("θ", "deg", "Rotation of the cylinder over a revolution of its crank", referred=True)] = None
     cylinder_speed: Annotated[Any | None, CurveInput("ω_z", "rad/s", "Speed of the cylinder over a revolution of its crank", referred=True)] = None
     displacement: Annotated[Any | None,
@@ -102,6 +104,8 @@ class PressConsistency(Inputs):
         CurveInput("M_f", "N*m", "Load at the flywheel's shaft over the revolutions after which it repeats", referred=True)] = None
     load_turns: Annotated[int, Quantity("k_T", "1", "Revolutions of the drive train's output spanned by this load", ge=1, le=64, integer=True)] = 1
     flywheel_inertia: Annotated[float | None, Quantity("J", "kg*m**2", "Moment of inertia of the flywheel", gt=0)] = None
+    shafts_energy: Annotated[float,
+        Quantity("E_s", "J", "Kinetic energy of the motor's rotor and of the shafts that turn steadily, beside the flywheel", ge=0)] = 0
     flywheel_speed: Annotated[float | None, Quantity("ω_f", "rpm", "Speed of the flywheel", gt=0)] = None
     belt_ratio: Annotated[float | None, Quantity("i_b", "1", "Ratio from the motor to the flywheel", gt=0)] = None
     belt_efficiency: Annotated[float, Quantity("η_b", "1", "Efficiency from the motor to the flywheel", gt=0, le=1)] = 1

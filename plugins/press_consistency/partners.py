@@ -8,7 +8,8 @@ PARTNERS = (
     Partner(key="cylinder", kinds=("cylinder_sizing",), takes={"working_length": "working_length", "generatrix_length": "generatrix_length"}),
     Partner(key="drive", kinds=("cylinder_drive",), takes={
         "cylinder_mass": "cylinder_mass", "cylinder_inertia": "cylinder_inertia", "cylinder_radius": "cylinder_radius",
-        "static_unbalance": "static_unbalance", "cylinder_rotation": "cylinder_rotation", "cylinder_speed": "cylinder_speed",
+        "static_unbalance": "static_unbalance", "shafts_inertia": "shafts_inertia", "cylinder_rotation": "cylinder_rotation",
+        "cylinder_speed": "cylinder_speed",
         "displacement": "displacement", "velocity": "velocity", "stroke": "stroke", "crank_speed": "crank_speed",
         "dead_center_outer": "dead_center_outer", "dead_center_inner": "dead_center_inner"}),
     Partner(key="transport", kinds=("cam_gear_transport", "geneva_transport"), takes={
@@ -20,7 +21,7 @@ PARTNERS = (
     Partner(key="train", kinds=("drive_train",), takes={
         "output_speed": "output_speed", "loaded_output_speed": "loaded_output_speed",
         "flywheel_torque": "flywheel_torque", "load_turns": "torque_curve_turns",
-        "flywheel_inertia": "flywheel_inertia", "flywheel_speed": "shaft_2_speed", "belt_ratio": "vbelt_ratio_actual",
+        "flywheel_inertia": "wheel_inertia", "shafts_energy": "shafts_energy", "flywheel_speed": "shaft_2_speed", "belt_ratio": "vbelt_ratio_actual",
         "belt_efficiency": "vbelt.efficiency", "motor_rated_torque": "motor_rated_torque", "motor_speed": "motor_speed",
         "synchronous_speed": "synchronous_speed", "breakdown_ratio": "breakdown_ratio", "speed_fluctuation": "speed_fluctuation"}),
     Partner(key="clutch", kinds=("clutch",), takes={

@@ -77,10 +77,11 @@ for needs, lacks in WAYS:
         needs=("timing", *needs), lacks=lacks)
 
 STOPPED = ("brake_torque", "flywheel_inertia", "flywheel_speed", "shaft_torque_mean", "lines_energy", "productivity", "output_speed")
-stopping = Chapter("Stopping", needs=STOPPED, text="Brake and mean load absorb the energy of flywheel and lines; the speed falls linearly.",
+stopping = Chapter("Stopping", needs=STOPPED, text="Brake and mean load absorb the energy of flywheel, shafts and lines; the speed falls linearly.",
     absent="not calculated: brake_torque is not given, or flywheel and cyclogram are not there")
-stopping.value("energy_running", "E_0", "J", "Kinetic energy of flywheel and lines",
-    lambda flywheel_inertia, flywheel_speed, lines_energy: flywheel_inertia * flywheel_speed**2 / 2 + lines_energy, source="energy")
+stopping.value("energy_running", "E_0", "J", "Kinetic energy of flywheel, shafts and lines",
+    lambda flywheel_inertia, flywheel_speed, shafts_energy, lines_energy: flywheel_inertia * flywheel_speed**2 / 2 + shafts_energy + lines_energy,
+    source="energy")
 stopping.value("stopping_angle", "Φ_b", "deg", "Main-shaft rotation to standstill",
     lambda energy_running, brake_torque, shaft_torque_mean: as_angle(energy_running / (brake_torque + shaft_torque_mean)), source="energy")
 for needs, lacks in WAYS:

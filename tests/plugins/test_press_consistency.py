@@ -28,7 +28,7 @@ from diecut_report.results.warm_press import WarmPress
 from diecut_report.text.phrases import Phrase
 from tests.configs import DISCOVERY, EXAMPLE
 from tests.examples import few
-from tests.machines import inputs, number
+from tests.machines import drive, inputs, number
 from tests.mechanics.timing.example_press import calculations
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import WORKING
@@ -122,6 +122,44 @@ PRINTED = {  # SI, of the derivation
 def test_the_numbers_of_the_example_press_are_the_printed_ones(name: str) -> None:
     value, within = PRINTED[name]
     assert number(the_example(), name) == pytest.approx(value, abs=within)
+
+
+def test_the_shafts_of_pinion_and_rocker_count_at_the_crank_and_in_the_clutch() -> None:
+    """As if the cylinder alone had their inertia; they have no unbalance."""
+    own = 0.3
+    bare = the_example()
+    within = consistency(example_keys(), shafts_inertia=own)
+    heavier = consistency(example_keys(), cylinder_inertia=number(bare, "inputs.cylinder_inertia") + own)
+    for name in ("crank_inertia_mean", "crank_inertia_max", "equal_inertia", "slip_heat"):
+        assert number(within, name) == pytest.approx(number(heavier, name), rel=1e-9)
+        assert number(within, name) > 1.05 * number(bare, name)
+
+
+def test_the_drive_gives_all_that_its_crank_moves() -> None:
+    """The greatest kinetic energy that the drive tells is that of the inertia at the crank, where nothing is out of balance."""
+    moved = drive(pinion_inertia="0.3 kg*m**2", rocker_inertia="6 kg*m**2", static_unbalance=0)
+    keys = (
+        example_keys()
+        | taken(moved, OF_DRIVE)
+        | {"shafts_inertia": number(moved, "shafts_inertia"), "static_unbalance": 0}
+    )
+    energy = number(consistency(keys), "crank_inertia_max") * number(moved, "inputs.crank_speed") ** 2 / 2
+    assert energy == pytest.approx(number(moved, "kinetic_energy_max"), rel=1e-6)
+
+
+def test_a_brake_stops_the_shafts_too() -> None:
+    stopped = {
+        "brake_torque": 150,
+        "shaft_torque_mean": 90,
+        "lines_energy": 270,
+        "flywheel_inertia": 3.4,
+        "flywheel_speed": "50 rad/s",
+    }
+    angles = [
+        number(consistency(example_keys(), **stopped, shafts_energy=energy), "stopping_angle") for energy in (0, 1600)
+    ]
+    energies = [3.4 * 50**2 / 2 + 270 + energy for energy in (0, 1600)]
+    assert angles == pytest.approx([energy / 240 for energy in energies], rel=1e-9)
 
 
 def test_the_example_press_is_judged_as_printed_with_the_inertia_that_was_typed() -> None:
@@ -332,6 +370,7 @@ def test_a_motor_of_the_slip_or_of_the_power_that_is_advised_is_enough(check: st
     assert verdicts(consistency(keys, motor_rated_torque=f"{0.99 * torque} N*m"))[check] != "pass"
 
 
+@pytest.mark.nightly
 def test_a_motor_below_the_mean_torque_is_helped_by_power_alone() -> None:
     message = message_of("motor_thermal", example_keys() | {"motor_rated_torque": "3 N*m"})
     assert "motor_rated_torque" in message

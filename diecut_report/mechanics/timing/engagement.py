@@ -39,14 +39,15 @@ def inertia_at_crank(
     cylinder_mass: Any,
     cylinder_radius: Any,
     static_unbalance: Any,
+    shafts_inertia: Any,
     rotation: Any,
     speed_ratio: Any,
 ) -> Any:
-    """Inertia of the rolling cylinder that its crank feels, with the unbalance: of equal kinetic energy.
+    """Inertia of the rolling cylinder that its crank feels, with the unbalance and the shafts between: of equal kinetic energy.
 
     ``rotation`` is counted from where the flat is down, ``speed_ratio`` is the cylinder's speed to the crank's.
     """
-    rolling = cylinder_inertia + cylinder_mass * cylinder_radius**2
+    rolling = cylinder_inertia + cylinder_mass * cylinder_radius**2 + shafts_inertia
     swinging = 2 * cylinder_radius * static_unbalance * np.cos(rotation)
     return (rolling + swinging) * speed_ratio**2
 

@@ -87,7 +87,7 @@ def crank_inertia(crank_angle: Array, *, balanced: bool = False) -> Array:
     unbalance = 0.0 if balanced else of("drive", "inputs.static_unbalance")
     rolling = (of("drive", f"inputs.cylinder_{key}") for key in ("inertia", "mass", "radius"))
     turned = ratio * (motion.rocker_direction - of("drive", "outer_direction"))
-    found: Array = inertia_at_crank(*rolling, unbalance, turned, ratio * motion.rocker_speed_ratio)
+    found: Array = inertia_at_crank(*rolling, unbalance, 0.0, turned, ratio * motion.rocker_speed_ratio)
     return found
 
 
