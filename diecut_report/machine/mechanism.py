@@ -263,6 +263,12 @@ class MechanismHandle(TakenOfMachines):
     def period(self, abscissa: str = "") -> float:
         return _of_row(self.calculation.domains[abscissa or self._first()].period, self.row)
 
+    def cycle(self) -> float:
+        first = self._first()
+        longer = (each for each in phases_of(self.calculation).values() if each.abscissa == first and each.period)
+        phase = next(longer, None)
+        return self.period() if phase is None else period_of(self.calculation, phase, self.row)
+
     def speed(self, abscissa: str = "") -> float | None:
         return speed_of(self.calculation, abscissa or self._first(), self.row)
 

@@ -77,6 +77,18 @@ def deflection(decay: Any, phase: Any, damped_frequency: Any, in_phase: Any, qua
 
 
 @formula
+def swing_amplitude(decay: Any, damped_frequency: Any, in_phase: Any, quadrature: Any) -> Any:
+    """Amplitude of the vibration that is left once the input rests; it falls by the decay alone."""
+    return decay / as_number(damped_frequency) * np.sqrt(in_phase**2 + quadrature**2)
+
+
+@formula
+def time_to_fall(swing: Any, tolerance: Any, angular_frequency: Any, damping_ratio: Any) -> Any:
+    """Time in which the amplitude of a free vibration falls to a tolerance."""
+    return np.log(swing / tolerance) / (damping_ratio * as_number(angular_frequency))
+
+
+@formula
 def swing_speed(decay: Any, phase: Any, in_phase: Any, quadrature: Any) -> Any:
     """The part of the deflection's speed that the phase's growth gives."""
     return -decay * (np.cos(phase) * in_phase + np.sin(phase) * quadrature)

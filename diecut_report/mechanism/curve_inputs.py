@@ -199,6 +199,9 @@ class GivenMechanism(Protocol):
     def period(self, abscissa: str = "") -> float:
         """Return the period of an abscissa, SI; by default of the first one that is declared."""
 
+    def cycle(self) -> float:
+        """Return after which length of its first abscissa it comes again, SI: more than the period where a part of it is calculated alone."""
+
     def speed(self, abscissa: str = "") -> float | None:
         """Return how fast that abscissa is run through, SI; None where that is not known."""
 

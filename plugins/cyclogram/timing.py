@@ -216,7 +216,7 @@ class Timing:
         speed = line.mechanism.speed()
         if speed is None:
             return 0.0
-        sheets = speed / line.mechanism.period() / float(line.line.turns)
+        sheets = speed / line.mechanism.cycle() / float(line.line.turns)
         return abs(sheets / self.productivity - 1)
 
     def told(self, angle: float, up: bool | None = None) -> str:

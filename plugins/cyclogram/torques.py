@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import pi
+from math import isclose, pi
 from typing import Any
 
 import numpy as np
@@ -177,6 +177,11 @@ def _torque(line: LineOfMachines, key: str) -> ShaftCurve | None:
             name=line.name,
         )
         raise Refusal(key, message)
+    if curve is not None and not isclose(line.mechanism.period(), line.mechanism.cycle()):
+        template = (
+            "is over a part of the cycle of {name} alone, so that it tells no torque over the main shaft; leave it out"
+        )
+        raise Refusal(key, Phrase(template, name=line.name))
     return None if curve is None else line.curve(curve)
 
 

@@ -64,14 +64,31 @@ def _while(rising: bool, symbol: str, words: str) -> Steps:
 
 
 settling = Chapter("Settling after the motion", needs=(*RATE, "rest_tolerance"), absent="not calculated: {missing} not given",
-    text="The link is at rest once it stays within the tolerance of its input; no result is given if the calculated time is too short.")
+    text="The link is at rest once it stays within the tolerance of its input. Where its vibration is still greater at the end of the calculated "
+        "time, its amplitude tells when. Without damping, or where the next motion begins before, it never rests.")
 settling.value("settle_excess", "Π_z", "rad**2", "Square of the deflection less that of the tolerance",
     lambda deflection, rest_tolerance: deflection ** 2 - rest_tolerance ** 2, units=(("mass", "m**2"),), output=False)
 settling.crossings("settle_edge", "t_z", "ms", "Time at which the link crosses the tolerance", of="settle_excess")
-settling.computed("settled", "k_z", "1", "The link comes to rest within the calculated time", rests.comes_to_rest, ("settle_edge",),
-    "the number of these crossings is even", output=False)
-settling.computed("settle_end", "t_s", "ms", "Time from which the link stays at rest", rests.last_or_end, ("settle_edge", "rise_duration"),
-    "the last of these crossings, no earlier than the end of the motion", exists=lambda settled: settled > 0)
+settling.computed("last_edge", "t_zl", "ms", "The last of these times, no earlier than the end of the motion", rests.last_or_end,
+    ("settle_edge", "rise_duration"), "the greatest of them", output=False)
+settling.reduction("in_phase_end", "C_e", "rad/s", "First integral at the end of the calculated time", "integral", of="in_phase_part",
+    units=STRAIGHT_SPEED, source="Duhamel's integral", output=False)
+settling.reduction("quadrature_end", "S_e", "rad/s", "Second integral at the end of the calculated time", "integral", of="quadrature_part",
+    units=STRAIGHT_SPEED, source="Duhamel's integral", output=False)
+settling.value("decay_end", "E_e", "1", "Remaining fraction of a vibration at the end of the calculated time",
+    bind(followers.decay, time="duration"), source="vibration", output=False)
+settling.value("swing_end", "z_e", "deg", "Amplitude of the vibration at the end of the calculated time",
+    bind(followers.swing_amplitude, decay="decay_end", in_phase="in_phase_end", quadrature="quadrature_end"), units=STRAIGHT, source="vibration",
+    output=False)
+settling.choice("rest_start", "t_s0", "ms", "Time from which the link stays within the tolerance",
+    case(bind(common.same, quantity="last_edge"), "it does before the calculated time ends",
+        bind(common.is_at_most, smaller="swing_end", greater="rest_tolerance")),
+    case(bind(lambda duration, swing, tolerance, angular_frequency, damping_ratio:
+            duration + followers.time_to_fall(swing, tolerance, angular_frequency, damping_ratio), swing="swing_end", tolerance="rest_tolerance"),
+        "otherwise when the amplitude has fallen to it"), source="vibration", output=False,
+    exists=lambda swing_end, rest_tolerance, damping_ratio: (swing_end <= rest_tolerance) | (damping_ratio > 0))
+settling.value("settle_end", "t_s", "ms", "Time from which the link stays at rest", lambda rest_start: rest_start,
+    exists=lambda rest_start, cycle_time: rest_start < cycle_time)
 settling.phase("settling", "moving", "The link settles after the motion", "time", ("rise_duration", "settle_end"), period="cycle_time")
 settling.phase("rest", "rest", "The link rests", "time", ("settle_end", 0), period="cycle_time")
 

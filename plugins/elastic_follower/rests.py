@@ -114,15 +114,6 @@ def _differences() -> Array:
     return found
 
 
-def comes_to_rest(crossings: Array) -> Array:
-    """Whether what began within a tolerance is within it at the end: it went through it an even number of times, (variants, 1).
-
-    A crossing at zero is none: there the curve begins anew.
-    """
-    found: Array = np.sum(crossings > 0, axis=1, keepdims=True) % 2 == 0
-    return found
-
-
 def last_or_end(crossings: Array, end: Array) -> Array:
     """The last crossing, no earlier than the end of the motion, (variants, 1)."""
     found: Array = np.maximum(np.where(np.isfinite(crossings), crossings, 0).max(axis=1, initial=0)[:, None], end)

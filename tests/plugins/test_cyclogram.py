@@ -320,6 +320,31 @@ def test_a_press_whose_lines_run_at_other_rates_is_told() -> None:
     assert "press.productivity" in check.message
 
 
+LINK: Data = {"kind": "elastic_follower", "inertia": "0.5 kg*m**2", "stiffness": "50772 N*m/rad", "damping_ratio": 0.05, "rise": "1 rad",
+              "rise_time": 0.1, "cycles_per_hour": "3600 1/h", "rest_tolerance": "0.0113 deg"}  # fmt: skip
+
+
+@pytest.mark.parametrize("cycles", [2, 12])
+def test_the_rate_of_a_line_is_that_of_its_cycle_whatever_is_calculated_of_it(cycles: int) -> None:
+    """A driven link is followed for some natural periods of a longer cycle."""
+    interlock = {"name": "rests", "phase": "feeder.moving", "within": "link.rest"}
+    timing = {
+        "kind": "cyclogram",
+        "productivity": "3600 1/h",
+        "lines": [{"mechanism": "link"}, {"mechanism": "feeder"}],
+    }
+    feeder = yaml.safe_load(TEXT)["mechanisms"]["feeder"] | {"cycles_per_hour": "3600 1/h"}
+    run = linked(
+        {"feeder": feeder, "link": LINK | {"dwell_cycles": cycles}, "timing": timing | {"interlocks": [interlock]}}
+    )
+    check = check_of(run.calculations["timing"], "equal_rates")
+    assert check.status == "pass" and check.demand == pytest.approx(0, abs=1e-9)
+    line = {"mechanism": "link", "torque_curve": "torque"}
+    lines = {"lines": [line, timing["lines"][1]], "interlocks": [interlock]}
+    with pytest.raises(UserError, match="is over a part of the cycle of link alone"):
+        linked({"feeder": feeder, "link": LINK | {"dwell_cycles": cycles}, "timing": timing | lines})
+
+
 FAULTS: dict[str, tuple[Data, str]] = {
     "a line twice": (
         {"lines": [{"mechanism": "drive"}, {"mechanism": "drive"}]},

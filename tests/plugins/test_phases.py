@@ -21,7 +21,7 @@ from diecut_report.results.mechanism_record import AbsentPhaseRecord, ShownInter
 from tests.machines import cylinder, drive, inputs, number
 from tests.plugins import steppers
 from tests.plugins.cases import FULL
-from tests.plugins.followers import follower
+from tests.plugins.followers import follower, integrated, law_stretches
 from tests.plugins.knives import SHAPES, knife
 from tests.plugins.platens import platen
 
@@ -304,10 +304,35 @@ def test_the_driven_link_rests_once_its_deflection_stays_within_the_tolerance() 
     assert np.ravel(intervals(calc, "rest")) == pytest.approx([edges[-1], 2.0])
 
 
+@pytest.mark.parametrize("damping", [0.05, 0.1])
+def test_the_rest_does_not_depend_on_how_long_the_vibration_is_calculated(damping: float) -> None:
+    """A link that swings through its place is not at rest; what is calculated of it told so where it ended in such an instant."""
+    omega, rise, tolerance = 20 * np.pi, 0.2, np.radians(0.1)
+    link = {
+        "inertia": 1,
+        "stiffness": omega**2,
+        "damping_ratio": damping,
+        "rise": 1.2,
+        "rise_time": 0.1,
+        "cycles_per_hour": "1800 1/h",
+    }
+    last = integrated(law_stretches("modified_sine", 1.2, rise), 1.7, omega, damping)[-1]
+    end = float(last.time[np.flatnonzero(np.abs(last.states[2]) > tolerance)[-1]])
+    ends = [
+        number(
+            follower(**link, motion_law="modified_sine", rest_tolerance="0.1 deg", dwell_cycles=cycles), "settle_end"
+        )
+        for cycles in (*np.arange(0.5, 5, 0.25), 16)
+    ]
+    assert (
+        min(ends) >= end - 1e-3 and max(ends) <= end + np.pi / omega
+    )  # half a period later at most: then it is the amplitude
+    assert ends[-1] == pytest.approx(end, abs=1e-3)
+
+
 @pytest.mark.usefixtures("without_advice")
-def test_a_link_that_is_not_followed_until_it_rests_tells_no_rest() -> None:
-    found = mechanism_results(
-        follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.001 deg", dwell_cycles=2), {}
-    )
-    assert set(found.phases) == {"moving"}
+@pytest.mark.parametrize("never", [{"damping_ratio": 0}, {"cycles_per_hour": "9000 1/h", "rise_time": "0.5"}])
+def test_a_link_that_still_swings_when_the_next_motion_begins_tells_no_rest(never: dict[str, Any]) -> None:
+    link = {"cycles_per_hour": "1800 1/h", "rise_time": "0.1", "rest_tolerance": "0.001 deg", "dwell_cycles": 2}
+    assert set(mechanism_results(follower(**link | never), {}).phases) == {"moving"}
     assert mechanism_results(follower(), {}).phases_absent["moving"].missing == ["cycles_per_hour"]
