@@ -172,7 +172,7 @@ def slacks(made: CalculatedVariants) -> dict[str, Array]:
                 continue
             sides = judged(calc, check)
             there, demand, limit = (sides.governing(part) for part in (sides.there, sides.demand, sides.limit))
-            limit = limit * (1 + check.tolerance)
+            limit = check.reach(limit)
             size = np.maximum(np.abs(demand), np.abs(limit))
             with np.errstate(all="ignore"):
                 share = np.where(size > 0, (limit - demand) / size, 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.phrases import Phrase, phrase
 
 CheckClass = Literal["safety", "function", "strength", "practice", "numerical"]
+ROUNDING = 1e-9  # relative: what is sized for its limit, or typed at it, reaches it
 UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
 
 
@@ -50,6 +51,8 @@ class Check:
 
     For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is
     what is required and the limit what there is, so that the utilisation is required / available.
+    A demand at its limit holds, but for rounding, and one that must be below it (``operator`` "<") is below; ``tolerance`` is the share of
+    the limit where other rounding is greater.
     ``severity`` "warn" makes a failing check a warning, beyond the utilisation ``fails_beyond`` still a failure.
     ``consequence`` says what a failure means; what to change besides the keys of ``advise`` may follow in words.
     ``advise`` names the inputs that may be changed, each way by itself: ("shaft_diameter", "key_length"). The values with
@@ -86,7 +89,7 @@ class Check:
     operator: Literal["<=", "<"] = "<="
     severity: Literal["fail", "warn"] = "fail"
     fails_beyond: float | None = None
-    tolerance: float = 0.0
+    tolerance: float = ROUNDING
     needs: tuple[str, ...] = ()
     only_with: tuple[str, ...] = ()
     asks_for: tuple[str, ...] = ()
@@ -107,6 +110,10 @@ class Check:
         """Return what is held against what, the first not above the second: demand and limit, then the lower bound and demand."""
         upper = ((self.demand, self.limit),)
         return upper if self.at_least is None else (*upper, (self.at_least, self.demand))
+
+    def reach(self, limit: Any) -> Any:
+        """Return up to where a demand holds: at its limit but for rounding, or by ``tolerance``; below it where it must be below."""
+        return limit if self.operator == "<" else limit + self.tolerance * np.abs(limit)
 
     def is_failure(self, utilisation: Array) -> Array:
         """Return whether the check fails where it does not hold; else that is a warning."""

@@ -259,7 +259,7 @@ def _judged(check: Check, demand: Array, limit: Array) -> JudgedCheck:
 def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
     """Return whether the check holds, and its utilisation (NaN where the limit is not above zero), for arrays of variants."""
     with np.errstate(all="ignore"):
-        allowed = limit * (1 + check.tolerance)
+        allowed = check.reach(limit)
         held = demand < allowed if check.operator == "<" else demand <= allowed
         return held, np.where(limit > 0, np.divide(demand, limit), np.nan)
 

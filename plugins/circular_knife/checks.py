@@ -27,7 +27,7 @@ CHECKS = (
         consequence="over the whole turn this front edge is inside the edge's circle, so that the blade's end comes down on the board from above.",
         advise=("front_distance", "eccentricity", "depth")),
     Check(id="shear_resistance", check_class="practice", presumed=True, title="Shear resistance compared with the force of a rule",
-        demand="rule_force", limit="guillotine_line_force", unit="N/mm", tolerance=1e-9, severity="warn", needs=("rule_force",),
+        demand="rule_force", limit="guillotine_line_force", unit="N/mm", severity="warn", needs=("rule_force",),
         demand_label="required by a straight rule", limit_label="by the shear resistance", source="practice",
         consequence="force, torque and work are then calculated too small.", advise=(Vary("shear_resistance", "up"),)),
     Check(id="force", check_class="strength", title="Cutting force", demand="force_max", limit="allowable_force", unit="N",

@@ -8,7 +8,6 @@ from diecut_report.plugins.clutch.figures import FIGURES
 from diecut_report.plugins.clutch.inputs import Clutch
 from diecut_report.plugins.clutch.steps import SECTIONS
 
-ROUNDING = 1e-9  # relative: a size typed in at its limit reaches it
 HEATED = ("driven_inertia", "speed")
 
 MECHANISM = Mechanism(
@@ -36,24 +35,24 @@ MECHANISM = Mechanism(
               consequence="the clutch slips in every cycle, and wears and heats; it is to be designed for the torque that passes it.",
               advise=(Vary("torque", "up"), Vary("service_factor", "up"))),
         Check(id="pressure", check_class="strength", title="Pressure on the lining",
-              demand="pressure", limit="allowable_pressure", tolerance=ROUNDING, unit="MPa",
+              demand="pressure", limit="allowable_pressure", unit="MPa",
               sized_unless=("shoe_width",), demand_label="pressure", limit_label="allowed", source="002 eq. 17",
               consequence="the given shoes are too narrow.",
               advise=(Vary("shoe_width", "up"), Vary("shoe_radius", "up"), Vary("shoe_coverage", "up"))),
-        Check(id="width_ratio", check_class="practice", title="Width of the shoes", demand="width_ratio", limit=0.5, tolerance=ROUNDING, unit="1",
+        Check(id="width_ratio", check_class="practice", title="Width of the shoes", demand="width_ratio", limit=0.5, unit="1",
               demand_label="ratio of width to diameter", limit_label="accepted", source="this method",
               consequence="so wide shoes do not bear evenly; of a lining of more friction they may be narrower.",
               advise=(Vary("shoe_radius", "up"), Vary("shoe_width", "down"), ("shoe_radius", "shoe_width"))),
         Check(id="axial_travel", check_class="function", title="Travel of the cone",
-              demand="axial_travel", limit="available_travel", tolerance=ROUNDING, unit="mm",
+              demand="axial_travel", limit="available_travel", unit="mm",
               needs=("radial_gap", "available_travel"), demand_label="travel for gap and wear", limit_label="available", source="geometry",
               consequence="the cone meets its stop before the lining is worn.",
               advise=(Vary("available_travel", "up"), Vary("wear_allowance", "down"), Vary("wedge_angle", "up"))),
         Check(id="engagement_force", check_class="function", title="Engagement force", demand="engagement_force", limit="available_force",
-              tolerance=ROUNDING, unit="N", demand_label="required force", limit_label="available", source="002 eq. 15",
+              unit="N", demand_label="required force", limit_label="available", source="002 eq. 15",
               consequence="the clutch slips under its torque; a lining of more friction needs less force.",
               advise=(Vary("wedge_angle", "down"), Vary("shoe_radius", "up"))),
-        Check(id="slip_time", check_class="function", title="Slip time", demand="slip_time", limit="allowable_slip_time", tolerance=ROUNDING,
+        Check(id="slip_time", check_class="function", title="Slip time", demand="slip_time", limit="allowable_slip_time",
               unit="s", demand_label="slip", limit_label="allowed", source="input", needs=HEATED,
               consequence="the driven side comes too late into step; less driven_inertia or more torque shortens it."),
         Check(id="slip_share", check_class="function", title="Time between engagements",
@@ -62,17 +61,17 @@ MECHANISM = Mechanism(
               consequence="the next engagement begins before this one is over ({slip_time}); less inertia or load, or more torque, "
               "makes it shorter.", advise=(Vary("engagements_per_hour", "down"),)),
         Check(id="lining_power_density", check_class="strength", title="Friction power on the lining", demand="lining_power_density",
-              limit="allowable_power_density", tolerance=ROUNDING, unit="W/cm**2", needs=(*HEATED, "allowable_power_density"),
+              limit="allowable_power_density", unit="W/cm**2", needs=(*HEATED, "allowable_power_density"),
               demand_label="mean power per unit area", limit_label="allowed", source="this method",
               consequence="the lining wears and burns; less driven inertia makes less heat.",
               advise=(Vary("engagements_per_hour", "down"), Vary("shoe_width", "up"))),
         Check(id="pv", check_class="strength", title="Product of pressure and sliding speed",
-              demand="pv", limit="allowable_pv", tolerance=ROUNDING, unit="MPa*m/s",
+              demand="pv", limit="allowable_pv", unit="MPa*m/s",
               needs=("speed", "allowable_pv"), demand_label="product at first contact", limit_label="allowed", source="this method",
               consequence="the lining glazes as it engages.",
               advise=(Vary("shoe_width", "up"), Vary("shoe_radius", "up"), ("shoe_radius", "shoe_width"), Vary("speed", "down"))),
         Check(id="temperature_rise", check_class="strength", title="Temperature of the lining", demand="lining_temperature_rise",
-              limit="allowable_temperature_rise", tolerance=ROUNDING, unit="K", needs=(*HEATED, "allowable_temperature_rise"),
+              limit="allowable_temperature_rise", unit="K", needs=(*HEATED, "allowable_temperature_rise"),
               demand_label="maximum temperature rise", limit_label="allowed", source="this method",
               consequence="the lining loses its friction; less driven inertia or better cooling helps, too.",
               advise=(Vary("shoe_width", "up"), Vary("engagements_per_hour", "down"))),

@@ -44,7 +44,6 @@ MECHANISM = Mechanism(
             demand_label="exact radius",
             limit_label="adopted radius",
             source="002 eq. 1",
-            tolerance=1e-9,
             sized_unless=("radius",),
             consequence="the circumference beside the flat is shorter than the working length.",
             advise=(Vary("radius", "up"), Vary("segment_height", "down")),

@@ -11,31 +11,29 @@ from diecut_report.plugins.damper.formulas import SLENDEREST
 from diecut_report.plugins.damper.inputs import STOPPED, Damper
 from diecut_report.plugins.damper.steps import SECTIONS
 
-ROUNDING = 1e-9  # relative: a length that was sized for a limit reaches it
-
 RUBBER, PAD = ("elastic_modulus", "shore_hardness"), ("ring_width", "pad_height")
 ADVISE = ("adopted_length", *RUBBER, Vary("damper_count", "up"), PAD, (*PAD, "adopted_length"))
 LONGER, SOFTER = ("adopted_length", Vary("damper_count", "up")), ("adopted_length", *RUBBER)
 
 CHECKS = (
     Check(id="strain", check_class="strength", title="Strain within the linear law", demand="strain", limit="max_strain", unit="1",
-        tolerance=ROUNDING, demand_label="strain", limit_label="linear up to", source="002 eq. 19",
+        demand_label="strain", limit_label="linear up to", source="002 eq. 19",
         consequence="the rubber is stiffer then than calculated, and the force greater.", advise=ADVISE),
-    Check(id="stress", check_class="strength", title="Compressive stress", demand="stress", limit="allowable_stress", unit="MPa", tolerance=ROUNDING,
+    Check(id="stress", check_class="strength", title="Compressive stress", demand="stress", limit="allowable_stress", unit="MPa",
         sized_unless=("adopted_length",), demand_label="stress", limit_label="allowed", source="002 eq. 22",
         consequence="the block is too short to take up the energy.", advise=ADVISE),
     Check(id="dynamic_stiffness", check_class="strength", title="Stiffness of the rubber at the impact", demand="dynamic_stiffness_factor",
-        limit="stiffness_borne", unit="1", tolerance=ROUNDING, sized_unless=("adopted_length",), demand_label="ratio of dynamic to static stiffness",
+        limit="stiffness_borne", unit="1", sized_unless=("adopted_length",), demand_label="ratio of dynamic to static stiffness",
         limit_label="limit for the allowable stress", source="002 eq. 22",
         consequence="at the speed of the impact the rubber is too stiff for the block's length.", advise=ADVISE),
     Check(id="slenderness", check_class="strength", title="Buckling of the block", demand="slenderness", limit=SLENDEREST, unit="1",
-        tolerance=ROUNDING, demand_label="ratio of length to smaller side", limit_label="straight up to", source="block with clamped ends",
+        demand_label="ratio of length to smaller side", limit_label="straight up to", source="block with clamped ends",
         consequence="the block buckles before it has taken up the energy.", advise=ADVISE),
     Check(id="driven_stress", check_class="strength", title="Stress with the drive still pushing", demand="driven_stress", limit="allowable_stress",
-        unit="MPa", tolerance=ROUNDING, demand_label="stress", limit_label="allowed", source="energy",
+        unit="MPa", demand_label="stress", limit_label="allowed", source="energy",
         consequence="the work of the drive adds to the energy; it does not where it is let go before the stop.", advise=ADVISE),
     Check(id="driven_strain", check_class="strength", title="Strain with the drive still pushing", demand="driven_strain", limit="max_strain",
-        unit="1", tolerance=ROUNDING, demand_label="strain", limit_label="linear up to", source="energy",
+        unit="1", demand_label="strain", limit_label="linear up to", source="energy",
         consequence="the work of the drive presses the rubber beyond its linear law; it does not where it is let go before the stop.", advise=ADVISE),
     Check(id="force", check_class="strength", title="Force of a damper", demand="peak_force", limit="allowable_force", unit="N",
         demand_label="maximum force", limit_label="allowed", source="input", consequence="carriage or frame yields.", advise=LONGER),

@@ -6,7 +6,6 @@ from diecut_report.api import Check, Vary
 from diecut_report.plugins.gear_pair.load_factors import CALCULATED, DYNAMIC_KNOWN, ISO, KEYS, METHOD_C
 from diecut_report.plugins.gear_pair.sizing import MODULES
 
-ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
 GEARS = {1: "pinion", 2: "wheel"}
 LEAST_CONTACT, LEAST_CLEARANCE = 1.1, 0.12
 
@@ -21,12 +20,12 @@ def _strength(gear: int) -> tuple[Check, Check]:
     name = GEARS[gear]
     return (
         Check(id=f"pitting_{gear}", check_class="strength", title=f"Pitting of the {name}", demand="required_pitting_safety",
-              limit=f"pitting_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING,
+              limit=f"pitting_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety",
               source="ISO 6336-2:2006", needs=(DYNAMIC_KNOWN,), founded=(f"life_factor_h_{gear}",),
               consequence=f"the flanks of the {name} wear out by pitting; governing load case: {{pitting_case}}.",
               advise=(Vary(f"sigma_h_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
         Check(id=f"root_{gear}", check_class="strength", title=f"Tooth root of the {name}", demand="required_root_safety",
-              limit=f"root_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety", tolerance=ROUNDING,
+              limit=f"root_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety",
               source="ISO 6336-3:2006", needs=(DYNAMIC_KNOWN,), founded=(f"life_factor_f_{gear}",),
               consequence=f"teeth of the {name} break at the root; governing load case: {{root_case}}.",
               advise=(Vary(f"sigma_f_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
@@ -45,7 +44,7 @@ CHECKS = (STRENGTH[0][0], STRENGTH[1][0], STRENGTH[0][1], STRENGTH[1][1],
     Check(id="sector_teeth", check_class="function", title="Teeth of the sector", demand="teeth_needed", limit="sector.teeth_present", unit="1",
         needs=("sector", "sector.teeth_present"), demand_label="required for the swing", limit_label="present", source="this method",
         consequence="the pinion leaves the sector at the end of its swing.", advise=(Vary("sector.teeth_present", "up"),)),
-    Check(id="undercut", check_class="practice", title="Undercut", demand="shift_lacking", limit=0.0, unit="1", severity="warn", tolerance=1e-9,
+    Check(id="undercut", check_class="practice", title="Undercut", demand="shift_lacking", limit=0.0, unit="1", severity="warn",
         demand_label="missing profile shift", limit_label="allowed", source="ISO 21771",
         consequence="the rack cuts the involute away near the root, and the root is weaker than calculated.",
         advise=("shift_1", "shift_2", ("shift_1", "shift_2"))),
@@ -54,13 +53,13 @@ CHECKS = (STRENGTH[0][0], STRENGTH[1][0], STRENGTH[0][1], STRENGTH[1][1],
         consequence="thin tips chip where they are hardened; more teeth thicken them.",
         advise=(Vary("addendum", "down"), Vary("shift_1", "down"), Vary("shift_2", "down"), ("shift_1", "shift_2"))),
     Check(id="tip_clearance", check_class="practice", title="Tip clearance", demand="tip_clearance_wanted", limit="tip_clearance_least", unit="mm",
-        severity="warn", tolerance=ROUNDING, demand_label="usual, 0.12 modules", limit_label="minimum tip clearance", source="practice",
+        severity="warn", demand_label="usual, 0.12 modules", limit_label="minimum tip clearance", source="practice",
         consequence="little room for errors and dirt.", advise=ROOM),
     Check(id="notch_parameter", check_class="practice", presumed=True, title="Notch at the root", demand="notch_parameter", limit=8.0, at_least=1.0,
         unit="1", operator="<", severity="warn", demand_label="notch parameter", limit_label="range of Y_S", source="ISO 6336-3:2006, 7",
         consequence="the stress correction Y_S does not hold there.", advise=("root_radius",)),
     Check(id="face_width", check_class="practice", title="Face width", demand="face_width", limit="face_width_wanted", unit="mm", severity="warn",
-        tolerance=ROUNDING, demand_label="face width", limit_label="usual, 1.2 pinion diameters", source="practice",
+        demand_label="face width", limit_label="usual, 1.2 pinion diameters", source="practice",
         consequence="so wide teeth bear at one end.", advise=(Vary("face_width", "down"), MODULE[0])),
     Check(id="k_factors", check_class="practice", title="K factors", demand="factors_assumed", limit=0.0, unit="1", severity="warn",
         founded=KEYS, demand_label="number of assumed factors", limit_label="accepted", source=ISO,

@@ -127,6 +127,15 @@ def test_a_margin_that_is_the_rounding_of_equal_sides_is_none() -> None:
         assert found.status == "pass" and float(found.margin_display.text) == margin
 
 
+@pytest.mark.parametrize("limit", [12.0, -12.0, 0.3])
+def test_a_demand_at_its_limit_holds_but_for_rounding(limit: float) -> None:
+    size = abs(limit)
+    assert judged(check(limit + 5e-10 * size, limit)).status == "pass"
+    assert judged(check(limit + 2e-9 * size, limit)).status == "fail"
+    assert judged(check(limit, limit, operator="<")).status == "fail"  # what must be below is
+    assert judged(check(limit - 1e-12 * size, limit, operator="<")).status == "pass"
+
+
 def test_a_row_may_be_the_limit_too() -> None:
     found = judged(check(3.0, "force"), loads=(5, 1, 1))
     assert (found.status, found.part, found.limit) == ("fail", 2, 2)  # of two alike the first
