@@ -83,6 +83,7 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
           chunk_limit: float | None, yes: bool, strict: bool, discovery: Discovery) -> int:  # fmt: skip
     """Calculate all variants of a STUDY, and write them with a summary and full reports of some."""
+    from diecut_report.design.findings import with_findings
     from diecut_report.study import command
     from diecut_report.study.analysis.answers import is_doubtful
 
@@ -91,7 +92,14 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
     try:
         with redirect_stdout(sys.stderr), command.Shown(is_quiet()) as shown:
             outcome = command.run(
-                study, target, where, resume=resume is not None, agreed=yes, formats=formats, shown=shown
+                study,
+                target,
+                where,
+                resume=resume is not None,
+                agreed=yes,
+                formats=formats,
+                shown=shown,
+                finish=with_findings,
             )
     except KeyboardInterrupt:
         template = "stopped; what is finished is kept. Continue with: diecut-report batch --resume {folder}"

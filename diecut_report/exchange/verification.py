@@ -133,10 +133,10 @@ def recalculated(
     """
     given = carried.results
     made = _calculated(given.config, carried.tables, f"{carried.path} (its configuration)", discovery, tell)
-    # a results file without any part of a report is as ``calc`` writes it
-    has_more = bool(given.summary.tried or given.summary.moves) and not made.results.summary.tried
-    is_report = carried.form != "json" or has_more or given.summary.advice or given.influence
-    made = with_findings(made) if is_report else made
+    # without any part of a report they are as ``calc`` writes them, and ``render`` sets them
+    is_tried = bool(given.summary.tried or given.summary.moves) and not made.results.summary.tried
+    has_influence = given.influence or (carried.form != "json" and made.press.config.report.influence)
+    made = with_findings(made) if is_tried or given.summary.advice or has_influence else made
     results = made.results
     # as far as the command takes them; what it does not take differs from what comes out now
     only = given.report.only if results.mechanisms.keys() >= set(given.report.only) else []

@@ -20,7 +20,7 @@ from diecut_report.study.execution.study_run import (
     refuse_sample,
     run_study,
 )
-from diecut_report.study.execution.variant_reports import wanted, write_chosen
+from diecut_report.study.execution.variant_reports import Finish, wanted, write_chosen
 from diecut_report.study.storage import state
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.summary import summarise
@@ -87,7 +87,7 @@ def _bar() -> Progress:
 
 
 def run(
-    study: Path | None, directory: Path, where: Where, *, resume: bool, agreed: bool, formats: Sequence[str], shown: Shown
+    study: Path | None, directory: Path, where: Where, *, resume: bool, agreed: bool, formats: Sequence[str], shown: Shown, finish: Finish
 ) -> StudyOutcome:  # fmt: skip
     """Run a study, or continue the one of a folder; then reports, summary and the other formats."""
     known = loaded(study, directory, where)
@@ -99,7 +99,9 @@ def run(
     outcome = run_study(known, directory, where, resume=resume, tell=shown)
     with outcome.store.lock():
         chosen = wanted(known, outcome.store)
-        notes, outcome.broken_reports = write_chosen(chosen, outcome.store, where, agreed=agreed, tell=shown.doing)
+        notes, outcome.broken_reports = write_chosen(
+            chosen, outcome.store, where, finish, agreed=agreed, tell=shown.doing
+        )
         shown.doing(phrase("summary"))
         files = export(outcome.store, formats)
         with in_its_language(known, where):

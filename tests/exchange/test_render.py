@@ -10,6 +10,7 @@ import pytest
 
 from diecut_report.errors import UserError
 from diecut_report.exchange.results_form import results_of
+from tests.configs import EXAMPLES
 from tests.examples import few
 from tests.exchange.reports import changed, run
 
@@ -22,6 +23,16 @@ def test_a_rendered_report_is_the_report_byte_for_byte(small_report: Path, tmp_p
     assert run("render", small_report / "small.json", "-o", tmp_path, "--format", ending, "--quiet") == 0
     assert (tmp_path / f"small.{ending}").read_bytes() == (small_report / f"small.{ending}").read_bytes()
     assert run("render", small_report / "small.json", "-o", tmp_path, "--format", ending, "--strict") == 1
+
+
+def test_a_page_of_a_calculation_verifies(tmp_path: Path, capfd: Capture) -> None:
+    """Its values were not tried as a report tries them, which it says of each."""
+    knife = next(path for path in EXAMPLES if path.stem == "circular_knife")
+    assert run("calc", knife, "-o", tmp_path / "knife.json") == 0
+    assert run("render", tmp_path / "knife.json", "-o", tmp_path, "--format", "html", "--quiet") == 0
+    capfd.readouterr()
+    assert run("verify", tmp_path / "knife.html") == 0
+    assert "Everything agrees." in capfd.readouterr().out
 
 
 def no_sections(data: Data) -> None:

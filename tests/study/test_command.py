@@ -19,8 +19,10 @@ from diecut_report.cli.main import main
 from diecut_report.config.yaml import FORBIDDEN_IN_KEY
 from diecut_report.study.execution import dask_cluster, variant_reports
 from diecut_report.study.execution.variant_reports import best
-from tests.configs import GOOD, saved
+from tests.configs import EXAMPLES, GOOD, saved
 from tests.study.studies import BASE, STUDY, varied
+
+KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 
 Capture = pytest.CaptureFixture[str]
 CHECKED = BASE.replace("force: 2 kN,", "force: 2 kN, allowable_moment: 450,")
@@ -212,6 +214,23 @@ def test_the_failed_ones_get_a_report(tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 @pytest.mark.usefixtures("without_summary")
+def test_a_full_report_says_and_verifies_what_the_report_of_its_variant_does(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With its assumed values tried, and the advice followed."""
+    monkeypatch.setattr(variant_reports, "FORMATS", ("html", "json"))
+    text = varied("[14 mm, 15 mm]", rest="reports: [1]\n", path="mechanisms.knife.cut_length")
+    assert run("batch", files(tmp_path, text, KNIFE.read_text("utf-8")), "-o", tmp_path / "out", "--quiet") == 0
+    full = tmp_path / "out" / "reports" / "1.html"
+    assert run("report", f"{tmp_path / 'out'}#1", "-o", tmp_path / "own", "--format", "json", "--quiet") == 0
+    own = json.loads(next((tmp_path / "own").glob("*.json")).read_text())
+    assert json.loads(full.with_suffix(".json").read_text())["summary"] == own["summary"] and own["summary"]["tried"]
+    capfd.readouterr()
+    assert run("verify", full) == 0
+    assert "Everything agrees." in capfd.readouterr().out
+
+
+@pytest.mark.usefixtures("without_summary")
 def test_one_stored_variant_is_a_config_for_other_commands(tmp_path: Path, capfd: Capture) -> None:
     run("batch", files(tmp_path), "-o", tmp_path / "out", "--quiet")
     assert run("calc", f"{tmp_path / 'out'}#4") == 0
@@ -312,6 +331,7 @@ def test_quiet_says_nothing(tmp_path: Path, capfd: Capture) -> None:
 NAME = "\x1b[31mred\u202e.yaml"
 
 
+@pytest.mark.nightly
 def test_the_name_of_a_study_acts_on_no_terminal_and_turns_no_letters_round(tmp_path: Path) -> None:
     saved(tmp_path, BASE)
     out = tmp_path / "\x1b[2Jout"

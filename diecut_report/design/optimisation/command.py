@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from diecut_report.design.findings import with_findings
 from diecut_report.design.optimisation.result import Conflict, InputPlace, OptimisationResult, result
 from diecut_report.design.optimisation.run import SearchRun, run_search
 from diecut_report.design.optimisation.texts import lines, plain
@@ -130,7 +131,7 @@ def run(
         shown.doing(phrase("the front, machine by machine"))
         found = result(study, search.store, stored, where)
         chosen = _chosen(found, search.store, reports)
-        notes, broken = write_chosen(chosen, search.store, where, agreed=agreed, tell=shown.doing)
+        notes, broken = write_chosen(chosen, search.store, where, with_findings, agreed=agreed, tell=shown.doing)
         shown.doing(phrase("the page of the optimisation"))
         csv = _csv(directory, found)
         files = _files(found, csv, where)

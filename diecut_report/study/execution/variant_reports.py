@@ -12,7 +12,7 @@ import numpy as np
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.formulas import Array
-from diecut_report.press import AskedReport, Press
+from diecut_report.press import AskedReport, CalculatedPress, Press
 from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import Study
@@ -26,6 +26,8 @@ FOLDER = "reports"
 FORMATS = ("html", "pdf", "json")
 MANY = 200  # reports that are made without being asked for twice; each takes some seconds
 Tell = Callable[[str], None]
+Finish = Callable[[CalculatedPress], CalculatedPress]
+"""What adds to a calculation what its report has besides."""
 
 
 @dataclass(frozen=True)
@@ -45,12 +47,12 @@ class VariantReport:
 
 
 def write_chosen(
-    chosen: Chosen, store: Store, where: Where, *, agreed: bool, tell: Tell
+    chosen: Chosen, store: Store, where: Where, finish: Finish, *, agreed: bool, tell: Tell
 ) -> tuple[tuple[str, ...], dict[str, str]]:
     """Write full reports, as ``reports/ID.html`` and so on; those that are there already are kept.
 
-    Return what was not done, and the plugins that broke, with their faults. ``tell`` hears how far it is. They
-    are made side by side in processes of this machine.
+    ``finish`` adds to each calculation what its report has besides, as the command ``report`` does. Return what was not done, and
+    the plugins that broke, with their faults. ``tell`` hears how far it is. They are made side by side in processes of this machine.
     """
     folder = store.directory / FOLDER
     missing = [v for v in chosen.variants if not all((folder / f"{v}.{ending}").exists() for ending in FORMATS)]
@@ -68,7 +70,7 @@ def write_chosen(
         setup = WorkerSetup(
             "\n".join(["reports", *where.plugins]), Discovery, ([Path(each) for each in where.plugins],)
         )
-        write = partial(_write, directory=store.directory, language=where.language)
+        write = partial(_write, directory=store.directory, language=where.language, finish=finish)
         with local_engine(where.jobs, len(missing), setup) as engine:
             tell(Phrase("full reports: {n} of {total}", n=0, total=len(missing)))
             for done, (report, faults) in enumerate(results(engine, write, map(VariantReport, missing)), 1):
@@ -80,11 +82,13 @@ def write_chosen(
     return chosen.notes, broken
 
 
-def _write(discovery: Discovery, report: VariantReport, directory: Path, language: str | None) -> dict[str, str]:
+def _write(
+    discovery: Discovery, report: VariantReport, directory: Path, language: str | None, finish: Finish
+) -> dict[str, str]:
     config = variant_config(directory, report.variant, discovery, f"{report.variant}.yaml")
     press = Press.read(config, discovery)
     press.require_reportable(FORMATS)
-    outcome = press.calculate().report(directory / FOLDER, FORMATS, AskedReport(language))
+    outcome = finish(press.calculate()).report(directory / FOLDER, FORMATS, AskedReport(language))
     return {error.kind: error.message for error in outcome.broken}
 
 
