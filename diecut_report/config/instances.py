@@ -29,7 +29,7 @@ from diecut_report.errors import Problem, latin_letters, nearest
 from diecut_report.formulas.condition_parts import Expression
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
-from diecut_report.mechanism.curve_inputs import CurveInput, FromTable
+from diecut_report.mechanism.curve_inputs import CurveInput, FromTable, InOtherUnit, is_in
 from diecut_report.mechanism.inputs import (
     Block,
     Meta,
@@ -42,7 +42,7 @@ from diecut_report.mechanism.inputs import (
     texts_given,
 )
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import FromPress, Text
+from diecut_report.mechanism.names import SI, FromPress, Pending, Text
 from diecut_report.mechanism.steps import PREFIX, ComputedCurve, PartNames, Step, part_result
 from diecut_report.quantities.units import UnitError, kind_name, unit
 from diecut_report.text.phrases import MessageError, Phrase, phrase
@@ -410,14 +410,28 @@ class Instance:
 
     def value(self, key: KeyPath) -> Any:
         """The value of an input that is not a reference: an SI number, a text, true or false, values of a curve, or None."""
+        slot, value = self._given_at(key)
+        is_own = slot.key == key and isinstance(slot.meta, Quantity | CurveInput)
+        return slot.meta.validate(value) if is_own and value is not None and slot.meta else value
+
+    def is_in_other_unit(self, key: KeyPath, meta: Quantity) -> bool:
+        """Return whether the value of an input that is not a reference is given in the other kind of unit that its key allows."""
+        if not meta.or_unit or dotted(key) not in self.given:
+            return False
+        _, value = self._given_at(key)
+        if isinstance(value, Pending | SI):  # stands in for one
+            return value.unit == meta.other.parsed_unit.si
+        return isinstance(value, InOtherUnit) or (isinstance(value, str) and is_in(value, meta.or_unit))
+
+    def _given_at(self, key: KeyPath) -> tuple[Slot, Any]:
+        """The slot that an input is in, and what it has as it is given."""
         slot = next(self.by_key[key[:n]] for n in range(len(key), 0, -1) if key[:n] in self.by_key)
         value = slot.value
         for part in key[len(slot.key) :]:  # within a block that is there by default
             if value is None:  # an optional block that is not given
-                return None
+                return slot, None
             value = getattr(value, part) if isinstance(part, str) else value[part]
-        is_own = slot.key == key and isinstance(slot.meta, Quantity | CurveInput)
-        return slot.meta.validate(value) if is_own and value is not None and slot.meta else value
+        return slot, value
 
     @cached_property
     def declared_steps(self) -> dict[str, tuple[Chapter, Step]]:

@@ -47,6 +47,7 @@ class Linker:
         self.instances = instances
         self.links: dict[Node, Target] = {}
         self.unresolved: set[Node] = set()
+        self._asked: set[Node] = set()  # whose unit is just being looked for
         self.problems: list[Problem] = []
         known = [instance for instance in instances.values() if instance is not None]
         for instance in known:
@@ -92,9 +93,11 @@ class Linker:
             found = read_expression(text, lambda name: self._term(name, terms))
         except _BrokenTerm:
             return next(term for term in terms.values() if term.is_broken)
-        if meta and (fault := found.refused(meta.unit)):
-            raise Unresolved(fault)
-        si = unit(meta.unit).si if meta else "1"
+        units = [meta.unit, getattr(meta, "or_unit", "")] if meta else []
+        wanted = next((each for each in units if each and not found.refused(each)), None)
+        if meta and wanted is None:
+            raise Unresolved(str(found.refused(meta.unit)))
+        si = unit(wanted).si if wanted else "1"
         return Target(found.text, "", unit=si, expression=found, terms=tuple(terms[name] for name in found.names))
 
     def _term(self, name: str, terms: dict[str, Target]) -> Name:
@@ -229,7 +232,23 @@ class Linker:
             template = "${{path}} is not a single number, but may vary over a cycle; write here what it is given as."
             raise Unresolved(template, path=path)
         si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None
+        if isinstance(meta, Quantity) and self._is_in_other_unit(instance, key, meta):
+            si = meta.other.parsed_unit.si
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
+
+    def _is_in_other_unit(self, instance: Instance, key: KeyPath, meta: Quantity) -> bool:
+        """Whether an input has a value in the other kind of unit that its key allows, itself or by what it refers to."""
+        if not meta.or_unit:
+            return False
+        node, text = (instance.name, *key), dict(texts(instance.data)).get(key, "")
+        if "${" not in text:
+            return instance.is_in_other_unit(key, meta)
+        if node in self._asked:  # of references that lead to each other, which is told elsewhere
+            return False
+        self._asked.add(node)
+        target = self._calculated(instance, key, text) or self.target(text)
+        self._asked.discard(node)
+        return target.unit == meta.other.parsed_unit.si
 
     def _unknown(self, path: str, instance: Instance, name: str) -> str:
         if count_name(name) in instance.results:

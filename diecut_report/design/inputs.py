@@ -17,6 +17,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
+from diecut_report.mechanism.curve_inputs import InOtherUnit
 from diecut_report.mechanism.inputs import POINTS, Quantity
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Text
@@ -247,6 +248,7 @@ def _present(config: Config, asked: Input) -> float | None:
     instance = config.instances[asked.instance if link is None else link.instance]
     assert instance is not None
     value = instance.value(asked.key if link is None else link.key)
+    value = value.value if isinstance(value, InOtherUnit) else value
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
     return float(link.formula(value)) if link and link.formula else float(value)

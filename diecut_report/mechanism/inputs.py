@@ -88,6 +88,18 @@ class Quantity:
         return unit(self.unit)
 
     @property
+    def other(self) -> Quantity:
+        """Return it as it is in the other kind of unit, in which of its bounds zero alone means the same."""
+        bounds: dict[str, Any] = {name: 0 if getattr(self, name) == 0 else None for name, _ in BOUNDS}
+        return replace(self, unit=self.or_unit, or_unit="", plausible=None, **bounds)
+
+    def of_unit(self, si: str | None) -> Quantity:
+        """Return it as it is where its value has this SI unit: its own, or the other kind of unit; never both."""
+        if not self.or_unit:
+            return self
+        return self.other if si == self.other.parsed_unit.si else replace(self, or_unit="")
+
+    @property
     def allowed(self) -> str:
         """Return the range in words, for example ``> 0 mm, ≤ 80 mm``; empty without bounds."""
         limits = [(sign, getattr(self, name)) for name, sign in BOUNDS]
@@ -102,8 +114,11 @@ class Quantity:
             case str() if given.strip() in self.words:
                 return given.strip()
             case str() if self.or_unit and is_in(given, self.or_unit):
-                other = replace(self, unit=self.or_unit, or_unit="", plausible=None)
-                return InOtherUnit(other.validate(given), self.or_unit)
+                return InOtherUnit(self.other.validate(given), self.or_unit)
+            case Pending(unit=str() as other) if self.or_unit and unit(other).kind == self.other.parsed_unit.kind:
+                return given
+            case SI(unit=other) if self.or_unit and unit(other).kind == self.other.parsed_unit.kind:
+                return InOtherUnit(self.other.validate(given), self.or_unit)
             case None:
                 raise ValueError(
                     Phrase("has no value; give a number in {text} or remove the key", text=pretty(self.unit) or 'plain form')

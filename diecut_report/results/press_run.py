@@ -24,7 +24,7 @@ from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUn
 from diecut_report.machine.steps.needed import needed
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form, taken
-from diecut_report.mechanism.curve_inputs import CurveInput
+from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit
 from diecut_report.mechanism.inputs import Block, Quantity, flatten, meta_of, texts_given
 from diecut_report.mechanism.mechanism import Comparison, Mechanism
 from diecut_report.mechanism.names import SI, Text
@@ -260,6 +260,7 @@ class Run:
 
     def _input(self, instance: Instance, target: Target, followed: Any) -> Any:
         value = instance.value(target.key) if followed is None else followed
+        value = value.value if isinstance(value, InOtherUnit) else value
         if isinstance(value, SI):
             value = value.value
         if isinstance(value, tuple):

@@ -19,7 +19,7 @@ from diecut_report.mechanism.curve_inputs import InOtherUnit
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import given_shown
-from diecut_report.quantities.units import UnitError, with_point
+from diecut_report.quantities.units import UnitError, unit, with_point
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
 from diecut_report.scripting.parts import PartList
@@ -120,7 +120,9 @@ def _input(config: Config, instance: Instance, slot: Slot) -> PressInput:
 def _value(path: str, slot: Slot, value: Any) -> QuantityValue | None:
     meta = slot.meta
     if isinstance(value, InOtherUnit):
-        return QuantityValue(value.value, value.unit, path)
+        shown = given_shown(value.value, value.unit)
+        words = (meta.symbol, meta.description) if meta else ("", "")
+        return QuantityValue(value.value, unit(value.unit).si, path, *words, "", (shown["text"], shown["unit"]))
     if isinstance(meta, Quantity) and isinstance(value, int | float):
         shown = given_shown(float(value), meta.unit)
         printed = shown["text"], shown["unit"]

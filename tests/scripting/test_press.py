@@ -10,7 +10,7 @@ import pytest
 
 import diecut_report as dr
 from diecut_report.cli.main import main
-from tests.configs import GOOD, HEAD, SMALL, saved
+from tests.configs import EXAMPLE, GOOD, HEAD, SMALL, saved
 
 TEXT = (
     HEAD
@@ -200,3 +200,12 @@ def test_a_press_is_shown_by_its_name_and_inputs(press: dr.LoadedPress) -> None:
     assert repr(press).startswith("<press P of ") and repr(press).endswith(": a, b>")
     html = press.with_values({"a.remark": "<script>alert(1)</script>"})._repr_html_()
     assert "a.arm" in html and "90\N{NO-BREAK SPACE}mm" in html and "&lt;script&gt;" in html and "<script" not in html
+
+
+def test_a_margin_in_milliseconds_is_read_and_given_again_as_it_is() -> None:
+    """It read a thousand times too small: an SI number in the unit of the file."""
+    press = dr.load(EXAMPLE.with_name("flat_cylinder_press_mended.yaml"))
+    name = "timing.interlocks.0.margin"
+    value = press.inputs[name].value
+    assert (str(value), value.si, value.unit) == ("5 ms", 0.005, "s")
+    assert press.with_values({name: value}).inputs[name].value.si == 0.005

@@ -14,7 +14,9 @@ from diecut_report.errors import UserError
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.press import Press
+from diecut_report.results.warm_press import WarmPress
 from diecut_report.study.definition.base_inputs import find_input
+from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution import press_batch
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 from tests.configs import DISCOVERY, EXAMPLES, saved
@@ -247,3 +249,70 @@ def test_shafts_that_turn_unlike_often_in_a_cycle_are_as_each_alone(tmp_path: Pa
         for name in ("fatigue_safety", "deflection_max", "yield_safety", "reaction_b_max"):
             assert found.columns[f"bent.{name}"][row] == pytest.approx(alone.columns[f"bent.{name}"][0], rel=1e-12)
     assert len(set(found.columns["bent.fatigue_safety"])) == 3
+
+
+MARGIN = "mechanisms.timing.interlocks.0.margin"
+
+
+def test_a_margin_in_milliseconds_is_varied_as_it_is_typed() -> None:
+    """It may be an angle or a time; the rate that it leaves room for goes with its inverse where it governs."""
+    press = Press.read(MENDED, DISCOVERY)
+    asked = find_input(press.config, MARGIN)
+    assert (asked.unit, asked.display) == ("s", "ms") and design_input(press.config, MARGIN).present == 0.005
+    found = require_as_alone(press, "timing.interlocks.0.margin", 0.005, 0.006)
+    limits = found.columns["timing.productivity_limit"]
+    assert limits[0] * 5 == pytest.approx(limits[1] * 6, rel=1e-6)
+    angle = Press.read(MENDED, DISCOVERY).with_values({design_input(press.config, MARGIN).stands: "1 deg"})
+    assert find_input(angle.config, MARGIN).unit == "rad"
+
+
+def test_a_constraint_may_name_a_margin_in_milliseconds(tmp_path: Path) -> None:
+    text = f"""schema_version: 1
+base: {MENDED}
+vary: {{{MARGIN}: {{from: 5 ms, to: 7 ms, count: 3}}}}
+sample: {{method: grid}}
+constraints: ["{MARGIN} < '6.5 ms'"]
+outputs: [timing.productivity_limit]
+"""
+    study = load_study(saved(tmp_path, text, "study.yaml"), DISCOVERY)
+    rows = study.sample.rows(0, 3)
+    assert rows[MARGIN].tolist() == pytest.approx([0.005, 0.006, 0.007])
+    assert [each.judged(rows).holds.tolist() for each in study.constraints] == [[True, True, False]]
+
+
+@pytest.mark.parametrize(
+    "values", ["[5 ms, 60 ms]", "{from: 5 ms, to: 60 ms, count: 3}", "{distribution: uniform, low: 5 ms, high: 60 ms}"]
+)
+def test_a_margin_that_the_file_has_as_an_angle_is_varied_as_one(tmp_path: Path, values: str) -> None:
+    """A time was taken as so many radians, 60 ms as 3.4° where it is 36°."""
+    saved(tmp_path, margins("3 deg"), "press.yaml")
+    text = f"schema_version: 1\nbase: press.yaml\nvary: {{{MARGIN}: {values}}}\nsample: {{method: sobol, count: 2}}\n"
+    text = text.replace("sobol, count: 2", "grid") if "[" in values or "count: 3" in values else text
+    with pytest.raises(UserError, match="5 ms is a time; an angle is needed"):
+        load_study(saved(tmp_path, text, "study.yaml"), DISCOVERY)
+
+
+def margins(first: str, second: str = "5 ms") -> str:
+    """The mended press with other margins."""
+    text, old = MENDED.read_text("utf-8"), "margin: {value: 5 ms,"
+    assert text.count(old) == 2
+    return text.replace(old, f'margin: {{value: "{first}",', 1).replace(old, f'margin: {{value: "{second}",', 1)
+
+
+@pytest.mark.parametrize(
+    ("second", "angle"),
+    [("${timing.interlocks.0.margin}", 5), ("2 * ${timing.interlocks.0.margin}", 10), ("${timing.interlocks.0.margin} + 1 ms", 6),
+     ("1 / ${press.productivity} / 100", 1e5 / 6090 * 0.36), ("${drive.swing_angle} / 10", None)],
+)  # fmt: skip
+def test_a_margin_may_follow_from_what_is_a_time_or_an_angle(tmp_path: Path, second: str, angle: float | None) -> None:
+    press = Press.read(saved(tmp_path, margins("5 ms", second), "press.yaml"), DISCOVERY)
+    run = WarmPress(is_advised=False).calculate(press.config).calculations
+    asked = run["timing"]["margin_required"][0, 1]
+    expected = run["drive"]["swing_angle"].item() / 10 if angle is None else angle * 1e-3 * 2 * np.pi * 6090 / 3600
+    assert asked == pytest.approx(expected, rel=1e-9)
+    found = rows(
+        press.config, "timing.interlocks.1.margin", 0.002, 0.004
+    )  # takes the place of a reference, in its unit
+    assert found.columns["timing.margin_required.1"][1] == pytest.approx(
+        2 * found.columns["timing.margin_required.1"][0]
+    )

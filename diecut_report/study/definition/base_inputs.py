@@ -87,7 +87,17 @@ def find_input(base: Config, path: str) -> Input:
     home = declared(instance.model, key[:-1]) if len(key) > 1 else instance.model
     assert isinstance(home, type)
     field = keys_of(home)[str(key[-1])].field
-    return Input(path, instance.name, key, meta, _with_entries(instance, key, field.annotation), tuple(field.metadata))
+    own = meta.of_unit(_present_unit(base, instance, key, meta)) if isinstance(meta, Quantity) else meta
+    metadata = tuple(own if each is meta else each for each in field.metadata)
+    return Input(path, instance.name, key, own, _with_entries(instance, key, field.annotation), metadata)
+
+
+def _present_unit(base: Config, instance: Instance, key: KeyPath, meta: Quantity) -> str | None:
+    """The SI unit of what the base has there: of a quantity that may be given in two kinds of unit the one that it is given in."""
+    link = base.links.get((instance.name, *key))
+    if link is not None:
+        return link.unit
+    return meta.other.parsed_unit.si if instance.is_in_other_unit(key, meta) else meta.parsed_unit.si
 
 
 def varied_input(base: Config, path: str) -> Input:

@@ -22,6 +22,7 @@ from diecut_report.formulas.condition_tree import as_formula, names
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import Node, symbols, transform
+from diecut_report.mechanism.curve_inputs import InOtherUnit
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -161,4 +162,5 @@ def stored_value(value: Any) -> float | str:
     """Return a value as a sample holds it: a yes/no as the text that YAML has for it, a whole number as a float."""
     if isinstance(value, bool):
         return str(value).lower()
+    value = value.value if isinstance(value, InOtherUnit) else value
     return value if isinstance(value, str) else float(value)

@@ -208,6 +208,7 @@ class _Rows(Run):
                 message = Phrase("a curve given as a list refers to {told}, which varies", told=value.told)
                 raise NotOnArrays(self.config.kinds[instance.name], message)
             return SI(value.value.item(), value.unit, value.told)
+        meta = meta.of_unit(value.unit)
         column = np.broadcast_to(value.value, (self.variants.count,)).astype(float)
         bad = np.flatnonzero(~meta.holds(column, calculated=True))
         for row in bad:
