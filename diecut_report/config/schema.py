@@ -9,6 +9,7 @@ from diecut_report.config.instances import DIMENSIONS
 from diecut_report.config.loader import RESERVED
 from diecut_report.config.model import PressBlock, Project, ReportSettings
 from diecut_report.config.own_tables import MAX_FILES
+from diecut_report.config.parts.elements import given_by_parts
 from diecut_report.config.parts.keys import MachineKeys
 from diecut_report.config.parts.reading import MODELS, TAKEN_APART
 from diecut_report.config.validation import BASES, LEAST_REASON, keys_of
@@ -136,7 +137,7 @@ def _of_kind(mechanism: Mechanism) -> Schema:
     return schema | {
         "title": mechanism.kind,
         "description": f"{mechanism.title}. {mechanism.summary}",
-        "required": ["kind", *schema["required"]],
+        "required": ["kind", *(key for key in schema["required"] if key not in given_by_parts(mechanism))],
         "properties": {"kind": {"const": mechanism.kind}} | schema["properties"],
     }
 

@@ -43,7 +43,10 @@ def test_the_schema_of_all_kinds_is_one() -> None:
     json.dumps(schema(), allow_nan=False)
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=[path.name for path in EXAMPLES])
+MACHINES = sorted((EXAMPLES[0].parent / "machines").glob("*.yaml"))
+
+
+@pytest.mark.parametrize("path", [*EXAMPLES, *MACHINES], ids=lambda path: str(path.name))
 def test_the_examples_meet_the_schema(path: Any) -> None:
     assert faults(path.read_text("utf-8")) == []
 
