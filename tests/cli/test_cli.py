@@ -310,6 +310,7 @@ SLOW = "import time\nfrom diecut_report.api import Inputs, Mechanism\ntime.sleep
 )
 
 
+@pytest.mark.nightly
 def test_colours_and_what_it_does_are_shown_only_on_a_terminal_that_wants_them(tmp_path: Path) -> None:
     """What it does is shown when that takes longer than a second."""
     saved(tmp_path, SLOW, "slow.py")

@@ -164,6 +164,7 @@ def here(*arguments: str | Path) -> int:
     return main([*map(str, arguments), "--quiet"])
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("without_summary")
 def test_a_run_is_not_continued_with_other_code_of_the_same_version(tmp_path: Path) -> None:
     folder, out = lever(tmp_path / "plugins"), tmp_path / "out"

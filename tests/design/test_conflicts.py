@@ -38,6 +38,7 @@ def found(capfd: Capture, press: Path, *more: object) -> dict[str, Any]:
     return answer
 
 
+@pytest.mark.nightly
 def test_the_least_set_that_conflicts_is_told_and_what_is_not_proved(tmp_path: Path, capfd: Capture) -> None:
     assert advise(saved(tmp_path, TEXT), "--free", "a.arm", "--free", "c.arm") == 1
     out = capfd.readouterr().out

@@ -103,7 +103,9 @@ def test_the_report_itself_agrees(knife: Path, tmp_path: Path, capfd: Capture) -
 
 
 @pytest.mark.usefixtures("made_once")
-@pytest.mark.parametrize("forgery", OF_RESULTS, ids=lambda forgery: forgery.way)
+@pytest.mark.parametrize(
+    "forgery", few(OF_RESULTS, keep=lambda each: OF_RESULTS.index(each) % 2 == 0), ids=lambda forgery: forgery.way
+)
 def test_changed_results_are_found(knife: Path, tmp_path: Path, capfd: Capture, forgery: Forgery) -> None:
     data = json.loads((knife / "new.json").read_text("utf-8"))
     forgery.change(data)
@@ -361,6 +363,7 @@ class InAMonth(datetime):
         return super().now(tz) + timedelta(30)
 
 
+@pytest.mark.nightly
 def test_a_certificate_that_ended_holds_where_a_timestamp_proves_that_it_was_used_before(
     small_report: Path, private: ec.EllipticCurvePrivateKey, monkeypatch: Patch
 ) -> None:
@@ -435,7 +438,9 @@ def test_a_changed_pdf_that_somebody_signs_is_found(
     assert not (signed.startswith(whole) and only_signed(whole, signed))
 
 
-@pytest.mark.parametrize("forgery", OF_PDF, ids=lambda each: each.way)
+@pytest.mark.parametrize(
+    "forgery", few(OF_PDF, keep=lambda each: OF_PDF.index(each) % 2 == 0), ids=lambda each: each.way
+)
 def test_a_pdf_that_is_changed_after_it_was_signed_is_found(
     small_report: Path, private: ec.EllipticCurvePrivateKey, forgery: Forgery
 ) -> None:

@@ -138,6 +138,7 @@ def test_one_signs_after_the_other_and_the_report_agrees_in_everything(
     assert (tmp_path / "back" / "signed.json").read_bytes() == (small_report / "small.json").read_bytes()
 
 
+@pytest.mark.nightly
 def test_a_signature_shows_in_its_field(signed: Path) -> None:
     with pikepdf.open(signed) as opened:
         [field] = [each for each in opened.pages[0].Annots if each.get("/T") == "approved"]
@@ -213,6 +214,7 @@ def damaged(whole: bytes) -> Iterator[bytes]:
     yield b"%PDF-1.7 /ByteRange"
 
 
+@pytest.mark.nightly
 def test_a_damaged_signature_is_told_in_words(signed: Path) -> None:
     whole = signed.read_bytes()
     start = whole.index(b"/ByteRange")

@@ -198,6 +198,7 @@ def test_a_given_length_is_checked_instead_of_sized() -> None:
 # --- buckling ----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 @given(energy=st.floats(1, 1e4), width=st.floats(2, 300), height=st.floats(2, 300), modulus=st.floats(1, 20))
 def test_pad_and_number_against_buckling_are_the_least(
     energy: float, width: float, height: float, modulus: float

@@ -37,6 +37,7 @@ def failed(results: ResultsRecord, name: str) -> dict[str, str]:
     return {check.id: check.message for check in results.mechanisms[name].checks if check.status == "fail"}
 
 
+@pytest.mark.nightly
 def test_a_press_with_pins_of_five_millimetres_fails_for_its_pins(thin: ResultsRecord) -> None:
     elements = {
         name: data.status

@@ -131,6 +131,7 @@ def test_what_cannot_be_sized_is_told(changes: dict[str, Any], key: str, words: 
     assert any(path == key and words in message for path, message in found.value.reasons)
 
 
+@pytest.mark.nightly
 def test_variants_under_curves_get_their_own_diameters(tmp_path: Path) -> None:
     text = PRESS.replace("length: 60 mm, diameter: 60 mm", "length: 60 mm").replace(", fillet_radius: 2 mm", "")
     text = text.replace("n_points: 720", "n_points: 72") + "    required_fatigue_safety: 1.05\n"

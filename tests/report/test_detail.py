@@ -118,7 +118,11 @@ def test_standard_has_each_check_of_a_chapter_once_and_full_has_all(pages: dict[
 
 
 @pytest.mark.usefixtures("without_advice")
-@pytest.mark.parametrize("file", few(EXAMPLES, lambda file: file.stem not in PARTS), ids=lambda file: str(file.stem))
+@pytest.mark.parametrize(
+    "file",
+    few(EXAMPLES, lambda file: file.stem not in (*PARTS, "flat_cylinder_press")),
+    ids=lambda file: str(file.stem),
+)
 def test_what_was_found_wrong_in_the_sources_is_printed_in_every_report_that_cites_them(file: Path) -> None:
     run = compute(load_config(file, DISCOVERY), lambda _: None)
     for detail in DETAILS[1:]:  # a brief report cites nothing

@@ -324,6 +324,7 @@ def small() -> ResultsRecord:
     return made
 
 
+@pytest.mark.nightly
 def test_each_part_leads_to_its_chapter_and_the_report_of_the_results_file_draws_the_same() -> None:
     results = small()
     page = html.page(Material(results))

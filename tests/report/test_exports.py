@@ -146,6 +146,7 @@ def test_equal_results_give_equal_bytes_and_settings_stay() -> None:
     assert ezdxf.options.write_fixed_meta_data_for_testing == before
 
 
+@pytest.mark.nightly
 def test_equal_results_give_equal_bytes_in_another_process(tmp_path: Path) -> None:
     file = tmp_path / "results.json"
     file.write_text(results_text(typed(_results())), encoding="utf-8")

@@ -51,6 +51,7 @@ def test_the_notebooks_are_kept_without_outputs_and_the_page_names_each() -> Non
     assert len(NOTEBOOKS) > 4 and named == {file.name for file in NOTEBOOKS}
 
 
+@pytest.mark.nightly
 def test_the_notebook_runs_and_shows_what_it_promises() -> None:
     notebook = read(FIRST)
     own = (

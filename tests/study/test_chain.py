@@ -107,7 +107,7 @@ def rounding(mechanism: dict[str, Any], unit: str) -> float:
 
 @pytest.mark.parametrize(
     ("name", "count"),
-    few([("flat_cylinder_press.yaml", 2), ("elastic_transport.yaml", 2)], keep=lambda one: "press" in one[0]),
+    few([("flat_cylinder_press.yaml", 2), ("elastic_transport.yaml", 2)], keep=lambda one: "elastic" in one[0]),
 )
 def test_each_machine_among_many_is_the_one_alone(name: str, count: int) -> None:
     """Through references from mechanism to mechanism; each kind on its own is held to it in tests/plugins/test_contract.py."""
@@ -147,6 +147,7 @@ def without_elements() -> Config:
     return load_config(parse(text, "press.yaml"), Discovery([]))
 
 
+@pytest.mark.nightly
 def test_machines_whose_lines_run_at_unlike_rates_are_told_apart() -> None:
     """What needs the sum of the torques is not calculated for them, and the others keep it."""
     base, speeds = without_elements(), np.array([40.0, 50.0]) * math.pi / 30

@@ -151,6 +151,7 @@ def test_worker_that_joins_later_takes_part(cluster: Cluster, tmp_path: Path) ->
     assert len(workers) == 2
 
 
+@pytest.mark.nightly
 def test_exception_names_its_chunk_and_the_cluster_can_be_used_again(cluster: Cluster, tmp_path: Path) -> None:
     cluster.worker()
     with (

@@ -184,6 +184,7 @@ def test_run_killed_at_any_time_is_continued(tmp_path: Path, after: int, finishe
     assert before.items() <= stored(out).items() and are_complete(out)
 
 
+@pytest.mark.nightly
 def test_tables_are_kept_with_the_results(tmp_path: Path, finished: Run) -> None:
     """Two tables of one name, one of them outside of the study's folder; workers get them too."""
     place = tmp_path / "studies"

@@ -500,6 +500,7 @@ def small_page(small_summary: contents.Summary) -> str:
     return page(small_summary)
 
 
+@pytest.mark.nightly
 def test_the_pages_say_the_counts(small_summary: contents.Summary, small_page: str) -> None:
     """The PDF, which takes longest, has the tags of its alternative texts too."""
     text = re.sub(r"<[^>]+>", "", small_page)

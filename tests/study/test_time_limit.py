@@ -17,6 +17,7 @@ from diecut_report.study.execution import study_run
 from diecut_report.study.execution.worker import ChunkClock
 from diecut_report.time_limit import Overran, limited
 from tests.configs import saved
+from tests.examples import few
 from tests.study.test_broken_plugins import BASE, COMPUTED, PLUGIN
 
 Capture = pytest.CaptureFixture[str]
@@ -60,7 +61,9 @@ def rows(folder: Path) -> list[dict[str, Any]]:
 
 
 @pytest.mark.parametrize(
-    ("loop", "options"), [(LOOP, ()), (HELD_BACK, ()), (LOOP, ("--jobs", "2"))], ids=["loop", "held back", "pool"]
+    ("loop", "options"),
+    few([(LOOP, ()), (HELD_BACK, ()), (LOOP, ("--jobs", "2"))], keep=lambda each: not each[1]),
+    ids=["loop", "held back", "pool"],
 )
 def test_a_chunk_that_never_ends_is_ended_and_the_others_are_kept(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch, loop: str, options: tuple[str, ...]

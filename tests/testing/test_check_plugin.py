@@ -58,6 +58,7 @@ def test_a_sound_plugin_holds_all_rules_and_is_shown(
     assert told.err.startswith("-o FILE ") and not (home / "toggle.html").exists()
 
 
+@pytest.mark.nightly
 def test_its_chapter_is_written_where_it_is_asked_for_and_nowhere_else(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -156,6 +157,7 @@ def test_a_figure_that_differs_between_new_processes_is_told(tmp_path: Path) -> 
     assert tried.status == "fail" and re.match(r"toggle.py:\d+: characteristic: differs", tried.faults[0]), tried.faults
 
 
+@pytest.mark.nightly
 def test_a_plugin_that_breaks_in_a_new_process_is_told(tmp_path: Path) -> None:
     gone = contract(tmp_path)
     (tmp_path / "toggle" / "plugins" / "toggle.py").write_text("1 / 0", "utf-8")
@@ -256,6 +258,7 @@ def test_a_text_that_a_lambda_makes_is_one_of_the_plugin(tmp_path: Path) -> None
     )
 
 
+@pytest.mark.nightly
 def test_the_texts_that_a_catalogue_lacks_are_written_into_it(tmp_path: Path, capfd: Capture) -> None:
     change = ('title="Springs of an ejector"', 'title="Springs that eject"')
     home = toggle(tmp_path, change)

