@@ -13,7 +13,7 @@ from diecut_report.config.bare_numbers import bare_numbers
 from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
 from diecut_report.config.model import PRESS, ConfigDocument, PressBlock, Project, ReportSettings, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
-from diecut_report.config.parts.expansion import expanded, has_parts
+from diecut_report.config.parts.expansion import Expanded, expanded, has_parts, misnamed
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
@@ -198,7 +198,10 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     if excess := too_much(tree):
         raise UserError([*tree.problems, *excess])
     discovery.extend()
-    found = expanded(tree, lambda kind: _declared(discovery, kind)) if has_parts(tree.data) else None
+    tree, wrong = misnamed(tree)
+    found = Expanded(tree, None, None, wrong) if wrong else None
+    if has_parts(tree.data):
+        found = expanded(tree, lambda kind: _declared(discovery, kind))
     tree = found.tree if found else tree
     tables = OwnTables.read(tree, find)
     made = frozenset(each.name for each in found.elements.made) if found and found.elements else frozenset()

@@ -30,6 +30,7 @@ def told(tmp_path_factory: pytest.TempPathFactory) -> Told:
     return found
 
 
+@pytest.mark.nightly
 def test_each_is_read_or_refused_in_words_and_soon(told: Told) -> None:
     assert told.keys() == QUICK.keys()
     assert {name: seconds for name, (_, seconds, _) in told.items() if seconds > 8} == {}

@@ -19,6 +19,7 @@ from tests.hostile.test_surroundings import PROGRAM, ran
 
 
 # `report` and `render` set pages by the same call; `verify` has them set beside its own files
+@pytest.mark.nightly
 @pytest.mark.parametrize("command", few(["render", "verify"], keep=lambda command: command == "render"))
 def test_a_pdf_leaves_nothing_among_the_temporary_files(tmp_path: Path, small_report: Path, command: str) -> None:
     """By the program itself, which ends at once and lets no library put its things in order."""
@@ -67,6 +68,7 @@ def test_no_folder_for_temporary_files_is_told(
     assert "No folder for temporary files has enough free space." in capfd.readouterr().err
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     "variables", few([["HOME"], ["XDG_CACHE_HOME", "MPLCONFIGDIR"]], keep=lambda each: len(each) > 1), ids=" ".join
 )

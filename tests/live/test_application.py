@@ -295,6 +295,7 @@ def test_the_page_has_the_language_that_is_asked_for_else_that_of_the_project(
     assert ("Time of the cut" in found[1]) == (language == "en")
 
 
+@pytest.mark.nightly
 def test_a_view_that_is_not_there_is_refused(server: Server) -> None:
     assert server.asked("GET", f"{server.path}view/0")[0] == 422
     for odd in ("x", "-1", "1e3", "0/1", "9" * 10):

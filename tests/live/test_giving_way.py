@@ -101,6 +101,7 @@ def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch
         asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(config, "html"), 60))
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("named", few([False, True], keep=bool), ids=["alone", "with its table and logo"])
 def test_the_report_of_the_page_is_that_of_the_command(tmp_path: Path, named: bool) -> None:
     """Assumed values are tried too, and what the file names lies in a folder below it."""

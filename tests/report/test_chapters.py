@@ -142,6 +142,7 @@ def test_last_of_a_row_and_running_integral(chapters: dict[str, PrintedChapter])
 
 
 # comparisons
+@pytest.mark.nightly
 def test_comparison_is_a_chapter_of_its_own_after_the_mechanisms(
     chapters: dict[str, PrintedChapter], html: str
 ) -> None:

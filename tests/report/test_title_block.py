@@ -181,6 +181,7 @@ def words_of(pdf: Path) -> list[list[tuple[float, float, float, float, str]]]:
 FRAMED = {"dstu2104": (20, 5, 205, 292), "iso7200": (20, 10, 200, 287)}
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(shutil.which("pdftotext") is None, reason="pdftotext is not installed")
 @pytest.mark.parametrize("frame", few(list(FRAMED), keep=lambda frame: frame == "dstu2104"))
 def test_framed_sheets_keep_text_and_title_block_apart(plain: Data, tmp_path: Path, frame: str) -> None:

@@ -102,6 +102,7 @@ def test_other_units_are_shown_anew(tmp_path: Path) -> None:
     assert_same(press, other)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("name", "share", "calculated"),
     few(

@@ -94,6 +94,7 @@ def test_a_broken_catalogue_is_told_with_its_file_and_hides_no_other_problem(
     assert "\x1b" not in said
 
 
+@pytest.mark.nightly
 def test_a_study_tells_which_plugin_has_no_words(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     saved(lever(tmp_path, WORDS), LEVER)
     study, out = saved(tmp_path, STUDY, "study.yaml"), tmp_path / "out"

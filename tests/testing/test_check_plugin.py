@@ -140,6 +140,7 @@ UNLIKE = {
 }
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("name", few(UNLIKE, keep=lambda name: name == "kept between two calls"))
 def test_what_differs_between_new_processes_is_told(tmp_path: Path, name: str) -> None:
     test = contract(tmp_path, *UNLIKE[name])

@@ -221,7 +221,8 @@ class Elements(ShaftElements):
             inputs["load_cases"] = cases
         for limit in GEAR_LIMITS:
             if getattr(self.parts.keys.gears, limit):
-                inputs |= {f"{limit}_{gear}": TypedValue(("machine", "gears", limit)) for gear in (1, 2)}
+                gears = (gear for gear in (1, 2) if f"material_{gear}" not in join.more)  # which says its own
+                inputs |= {f"{limit}_{gear}": TypedValue(("machine", "gears", limit)) for gear in gears}
         moving = self.parts.motion_port(wheel.shaft)
         if keys.teeth_present and moving is not None and moving.port:
             inputs["sector"] = {

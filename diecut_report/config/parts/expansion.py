@@ -10,15 +10,16 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+from diecut_report.config.model import ConfigDocument
 from diecut_report.config.parts.demands import Element, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts, MachineShaft
 from diecut_report.config.parts.reading import PartsReader, section_blocks
 from diecut_report.config.parts.rules import coherence, misdriven
-from diecut_report.config.validation import ASSUMED
+from diecut_report.config.validation import ASSUMED, ConfigPlace
 from diecut_report.config.yaml import KeyPath, Tree, YamlNode, resolved, with_root, with_value
-from diecut_report.errors import Problem
+from diecut_report.errors import Problem, nearest
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.standards.ranges import asks_basis
 
@@ -39,6 +40,28 @@ class Expanded:
 def has_parts(data: Any) -> bool:
     """Return whether a file has parts."""
     return isinstance(data, dict) and isinstance(data.get("machine"), dict) and "shafts" in data
+
+
+def misnamed(tree: Tree) -> tuple[Tree, tuple[Problem, ...]]:
+    """Return a file with parts, of which a block has no name that is known or one is missing, without its parts; and what is wrong with it.
+
+    What follows from the parts that are not read is told only once they are.
+    """
+    data = tree.data if isinstance(tree.data, dict) else {}
+    known, given = [*ConfigDocument.model_fields, *WORDS], {*data} & {*WORDS}
+    unknown, lacking = [key for key in data if key not in known], [word for word in WORDS[:2] if word not in given]
+    if not given or not (unknown or lacking):
+        return tree, ()
+    place, own = ConfigPlace(tree), ", ".join(known)
+    template = "is an unknown key{nearest}. Known keys: {own}."
+    problems = [
+        place.problem((key,), template, at_key=True, nearest=nearest(str(key), known), own=own) for key in unknown
+    ]
+    template = "is of a machine of parts, which has {word}, too; give it"
+    for word in () if unknown else lacking:
+        problems.append(place.problem((min(given),), template, at_key=True, word=word))
+    children = {key: node for key, node in (tree.root.children or {}).items() if key not in unknown}
+    return _without(with_root(tree, replace(tree.root, children=children))), tuple(problems)
 
 
 def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded:

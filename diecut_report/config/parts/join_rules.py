@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi, prod
+from math import inf, pi, prod
 from typing import Any
 
 from diecut_report.config.parts.elements import Elements
@@ -179,6 +179,27 @@ def belt_center(join: Join) -> float | None:
     free = join.keys.length - pi * (small + large) / 2
     found = (free + max(free**2 - 2 * (large - small) ** 2, 0) ** 0.5) / 4
     return float(found) if found > (small + large) / 2 else None
+
+
+def shifts(parts: MachineParts) -> Iterator[Finding]:
+    """Profile shifts leave the distance of the axes: frame, radii and forces are of the reference circles."""
+    for join in (each for each in parts.joins if {"shift_1", "shift_2"} & {*each.more}):
+        block = parts.reader.data["meshes"][join.name]
+        given = [
+            each.get("value") if isinstance(each, dict) else each for each in map(block.get, ("shift_1", "shift_2"))
+        ]
+        try:
+            total = sum(float(each or 0) for each in given)
+        except (TypeError, ValueError):  # a reference
+            total = inf
+        if abs(total) > SAME_RATIO:
+            template = (
+                "shifts its profiles, and the two do not add up to zero, so that its axes would not stand as the frame has them, which the forces "
+                "are of: take shift_2 = −shift_1"
+            )
+            yield finding(
+                parts, "center", "error", (*join.path, "shift_1" if "shift_1" in block else "shift_2"), template
+            )
 
 
 def frame(parts: MachineParts) -> Iterator[Finding]:

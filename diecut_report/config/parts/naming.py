@@ -206,10 +206,13 @@ def strengths(parts: MachineParts) -> Iterator[Finding]:
         yield finding(parts, "strengths", "error", ("machine",), template)
     for join in (each for each in parts.joins if isinstance(each.keys, MeshKeys)):
         missing = [
-            key for key in GEAR_LIMITS if getattr(gears, key) is None and not {f"{key}_1", f"{key}_2"} <= set(join.more)
+            key
+            for key in GEAR_LIMITS
+            if getattr(gears, key) is None
+            and not all({f"{key}_{gear}", f"material_{gear}"} & set(join.more) for gear in (1, 2))
         ]
         if missing:
-            template = "lacks {keys}: give it under machine.gears, or for both gears here"
+            template = "lacks {keys}: give it under machine.gears, or for both gears here, or name a material of each"
             yield finding(parts, "strengths", "error", join.path, template, keys=" and ".join(missing))
 
 

@@ -22,6 +22,7 @@ from diecut_report.config.parts.join_rules import (
     rate,
     ratios,
     sector,
+    shifts,
     stages,
     wall,
 )
@@ -539,5 +540,5 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
     few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting,
-    shoulder, stop, key, wall, steel, torque_carried, integral, force_plane, pins, axes, one_belt, center, frame, mesh_pair, sector, chain,
+    shoulder, stop, key, wall, steel, torque_carried, integral, force_plane, pins, axes, one_belt, center, shifts, frame, mesh_pair, sector, chain,
 )  # fmt: skip

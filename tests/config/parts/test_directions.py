@@ -80,7 +80,7 @@ def roller(run: Run, shaft: str) -> tuple[Array, Array]:
     return radius * np.cos(angle), radius * np.sin(angle)
 
 
-@pytest.mark.parametrize("frame", FRAMES)
+@pytest.mark.parametrize("frame", few(FRAMES, keep=lambda frame: frame == "oblique"))
 def test_the_rollers_force_has_the_moment_of_the_torque_about_both_axes(frame: str) -> None:
     run = run_in(frame)
     right, up = roller(run, "main")
@@ -140,6 +140,7 @@ def _gear(run: Run, shaft: str, part: str) -> dict[str, float]:
 HELICAL = "teeth: 120/20, module: 3.5, width: 30, helix_angle: {angle} deg"
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("angle", few([28.955, -28.955], keep=lambda angle: angle < 0))
 def test_the_bearing_that_locates_a_shaft_takes_the_axial_force_of_its_helical_gear(angle: float) -> None:
     """By F_a = T / r tan β of the torque at each instant; a right-handed driver is pushed against the sense of its torque."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from diecut_report.config.parts.demands import Demands
 from diecut_report.config.parts.load_cases import LoadCases, Passing
 from diecut_report.config.yaml import parse
 from diecut_report.mechanics.load_cases import called
+from diecut_report.press import Press
 from diecut_report.results.warm_press import WarmPress
 from tests.config.parts.test_parts import DISCOVERY, FILE, calculated
 
@@ -638,6 +640,42 @@ def test_pairs_of_unlike_ratio_between_the_same_shafts_are_refused() -> None:
     assert "so that neither can turn; give both one ratio" in told((old, f"{second}\n{old}"))
     made, _ = read((old, f"{second.replace('30/42', '24/48')}\n{old}"))
     assert not {"shafts_main", "meshes_crank_drive", "meshes_second"} & made.keys()  # shares that nobody knows
+
+
+MAIN_DRIVE = "  main_drive: {pair: [flywheel.pinion, main.wheel], teeth: 18/87, module: 5, width: 50,"
+
+
+@pytest.mark.parametrize(("typed", "is_refused"), [("shift_1: 0.1,", True), ("shift_1: 0.3, shift_2: -0.3,", False)])
+def test_profile_shifts_leave_the_axes_where_the_frame_has_them(typed: str, is_refused: bool) -> None:
+    """By 0.1 the teeth of the drawing would be 0.36 mm too thick for their gaps."""
+    assert ("do not add up to zero" in told((MAIN_DRIVE, f"{MAIN_DRIVE} {typed}"))) == is_refused
+
+
+def test_the_material_of_a_pair_stands_before_that_of_all_gears(tmp_path: Path) -> None:
+    """It was left out without a word: S_H 1.62 for 0.76."""
+    table = "gear_materials:\n  soft: {sigma_h_lim: 700 MPa, sigma_f_lim: 280 MPa, source: maker}\n"
+    (tmp_path / "own.yaml").write_text(table)
+    text = TEXT.replace(MAIN_DRIVE, f"{MAIN_DRIVE} material_1: soft, material_2: soft,").replace(
+        "\nmachine:", "\nmaterials: own.yaml\nmachine:", 1
+    )
+    file = tmp_path / "press.yaml"
+    file.write_text(text)
+    press = Press.read(file, DISCOVERY)
+    mesh = press.config.tree.data["mechanisms"]["meshes_main_drive"]
+    assert not {"sigma_h_lim_1", "sigma_f_lim_2"} & mesh.keys() and mesh["material_1"] == "soft"
+    run = WarmPress(is_advised=False).calculate(press.config).calculations
+    assert run["meshes_main_drive"]["pitting_safety_1"].item() == pytest.approx(1.6244 * 700 / 1500, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "words"),
+    [("meshes:", "mesh:", "mesh: is an unknown key (did you mean 'meshes'?)"), ("belts:", "belt:", "belt: is an unknown key (did you mean 'belts'?)"),
+     ("machine:", "machin:", "machin: is an unknown key (did you mean 'machine'?)"), ("shafts:", "Shafts:", "(did you mean 'shafts'?)")],
+)  # fmt: skip
+def test_a_block_of_parts_whose_name_is_mistyped_is_told_alone(right: str, wrong: str, words: str) -> None:
+    """What followed from its lack hid it: a radial force was to be removed, and right names were unknown."""
+    problems = read((f"\n{right}", f"\n{wrong}"))[1]
+    assert len(problems) == 1 and words in problems[0] and "machine, shafts, meshes, chains, belts" in problems[0]
 
 
 def test_each_strand_runs_in_one_plane() -> None:
