@@ -55,6 +55,7 @@ def test_errors_name_it_with_line_and_column(give: Give, command: str, capfd: Ca
     assert "<stdin>:5:27: mechanisms.a.force: " in capfd.readouterr().err
 
 
+@pytest.mark.nightly
 def test_it_is_validated_and_checked_beside_files(give: Give, tmp_path: Path, capfd: Capture) -> None:
     give(PRESS)
     assert main(["validate", "-", *PLUGINS]) == 0

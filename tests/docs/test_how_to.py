@@ -22,6 +22,7 @@ def test_a_page_is_true(tmp_path: Path, page: str) -> None:
         check_mechanism(load(file.stem, tmp_path / "my_plugins"))
 
 
+@pytest.mark.nightly
 def test_the_page_about_comparing_is_true(tmp_path: Path) -> None:
     assert PageRun(ROOT / "docs" / "comparing-machines.md", tmp_path).execute() == 4
 

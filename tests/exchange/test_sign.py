@@ -175,6 +175,7 @@ def test_an_object_that_is_changed_after_signing_is_told(signed: Path, change: C
     assert not found.holds and "the document has been changed since" in found.words
 
 
+@pytest.mark.nightly
 def test_a_signed_report_is_not_written_over(signed: Path, signed_once: bytes, capfd: Capture) -> None:
     config = saved(signed.parent, SMALL).rename(signed.with_suffix(".yaml"))
     assert run("report", config, "--format", "pdf,json", "-o", signed.parent) == 2

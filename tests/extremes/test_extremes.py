@@ -34,6 +34,7 @@ def test_every_single_extreme_is_numbers_or_words(kind: str) -> None:
     assert [f"{case.name}: {found}" for case in extremes(kind) if (found := fault(case))] == []
 
 
+@pytest.mark.nightly
 def test_a_sample_of_extremes_of_what_holds_a_press_together_is_numbers_or_words() -> None:
     homes = ("timing", "consistency")
     cases = [case for home in homes for case in example_extremes("flat_cylinder_press_mended", home)]

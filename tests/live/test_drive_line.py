@@ -44,6 +44,7 @@ def test_a_part_leads_to_its_calculation_on_the_page(session: LiveSession) -> No
     } and links <= names  # fmt: skip
 
 
+@pytest.mark.nightly
 def test_a_change_on_the_page_changes_the_colour_of_the_part_that_it_overloads(session: LiveSession) -> None:
     def told(name: str) -> str:
         assert session.machine is not None

@@ -188,6 +188,7 @@ def test_code_of_the_inputs_is_a_fault_of_the_plugin(tmp_path: Path, capfd: Capt
     assert code == 3 and "class Breaking: reads its inputs by code of its own (checked)" in told
 
 
+@pytest.mark.nightly
 def test_a_plugin_that_breaks_in_a_full_report_alone_is_told(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -50,6 +50,7 @@ def test_strict_fails_where_a_variant_warns_or_a_check_is_not_made(tmp_path: Pat
     assert run("batch", limited, "-o", tmp_path / "two", "--strict") == 0
 
 
+@pytest.mark.nightly
 @pytest.mark.wheel
 def test_a_study_becomes_a_folder_named_as_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture) -> None:
     files(tmp_path)
@@ -340,6 +341,7 @@ def test_the_name_of_a_study_acts_on_no_terminal_and_turns_no_letters_round(tmp_
     assert "�[31mred�.yaml" in page and not FORBIDDEN_IN_KEY.search(page.translate({9: None, 10: None}))
 
 
+@pytest.mark.nightly
 def test_a_variant_of_such_a_study_has_a_report(tmp_path: Path) -> None:
     saved(tmp_path, BASE)
     run("batch", saved(tmp_path, STUDY, NAME), "-o", tmp_path / "out", "--jobs", 1, "--quiet")

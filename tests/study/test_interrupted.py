@@ -135,6 +135,7 @@ def test_a_study_that_is_continued_without_its_file_keeps_its_name(tmp_path: Pat
     assert before["study"] == again["study"] == "speeds of the press.yaml"
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("whole_group", [True, pytest.param(False, marks=pytest.mark.nightly)])
 def test_interrupted_run_says_how_to_continue_and_is_continued_by_its_own_study_alone(
     tmp_path: Path, whole_group: bool, finished: Run

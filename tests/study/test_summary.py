@@ -74,6 +74,7 @@ def summary_of(folder: Path) -> contents.Summary:
 # --- numbers ---------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.nightly
 def test_counts_failures_and_utilisations_are_those_of_the_rows(large: Path, large_summary: contents.Summary) -> None:
     rows, found = rows_of(large), large_summary
     assert found.statuses == {status: sum(row["status"] == status for row in rows) for status in STATUSES}

@@ -73,6 +73,7 @@ def lines_of(content: bytes) -> Iterator[list[str]]:
             yield [cell.text for cell in row.cells]
 
 
+@pytest.mark.nightly
 def test_every_result_stands_in_a_table_rightly_rounded(small_report: Path) -> None:
     results = json.loads((small_report / "small.json").read_text("utf-8"))
     results["report"]["detail"] = "full"
