@@ -335,19 +335,14 @@ class Demands:
     def _takes_more(self) -> bool:
         """Whether a shaft behind the main one, or one that a mechanism moves, takes a torque that no mechanism knows of."""
         anchor = self.parts.shafts[self.parts.keys.anchor]
-        after = [
-            shaft for shaft in self.parts.shafts.values() if shaft is not anchor and not self._drives(shaft, anchor)
-        ]
+        before = {name for name in self.parts.shafts if self.chain_from(name, anchor.name)} | {anchor.name}
+        after = [shaft for name, shaft in self.parts.shafts.items() if name not in before]
         joins = [join for join in self.parts.joins if join.drivers[0].shaft in after]
         return (
             any("torque" in part.more for shaft in after for part in shaft.parts)
             or any(not join.driven and not getattr(join.keys, "moves", None) for join in joins)
             or any(self._is_unknown(part) for shaft in after if self._is_behind(shaft) for part in shaft.parts)
         )
-
-    def _drives(self, shaft: MachineShaft, other: MachineShaft) -> bool:
-        """Whether a shaft drives another one, maybe by others between."""
-        return bool(self.chain_from(shaft.name, other.name))
 
     def _is_behind(self, shaft: MachineShaft | None) -> bool:
         """Whether the main shaft drives a shaft, or is it."""

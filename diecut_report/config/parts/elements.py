@@ -262,14 +262,14 @@ class Elements(ShaftElements):
         return f"${{{loads}.balance}}" if self._balances(part) else None
 
     def _chain(self, join: Join) -> None:
+        if not self.is_calculated(join):
+            return
         keys: ChainKeys = join.keys
         mechanism = (keys.moves or "").partition(".")[0]
         inputs: dict[str, Any] = {
             "chain": keys.chain, "use": "conveyor", "strands": len(keys.sprockets), "teeth_1": f"${{{join.home}.teeth_1}}",
             "teeth_2": f"${{{join.home}.teeth_2}}", "links": f"${{{join.home}.links}}",
         }  # fmt: skip
-        if not self.is_calculated(join):
-            return
         if self.is_rolling(join):
             inputs |= {"acceleration": f"${{{mechanism}.acceleration}}", "velocity": f"${{{mechanism}.velocity}}",
                        # with the unbalance, which counts most at the ends of the travel, where the acceleration is greatest
