@@ -319,7 +319,7 @@ class _ConfigReader:
             self._mechanism(name, body, ConfigPlace(self.tree, (home, name)))
         for kind in BY_THEMSELVES:
             wanted = {each for partner in self.discovery.mechanism(kind).partners for each in partner.kinds}
-            partners = sum(each in wanted for each in self.kinds.values())
+            partners = sum(each in wanted for name, each in self.kinds.items() if name not in self.made)
             if kind not in self.kinds.values() and partners >= FEWEST:
                 own_name = free_name(kind, self.instances)
                 self._of_kind(own_name, kind, {}, ConfigPlace(self.tree, ("mechanisms", own_name)))

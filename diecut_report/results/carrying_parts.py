@@ -14,7 +14,7 @@ from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, PartCountRecord
 from diecut_report.text.phrases import Phrase, phrase
 
-BODIES = ("crank", "rocker", "geneva_wheel", "clutch", "coupling", "cam")
+BODIES = ("crank", "rocker", "geneva_wheel", "clutch", "coupling", "brake", "cam")
 """Kinds of parts whose bodies no method rates."""
 
 
@@ -137,6 +137,10 @@ def unrated(
     for name in (name for name, kind in parts.mechanisms.items() if kind == "clutch" and name not in clutches):
         why = phrase("no part of the machine is this clutch, so that its engagement loads nothing")
         yield record(f"mechanisms.{name}", why)
+    for name in (name for name, kind in parts.mechanisms.items() if kind == "press_consistency" and not parts.brakes):
+        if "brake_torque" in parts.reader.data["mechanisms"][name]:
+            why = phrase("no part of the machine is this brake, so that its torque loads nothing")
+            yield record(f"mechanisms.{name}.brake_torque", why)
     for each in (part for part in every if part.keys.accepted is None):
         for template in _without_method(each, parts.mechanisms):
             yield record(dotted(each.path), Phrase(template, part=each.called))

@@ -10,7 +10,7 @@ from diecut_report.results.figure_record import Point
 from diecut_report.results.record import Record, always, sometimes
 
 PartKind = Literal[
-    "bearing", "gear", "pulley", "sprocket", "flywheel", "clutch", "coupling", "crank", "rocker", "geneva_wheel", "cam", "load",
+    "bearing", "gear", "pulley", "sprocket", "flywheel", "clutch", "coupling", "brake", "crank", "rocker", "geneva_wheel", "cam", "load",
     "key", "pin", "pin_bearing",
 ]  # fmt: skip
 

@@ -79,6 +79,14 @@ class Rolling(Block):
     radius: Annotated[float, Quantity("R", "mm", "Radius of the cylinder", gt=0)]
 
 
+class Brake(Block):
+    """A brake on a shaft that turns steadily."""
+
+    name: Annotated[str, Text("Name of the brake")]
+    torque: Annotated[float, Quantity("M_b", "N*m", "Torque of the brake on its shaft", gt=0)]
+    ratio: Annotated[float, Quantity("i_B", "1", "Speed of its shaft for each of the main shaft")]
+
+
 class DriveLine(Inputs):
     """Keys of ``drive_line``."""
 
@@ -90,6 +98,7 @@ class DriveLine(Inputs):
     chains: Annotated[list[ChainDrive], Text("Chains")] = []  # noqa: RUF012
     rolling: Annotated[list[Rolling], Text("Chains that roll a cylinder")] = []  # noqa: RUF012
     belts: Annotated[list[Belt], Text("V-belts")] = []  # noqa: RUF012
+    brakes: Annotated[list[Brake], Text("Brakes")] = []  # noqa: RUF012
 
 
 turning = Chapter("Speeds of the shafts")
@@ -134,6 +143,11 @@ belts = Chapter("V-belts", needs=("belts",))
 belts.value("belt_ratio", "i_b", "1", "Speed of the driving pulley for each of the driven one, without creep",
     bind(formulas.speed_ratio, driving="belts.diameter_2", driven="belts.diameter_1"), source="kinematics", named_by="belts.name")
 belts.part_table("belts_table", "V-belts", "belts", ("belt_ratio",))
+brakes = Chapter("Brakes", needs=("brakes",))
+brakes.value("referred_torque", "M_b,m", "N*m", "Torque of the brake referred to the main shaft",
+    bind(lambda torque, ratio: torque * abs(ratio), torque="brakes.torque", ratio="brakes.ratio"), source="statics", named_by="brakes.name", output=False)
+brakes.part_table("brakes_table", "Brakes", "brakes", ("referred_torque",))
+brakes.total("brake_torque", "M_b,Σ", "N*m", "Torque of all brakes, referred to the main shaft", "sum", of="referred_torque")
 
 EXAMPLE = ExampleBlock("drive_line", {
     "reference_speed": "100 rpm",
@@ -142,6 +156,7 @@ EXAMPLE = ExampleBlock("drive_line", {
     "chains": [{"name": "cylinder", "pitch": "12.7 mm", "links": 240, "teeth_1": 52, "teeth_2": 52, "mass_per_length": "0.69 kg/m"}],
     "rolling": [{"name": "cylinder", "teeth": 52, "pitch": "12.7 mm", "radius": "105.1 mm"}],
     "belts": [{"name": "motor", "diameter_1": "125 mm", "diameter_2": "375 mm"}],
+    "brakes": [{"name": "main_disc", "torque": "400 N*m", "ratio": 1}],
 })
 
 MECHANISM = Mechanism(
@@ -151,7 +166,7 @@ MECHANISM = Mechanism(
     summary="Ratios, pitch radii and centre distances of what joins the shafts of a machine, and the speeds of those that turn steadily.",
     inputs=DriveLine,
     example=EXAMPLE,
-    chapters=(joins, drives, rolling, belts, turning),
+    chapters=(joins, drives, rolling, belts, turning, brakes),
     sources=(Source("ISO 21771", "ISO 21771:2007, Gears. Cylindrical involute gears and gear pairs. Concepts and geometry."),),
     checks=(
         Check(id="rolling", check_class="practice", severity="warn", title="Rolling of the cylinder", demand="rolling_error", limit=0.1, unit="%",

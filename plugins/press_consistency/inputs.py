@@ -31,6 +31,7 @@ class PressConsistency(Inputs):
     clutch: Annotated[str | None, Text("Clutch on the crank's shaft; default: the only clutch")] = None
     timing: Annotated[Any | None, MechanismInput("Cyclogram of the press; default: the only cyclogram")] = None
     damper: Annotated[str | None, Text("Dampers at the ends of the travel; default: the only damper")] = None
+    drive_line: Annotated[str | None, Text("Drive line that provides the brakes' torque; default: that of the machine's parts")] = None
 
     timing_slack: Annotated[float | None,
         Quantity("g_min", "deg", "Minimum slack of all interlocks on the main shaft; negative where one fails")] = None

@@ -29,6 +29,7 @@ PARTNERS = (
         "clutch_inertia": "driven_inertia"}),
     Partner(key="timing", kinds=("cyclogram",), always=True, takes={
         "timing_slack": "best_margin", "shaft_torque_mean": "torque_mean", "lines_energy": "kinetic_energy_mean"}),
+    Partner(key="drive_line", kinds=("drive_line",), takes={"brake_torque": "brake_torque"}),
     Partner(key="damper", kinds=("damper",), takes={
         "damper_velocity": "velocity", "contact_distance": "contact_distance", "damper_impacts": "impacts_per_hour",
         "damper_mass": "mass", "carriage_mass": "carriage_mass"}),

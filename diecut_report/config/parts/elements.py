@@ -140,6 +140,8 @@ class Elements(ShaftElements):
             else {}
         )
         joins = {word: rows for word in ("meshes", "chains", "belts") if (rows := self._joins(word))}
+        if brakes := [self._brake(part, speeds) for part in self.parts.brakes]:
+            joins["brakes"] = brakes
         rolling = [row for join in self.parts.joins if (row := self._rolling(join))]
         joins |= {"rolling": rolling} if rolling else {}
         self._add("drive_line", "drive_line", rate | {"shafts": speeds} | joins, ("machine",))
@@ -150,6 +152,16 @@ class Elements(ShaftElements):
                 {"shafts": turning} | ({"moving": moving} if moving else {}),
                 ("machine",),
             )
+
+    @staticmethod
+    def _brake(part: ShaftPart, speeds: list[dict[str, Any]]) -> dict[str, Any]:
+        """A brake, with the speed of its shaft."""
+        ratio = next(index for index, row in enumerate(speeds) if row["name"] == part.shaft.name)
+        return {
+            "name": f"{part.shaft.name}_{part.name}",
+            "torque": TypedValue((*part.path, "brake_torque")),
+            "ratio": f"${{drive_line.shafts.{ratio}.ratio}}",
+        }
 
     def _rolling(self, join: Join) -> dict[str, Any] | None:
         """A chain that rolls a cylinder."""

@@ -15,7 +15,7 @@ from diecut_report.mechanism.names import OneOf, Text
 WORDS = ("machine", "shafts", "meshes", "chains", "belts")
 """The keys of a configuration beside ``mechanisms`` that hold the parts; no mechanism has one of these names."""
 
-PART_KINDS = ("bearing", "gear", "pulley", "sprocket", "flywheel", "clutch", "coupling", "crank", "rocker", "geneva_wheel", "cam", "load")
+PART_KINDS = ("bearing", "gear", "pulley", "sprocket", "flywheel", "clutch", "coupling", "brake", "crank", "rocker", "geneva_wheel", "cam", "load")
 """Kinds of parts on a shaft: the key whose value is the part's name."""
 
 LOOSE = ("g6", "h6")
@@ -124,6 +124,7 @@ class PartKeys(Block):
     flywheel: Annotated[str | None, Text("Name of a flywheel")] = None
     clutch: Annotated[str | None, Text("Name of a clutch")] = None
     coupling: Annotated[str | None, Text("Name of a coupling")] = None
+    brake: Annotated[str | None, Text("Name of a brake")] = None
     crank: Annotated[str | None, Text("Name of a crank")] = None
     rocker: Annotated[str | None, Text("Name of a rocker")] = None
     geneva_wheel: Annotated[str | None, Text("Name of a Geneva wheel")] = None
@@ -137,6 +138,8 @@ class PartKeys(Block):
     integral: Annotated[bool, Text("Cut on the shaft")] = False
     bolted: Annotated[bool, Text("Bolted to a flange")] = False
     interference: Annotated[float | None, size("U", "Interference of a press fit", gt=0)] = None
+    brake_torque: Annotated[float | None, Quantity("M_b", "N*m", "Torque of a brake, on its shaft", gt=0)] = None
+    stops_per_hour: Annotated[float | None, Quantity("z_b", "1/h", "Stops of the machine by the brake", ge=0)] = None
     rides_on: Annotated[str | None, Text("Part that carries it, so that it is fixed to the shaft by nothing")] = None
     fit: Annotated[str, Text("Fit of the seat")] = "k6"
     stop: Annotated[Literal["shoulder", "ring", "sleeve", "nut", "press"] | None, Text("What holds it along the shaft")] = None

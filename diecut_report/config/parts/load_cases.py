@@ -1,4 +1,4 @@
-"""Load cases beside the run: which torque passes which part where the clutch engages, and where the motor starts."""
+"""Load cases beside the run: which torque passes which part where the clutch engages, the motor starts, and the brake stops the machine."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from functools import cached_property
 from itertools import product
 from typing import Any
 
-from diecut_report.config.parts.demands import Demands
+from diecut_report.config.parts.demands import Demands, TypedNumber
 from diecut_report.config.parts.keys import MeshKeys
 from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
 
-FREQUENT = "1e6"  # engagements of a clutch, whose number is not known: they count for pitting
+FREQUENT = "1e6"  # engagements of a clutch, or stops by a brake, whose number is not known: they count for pitting
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,20 +40,21 @@ class Passing:
 
 @dataclass(frozen=True, eq=False)
 class Meshing:
-    """Hold a torque on the driving gear of a pair in a load case, as an expression."""
+    """Hold a torque on the driving gear of a pair in a load case, as an expression, and how often it acts in the life."""
 
     case: str
     torque: str
     join: Join
+    cycles: Any
 
 
 class LoadCases(Demands):
-    """Know the load cases of the parts: the clutch's design torque on both its sides, and the motor's greatest one up to the flywheel."""
+    """Know the load cases of the parts: the clutch's design torque on both its sides, the motor's greatest one, and the brake's, up to the flywheel."""
 
     @cached_property
     def load_cases(self) -> list[Passing | Meshing]:
         """Return all torques of load cases."""
-        return [*self._engagements(), *self._starts()]
+        return [*self._engagements(), *self._starts(), *self._stops()]
 
     def passing(self, shaft: MachineShaft) -> list[Passing]:
         """Return the load cases of a shaft."""
@@ -78,7 +79,7 @@ class LoadCases(Demands):
         driving = self.parts.driving_join(shaft)
         flywheel = next((part for part in shaft.parts if part.kind == "flywheel"), None)
         if driving is not None and flywheel is None:
-            yield from self._towards_flywheel(driving, torque)
+            yield from self._towards_flywheel("engage", driving, torque, self._engagements_in_life)
         if enters := (flywheel,) if flywheel else driving.driven if driving else ():
             yield from self._onward(enters, torque)
 
@@ -95,15 +96,15 @@ class LoadCases(Demands):
             for join in (each for each in joins if part is each.drivers[0]):
                 if join.driven and join.driven[0].shaft.name in self.parts.ratios:
                     if isinstance(join.keys, MeshKeys):
-                        yield Meshing("engage", torque, join)
+                        yield Meshing("engage", torque, join, self._engagements_in_life)
                     yield from self._onward(join.driven, f"{torque} / {join.ratio_text}")
 
-    def _towards_flywheel(self, join: Join, torque: str) -> Iterator[Passing | Meshing]:
+    def _towards_flywheel(self, case: str, join: Join, torque: str, cycles: Any) -> Iterator[Passing | Meshing]:
         """The torque on the driving side of a join and of all before it, up to the shaft with the flywheel."""
         while True:
             if isinstance(join.keys, MeshKeys):
                 torque = f"{torque} * {join.ratio_text} / {join.keys.efficiency:.15g}"
-                yield Meshing("engage", torque, join)
+                yield Meshing(case, torque, join, cycles)
             else:
                 torque = f"{torque} * {join.ratio_text}"
             shaft = join.drivers[0].shaft
@@ -112,7 +113,7 @@ class LoadCases(Demands):
             source = (flywheel,) if flywheel else before.driven if before else ()
             if not source:
                 return
-            yield Passing("engage", torque, source, join.drivers)
+            yield Passing(case, torque, source, join.drivers)
             if flywheel is not None or before is None:
                 return
             join = before
@@ -127,6 +128,36 @@ class LoadCases(Demands):
             if flywheel is not None and join.drivers[0].shaft.keys.motor is not None:
                 torque = f"${{{train}.vbelt_peak_torque}} * ${{drive_line.{join.name}_belt_ratio}}"
                 yield Passing("start", torque, (pulley,), (flywheel,))
+
+    # The brake: it stops the flywheel, so that its torque acts on all that is between them.
+
+    def _stops(self) -> Iterator[Passing | Meshing]:
+        for index, brake in enumerate(self.parts.brakes):
+            torque, shaft = f"${{drive_line.brakes.{index}.torque}}", brake.shaft
+            flywheels = {part.shaft.name: part for each in self.parts.shafts.values() for part in each.parts if part.kind == "flywheel"}
+            behind = next(((name, way) for name in flywheels if (way := self.chain_from(shaft.name, name))), None)
+            driving = self.parts.driving_join(shaft)
+            if shaft.name in flywheels:
+                yield Passing("stop", torque, (flywheels[shaft.name],), (brake,))
+            elif behind:
+                yield from self._from_behind(brake, behind[1], flywheels[behind[0]], torque)
+            elif driving:
+                yield Passing("stop", torque, driving.driven, (brake,))
+                yield from self._towards_flywheel("stop", driving, torque, self._stops_in_life(brake))
+
+    def _from_behind(
+        self, brake: ShaftPart, way: Sequence[Join], flywheel: ShaftPart, torque: str
+    ) -> Iterator[Passing | Meshing]:
+        """The torque of a brake on the joins from its shaft to the flywheel's that it drives."""
+        leaves: Sequence[ShaftPart] = (brake,)
+        for join in way:
+            yield Passing("stop", torque, join.drivers, leaves)
+            efficiency = 1.0
+            if isinstance(join.keys, MeshKeys):
+                yield Meshing("stop", torque, join, self._stops_in_life(brake))
+                efficiency = join.keys.efficiency
+            torque, leaves = f"{torque} / {join.ratio_text} / {efficiency:.15g}", join.driven
+        yield Passing("stop", torque, (flywheel,), leaves)
 
     # As inputs.
 
@@ -152,8 +183,7 @@ class LoadCases(Demands):
         """Return the load cases of a pair of gears, as torques on its pinion."""
         onto = "" if pinion in join.drivers else f" / {join.ratio_text}"
         return [
-            {"name": each.case, "torque": f"{each.torque}{onto}", "cycles": self._engagements_in_life}
-            for each in self.meshing(join)
+            {"name": each.case, "torque": f"{each.torque}{onto}", "cycles": each.cycles} for each in self.meshing(join)
         ]
 
     @property
@@ -161,3 +191,10 @@ class LoadCases(Demands):
         """How often the clutch engages in the life of the machine; often, where no life is asked for, or there are several clutches."""
         clutch, life = self.named("clutch"), self.parts.keys.required_life
         return f"${{{clutch}.engagements_per_hour}} * {life / 3600:.12g} h" if clutch and life else FREQUENT
+
+    def _stops_in_life(self, brake: ShaftPart) -> str | TypedNumber:
+        """How often a brake stops the machine in its life; often, where that is not said or no life is asked for."""
+        stops, life = brake.keys.stops_per_hour, self.parts.keys.required_life
+        if stops is None or not life:
+            return FREQUENT
+        return TypedNumber(f"{stops * life:.12g}", (*brake.path, "stops_per_hour"))

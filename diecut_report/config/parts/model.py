@@ -462,6 +462,11 @@ class MachineParts:
         """Return the join by which a shaft is driven."""
         return next((each for each in self.joins if any(part.shaft is shaft for part in each.driven)), None)
 
+    @cached_property
+    def brakes(self) -> list[ShaftPart]:
+        """Return the brakes, which stand on shafts that turn steadily."""
+        return [part for name in self.shafts if name in self.ratios for part in self.shafts[name].parts if part.keys.brake_torque]
+
     def joins_of(self, part: ShaftPart) -> Iterator[Join]:
         """Yield the joins that a part takes part in."""
         yield from (each for each in self.joins if part in (*each.drivers, *each.driven))

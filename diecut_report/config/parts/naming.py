@@ -91,6 +91,21 @@ def riding(parts: MachineParts) -> Iterator[Finding]:
                     known=", ".join(clutches) or phrase("none"))  # fmt: skip
 
 
+def braking(parts: MachineParts) -> Iterator[Finding]:
+    """A brake has a torque, and stands on a shaft that turns steadily."""
+    for part in (part for shaft in parts.shafts.values() for part in shaft.parts):
+        for key in ("brake_torque", "stops_per_hour") if part.kind != "brake" else ():
+            if getattr(part.keys, key) is not None:
+                template = "is a key of a brake, and this is a {kind}; remove the key, or make it a brake"
+                yield finding(parts, "brake", "error", (*part.path, key), template, kind=part.kind)
+        if part.kind == "brake" and not part.keys.brake_torque:
+            template = "has no torque, by which what is between it and the flywheel is rated; give brake_torque"
+            yield finding(parts, "brake", "error", part.path, template)
+        elif part.kind == "brake" and part.shaft.name not in parts.ratios:
+            template = "stands on a shaft that does not turn steadily; put it on one that does"
+            yield finding(parts, "brake", "error", part.path, template)
+
+
 def described(parts: MachineParts) -> Iterator[Finding]:
     """A shaft has sections, or it is a motor's, which drives others and carries what its maker's radial force covers."""
     for shaft in parts.shafts.values():

@@ -37,6 +37,7 @@ from diecut_report.config.parts.model import (
 )
 from diecut_report.config.parts.naming import (
     bores,
+    braking,
     described,
     designations,
     few,
@@ -405,7 +406,7 @@ def torque_carried(parts: MachineParts) -> Iterator[Finding]:
     """What takes a torque from its shaft, or gives it one, is keyed, pressed on, cut on it or bolted, in one of these ways."""
     for part in (part for _, part in hubs(parts)):
         carries = (part, *(each for each in part.shaft.parts if each.keys.rides_on == part.name))
-        takes = any(list(parts.joins_of(each)) or each.port is not None for each in carries)
+        takes = any(list(parts.joins_of(each)) or each.port is not None or each.kind == "brake" for each in carries)
         if takes and part.kind != "bearing" and not part.is_carried:
             template = "carries a torque, but nothing joins it to the shaft; give key, interference, integral: true or bolted: true"
             yield finding(parts, "torque_carried", "fail", part.path, template)
@@ -539,6 +540,6 @@ def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 
 RULES: tuple[Callable[[MachineParts], Iterator[Finding]], ...] = (
-    few, names, riding, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting,
+    few, names, riding, braking, described, joined, misplaced, designations, bores, strengths, seat, bore, overlap, planes, locating, mounting,
     shoulder, stop, key, wall, steel, torque_carried, integral, force_plane, pins, axes, one_belt, center, shifts, frame, mesh_pair, sector, chain,
 )  # fmt: skip

@@ -331,7 +331,9 @@ class ShaftElements(Masses, LoadCases):
             "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": TypedValue((*part.path, "key")),
             "torque": torque, "form": part.keys.key_form, "key_count": part.keys.key_count, "yield_shaft": f"${{{home}.yield_strength}}",
         }  # fmt: skip
-        if cases := self.cases_of_key(part):
+        if part in self.parts.brakes:  # its torque, which is that of its only load case
+            inputs["application_factor"] = 1
+        elif cases := self.cases_of_key(part):
             inputs["load_cases"] = cases
         if part.keys.hub is not None:
             inputs["hub_length"] = TypedValue((*part.path, "hub"))
@@ -345,6 +347,8 @@ class ShaftElements(Masses, LoadCases):
     def _passed(self, part: ShaftPart) -> str | None:
         """The torque that passes the key of a part: its own, or that of the only part with one which rides on it."""
         loads, joined, has_own = part.shaft.loads, self._joined(part), part in self.inertias(part.shaft)
+        if part in self.parts.brakes:
+            return f"${{drive_line.brakes.{self.parts.brakes.index(part)}.torque}}"
         if len(joined) > 1 or not (joined or has_own):
             return None
         if has_own:

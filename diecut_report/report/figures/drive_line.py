@@ -144,7 +144,7 @@ class ViewSheet:
 
 RIM = 7.0  # points that the rim of a wheel is drawn wide
 FRONT = {SizesSize.LARGE: 112 * MM, SizesSize.LOW: 92 * MM, SizesSize.SKETCH: 80 * MM}  # height
-WHEELS = ("gear", "pulley", "sprocket", "clutch", "coupling", "flywheel", "cam")
+WHEELS = ("gear", "pulley", "sprocket", "clutch", "coupling", "brake", "flywheel", "cam")
 ARMS = ("crank", "rocker")
 JOINED = {"mesh": "gear", "chain": "sprocket", "belt": "pulley"}
 SLOT = 0.16  # width of a Geneva wheel's slots in its radius

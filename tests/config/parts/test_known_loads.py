@@ -16,6 +16,7 @@ from diecut_report.config.parts.load_cases import LoadCases, Passing
 from diecut_report.config.yaml import parse
 from diecut_report.mechanics.load_cases import called
 from diecut_report.press import Press
+from diecut_report.results.carrying_parts import unrated
 from diecut_report.results.warm_press import WarmPress
 from tests.config.parts.test_parts import DISCOVERY, FILE, calculated
 
@@ -626,9 +627,99 @@ def test_each_sprocket_side_by_side_has_its_share_where_the_clutch_engages() -> 
     ]
 
 
-@pytest.mark.parametrize("name", ["engage", "engage_2", "engage_6", "start"])
+@pytest.mark.parametrize("name", ["engage", "engage_2", "engage_6", "start", "stop", "stop_2"])
 def test_a_load_case_has_words_whichever_number_it_has(name: str) -> None:
-    assert called(1, (name,)) in ("engagement of the clutch", "start of the motor")
+    assert called(1, (name,)) in ("engagement of the clutch", "start of the motor", "stop by the brake")
+
+
+# A brake stops the flywheel: its torque passes all that is between them.
+
+ON_MAIN = "      - {gear: pinion, at: 360, integral: true}"
+BRAKE = "{brake: stop, at: 290, hub: 60, key: 50, brake_torque: 1300 N*m, mass: 9 kg, inertia: 0.05 kg*m**2"
+
+
+def stops(*changes: tuple[str, str]) -> list[tuple[str, ...]]:
+    """The load cases *stop* of a changed machine: shaft, where the torque enters and leaves, or the pair; and its torque."""
+    parts = changed(*changes)[0].parts
+    assert parts is not None
+    return [
+        (each.shaft.name, each.enters[0].name, each.leaves[0].name, each.torque)
+        if isinstance(each, Passing)
+        else (each.join.name, each.torque)
+        for each in LoadCases(parts, {}, {})._stops()
+    ]
+
+
+def test_a_brake_on_the_main_shaft_loads_all_up_to_the_flywheel() -> None:
+    made, problems = read((ON_MAIN, f"      - {BRAKE}, stops_per_hour: 10 1/h}}\n{ON_MAIN}"))
+    assert problems == []
+    torque = "${drive_line.brakes.0.torque}"
+    before = f"{torque} * (${{drive_line.meshes.0.teeth_1}} / ${{drive_line.meshes.0.teeth_2}}) / 0.97"
+    assert [each["torque"] for each in made["shafts_main"]["load_cases"] if each["name"] == "stop"] == [torque]
+    stop = next(each for each in made["meshes_main_drive"]["load_cases"] if each["name"] == "stop")
+    assert stop["torque"] == before and stop["cycles"] == "200000"
+    assert made["shafts_flywheel_rim_key"]["load_cases"][-1] == {"name": "stop", "torque": before}
+    assert "stop" not in names(made["shafts_crank"]["load_cases"])
+    assert made["shafts_main_stop_key"]["torque"] == torque
+
+
+def test_what_a_brake_loads_is_rated_for_it_and_the_way_to_rest_follows() -> None:
+    """1300 N·m at the wheel are more than the run's 1038 N·m: by hand 1300 · 18/87/0.97 = 277.3 N·m at the pinion."""
+    machine = WarmPress(is_advised=False).calculate(changed((ON_MAIN, f"      - {BRAKE}}}\n{ON_MAIN}"))[0])
+    values = {name: each.values for name, each in machine.calculations.items()}
+    assert values["shafts_main_wheel_key"]["torque_peak"].item() == pytest.approx(1300)
+    assert values["meshes_main_drive"]["torque_root"].item() == pytest.approx(1300 * 18 / 87 / 0.97)
+    assert values["meshes_main_drive"]["pitting_case"].item() == "stop by the brake"  # so often, as nobody says how often
+    own = values["consistency"]
+    mean = machine.calculations["timing"].values["torque_mean"].item()
+    assert own["stopping_angle"].item() == pytest.approx(own["energy_running"].item() / (1300 + mean))
+
+
+def test_a_brake_beside_the_flywheel_and_one_before_it() -> None:
+    """Beside it, behind the clutch, on the shaft that drives the flywheel's by a belt or by gears."""
+    torque = "${drive_line.brakes.0.torque}"
+    bearing = "      - {bearing: b, at: 387.5"
+    assert stops((bearing, f"      - {BRAKE}}}\n{bearing}")) == [("flywheel", "rim", "stop", torque)]
+    clutch = "      - {clutch: clutch, at: 130"
+    behind = stops((clutch, f"      - {BRAKE}}}\n{clutch}"))
+    assert [each[:-1] for each in behind] == [
+        ("crank", "wheel", "stop"), ("crank_drive",), ("main", "wheel", "pinion"), ("main_drive",), ("flywheel", "rim", "pinion"),
+    ]  # fmt: skip
+    small = "[{pulley: small, at: 25}]"
+    before = stops((small, f"[{{pulley: small, at: 25}}, {BRAKE}}}]"))
+    ratio = "(${drive_line.belts.0.diameter_1} / ${drive_line.belts.0.diameter_2} * 0.99)"
+    assert before == [("motor", "small", "stop", torque), ("flywheel", "rim", "large", f"{torque} / {ratio} / 1")]
+    rim = '      - {flywheel: rim, at: 170, hub: 82, key: 70, inertia: "${train.flywheel_inertia}"}\n'
+    geared = stops((rim, f"      - {BRAKE}}}\n"), (ON_MAIN, "      - {flywheel: rim, at: 290, hub: 60, key: 50, mass: 9 kg}\n" + ON_MAIN))
+    ratio = "(${drive_line.meshes.0.teeth_1} / ${drive_line.meshes.0.teeth_2})"
+    assert geared == [
+        ("flywheel", "pinion", "stop", torque), ("main_drive", torque), ("main", "rim", "wheel", f"{torque} / {ratio} / 0.97")
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "what"),
+    [
+        (ON_MAIN, f"      - {BRAKE.replace('brake_torque: 1300 N*m, ', '')}}}\n{ON_MAIN}", "has no torque"),
+        ("{gear: wheel, at: 200, hub: 100,", "{gear: wheel, at: 200, hub: 100, brake_torque: 5 N*m,", "is a key of a brake, and this is a gear"),
+        ("{gear: wheel, at: 200, hub: 100,", "{gear: wheel, at: 200, hub: 100, stops_per_hour: 5 1/h,", "is a key of a brake"),
+        ("      - {sprocket: left, at: 75, hub: 60, key: 50}\n      - {gear: pinion,",
+         f"      - {{sprocket: left, at: 75, hub: 60, key: 50}}\n      - {BRAKE}}}\n      - {{gear: pinion,", "does not turn steadily"),
+        ("    single_position:", "    brake_torque: 900 N*m\n    single_position:", "drive_line.brake_torque"),
+    ],
+)  # fmt: skip
+def test_a_brake_that_cannot_be_is_refused(old: str, new: str, what: str) -> None:
+    changes = [(old, new)]
+    if old.startswith("    single"):
+        changes.append((ON_MAIN, f"      - {BRAKE}}}\n{ON_MAIN}"))
+    assert what in told(*changes)
+
+
+def test_a_brake_of_which_no_part_is_known_is_open() -> None:
+    config, problems = changed(("    single_position:", "    brake_torque: 900 N*m\n    single_position:"))
+    assert problems == [] and config.parts is not None
+    why = {each.path: str(each.why) for each in unrated(config.parts, "train", {}, "")}
+    assert why["mechanisms.consistency.brake_torque"] == "no part of the machine is this brake, so that its torque loads nothing"
 
 
 # Joins side by side.
