@@ -17,7 +17,7 @@ from diecut_report.config.parts.expansion import Expanded, expanded, has_parts, 
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
-from diecut_report.config.references import Linker, linked, ordered
+from diecut_report.config.references import WHOLE, Linker, linked, ordered
 from diecut_report.config.source_hashes import note_same_code, plugin_hash, program_hash
 from diecut_report.config.validation import ConfigPlace, as_typed, declared, quoted, spread_out, validate
 from diecut_report.config.yaml import MAX_BYTES, Tree, read, too_much
@@ -58,13 +58,23 @@ def _offered(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances
     """What the partners of a block have for it: their names, and references."""
     found: dict[str, str] = {}
     for partner in mechanism.partners:
-        name = data.get(partner.key) or only(partner.kinds, kinds)
+        name = data.get(partner.key) or only(partner.kinds, _meant(partner, instances, kinds))
         if partner_fault(partner, name, kinds) or (instance := instances[str(name)]) is None:
             continue
         known = instance.given | instance.results.keys()
         found |= {partner.key: str(name)}
         found |= {key: f"${{{instance.name}.{taken}}}" for key, taken in partner.takes.items() if taken in known}
     return found
+
+
+def _meant(partner: Partner, instances: Instances, kinds: Kinds) -> Kinds:
+    """The mechanisms without those of which an input refers to a kind that shows another use."""
+
+    def refers(name: str, key: str, kind: str) -> bool:
+        given = instance.data.get(key) if (instance := instances.get(name)) else None
+        return isinstance(given, str) and any(kinds.get(path.split(".")[0]) == kind for path in WHOLE.findall(given))
+
+    return {name: own for name, own in kinds.items() if not any(refers(name, *each) for each in partner.unless.items())}
 
 
 def only(wanted: Container[str], kinds: Kinds) -> str | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import codecs
 import copy
 import hashlib
+import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -21,7 +22,7 @@ import yaml
 from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
 from diecut_report.config.model import PRESS, texts
 from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, ConfigPlace, declared, value_at
-from diecut_report.config.yaml import LOADER, KeyPath, Tree, dotted, parse
+from diecut_report.config.yaml import LOADER, KeyPath, Scalar, Tree, dotted, parse
 from diecut_report.errors import Problem, UserError, nearest, seeming_latin
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
@@ -29,7 +30,7 @@ from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields
 from diecut_report.mechanism.names import FromPress
 from diecut_report.mechanism.steps import count_name, has_own_names, named, names_ahead
-from diecut_report.quantities.units import pretty, unit
+from diecut_report.quantities.units import UnitError, number_and_unit, pretty, unit
 from diecut_report.text.phrases import Phrase, phrase
 
 PHASES = "phases"
@@ -355,6 +356,31 @@ class _Span:
     in_flow: bool
 
 
+def assumed_bases(tree: Tree, values: Mapping[KeyPath, Scalar]) -> dict[KeyPath, str]:
+    """Return the bases that become assumed with other values, by their places: those that are of the former value alone."""
+    moved = (
+        path[:-1] for path, value in values.items() if path[-1:] == ("value",) and _differs(tree.typed(path), value)
+    )
+    bases = ((*path, "basis") for path in moved)
+    return {path: ASSUMED for path in bases if tree.typed(path) in OF_ONE_VALUE}
+
+
+def _differs(typed: str | None, value: Scalar) -> bool:
+    """Whether a value is another one than what is typed: 0.37 GPa is 370 MPa."""
+    if typed is None or typed == str(value):
+        return False
+    try:
+        (one, si), (other, other_si) = _in_si(typed), _in_si(str(value))
+    except UnitError:
+        return True
+    return si != other_si or not math.isclose(one, other, rel_tol=1e-12)
+
+
+def _in_si(text: str) -> tuple[float, str]:
+    number, own = number_and_unit(text)
+    return unit(own or "1").to_si(float(number)), unit(own or "1").si
+
+
 def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> Tree:
     """Return the file with these scalars, as they are to be typed; a key that is not there is put into its block.
 
@@ -365,11 +391,7 @@ def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: boo
     """
     if tree.problems or not values:
         return tree
-    moved = (
-        path for path, value in values.items() if path[-1:] == ("value",) and tree.typed(path) not in (None, value)
-    )
-    bases = ((*path[:-1], "basis") for path in moved)
-    values = {**dict.fromkeys((path for path in bases if tree.typed(path) in OF_ONE_VALUE), ASSUMED), **values}
+    values = {**assumed_bases(tree, values), **values}
     spans, edits = _spans(tree.text), []
     for path, value in values.items():
         typed = tree.typed(path)

@@ -291,7 +291,9 @@ def _tornado_lines(tornado: Tornado) -> Iterator[Phrase]:
     yield Phrase("  {rest}", rest=joined(rest, ", ") or phrase("no other input has an effect"))
     if tornado.impossible:
         names = ", ".join(each.design.name for each in tornado.impossible)
-        yield Phrase("  changed, no machine exists: {names} ({reason})", names=names, reason=tornado.reason)
+        yield Phrase(
+            "  changed one way or both, no machine exists: {names} ({reason})", names=names, reason=tornado.reason
+        )
 
 
 def _told(value: float | None, unit: str, digits: int = 4) -> str:

@@ -222,13 +222,14 @@ class Partner:
 
     ``takes`` gives for inputs of this kind the id of a result or the path of an input there; what is given in the block, or is
     absent there, is not taken. Where a press has none of these kinds, checks that need what they give do not apply, unless every
-    press must have one (``always``).
+    press must have one (``always``). One whose input refers to a mechanism of the kind that ``unless`` names for it is not meant.
     """
 
     key: str
     kinds: tuple[str, ...]
     takes: Mapping[str, str]
     always: bool = False
+    unless: Mapping[str, str] = field(default_factory=dict)
     at: str = placed()
 
 

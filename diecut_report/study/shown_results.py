@@ -25,7 +25,8 @@ from diecut_report.text.translation import said, say_counted
 
 RATE = "press.productivity"
 MOTOR = "motor_power"
-TORQUES = ("torque_peak", "torque_max")  # ends of the ids of greatest torques
+TORQUES = ("torque_peak", "torque_max", "torque_min")  # ends of the ids of greatest torques, either way
+SHAFTS = "machine_inertia"  # the kind that adds up the masses of all shafts
 WORDS = {
     "rate": phrase("Productivity in sheets"),
     "mass": phrase("Mass of the calculated parts"),
@@ -93,6 +94,8 @@ class AskedResults:
             cells = [_governing(machine, word) for machine in machines]
             yield from [ComparedRow(word, said(WORDS[word]), cells)] if any(cells) else []
             return
+        if word == "mass":
+            outputs = [_counted_once(machine, some) for machine, some in zip(machines, outputs, strict=True)]
         found = [_rate(each) for each in machines] if word == "rate" else [AMOUNTS[word](some) for some in outputs]
         first = next(filter(None, found), None)
         if first:
@@ -150,10 +153,23 @@ def _numbers(outputs: Row, si: str) -> Iterator[tuple[str, QuantityRecord, float
             yield path, row, float(row.value)
 
 
+def _counted_once(machine: CheckedMachine, outputs: Row) -> Row:
+    """Return the outputs without those whose mass is within that of the machine's shafts, with all that is mounted on them."""
+    line = machine.results.drive_line if machine.results else None
+    kinds = {name: data.kind for name, data in machine.mechanisms.items()}
+    if line is None or SHAFTS not in kinds.values():
+        return outputs
+    within = {"shaft", "shaft_body"}
+    within |= (
+        {"drive_train"} if any(part.kind == "flywheel" for shaft in line.shafts for part in shaft.parts) else set()
+    )
+    return {path: row for path, row in outputs.items() if kinds[path.partition(".")[0]] not in within}
+
+
 def _mass(outputs: Row) -> Amount | None:
-    """Return the sum of the masses that are key results, and of how many parts."""
+    """Return the sum of the masses that are key results, and of how many results."""
     found = [(row.display.unit, value) for _, row, value in _numbers(outputs, "kg") if row.key]
-    note = say_counted(len(found), "{n} part", "{n} parts")
+    note = say_counted(len(found), "{n} result", "{n} results")
     return Amount(sum(value for _, value in found), found[0][0], note) if found else None
 
 

@@ -145,7 +145,8 @@ belts.value("belt_ratio", "i_b", "1", "Speed of the driving pulley for each of t
 belts.part_table("belts_table", "V-belts", "belts", ("belt_ratio",))
 brakes = Chapter("Brakes", needs=("brakes",))
 brakes.value("referred_torque", "M_b,m", "N*m", "Torque of the brake referred to the main shaft",
-    bind(lambda torque, ratio: torque * abs(ratio), torque="brakes.torque", ratio="brakes.ratio"), source="statics", named_by="brakes.name", output=False)
+    bind(lambda torque, ratio: torque * abs(ratio), torque="brakes.torque", ratio="brakes.ratio"), source="statics",
+    named_by="brakes.name", output=False)
 brakes.part_table("brakes_table", "Brakes", "brakes", ("referred_torque",))
 brakes.total("brake_torque", "M_b,Σ", "N*m", "Torque of all brakes, referred to the main shaft", "sum", of="referred_torque")
 

@@ -17,6 +17,7 @@ STRAIGHT = (("mass", "mm"),)
 STRAIGHT_SPEED = (("mass", "m/s"),)
 STRAIGHT_ACCELERATION = (("mass", "m/s**2"),)
 LAW, CURVE, RATE = ("rise",), ("motion_curve",), ("cycles_per_hour",)
+ONE_RATE = 1e-3  # relative difference of two rates that are one
 STIFFEST, SOFTEST = 50, 0.1  # natural periods within the rise, between which the drive is calculated
 
 
@@ -44,6 +45,14 @@ times = Chapter("Duration of the motion",
 times.value("cycle_time", "T", "ms", "Duration of a cycle", lambda cycles_per_hour: 1 / cycles_per_hour, needs=RATE)
 times.curve_period("cycle_time", "T", "ms", "Duration of a cycle", given="motion_curve",
     otherwise="give cycles_per_hour, with which it runs through once a cycle", needs=CURVE, lacks=RATE)
+times.computed("curve_rate", "n_φ", "1/h", "Rate at which the curve comes again; 0 where nothing tells it",
+    function=lambda motion_curve: motion_curve.rate / (2 * np.pi), takes=CURVE, method="the speed of what it runs over, by the turns of its period",
+    needs=(*CURVE, *RATE), output=False, source="kinematics")
+times.require("one_rate",
+    bind(lambda cycles_per_hour, curve_rate, tolerance: (curve_rate <= 0) | (abs(cycles_per_hour - curve_rate) <= tolerance * curve_rate),
+        tolerance=ONE_RATE), key="cycles_per_hour", needs=(*CURVE, *RATE),
+    message="is {cycles_per_hour}, but the curve that motion_curve refers to comes again at {curve_rate}; refer to the rate with which that curve is "
+        "calculated")
 times.computed("motion_start", "s_0", "1", "Fraction of the cycle at which the motion begins", function=rests.start, takes=CURVE,
     method="the end of the longest rest among the curve's smooth pieces", needs=CURVE, output=False, source="this method")
 times.computed("motion_share", "s_m", "1", "Fraction of the cycle taken by the motion", function=rests.share, takes=CURVE,

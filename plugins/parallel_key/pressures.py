@@ -67,7 +67,10 @@ pressures.value("key_length", "l", "mm", "Length of the key: the smallest suffic
     lambda required_key_length: required_key_length, lacks=("key_length",), source="this method")
 pressures.require("longer_than_wide", lambda key_length, round_ends: key_length > round_ends, key="key_length", needs=("key_length", "form=A"),
     message="is {key_length}, of which the round ends of the {width} wide key leave nothing to bear; take a longer key, or form B")
-pressures.value("bearing_length", "l_tr", "mm", "Bearing length", lambda key_length, round_ends: key_length - round_ends, source=METHOD)
+BEARING = ("bearing_length", "l_tr", "mm")
+pressures.value(*BEARING, "Bearing length, no longer than the hub",
+    lambda key_length, round_ends, hub_length: np.minimum(key_length - round_ends, hub_length), needs=("hub_length",), source=METHOD)
+pressures.value(*BEARING, "Bearing length", lambda key_length, round_ends: key_length - round_ends, lacks=("hub_length",), source=METHOD)
 for part, load in CASES:
     force, _, end, words = LOADS[load]
     pressures.value(f"pressure_{part}{load}", f"p_{PARTS[part]}{end}", "MPa", f"Pressure on the {part}, {words} load",

@@ -39,7 +39,8 @@ CHECKS = (
         consequence="the motor turns faster than at its rated speed: accelerations, and what follows from them, are {load_rise} greater than "
             "calculated; set press.productivity to at least {true_rate:up}, and give the rate that is asked for as required_rate."),
     Check(id="driven_inertia", check_class="strength", title="Inertia behind the clutch", demand="equal_inertia", limit="clutch_inertia",
-        unit="kg*m**2", tolerance=1e-3, demand_label="inertia of equal heat at the crank", limit_label="inertia used for the clutch", source="energy",
+        unit="kg*m**2", tolerance=1e-3, demand_label="inertia of equal heat at the clutch", limit_label="inertia used for the clutch",
+        source="energy",
         presumed=True,
         consequence="an engagement at {start_angle} makes {slip_heat} of heat in {slip_time}; the crank feels {crank_inertia_mean} in the mean and "
             "up to {crank_inertia_max} at {crank_inertia_max_at}: give the clutch a driven_inertia of at least {equal_inertia:up}."),

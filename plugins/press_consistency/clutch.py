@@ -10,9 +10,12 @@ import numpy as np
 from diecut_report.mechanics.timing.engagement import Slip, SlippingClutch, inertia_at_crank, slip, worst_slip
 from diecut_report.mechanics.timing.shaft_curves import PieceRows
 
+ONE_SHAFT = (
+    0.1  # share by which the driving side of a clutch on the crank's shaft may be faster or slower than the crank
+)
 TURN = 2 * np.pi
 CYLINDER = ("cylinder_inertia", "cylinder_mass", "cylinder_radius", "static_unbalance", "shafts_inertia")
-CLUTCH = ("clutch_torque", "clutch_load", "clutch_speed")
+CLUTCH = ("clutch_torque", "clutch_load", "clutch_speed", "clutch_ratio")
 TAKES = (
     "cylinder_rotation",
     "cylinder_speed",
@@ -35,12 +38,13 @@ def engagement(given: Mapping[str, Any]) -> Slip:
 
 
 def _of_part(given: Mapping[str, Any], series: PieceRows, machines: Any) -> Slip:
-    """The engagements of some of the machines."""
+    """The engagements of some of the machines: of a clutch on another shaft, as of one at the crank."""
 
     def inertia(angle: Any, machine: Any) -> Any:
         return np.maximum(series.at(angle / TURN % 1, machines[machine]), 0.0)
 
-    clutch = SlippingClutch(*(given[name][machines, 0] for name in CLUTCH))
+    torque, load, speed, ratio = (given[name][machines, 0] for name in CLUTCH)
+    clutch = SlippingClutch(torque * ratio, load * ratio, speed / ratio)
     ends = np.concatenate([given["dead_center_outer"], given["dead_center_inner"]], axis=1)[machines]
     if "engagement_angle" in given:
         return slip(inertia, ends, clutch, given["engagement_angle"][machines, 0])

@@ -33,12 +33,17 @@ inertia.reduction("crank_inertia_max", "I_max", "kg*m**2", "Maximum equivalent i
 
 engagement = Chapter("Engagement of the clutch",
     text="From rest the net torque M′ accelerates the crank to ω(φ) = √(2M′(φ − φ₀)/I_red(φ)); the slip ends where this first reaches the speed of "
-        "the driving side. The equal inertia is the constant one that would generate the same heat.", needs=ENGAGED,
+        "the driving side, at the crank. The equal inertia is the constant one at the clutch that would generate the same heat.", needs=ENGAGED,
     absent="not calculated: there is no clutch or no cylinder drive to use, or there are several")
 engagement.require("clutch_pulls", lambda clutch_load, clutch_torque: clutch_load < clutch_torque, key="clutch_load",
     message="is {clutch_load}, but the slipping clutch carries {clutch_torque} only: the driven side never comes up to speed; lower the load while "
         "engaging")
-engagement.value("net_torque", "M′", "N*m", "Accelerating torque", lambda clutch_torque, clutch_load: clutch_torque - clutch_load, source="mechanics")
+engagement.choice("clutch_ratio", "i_c", "1", "Revolutions of the clutch per revolution of the crank",
+    case(lambda: 1, "it is on the crank's shaft: its driving side is at most a tenth faster or slower",
+        bind(lambda clutch_speed, crank_speed, tolerance: abs(clutch_speed - crank_speed) <= tolerance * crank_speed, tolerance=clutch.ONE_SHAFT)),
+    case(lambda clutch_speed, crank_speed: clutch_speed / crank_speed, "it is on another shaft"), source="kinematics", output=False)
+engagement.value("net_torque", "M′", "N*m", "Accelerating torque at the crank",
+    lambda clutch_torque, clutch_load, clutch_ratio: (clutch_torque - clutch_load) * clutch_ratio, source="mechanics")
 engagement.prepared("slip", clutch.engagement, (*clutch.TAKES, "engagement_angle"), for_many=True)
 engagement.value("start_angle", "φ_0", "deg", "Crank angle of the engagement: as given", lambda engagement_angle: engagement_angle, source="input",
     needs=("engagement_angle",))
@@ -47,12 +52,12 @@ engagement.computed("start_angle", "φ_0", "deg", "Crank angle of the engagement
 engagement.computed("slip_time", "t_s", "ms", "Slip time", lambda slip: slip.time[:, None], ("slip",), "Gauss–Legendre", source="this method")
 engagement.computed("driven_angle", "Δφ", "deg", "Rotation of the crank during slip", lambda slip: slip.driven_angle[:, None], ("slip",),
     "root of equal speeds", source="this method")
-engagement.value("lag_angle", "Δφ_l", "deg", "Additional rotation of the driving side",
-    lambda clutch_speed, slip_time, driven_angle: clutch_speed * slip_time - driven_angle, source="kinematics")
+engagement.value("lag_angle", "Δφ_l", "deg", "Additional rotation of the driving side, at the crank",
+    lambda clutch_speed, clutch_ratio, slip_time, driven_angle: clutch_speed / clutch_ratio * slip_time - driven_angle, source="kinematics")
 engagement.value("slip_heat", "Q", "J", "Heat of the engagement, with the varying inertia",
-    lambda clutch_torque, lag_angle: clutch_torque * lag_angle, source="energy")
-engagement.value("equal_inertia", "I_eq", "kg*m**2", "Constant inertia that would generate the same heat",
-    lambda slip_heat, net_torque, clutch_torque, clutch_speed: 2 * slip_heat * net_torque / (clutch_torque * clutch_speed**2), source="energy")
+    lambda clutch_torque, clutch_ratio, lag_angle: clutch_torque * clutch_ratio * lag_angle, source="energy")
+engagement.value("equal_inertia", "I_eq", "kg*m**2", "Constant inertia at the clutch that would generate the same heat",
+    lambda slip_heat, clutch_load, clutch_torque, clutch_speed: 2 * slip_heat * (1 - clutch_load / clutch_torque) / clutch_speed**2, source="energy")
 
 coupling = Chapter("Clutch and offsets of the lines", needs=("timing", "clutch_drives", "clutch_torque"),
     absent="not calculated: clutch_drives is not given, or there is no clutch or no cyclogram to use")

@@ -25,10 +25,10 @@ class PressConsistency(Inputs):
     drive: Annotated[str | None, Text("Mechanism that drives it; default: the only cylinder_drive")] = None
     transport: Annotated[str | None, Text("Mechanism that moves the sheet; default: the only cam_gear_transport or geneva_transport")] = None
     conveyor: Annotated[str | None, Text("Mechanism that provides the conveyor's mass; default: the only cam_gear_transport")] = None
-    chain: Annotated[str | None, Text("Chain that carries the gripper bars; default: the only roller_chain")] = None
+    chain: Annotated[str | None, Text("Chain that carries the gripper bars; default: the only roller_chain that moves no cylinder")] = None
     wheel: Annotated[str | None, Text("Mechanism that provides the wheel's inertia; default: the only geneva_transport")] = None
     train: Annotated[str | None, Text("Mechanism that drives the main shaft; default: the only drive_train")] = None
-    clutch: Annotated[str | None, Text("Clutch on the crank's shaft; default: the only clutch")] = None
+    clutch: Annotated[str | None, Text("Clutch before the cylinder drive's crank; default: the only clutch")] = None
     timing: Annotated[Any | None, MechanismInput("Cyclogram of the press; default: the only cyclogram")] = None
     damper: Annotated[str | None, Text("Dampers at the ends of the travel; default: the only damper")] = None
     drive_line: Annotated[str | None, Text("Drive line that provides the brakes' torque; default: that of the machine's parts")] = None
@@ -80,7 +80,7 @@ class PressConsistency(Inputs):
     dead_center_outer: Annotated[float | None, Quantity("φ_out", "deg", "Crank angle of the outer dead centre", ge=0, le=360)] = None
     dead_center_inner: Annotated[float | None, Quantity("φ_in", "deg", "Crank angle of the inner dead centre", ge=0, le=720)] = None
 
-    clutch_torque: Annotated[float | None, Quantity("M_c", "N*m", "Torque of the slipping clutch on the crank's shaft", gt=0)] = None
+    clutch_torque: Annotated[float | None, Quantity("M_c", "N*m", "Torque of the slipping clutch, on its own shaft", gt=0)] = None
     clutch_load: Annotated[float, Quantity("M_l", "N*m", "Load torque of the driven side during slip", ge=0)] = 0
     clutch_speed: Annotated[float | None, Quantity("ω_c", "rpm", "Speed of the clutch's driving side", gt=0)] = None
     clutch_inertia: Annotated[float | None, Quantity("J_c", "kg*m**2", "Moment of inertia used in the clutch's calculation", gt=0)] = None

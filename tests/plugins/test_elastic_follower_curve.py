@@ -12,7 +12,7 @@ import pytest
 
 from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation, CurveHandle
+from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
@@ -237,3 +237,11 @@ def test_many_variants_with_a_source_for_each_are_single_runs() -> None:
         alone = calculate(MECHANISM, base | own)
         for name in ("tuning_ratio", "peak_ratio", "residual_ratio", "overshoot", "torque_peak", "acceleration_peak", "rest_time"):  # fmt: skip
             assert together[name][i, 0] == pytest.approx(number(alone, name), rel=1e-9, abs=1e-11), name
+
+
+def test_a_rate_that_is_not_that_of_the_curve_is_refused() -> None:
+    """At half the rate the same motion would have a quarter of its acceleration; a list of values tells no rate."""
+    source = gear("modified_sine")
+    with pytest.raises(Impossible, match="comes again at"):
+        driven(source, "gear_angle", cycles_per_hour=3000)
+    assert number(driven(source, "gear_angle", cycles_per_hour=6000), "cycle_time") == pytest.approx(0.6)

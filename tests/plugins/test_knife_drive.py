@@ -12,6 +12,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import four_bar
 from diecut_report.plugins.knife_drive import MECHANISM
+from diecut_report.results.checks import verdicts
 from tests.machines import inputs, number
 
 OMEGA = 2 * np.pi * 50000 / 3600
@@ -247,3 +248,15 @@ def test_the_edge_may_start_at_the_table(drive: str, keys: dict[str, Any]) -> No
     calc = knife(**keys, working_depth=f"{stroke!r} m")
     assert number(calc, f"{drive}_contact_velocity") == pytest.approx(0, abs=1e-5)
     assert number(calc, f"{drive}_working_angle") > 1
+
+
+@pytest.mark.parametrize(
+    ("ratio", "status"), [(2, "pass"), (4, "pass"), (1, "fail"), (1.87, "fail"), (3, "fail"), (0.001, "fail")]
+)
+def test_a_knife_that_does_not_meet_each_signature_fails(ratio: float, status: str) -> None:
+    """Counted: the signatures of 100 turns of the plate cylinder that no lowest point of the knife belongs to."""
+    calc = knife(**SLIDER, drive_ratio=ratio, signature_length=273)
+    interval, cycle = number(calc, "signature_interval"), number(calc, "cycle_time")
+    missed = [each for each in range(200) if abs(each * interval / cycle - round(each * interval / cycle)) > 1e-9]
+    assert (status == "pass") == (not missed and interval >= cycle * (1 - 1e-9))
+    assert {each.id: each.status for each in verdicts(calc)}["in_step"] == status

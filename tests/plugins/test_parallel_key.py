@@ -398,3 +398,16 @@ def test_what_is_printed_of_a_reversing_torque_without_a_life_is_on_the_safe_sid
 def test_each_way_to_tell_the_reversals_makes_the_verdict(more: dict[str, Any]) -> None:
     found = checks(key(TURNING | more))
     assert {found[name].status for name in REGULAR} <= {"pass", "fail"}
+
+
+@pytest.mark.parametrize("form", ["A", "B"])
+def test_what_stands_out_of_the_hub_does_not_bear(form: str) -> None:
+    """A key of 70 mm in a hub of 36 mm is pressed as one that bears on 36 mm: by hand K_λ·2·T/(d·h·l)."""
+    within, short = key(key_length=70, hub_length=70, form=form), key(key_length=70, hub_length=36, form=form)
+    assert number(short, "bearing_length") == pytest.approx(0.036)
+    assert number(within, "bearing_length") == number(key(key_length=70, form=form), "bearing_length")
+    ratio = number(within, "bearing_length") / 0.036
+    for name in ("pressure_shaft", "pressure_hub", "pressure_key", "shear_stress"):
+        assert number(short, name) == pytest.approx(number(within, name) * ratio)
+    sized = checks(key(SIZED, hub_length=12))
+    assert sized["pressure_key"].status == "fail" and sized["hub_length"].status == "warn"

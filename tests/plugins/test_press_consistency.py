@@ -135,6 +135,17 @@ def test_the_shafts_of_pinion_and_rocker_count_at_the_crank_and_in_the_clutch() 
         assert number(within, name) > 1.05 * number(bare, name)
 
 
+@pytest.mark.parametrize("ratio", [2, 9.7])
+def test_a_clutch_on_a_faster_shaft_makes_the_same_heat_with_as_much_less_torque(ratio: float) -> None:
+    """Its inertia of equal heat is less by the square of the ratio."""
+    torque, speed = (number(the_example(), f"inputs.{key}") for key in ("clutch_torque", "crank_speed"))
+    slow = consistency(example_keys(), clutch_speed=f"{speed} rad/s")
+    fast = consistency(example_keys(), clutch_torque=torque / ratio, clutch_speed=f"{speed * ratio} rad/s")
+    for name in ("slip_heat", "slip_time", "start_angle", "lag_angle", "driven_angle", "net_torque"):
+        assert number(fast, name) == pytest.approx(number(slow, name), rel=1e-9), name
+    assert number(fast, "equal_inertia") == pytest.approx(number(slow, "equal_inertia") / ratio**2, rel=1e-9)
+
+
 def test_the_drive_gives_all_that_its_crank_moves() -> None:
     """The greatest kinetic energy that the drive tells is that of the inertia at the crank, where nothing is out of balance."""
     moved = drive(pinion_inertia="0.3 kg*m**2", rocker_inertia="6 kg*m**2", static_unbalance=0)

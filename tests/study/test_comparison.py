@@ -17,6 +17,7 @@ from diecut_report.study.comparison import ComparedRow, MachineComparison, Verdi
 from diecut_report.study.comparison_pages import blocks, page, sheets
 from diecut_report.study.machines import CheckedMachine, calculated
 from diecut_report.study.shown_results import AskedResults, refuse_units, refuse_unused_units
+from tests.config.parts.test_parts import FILE
 from tests.configs import GOOD, HEAD, LEVER, saved
 
 KNOWN = Discovery([GOOD])
@@ -205,3 +206,32 @@ def test_the_press_of_a_comparison_is_that_of_its_report(tmp_path: Path) -> None
     whole = decided(Press.read(file, KNOWN).calculate()).results
     (found,) = compared([calculated(KNOWN, (0, str(file)), decided)], []).machines
     assert (found.conclusion, found.verdict) == (whole.summary.conclusion, whole.summary.verdict)
+
+
+def test_a_torque_counts_whichever_way_it_turns(tmp_path: Path) -> None:
+    shaft = (
+        HEAD
+        + """\
+  pin:
+    kind: shaft
+    sections: [{length: 300 mm, diameter: 50 mm}]
+    bearing_a: 20 mm
+    bearing_b: 280 mm
+    material: 42CrMo4+QT
+    loads:
+      - {name: a, position: 100 mm, torque: 500 N*m, gear: {pitch_radius: 100 mm, mesh_angle: 0 deg}}
+      - {name: b, position: 200 mm, torque: balance}
+"""
+    )
+    made = side_by_side(tmp_path, shaft, shaft.replace("500 N*m", "-500 N*m"))
+    assert values(made.results)["torque_max"] == pytest.approx([500, 500])
+
+
+def test_the_parts_on_the_shafts_of_a_machine_are_weighed_once() -> None:
+    """All shafts with what is mounted on them, and the cylinder."""
+    known = Discovery()
+    found = calculated(known, (0, str(FILE.with_stem("flat_cylinder_corrected"))), decided)
+    own = found.mechanisms
+    shafts, cylinder = (float(own[name].outputs["mass"].value) for name in ("machine_inertia", "cylinder"))
+    rows = AskedResults(("mass",)).rows([found])
+    assert values(rows)["mass"] == pytest.approx([shafts + cylinder])

@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from diecut_report.cli.main import main
+from diecut_report.config import yaml
 from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.inputs import design_input, given_numbers
@@ -15,6 +17,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.press import Press
 from diecut_report.results.warm_press import WarmPress
+from diecut_report.study.analysis.variant_config import taken_config, variant_config
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution import press_batch
@@ -316,3 +319,20 @@ def test_a_margin_may_follow_from_what_is_a_time_or_an_angle(tmp_path: Path, sec
     assert found.columns["timing.margin_required.1"][1] == pytest.approx(
         2 * found.columns["timing.margin_required.1"][0]
     )
+
+
+@pytest.mark.parametrize("first", ["0.28", "28 %"])
+def test_a_stored_variant_says_what_its_values_rest_on(tmp_path: Path, first: str) -> None:
+    """A certificate is of the value that was measured: the report of another variant does not name it, and `take` says the same."""
+    base = knife(tmp_path, f'{{value: {first}, basis: measured, note: "protocol 17"}}').config.tree
+    (tmp_path / "press.yaml").write_text(base.text, "utf-8")
+    study = (
+        "schema_version: 1\nbase: press.yaml\nsample: {method: grid}\nvary: {mechanisms.knife.friction: [0.28, 0.27]}\n"
+    )
+    (tmp_path / "study.yaml").write_text(study, "utf-8")
+    assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--quiet"]) == 0
+    for variant, basis in enumerate(["measured", "assumed"]):
+        tree = variant_config(tmp_path / "out", variant, DISCOVERY, "v")
+        taken = yaml.parse(taken_config(tmp_path / "out", variant, DISCOVERY)[0].decode(), "v")
+        place = ("mechanisms", "knife", "friction", "basis")
+        assert (tree.typed(place), taken.typed(place)) == (basis, basis)

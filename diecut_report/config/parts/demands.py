@@ -15,6 +15,7 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanics.timing.intervals import exact_turns
 from diecut_report.mechanism.mechanism import Mechanism, Port
 
+SAME = 1e-9  # of two efficiencies
 USUAL_STEPS = 6  # of a Geneva wheel whose slots are not typed
 
 
@@ -62,6 +63,13 @@ class Ratio:
     def text(self) -> Any:
         """Return it as it stands in a configuration."""
         return " * ".join((f"{self.number:.15g}", *self.factors)) if self.factors else self.number
+
+
+class Loss(NamedTuple):
+    """Hold the efficiency of a part of a torque's way, and where it is typed; nothing where it is a default."""
+
+    efficiency: float
+    path: KeyPath = ()
 
 
 class Moving(NamedTuple):
@@ -118,6 +126,7 @@ class Demands:
     made: list[Element] = field(default_factory=list)
     fills: dict[str, dict[str, Any]] = field(default_factory=dict)
     twice: list[tuple[KeyPath, KeyPath]] = field(default_factory=list)  # typed keys that follow, each with from where
+    counted: set[KeyPath] = field(default_factory=set)  # typed efficiencies that count in a torque
     _torques: dict[ShaftPart, dict[str, Any] | None] = field(default_factory=dict)
 
     def _beside(
@@ -284,8 +293,9 @@ class Demands:
 
     def _torque_on(self, part: ShaftPart) -> dict[str, Any] | None:
         port = self.port(part)
-        if port is not None and port.torque and not port.angle:
-            return self._source(part.name, str(part.port and part.port[0]), port.torque, -1)
+        if part.port is not None and port is not None and port.torque and not port.angle:
+            found, lost = self._source(part.name, part.port[0], port.torque, -1), self._lost_before(part)
+            return found | {"efficiency": (lost,)} if lost else found
         for join in self.parts.joins_of(part):
             if part in join.drivers and (found := self._of_swing(part) or self._through(join, len(join.drivers))):
                 return found | {"name": part.name}
@@ -430,20 +440,45 @@ class Demands:
             return None
         found = demand | {"ratio": demand["ratio"].times(join.ratio_text, number=1 / share)}
         if isinstance(join.keys, MeshKeys) and not self._swings(driven):
-            found["efficiency"] = (*demand.get("efficiency", ()), join)
+            found["efficiency"] = (*demand.get("efficiency", ()), self.loss(join))
         return found
+
+    def _lost_before(self, part: ShaftPart) -> Loss | None:
+        """What the cyclogram loses on the way to a mechanism beyond the meshes there: the mechanism takes as much more from its shaft."""
+        timing, name = self.named("cyclogram"), str(part.port and part.port[0])
+        lines = self.blocks[timing].get("lines", []) if timing else []
+        named = (
+            line.get("mechanism") if isinstance(line, dict) else None
+            for line in (lines if isinstance(lines, list) else [])
+        )
+        index = next((index for index, each in enumerate(named) if each == name), None)
+        if timing is None or index is None or not self._is_behind(part.shaft):
+            return None
+        typed = self.parts.reader.typed_number(timing, f"lines.{index}.path_efficiency")
+        meshes = prod(self.loss(join).efficiency for join in self.chain_from(self.parts.keys.anchor, part.shaft.name))
+        if typed is None or typed >= meshes - SAME:
+            return None
+        return Loss(typed / meshes, ("mechanisms", timing, "lines", index, "path_efficiency"))
+
+    def loss(self, join: Join) -> Loss:
+        """Return the efficiency of a join: chains and belts lose nothing here."""
+        if not isinstance(join.keys, MeshKeys):
+            return Loss(1.0)
+        path = (*join.path, "efficiency") if "efficiency" in self._raw(join.path) else ()
+        return Loss(join.keys.efficiency, path)
 
     def _swings(self, shaft: MachineShaft) -> bool:
         """Whether a shaft turns to and fro, so that the sign of a torque on it does not tell which way the power flows."""
         moving = self.moved_by(shaft)
         return moving is not None and not moving.port.advance
 
-    def efficiency(self, meshes: Sequence[Join]) -> Any:
-        """Return the efficiency of meshes one behind the other: that of a single one as it is typed, else the number."""
-        first = meshes[0]
-        if len(meshes) == 1 and "efficiency" in self._raw(first.path):
-            return TypedValue((*first.path, "efficiency"))
-        return prod(each.keys.efficiency for each in meshes)
+    def efficiency(self, losses: Sequence[Loss]) -> Any:
+        """Return the efficiency of losses one behind the other: of a single mesh as it is typed, else the number."""
+        typed, number = [each.path for each in losses if each.path], prod(each.efficiency for each in losses)
+        self.counted.update(typed)
+        if len(losses) == 1 and typed and typed[0][0] == "meshes":
+            return TypedValue(typed[0])
+        return TypedNumber(f"{number:.15g}", typed[0]) if typed else number
 
     def _added(self, every: list[dict[str, Any]]) -> dict[str, Any] | None:
         """The demands of several parts of one curve as one, such as of two chains side by side; None where they are unlike."""

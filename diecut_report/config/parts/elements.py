@@ -85,7 +85,7 @@ class Elements(ShaftElements):
             rolled = self._chains_that_move(part, "cylinder")
             return " + ".join(self.inertia_behind(each.driven[0].shaft, *rolled) for each in meshes) or None
         if what == "efficiency":
-            toothed = [join for join in way if isinstance(join.keys, MeshKeys)]
+            toothed = [self.loss(join) for join in way if isinstance(join.keys, MeshKeys)]
             return self.efficiency(toothed) if toothed else None
         if what == "ratio":
             return " * ".join(join.ratio_text for join in way).strip("()" if len(way) == 1 else "") or None

@@ -49,7 +49,7 @@ class Meshing:
 
 
 class LoadCases(Demands):
-    """Know the load cases of the parts: the clutch's design torque on both its sides, the motor's greatest one, and the brake's, up to the flywheel."""
+    """Know the load cases of the parts: the clutch's design torque on both its sides, the motor's and the brake's up to the flywheel."""
 
     @cached_property
     def load_cases(self) -> list[Passing | Meshing]:
@@ -134,7 +134,12 @@ class LoadCases(Demands):
     def _stops(self) -> Iterator[Passing | Meshing]:
         for index, brake in enumerate(self.parts.brakes):
             torque, shaft = f"${{drive_line.brakes.{index}.torque}}", brake.shaft
-            flywheels = {part.shaft.name: part for each in self.parts.shafts.values() for part in each.parts if part.kind == "flywheel"}
+            flywheels = {
+                part.shaft.name: part
+                for each in self.parts.shafts.values()
+                for part in each.parts
+                if part.kind == "flywheel"
+            }
             behind = next(((name, way) for name in flywheels if (way := self.chain_from(shaft.name, name))), None)
             driving = self.parts.driving_join(shaft)
             if shaft.name in flywheels:

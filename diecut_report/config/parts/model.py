@@ -465,7 +465,13 @@ class MachineParts:
     @cached_property
     def brakes(self) -> list[ShaftPart]:
         """Return the brakes, which stand on shafts that turn steadily."""
-        return [part for name in self.shafts if name in self.ratios for part in self.shafts[name].parts if part.keys.brake_torque]
+        return [
+            part
+            for name in self.shafts
+            if name in self.ratios
+            for part in self.shafts[name].parts
+            if part.keys.brake_torque
+        ]
 
     def joins_of(self, part: ShaftPart) -> Iterator[Join]:
         """Yield the joins that a part takes part in."""

@@ -508,7 +508,7 @@ def _untied(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
 
 def _unused(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
     """What is typed at a part beside its own keys goes into its calculation, and the efficiency of a mesh into a torque."""
-    used = set(typed_paths([*(each.inputs for each in elements.made), *elements.fills.values()]))
+    used = elements.counted | {*typed_paths([*(each.inputs for each in elements.made), *elements.fills.values()])}
     wheels = (part for _, part in hubs(parts) if part.kind == "flywheel")
     used |= {(*part.path, key) for part in wheels for key in ("mass", "inertia") if elements.is_of_train(part, key)}
     homes = [(shaft.path, shaft.more, f"shafts_{shaft.name}") for shaft in parts.shafts.values()]

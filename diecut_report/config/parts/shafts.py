@@ -120,7 +120,7 @@ class ShaftElements(Masses, LoadCases):
         if join is None or torque is None:
             return
         pull = {key: value for key, value in torque.items() if key != "efficiency"}
-        losses = prod(each.keys.efficiency for each in torque.get("efficiency", ()))
+        losses = prod(each.efficiency for each in torque.get("efficiency", ()))
         for direction, share in shares:
             always = self._always_pulled(join, share)
             constant = {"constant": always} if always else {}

@@ -13,7 +13,7 @@ from diecut_report.config import yaml
 from diecut_report.config.own_tables import KEY as LOGO
 from diecut_report.config.own_tables import OWN_TABLES_KEY as TABLES
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
-from diecut_report.config.references import as_file, rewritten
+from diecut_report.config.references import as_file, assumed_bases, rewritten
 from diecut_report.config.yaml import KeyPath, Scalar, Tree, printable, resolved, with_values
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.quantities.formatting import as_typed
@@ -67,6 +67,7 @@ def variant_of(
     found = _variant(stored, variant, discovery, in_error=in_error)
     base, study = found.base, printable(stored.description.study.file)
     values = {place: as_config_value(value, column) for place, (column, value) in found.values.items()}
+    values |= assumed_bases(base, values)
     values |= dict(_title_block(base, variant, study))
     home = kept(stored.folder)[stored.description.base.file].parent
     values |= {key: copy.relative_to(home).as_posix() for key, (_, copy) in found.beside.items()}

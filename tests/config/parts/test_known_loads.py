@@ -669,7 +669,9 @@ def test_what_a_brake_loads_is_rated_for_it_and_the_way_to_rest_follows() -> Non
     values = {name: each.values for name, each in machine.calculations.items()}
     assert values["shafts_main_wheel_key"]["torque_peak"].item() == pytest.approx(1300)
     assert values["meshes_main_drive"]["torque_root"].item() == pytest.approx(1300 * 18 / 87 / 0.97)
-    assert values["meshes_main_drive"]["pitting_case"].item() == "stop by the brake"  # so often, as nobody says how often
+    assert (
+        values["meshes_main_drive"]["pitting_case"].item() == "stop by the brake"
+    )  # so often, as nobody says how often
     own = values["consistency"]
     mean = machine.calculations["timing"].values["torque_mean"].item()
     assert own["stopping_angle"].item() == pytest.approx(own["energy_running"].item() / (1300 + mean))
@@ -690,7 +692,10 @@ def test_a_brake_beside_the_flywheel_and_one_before_it() -> None:
     ratio = "(${drive_line.belts.0.diameter_1} / ${drive_line.belts.0.diameter_2} * 0.99)"
     assert before == [("motor", "small", "stop", torque), ("flywheel", "rim", "large", f"{torque} / {ratio} / 1")]
     rim = '      - {flywheel: rim, at: 170, hub: 82, key: 70, inertia: "${train.flywheel_inertia}"}\n'
-    geared = stops((rim, f"      - {BRAKE}}}\n"), (ON_MAIN, "      - {flywheel: rim, at: 290, hub: 60, key: 50, mass: 9 kg}\n" + ON_MAIN))
+    geared = stops(
+        (rim, f"      - {BRAKE}}}\n"),
+        (ON_MAIN, "      - {flywheel: rim, at: 290, hub: 60, key: 50, mass: 9 kg}\n" + ON_MAIN),
+    )
     ratio = "(${drive_line.meshes.0.teeth_1} / ${drive_line.meshes.0.teeth_2})"
     assert geared == [
         ("flywheel", "pinion", "stop", torque), ("main_drive", torque), ("main", "rim", "wheel", f"{torque} / {ratio} / 0.97")
@@ -719,7 +724,10 @@ def test_a_brake_of_which_no_part_is_known_is_open() -> None:
     config, problems = changed(("    single_position:", "    brake_torque: 900 N*m\n    single_position:"))
     assert problems == [] and config.parts is not None
     why = {each.path: str(each.why) for each in unrated(config.parts, "train", {}, "")}
-    assert why["mechanisms.consistency.brake_torque"] == "no part of the machine is this brake, so that its torque loads nothing"
+    assert (
+        why["mechanisms.consistency.brake_torque"]
+        == "no part of the machine is this brake, so that its torque loads nothing"
+    )
 
 
 # Joins side by side.
@@ -779,3 +787,52 @@ def test_each_strand_runs_in_one_plane() -> None:
 
 def test_a_pin_is_held_within_its_disc() -> None:
     assert "a pin is held within its disc" in told(("held: 60", "held: 150"))
+
+
+# What is lost on the way to a mechanism.
+
+
+def test_what_the_cyclogram_loses_beyond_the_meshes_passes_the_main_shaft_too() -> None:
+    """The wheel's key, the mesh on it and the cyclogram say one torque."""
+    machine = WarmPress(is_advised=False).calculate(changed()[0])
+    peak, least = (machine.calculations["timing"].values[name].item() for name in ("torque_peak", "torque_min"))
+    key, mesh = (machine.calculations[name].values for name in ("shafts_main_wheel_key", "meshes_main_drive"))
+    assert key["torque_peak"].item() == pytest.approx(peak, rel=1e-9)
+    assert key["torque_least"].item() == pytest.approx(least, rel=1e-9)
+    assert mesh["torque_run"].item() == pytest.approx(peak * 18 / 87 / 0.97, rel=1e-9)
+
+
+def test_what_is_lost_before_a_mechanism_is_what_the_meshes_leave() -> None:
+    path = "turns_per_sheet: 1/2, path_efficiency: {value: 0.97, basis: assumed, note: the pair u = 2}"
+    lossy = (path, "turns_per_sheet: 1/2, path_efficiency: 0.9")
+    made, _ = read(lossy)
+    rows = {each["name"]: each for each in made["shafts_crank_loads"]["torques"]}
+    assert float(rows["disc"]["efficiency"]) == pytest.approx(0.9 / 0.97)
+    assert "efficiency" not in read()[0]["shafts_crank_loads"]["torques"][0]
+    main = {each["name"]: each for each in made["shafts_main_loads"]["torques"]}
+    assert float(main["pinion"]["efficiency"]) == pytest.approx(0.9) and float(main["disc"]["efficiency"]) == 0.95
+
+
+def test_an_efficiency_counts_where_another_pair_follows() -> None:
+    """Of two pairs one behind the other each may have its own."""
+    made, problems = read(
+        ("teeth: 24/48, module: 6, width: 50,", "teeth: 24/48, module: 6, width: 50, efficiency: 0.96,"),
+        (
+            "turns_per_sheet: 1/2, path_efficiency: {value: 0.97, basis: assumed, note: the pair u = 2}",
+            "turns_per_sheet: 1/2, path_efficiency: 0.9",
+        ),
+    )
+    assert problems == []
+    rows = {each["name"]: each for each in made["shafts_main_loads"]["torques"]}
+    assert float(rows["pinion"]["efficiency"]) == pytest.approx(0.9)
+
+
+def test_the_chain_that_rolls_the_cylinder_is_not_the_conveyor_of_the_sheets() -> None:
+    """Where it is the only chain: 287 kg of the cylinder were compared with the 22.6 kg of a feeder's conveyor."""
+    config, _ = changed()
+    consistency = config.instances["consistency"]
+    assert consistency is not None and consistency.data["chain"] == "chains_grippers"
+    alone, _ = changed((TEXT[TEXT.index("  grippers: {sprockets") : TEXT.index("belts:")], ""))
+    kinds = [name for name, kind in alone.kinds.items() if kind == "roller_chain"]
+    rest = alone.instances["consistency"]
+    assert rest is not None and kinds == ["chains_cylinder"] and "chain" not in rest.data
