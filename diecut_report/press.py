@@ -134,9 +134,8 @@ class Press:
             tree = parts.reader.tree  # what follows from the parts is worked out again
             if derived := next((path for path in values if parts.follows(path[1:])), None):
                 raise refusal("{path} {reason}", tree.file, path=dotted(derived[1:]), reason=FOLLOWS)
-        return replace(
-            self, config=load_config(rewritten(tree, values, over_references=over_references), self.discovery)
-        )
+        changed = rewritten(tree, values, self.config.units(values), over_references=over_references)
+        return replace(self, config=load_config(changed, self.discovery))
 
     def require_reportable(self, formats: Sequence[str], only: Sequence[str] = ()) -> None:
         """Raise UserError where a report in these formats, or of these mechanisms alone, is not possible."""

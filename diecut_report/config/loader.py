@@ -13,20 +13,20 @@ from diecut_report.config.bare_numbers import bare_numbers
 from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
 from diecut_report.config.model import PRESS, ConfigDocument, PressBlock, Project, ReportSettings, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
-from diecut_report.config.parts.expansion import Expanded, expanded, has_parts, misnamed
+from diecut_report.config.parts.expansion import Expanded, expanded, has_parts, misnamed, retyped
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.references import WHOLE, Linker, linked, ordered
 from diecut_report.config.source_hashes import note_same_code, plugin_hash, program_hash
 from diecut_report.config.validation import ConfigPlace, as_typed, declared, quoted, spread_out, validate
-from diecut_report.config.yaml import MAX_BYTES, Tree, read, too_much
+from diecut_report.config.yaml import MAX_BYTES, KeyPath, Scalar, Tree, read, too_much
 from diecut_report.declaration.inputs import NAME
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal, seeming_latin
 from diecut_report.files import standard_input
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput
-from diecut_report.mechanism.inputs import Block, keys
+from diecut_report.mechanism.inputs import Block, Quantity, keys
 from diecut_report.mechanism.mechanism import Mechanism, Partner, absent_partners_checks, without_checks
 from diecut_report.mechanism.names import SI, Pending, Text
 from diecut_report.text.phrases import Phrase, phrase
@@ -162,6 +162,8 @@ class Config:
     logo: Logo | None
     parts: MachineParts | None
     lacks_parts: bool  # they are not all right, so that the mechanisms lack what they give
+    discovery: Discovery
+    find: Find | None
 
     @property
     def files(self) -> dict[str, str]:
@@ -180,6 +182,19 @@ class Config:
         if self.parts.follows(node):
             return FOLLOWS
         return MADE_WITH if self.parts.is_made_with(node) else None
+
+    def units(self, places: Iterable[KeyPath]) -> dict[KeyPath, str]:
+        """Return the units in which numbers without one count, by their places in the file; of what is no quantity there is none."""
+        made = [instance for instance in self.instances.values() if instance is not None]
+        slots = ((each.place.stands(slot.key)[1], slot.meta) for each in made for slot in each.slots)
+        known = {path: meta.unit for path, meta in slots if isinstance(meta, Quantity)}
+        return {path: known[path] for path in places if path in known}
+
+    def with_parts(self, changes: Mapping[KeyPath, Scalar]) -> Config | None:
+        """Return the machine with these values in the places of its parts; None where it cannot be."""
+        assert self.parts is not None, "without parts nothing follows them"
+        config, problems = examined(retyped(self.parts, changes), self.discovery, find=self.find)
+        return None if problems else config
 
     @property
     def source_hashes(self) -> dict[str, str]:
@@ -238,7 +253,7 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
                     dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings(), logo,
-                    found.parts if found else None, bool(found and found.problems))  # fmt: skip
+                    found.parts if found else None, bool(found and found.problems), discovery, find)  # fmt: skip
     return config, problems
 
 

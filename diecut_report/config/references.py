@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from graphlib import CycleError, TopologicalSorter
+from types import MappingProxyType
 from typing import Any
 
 import yaml
@@ -356,42 +357,54 @@ class _Span:
     in_flow: bool
 
 
-def assumed_bases(tree: Tree, values: Mapping[KeyPath, Scalar]) -> dict[KeyPath, str]:
-    """Return the bases that become assumed with other values, by their places: those that are of the former value alone."""
+def assumed_bases(tree: Tree, values: Mapping[KeyPath, Scalar], units: Mapping[KeyPath, str]) -> dict[KeyPath, str]:
+    """Return the bases that become assumed with other values, by their places: those that are of the former value alone.
+
+    ``units`` are those of the keys, in which a number without one counts.
+    """
     moved = (
-        path[:-1] for path, value in values.items() if path[-1:] == ("value",) and _differs(tree.typed(path), value)
+        path[:-1]
+        for path, value in values.items()
+        if path[-1:] == ("value",) and _differs(tree.typed(path), value, units.get(path, ""))
     )
     bases = ((*path, "basis") for path in moved)
     return {path: ASSUMED for path in bases if tree.typed(path) in OF_ONE_VALUE}
 
 
-def _differs(typed: str | None, value: Scalar) -> bool:
-    """Whether a value is another one than what is typed: 0.37 GPa is 370 MPa."""
-    if typed is None or typed == str(value):
+def _differs(typed: str | None, value: Scalar, own: str) -> bool:
+    """Whether a value is another one than what is typed: 0.37 GPa is 370 MPa, and "true" is true."""
+    text = str(value)
+    if typed is None or typed == text.strip('"'):
         return False
     try:
-        (one, si), (other, other_si) = _in_si(typed), _in_si(str(value))
+        (one, si), (other, other_si) = _in_si(typed, own), _in_si(text, own)
     except UnitError:
         return True
     return si != other_si or not math.isclose(one, other, rel_tol=1e-12)
 
 
-def _in_si(text: str) -> tuple[float, str]:
-    number, own = number_and_unit(text)
-    return unit(own or "1").to_si(float(number)), unit(own or "1").si
+def _in_si(text: str, own: str) -> tuple[float, str]:
+    number, named = number_and_unit(text)
+    return unit(named or own or "1").to_si(float(number)), unit(named or own or "1").si
 
 
-def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> Tree:
+def rewritten(
+    tree: Tree,
+    values: Mapping[KeyPath, str],
+    units: Mapping[KeyPath, str] = MappingProxyType({}),
+    *,
+    over_references: bool = False,
+) -> Tree:
     """Return the file with these scalars, as they are to be typed; a key that is not there is put into its block.
 
-    A basis that is of the former value alone (a catalogue, a standard, a measurement) becomes assumed with it.
+    A basis that is of the former value alone (a catalogue, a standard, a measurement) becomes assumed with it; ``units`` are those of the keys.
 
     UserError in words where a value cannot be written: it is shared by an anchor, or an expression stands there which is not
     to be written over.
     """
     if tree.problems or not values:
         return tree
-    values = {**assumed_bases(tree, values), **values}
+    values = {**assumed_bases(tree, values, units), **values}
     spans, edits = _spans(tree.text), []
     for path, value in values.items():
         typed = tree.typed(path)
@@ -435,9 +448,13 @@ def _spans(text: str) -> dict[tuple[int, int], _Span]:
 
 
 def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, value: str) -> tuple[int, int, str]:
-    """Where a new key goes: behind the first single value of its block, in a line of its own or, within braces, in the same one."""
+    """Where a new key goes: behind the first single value of its block, in a line of its own or, within braces, in the same one.
+
+    In a block whose values all say their basis it goes before the first of them.
+    """
     home, key = path[:-1], path[-1]
     data = value_at(tree.data, home)
+    break_ = "\r\n" if "\r\n" in tree.text else "\n"
     for name in data if isinstance(data, dict) else ():
         before = (*home, name)
         span, key_span = spans.get(tree.position(before)), spans.get(tree.key_position(before))
@@ -448,8 +465,12 @@ def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, 
         if span.in_flow:
             return span.end, span.end, f", {key}: {value}"
         line_end = span.end + len(tree.text[span.end :].partition("\n")[0].removesuffix("\r"))
-        break_ = "\r\n" if "\r\n" in tree.text else "\n"
         return line_end, line_end, f"{break_}{' ' * key_span.column}{key}: {value}"
+    first = next(iter(data), None) if isinstance(data, dict) else None
+    key_span = None if first is None else spans.get(tree.key_position((*home, first)))
+    if key_span is not None:
+        apart = ", " if key_span.in_flow else f"{break_}{' ' * key_span.column}"
+        return key_span.start, key_span.start, f"{key}: {value}{apart}"
     raise UserError(ConfigPlace(tree).problem(path, NO_HOME))
 
 

@@ -132,7 +132,7 @@ class LiveSession:
         if self.faults or self.tree is None:
             template = "Nothing is saved because this cannot be calculated; undo a change, or fix the file first."
             raise refusal(template, self.file)
-        tree, text = self.tree, rewritten(self.tree, self._edited()).text
+        tree, text = self.tree, self._changed(self.tree).text
         if text != tree.text:
             write(self.file.resolve(), as_file(tree, text), instead_of=tree.sha256)
         self.edits = {}
@@ -192,8 +192,13 @@ class LiveSession:
             self.start = self.start or machine
             self.serial += 1
 
+    def _changed(self, tree: Tree) -> Tree:
+        """The file with the changes in it."""
+        edited = self._edited()
+        return rewritten(tree, edited, self.start.config.units(edited) if self.start else {})
+
     def _made(self, tree: Tree) -> LiveMachine:
-        config = Press.read(rewritten(tree, self._edited()), self.discovery).usable().config
+        config = Press.read(self._changed(tree), self.discovery).usable().config
         run = self._press.calculate(config)
         for error in run.errors.values():
             raise error

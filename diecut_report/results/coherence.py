@@ -328,8 +328,12 @@ def speeds(machine: Machine) -> Iterator[Disagreement]:
             yield from _speed_of_shaft(machine, bearing, index)
 
 
-def _speed(machine: Machine, part: LinkedPart, key: KeyPath, turns: Array) -> Iterator[Disagreement]:
-    own = part.number(".".join(str(each) for each in key if isinstance(each, str)), key[1] if len(key) > 1 else None)  # type: ignore[arg-type]
+def _speed(
+    machine: Machine, part: LinkedPart, key: KeyPath, turns: Array, own: Array | None = None
+) -> Iterator[Disagreement]:
+    index = key[1] if len(key) > 1 else None
+    if own is None:
+        own = part.number(".".join(str(each) for each in key if isinstance(each, str)), index)  # type: ignore[arg-type]
     known = ((each, machine.cycle_speed(each)) for each in part.curves(*key[:-1]))
     target, speed = next(((each, speed) for each, speed in known if speed is not None), (None, None))
     if own is None or target is None or speed is None:
@@ -407,6 +411,17 @@ def turns(machine: Machine) -> Iterator[Disagreement]:
             )  # fmt: skip
 
 
+def train_speeds(machine: Machine) -> Iterator[Disagreement]:
+    """The shaft whose torque a drive train takes turns as fast as its output."""
+    for train in machine.of("drive_train"):
+        turned = train.number("torque_curve_turns")
+        if turned is not None:
+            asked = numbers_of(
+                train.inputs["output_speed"]
+            )  # what the pulleys make of it is another result of this name
+            yield from _speed(machine, train, ("output_speed",), turned, asked)
+
+
 RULES: tuple[Callable[[Machine], Iterator[Disagreement]], ...] = (
     named_shafts,
     seats,
@@ -417,6 +432,7 @@ RULES: tuple[Callable[[Machine], Iterator[Disagreement]], ...] = (
     axial_forces,
     sprockets,
     turns,
+    train_speeds,
 )
 
 

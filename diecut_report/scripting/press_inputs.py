@@ -11,6 +11,7 @@ from typing import Any
 from diecut_report.config.instances import Instance, Slot
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.validation import GIVEN, Basis
 from diecut_report.config.yaml import KeyPath
 from diecut_report.design.inputs import allowed_texts
@@ -134,7 +135,7 @@ def _value(path: str, slot: Slot, value: Any) -> QuantityValue | None:
 
 def whole_path(name: str) -> str:
     """Return the path of an input in the file, where its mechanism may be named alone."""
-    return name if name.split(".")[0] in (PRESS, MECHANISMS) else f"{MECHANISMS}.{name}"
+    return name if name.split(".")[0] in (PRESS, MECHANISMS, *WORDS) else f"{MECHANISMS}.{name}"
 
 
 def placed(config: Config, name: str, value: Any) -> tuple[KeyPath, str]:

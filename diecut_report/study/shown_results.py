@@ -159,11 +159,16 @@ def _counted_once(machine: CheckedMachine, outputs: Row) -> Row:
     kinds = {name: data.kind for name, data in machine.mechanisms.items()}
     if line is None or SHAFTS not in kinds.values():
         return outputs
-    within = {"shaft", "shaft_body"}
-    within |= (
-        {"drive_train"} if any(part.kind == "flywheel" for shaft in line.shafts for part in shaft.parts) else set()
-    )
-    return {path: row for path, row in outputs.items() if kinds[path.partition(".")[0]] not in within}
+    made = tuple(f"shafts_{shaft.name}" for shaft in line.shafts)
+    is_mounted = any(part.kind == "flywheel" for shaft in line.shafts for part in shaft.parts)
+
+    def is_within(name: str) -> bool:
+        of_shaft = kinds[name] in ("shaft", "shaft_body") and any(
+            name == each or name.startswith(f"{each}_") for each in made
+        )
+        return of_shaft or (is_mounted and kinds[name] == "drive_train")
+
+    return {path: row for path, row in outputs.items() if not is_within(path.partition(".")[0])}
 
 
 def _mass(outputs: Row) -> Amount | None:

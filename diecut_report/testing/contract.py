@@ -16,11 +16,13 @@ import numpy as np
 
 from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.loader import Config
-from diecut_report.config.plugins import Discovery, Origin, said
+from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind, said
+from diecut_report.config.validation import declared
 from diecut_report.declaration import faults, faults_at_load
 from diecut_report.declaration.dimensions import at_place, by_id
 from diecut_report.declaration.formula_checks import doubts, forms, idle_inputs, printing, quantities
-from diecut_report.errors import Problem, UserError
+from diecut_report.declaration.names import short
+from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import content, write_all
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible, Unproven
@@ -139,6 +141,33 @@ def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str
             yield check.id, set(may_fail[rows].tolist()) | (set() if is_of_machine(check) else {True})
 
 
+def _strange_partners(mechanism: Mechanism, discovery: Discovery) -> Iterator[Phrase]:
+    """Yield what a partner is said to have and no plugin does: then nothing is taken from it, and its checks never apply."""
+    for partner in mechanism.partners:
+        known: list[Mechanism] = []
+        for kind in (*partner.kinds, *partner.unless.values()):
+            try:
+                found = discovery.mechanism(kind)
+            except UnknownKind:
+                template = "{place}: no plugin has the kind {kind} of a partner; look at its name"
+                yield Phrase(template, place=short(partner.at), kind=kind)
+                continue
+            except (DuplicateKind, PluginError):  # which is told where that kind is used
+                continue
+            known += [found] if kind in partner.kinds else []
+        for name in (*partner.takes.values(), *partner.unless):
+            if known and not any(_has(each, name) for each in known):
+                template = "{place}: no partner of kind {kinds} has {name}; look at its name"
+                yield Phrase(template, place=short(partner.at), kinds=", ".join(partner.kinds), name=name)
+
+
+def _has(mechanism: Mechanism, name: str) -> bool:
+    """Whether a mechanism has an input or result of a name."""
+    return declared(mechanism.inputs, tuple(name.split("."))) is not None or any(
+        step.id == name for _, step in mechanism.steps
+    )
+
+
 def signed(calc: Calculation) -> Iterator[tuple[str, str]]:
     """Yield each check that a demand below zero passes though it is beyond the limit in size."""
     template = "passes with {demand}, in size beyond the limit {limit}: if the direction does not count, compare the absolute value (as by abs_max)"
@@ -252,7 +281,7 @@ class ContractTest:
 
     def doubts(self) -> TriedRule:
         """Note what may be a mistake: units that formulas convert by hand, chapters that nothing depends on."""
-        return rule("doubts", "", doubts(self.mechanism), "note")
+        return rule("doubts", "", [*doubts(self.mechanism), *_strange_partners(self.mechanism, self.discovery)], "note")
 
     # --- what a machine shows ----------------------------------------------------------------------------------------
 

@@ -98,7 +98,8 @@ class DriveLine(Inputs):
     chains: Annotated[list[ChainDrive], Text("Chains")] = []  # noqa: RUF012
     rolling: Annotated[list[Rolling], Text("Chains that roll a cylinder")] = []  # noqa: RUF012
     belts: Annotated[list[Belt], Text("V-belts")] = []  # noqa: RUF012
-    brakes: Annotated[list[Brake], Text("Brakes")] = []  # noqa: RUF012
+    brakes: Annotated[list[Brake], Text("Brakes that stop the flywheel")] = []  # noqa: RUF012
+    clutch_brakes: Annotated[list[Brake], Text("Brakes behind a clutch, which hold what it drives and do not stop the flywheel")] = []  # noqa: RUF012
 
 
 turning = Chapter("Speeds of the shafts")
@@ -149,6 +150,11 @@ brakes.value("referred_torque", "M_b,m", "N*m", "Torque of the brake referred to
     named_by="brakes.name", output=False)
 brakes.part_table("brakes_table", "Brakes", "brakes", ("referred_torque",))
 brakes.total("brake_torque", "M_b,Σ", "N*m", "Torque of all brakes, referred to the main shaft", "sum", of="referred_torque")
+held = Chapter("Brakes behind a clutch", needs=("clutch_brakes",))
+held.value("held_torque", "M_h,m", "N*m", "Torque of the brake referred to the main shaft",
+    bind(lambda torque, ratio: torque * abs(ratio), torque="clutch_brakes.torque", ratio="clutch_brakes.ratio"), source="statics",
+    named_by="clutch_brakes.name", output=False)
+held.part_table("clutch_brakes_table", "Brakes behind a clutch", "clutch_brakes", ("held_torque",))
 
 EXAMPLE = ExampleBlock("drive_line", {
     "reference_speed": "100 rpm",
@@ -158,6 +164,7 @@ EXAMPLE = ExampleBlock("drive_line", {
     "rolling": [{"name": "cylinder", "teeth": 52, "pitch": "12.7 mm", "radius": "105.1 mm"}],
     "belts": [{"name": "motor", "diameter_1": "125 mm", "diameter_2": "375 mm"}],
     "brakes": [{"name": "main_disc", "torque": "400 N*m", "ratio": 1}],
+    "clutch_brakes": [{"name": "crank_drum", "torque": "200 N*m", "ratio": 0.5}],
 })
 
 MECHANISM = Mechanism(
@@ -167,7 +174,7 @@ MECHANISM = Mechanism(
     summary="Ratios, pitch radii and centre distances of what joins the shafts of a machine, and the speeds of those that turn steadily.",
     inputs=DriveLine,
     example=EXAMPLE,
-    chapters=(joins, drives, rolling, belts, turning, brakes),
+    chapters=(joins, drives, rolling, belts, turning, brakes, held),
     sources=(Source("ISO 21771", "ISO 21771:2007, Gears. Cylindrical involute gears and gear pairs. Concepts and geometry."),),
     checks=(
         Check(id="rolling", check_class="practice", severity="warn", title="Rolling of the cylinder", demand="rolling_error", limit=0.1, unit="%",

@@ -11,8 +11,6 @@ from diecut_report.plugins.drive_train import belts
 
 # fmt: off
 
-ONE_SPEED = 1e-3  # relative difference of two speeds that are one
-
 
 @formula
 def mean_torque(driving_mean: Any, braking_mean: Any, ratio: Any, efficiency: Any) -> Any:
@@ -71,14 +69,6 @@ turn.value("output_period", "φ_T", "deg", "Angle of the output shaft after whic
     lambda torque_curve_turns: 2 * np.pi * torque_curve_turns, source="kinematics", output=False)
 turn.abscissa("output_angle", "φ", "deg", "Angle of the output shaft", "output_period")
 turn.from_curve("output_torque", "M", "N*m", "Torque at the output shaft", given="torque_curve", abscissa="output_angle")
-turn.computed("curve_rate", "n_φ", "rpm", "Speed of the output shaft with which the curve is calculated; 0 where nothing tells it",
-    function=lambda curve, turns: curve.rate * turns, takes=("torque_curve", "torque_curve_turns"),
-    method="how often the curve comes again, multiplied by the turns that it spans", source="kinematics", output=False)
-turn.require("one_speed",
-    bind(lambda demanded, curve_rate, tolerance: (curve_rate <= 0) | (abs(demanded - curve_rate) <= tolerance * curve_rate),
-        demanded="inputs.output_speed", tolerance=ONE_SPEED), key="output_speed",
-    message="is {inputs.output_speed}, but the curve that torque_curve refers to is of a shaft with {curve_rate}; refer to that speed, or to the "
-        "torque of the output shaft")
 turn.crossings("power_reversal", "φ_r", "deg", "Angle at which the power changes sign", of="output_torque")
 turn.breakpoints("losses", "output_angle", "power_reversal")
 turn.value("driving_torque", "M_+", "N*m", "Torque at the output while it drives the load", lambda output_torque: np.maximum(output_torque, 0),

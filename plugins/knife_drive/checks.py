@@ -35,6 +35,6 @@ def of_drive(drive: DriveKind) -> tuple[Check, ...]:
 
 
 IN_STEP = Check(id="in_step", check_class="function", title="Knife in step with the signatures", demand="stroke_error", limit=0, unit="1",
-    demand_label="deviation from whole strokes per signature", limit_label="allowed", source="kinematics",
-    consequence="the knife falls out of step with the signatures, and some are not folded; give drive_ratio 2, or another even number.")  # fmt: skip
+    demand_label="deviation from one stroke per signature", limit_label="allowed", source="kinematics",
+    consequence="the knife misses signatures, or comes down onto one that it has folded; give drive_ratio 2.")  # fmt: skip
 CHECKS = (*(check for drive in ALL for check in of_drive(drive)), IN_STEP)

@@ -69,8 +69,8 @@ speeds.value("signature_interval", "t_s", "ms", "Time between two signatures", l
     needs=("signature_length",), source="kinematics")
 speeds.value("strokes_per_signature", "k_s", "1", "Strokes of the knife per signature: a signature comes each half turn of the plate cylinder",
     lambda drive_ratio: drive_ratio / 2, source="kinematics")
-speeds.value("stroke_error", "Δk", "1", "Deviation from a whole number of strokes per signature",
-    lambda strokes_per_signature: abs(strokes_per_signature - np.maximum(np.round(strokes_per_signature), 1)), source="kinematics", output=False)
+speeds.value("stroke_error", "Δk", "1", "Deviation from one stroke per signature", lambda strokes_per_signature: abs(strokes_per_signature - 1),
+    source="kinematics", output=False)
 speeds.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, speed="crank_speed")
 
 WORKING = Steps()

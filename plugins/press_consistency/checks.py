@@ -39,11 +39,16 @@ CHECKS = (
         consequence="the motor turns faster than at its rated speed: accelerations, and what follows from them, are {load_rise} greater than "
             "calculated; set press.productivity to at least {true_rate:up}, and give the rate that is asked for as required_rate."),
     Check(id="driven_inertia", check_class="strength", title="Inertia behind the clutch", demand="equal_inertia", limit="clutch_inertia",
-        unit="kg*m**2", tolerance=1e-3, demand_label="inertia of equal heat at the clutch", limit_label="inertia used for the clutch",
+        unit="kg*m**2", tolerance=1e-3, demand_label="inertia of equal heat at the clutch, of the cylinder's drive alone",
+        limit_label="inertia used for the clutch",
         source="energy",
         presumed=True,
         consequence="an engagement at {start_angle} makes {slip_heat} of heat in {slip_time}; the crank feels {crank_inertia_mean} in the mean and "
             "up to {crank_inertia_max} at {crank_inertia_max_at}: give the clutch a driven_inertia of at least {equal_inertia:up}."),
+    Check(id="coupled_inertia", check_class="strength", title="Other lines behind the clutch", demand="lines_beside", limit=0.0, unit="1",
+        severity="warn", needs=("drive",), demand_label="lines whose inertia is not compared", limit_label="accepted", source="this method",
+        consequence="the inertia used for the clutch is compared with the cylinder's drive alone; of all that it drives ({clutch_lines}) the "
+            "driven_inertia must be worked out by hand, at the angle where it is greatest."),
     Check(id="clutch_position", check_class="function", title="Clutch and offsets of the lines", demand="lines_out_of_step", limit=0.0,
         founded=("single_position",), unit="1", demand_label="drives that lose synchronism", limit_label="accepted", source="kinematics",
         consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "

@@ -13,6 +13,7 @@ from diecut_report.mechanics.timing.shaft_curves import PieceRows
 ONE_SHAFT = (
     0.1  # share by which the driving side of a clutch on the crank's shaft may be faster or slower than the crank
 )
+SAME = 1e-6  # relative difference of two speeds that are one
 TURN = 2 * np.pi
 CYLINDER = ("cylinder_inertia", "cylinder_mass", "cylinder_radius", "static_unbalance", "shafts_inertia")
 CLUTCH = ("clutch_torque", "clutch_load", "clutch_speed", "clutch_ratio")

@@ -38,10 +38,21 @@ engagement = Chapter("Engagement of the clutch",
 engagement.require("clutch_pulls", lambda clutch_load, clutch_torque: clutch_load < clutch_torque, key="clutch_load",
     message="is {clutch_load}, but the slipping clutch carries {clutch_torque} only: the driven side never comes up to speed; lower the load while "
         "engaging")
-engagement.choice("clutch_ratio", "i_c", "1", "Revolutions of the clutch per revolution of the crank",
-    case(lambda: 1, "it is on the crank's shaft: its driving side is at most a tenth faster or slower",
-        bind(lambda clutch_speed, crank_speed, tolerance: abs(clutch_speed - crank_speed) <= tolerance * crank_speed, tolerance=clutch.ONE_SHAFT)),
-    case(lambda clutch_speed, crank_speed: clutch_speed / crank_speed, "it is on another shaft"), source="kinematics", output=False)
+RATIO = ("clutch_ratio", "i_c", "1")
+ON_OUTPUT = ("output_speed", "output_turns_per_sheet", "productivity")
+engagement.value(*RATIO, "Revolutions of the clutch per revolution of the crank: as given", lambda clutch_turns: clutch_turns, source="input",
+    needs=("clutch_turns",), output=False)
+ON_CRANK = case(lambda: 1, "it is on the crank's shaft: its driving side is at most a tenth faster or slower",
+    bind(lambda clutch_speed, crank_speed, tolerance: abs(clutch_speed - crank_speed) <= tolerance * crank_speed, tolerance=clutch.ONE_SHAFT))
+ELSEWHERE = case(lambda clutch_speed, crank_speed: clutch_speed / crank_speed, "it is on another shaft")
+engagement.choice(*RATIO, "Revolutions of the clutch per revolution of the crank", ON_CRANK,
+    case(lambda output_turns_per_sheet, productivity, crank_speed:
+        output_turns_per_sheet * productivity * as_number(2 * np.pi) / as_number(crank_speed), "it is on the drive train's output",
+        bind(lambda clutch_speed, output_speed, tolerance: abs(clutch_speed - output_speed) <= tolerance * output_speed, tolerance=clutch.SAME)),
+    ELSEWHERE, source="kinematics", needs=ON_OUTPUT, lacks=("clutch_turns",), output=False)
+for lacking in ON_OUTPUT:
+    engagement.choice(*RATIO, "Revolutions of the clutch per revolution of the crank", ON_CRANK, ELSEWHERE, source="kinematics",
+        needs=ON_OUTPUT[: ON_OUTPUT.index(lacking)], lacks=("clutch_turns", lacking), output=False)
 engagement.value("net_torque", "M′", "N*m", "Accelerating torque at the crank",
     lambda clutch_torque, clutch_load, clutch_ratio: (clutch_torque - clutch_load) * clutch_ratio, source="mechanics")
 engagement.prepared("slip", clutch.engagement, (*clutch.TAKES, "engagement_angle"), for_many=True)
@@ -56,14 +67,21 @@ engagement.value("lag_angle", "Δφ_l", "deg", "Additional rotation of the drivi
     lambda clutch_speed, clutch_ratio, slip_time, driven_angle: clutch_speed / clutch_ratio * slip_time - driven_angle, source="kinematics")
 engagement.value("slip_heat", "Q", "J", "Heat of the engagement, with the varying inertia",
     lambda clutch_torque, clutch_ratio, lag_angle: clutch_torque * clutch_ratio * lag_angle, source="energy")
+BEHIND, NAMED = ("is_behind", "b_z", "1", "Cylinder behind the clutch (1) or not (0)"), ("clutch_drives", "drive")
+engagement.computed(*BEHIND, on_main_shaft.is_coupled, NAMED, "as given", needs=NAMED, output=False, printed=False)
+for lacks in (("clutch_drives",), ("drive",)):
+    engagement.value(*BEHIND, lambda: 1, needs=NAMED[: NAMED.index(lacks[0])], lacks=lacks, output=False, printed=False)
 engagement.value("equal_inertia", "I_eq", "kg*m**2", "Constant inertia at the clutch that would generate the same heat",
-    lambda slip_heat, clutch_load, clutch_torque, clutch_speed: 2 * slip_heat * (1 - clutch_load / clutch_torque) / clutch_speed**2, source="energy")
+    lambda slip_heat, clutch_load, clutch_torque, clutch_speed: 2 * slip_heat * (1 - clutch_load / clutch_torque) / clutch_speed**2, source="energy",
+    exists=lambda is_behind: is_behind > 0)
 
 coupling = Chapter("Clutch and offsets of the lines", needs=("timing", "clutch_drives", "clutch_torque"),
     absent="not calculated: clutch_drives is not given, or there is no clutch or no cyclogram to use")
 coupling.computed("lines_out_of_step", "N_c", "1", "Number of lines that lose synchronism with the others when the clutch engages",
     function=on_main_shaft.lines_out_of_step, takes=("clutch_drives", "single_position", "timing"),
     method="those driven through the clutch, unless these are all or it engages at one angle only", source="kinematics")
+coupling.computed("lines_beside", "N_b", "1", "Number of lines behind the clutch whose inertia is not compared with that of its calculation",
+    on_main_shaft.lines_beside, ("clutch_drives", "drive"), "those driven through the clutch but for the cylinder's", output=False, needs=("drive",))
 coupling.words("clutch_lines", on_main_shaft.listed, ("clutch_drives",))
 
 ends_chapter = Chapter("Speed before the ends of the travel", needs=TRAVEL,

@@ -48,6 +48,16 @@ def _dwell_margins(timing: GivenMechanism) -> list[float]:
     return [turns[within.removesuffix(DWELL)] * margin for within, margin in held if within.endswith(DWELL)]
 
 
+def is_coupled(drives: tuple[str, ...], drive: str) -> float:
+    """Return whether the clutch drives the cylinder."""
+    return float(drive in drives)
+
+
+def lines_beside(drives: tuple[str, ...], drive: str) -> float:
+    """Return how many lines a clutch drives beside the cylinder's."""
+    return float(len({*drives} - {drive}))
+
+
 def listed(drives: tuple[str, ...]) -> str:
     """Return the lines that a clutch drives, by their names."""
     return Phrase("{names}", names=", ".join(drives))  # a text alone would be translated where it is a word, too

@@ -72,7 +72,8 @@ class Load(Block):
 class ShaftLoadCase(Block):
     """A load case beside the run: a torque that passes the shaft from one load to another one."""
 
-    name: Annotated[Literal["engage", "engage_2", "engage_3", "engage_4", "engage_5", "engage_6", "start", "stop"],
+    name: Annotated[Literal["engage", "engage_2", "engage_3", "engage_4", "engage_5", "engage_6", "start",
+            "stop", "stop_2", "stop_3", "stop_4", "stop_5", "stop_6"],
         Text("Engagement of the clutch, numbered where its torque may enter or leave elsewhere, start of the motor, or stop by the brake")]
     torque: Annotated[float, Quantity("T_j", "N*m", "Torque of the load case, its size", ge=0)]
     enters: Annotated[str, Text("Name of the load at which the torque enters")]

@@ -10,7 +10,9 @@ import pytest
 
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.references import rewritten
 from diecut_report.config.schema import config_schema
+from diecut_report.config.yaml import parse
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from diecut_report.results.document import document
@@ -284,3 +286,17 @@ def test_the_schema_takes_a_reference_to_a_phase_and_the_name_of_a_mechanism(dis
     line = schema["cyclogram"]["properties"]["lines"]["items"]["properties"]
     assert line["mechanism"]["type"] == "string"
     assert {"enum": ["auto"]} in line["offset"]["anyOf"]
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        "{driver_teeth: {value: 18, basis: drawing}, driven_teeth: {value: 87, basis: drawing}}",
+        "driver_teeth: {value: 18, basis: drawing}\n        driven_teeth: {value: 87, basis: drawing}",
+    ],
+)
+def test_a_key_goes_into_a_block_whose_values_all_say_their_basis(block: str) -> None:
+    tree = parse(f"mechanisms:\n  train:\n    gears:\n      - {block}\n", "a.yaml")
+    found = rewritten(tree, {("mechanisms", "train", "gears", 0, "efficiency"): "0.978"})
+    own = found.data["mechanisms"]["train"]["gears"][0]
+    assert own["efficiency"] == 0.978 and own["driver_teeth"] == {"value": 18, "basis": "drawing"} and len(own) == 3

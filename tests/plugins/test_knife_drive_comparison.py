@@ -93,7 +93,7 @@ def test_each_drive_has_its_checks_and_only_the_drives_that_are_given() -> None:
     ids = [check.id for check in check_results(knife(**PLANETARY, **INNER))]
     what = ("paper_acceleration", "grip_acceleration", "depth")
     every = (*what, "time_budget")  # not checked: the signature's length is not given
-    assert set(ids) == {f"{drive}_{name}" for drive in ("planetary", "crank_rocker") for name in every}
+    assert set(ids) == {"in_step"} | {f"{drive}_{name}" for drive in ("planetary", "crank_rocker") for name in every}
     timed = {c.id: c for c in check_results(knife(**PLANETARY, signature_length=800))}["planetary_time_budget"]
     assert timed.status == "fail"
     assert timed.utilisation == pytest.approx((0.0091885 + 0.76 / 6.981317) / 0.072, rel=1e-4)

@@ -146,6 +146,28 @@ def test_a_clutch_on_a_faster_shaft_makes_the_same_heat_with_as_much_less_torque
     assert number(fast, "equal_inertia") == pytest.approx(number(slow, "equal_inertia") / ratio**2, rel=1e-9)
 
 
+def test_a_clutch_on_the_trains_output_is_one_at_the_crank_by_the_exact_ratio() -> None:
+    """The output is 1.3 % slow: its clutch turns twice as fast as the crank really does, not 1.973 times as fast as it should."""
+    crank = number(the_example(), "inputs.crank_speed")
+    keys = example_keys() | {"output_turns_per_sheet": 1, "output_speed": f"{1.974 * crank} rad/s"}
+    slow = consistency(keys, clutch_torque=400, clutch_speed=f"{0.987 * crank} rad/s")
+    fast = consistency(keys, clutch_torque=200, clutch_speed=f"{1.974 * crank} rad/s")
+    given = consistency(keys, clutch_torque=200, clutch_speed=f"{1.9 * crank} rad/s", clutch_turns=2)
+    assert number(fast, "clutch_ratio") == pytest.approx(2, rel=1e-9) and number(given, "clutch_ratio") == 2
+    assert number(fast, "slip_heat") == pytest.approx(number(slow, "slip_heat"), rel=1e-9)
+    assert number(fast, "equal_inertia") == pytest.approx(number(slow, "equal_inertia") / 4, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("drives", "expected", "inertia"),
+    [(["drive"], "pass", True), (["drive", "cross"], "warn", True), (["cross"], "warn", False)],
+)
+def test_lines_whose_inertia_nobody_compares_are_told(drives: list[str], expected: str, inertia: bool) -> None:
+    found = mended(consistency={"clutch_drives": drives})
+    assert found["consistency.coupled_inertia"] == expected
+    assert ("consistency.driven_inertia" in found) == inertia
+
+
 def test_the_drive_gives_all_that_its_crank_moves() -> None:
     """The greatest kinetic energy that the drive tells is that of the inertia at the crank, where nothing is out of balance."""
     moved = drive(pinion_inertia="0.3 kg*m**2", rocker_inertia="6 kg*m**2", static_unbalance=0)

@@ -45,6 +45,8 @@ BLUNDERS = [  # what is typed in place of what, and words of the refusal
     ("a chain of another pitch", ("chain: 12B", "chain: 08B"), "gives 12.7 mm, but the sprocket of feeder"),
     ("a torque curve over too few turns", ("torque_curve_turns: ${timing.torque_curve_turns}", "torque_curve_turns: 1"),
      "is 1, but the torque curve of timing spans 2 revolutions of the main shaft"),
+    ("a torque curve of a faster shaft", ("output_speed: ${timing.main_shaft_speed}", "output_speed: 50 rpm"),
+     "is 50 r/min, but the curves that load it come from timing, at 100 r/min"),
     ("a pinion of another module", ("pinion_radius: {value: 70 mm", "pinion_radius: {value: 7 mm"), "the pair sector, which takes the same torque"),
 ]  # fmt: skip
 

@@ -10,8 +10,8 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.config.parts.expansion import refused
-from diecut_report.config.parts.reading import section_blocks
-from diecut_report.config.yaml import KeyPath
+from diecut_report.config.parts.reading import place_of, typed_changes
+from diecut_report.config.yaml import KeyPath, parse
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from diecut_report.results.advice import printed
@@ -145,8 +145,22 @@ def test_parts_refuse_what_they_would_refuse_in_the_file() -> None:
     assert refused(parts, {diameter: "thick"}, kinds)
 
 
-def test_the_sections_of_a_text_are_those_of_blocks() -> None:
-    assert section_blocks("45x50 r1.5, 60/30x170") == [
-        {"diameter": "45 mm", "length": "50 mm", "fillet_radius": "1.5 mm"},
-        {"diameter": "60 mm", "bore": "30 mm", "length": "170 mm"},
-    ]
+def test_a_number_within_a_text_is_typed_into_that_text() -> None:
+    tree = parse(
+        """\
+shafts: {a: {sections: "45x50 r1.5, 60/30x170", parts: [{crank: disc, pin: {span: [15, 75]}, hub: {value: 60 mm, basis: drawing}}]}}
+meshes: {m: {teeth: 18/87}}
+chains: {two: {teeth: 30, to: [b.left]}, one: {teeth: 27}}
+""",
+        "a.yaml",
+    )
+    sections = ("shafts", "a", "sections")
+    both = {(*sections, 0, "diameter"): "4.6 cm", (*sections, 1, "fillet_radius"): "2 mm"}
+    assert typed_changes(tree, both) == {sections: "46x50 r1.5, 60/30x170 r2"}
+    assert typed_changes(tree, {("meshes", "m", "teeth_2"): "86"}) == {("meshes", "m", "teeth"): "18/86"}
+    assert typed_changes(tree, {("chains", "two", "teeth_1"): "29"}) == {("chains", "two", "teeth"): "29/30"}
+    assert typed_changes(tree, {("chains", "one", "teeth_1"): "29"}) == {("chains", "one", "teeth"): "29"}
+    part = place_of(tree.data, "shafts.a.parts.disc")
+    assert part == ("shafts", "a", "parts", 0)
+    assert typed_changes(tree, {(*part, "pin", "span_end"): "70 mm"}) == {(*part, "pin", "span", 1): "70 mm"}
+    assert typed_changes(tree, {(*part, "hub"): "70 mm"}) == {(*part, "hub", "value"): "70 mm"}

@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from diecut_report.config.plugins import Discovery
@@ -227,11 +228,24 @@ def test_a_torque_counts_whichever_way_it_turns(tmp_path: Path) -> None:
     assert values(made.results)["torque_max"] == pytest.approx([500, 500])
 
 
-def test_the_parts_on_the_shafts_of_a_machine_are_weighed_once() -> None:
-    """All shafts with what is mounted on them, and the cylinder."""
-    known = Discovery()
-    found = calculated(known, (0, str(FILE.with_stem("flat_cylinder_corrected"))), decided)
+def test_the_parts_on_the_shafts_of_a_machine_are_weighed_once(tmp_path: Path) -> None:
+    """All shafts with what is mounted on them, and the cylinder; a shaft that is none of the parts is weighed, too."""
+    beside = """\
+  feed_shaft:
+    kind: shaft
+    sections: [{length: 900 mm, diameter: 90 mm}]
+    bearing_a: 50 mm
+    bearing_b: 850 mm
+    material: C45E+N
+    loads: [{name: weight, position: 450 mm, force_y: 1 kN}]
+"""
+    text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
+    found = machine(tmp_path, "m.yaml", text + beside)
     own = found.mechanisms
-    shafts, cylinder = (float(own[name].outputs["mass"].value) for name in ("machine_inertia", "cylinder"))
+    one, two, three = (
+        float(own[name].outputs[key].value)
+        for name, key in (("machine_inertia", "mass"), ("cylinder", "mass"), ("feed_shaft", "shaft_mass"))
+    )  # type: ignore[arg-type]
     rows = AskedResults(("mass",)).rows([found])
-    assert values(rows)["mass"] == pytest.approx([shafts + cylinder])
+    assert three == pytest.approx(0.9 * np.pi * 0.045**2 * 7850)
+    assert values(rows)["mass"] == pytest.approx([one + two + three])

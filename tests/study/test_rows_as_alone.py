@@ -22,7 +22,7 @@ from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution import press_batch
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
-from tests.configs import DISCOVERY, EXAMPLES, saved
+from tests.configs import DISCOVERY, EXAMPLES, HEAD, saved
 
 PLATEN, KNIFE, MENDED = (
     next(path for path in EXAMPLES if path.stem == stem)
@@ -321,18 +321,41 @@ def test_a_margin_may_follow_from_what_is_a_time_or_an_angle(tmp_path: Path, sec
     )
 
 
-@pytest.mark.parametrize("first", ["0.28", "28 %"])
+FOUNDED = """
+  key:
+    kind: parallel_key
+    shaft_diameter: {value: 50 mm, basis: drawing}
+    key_length: {value: 63 mm, basis: drawing}
+    torque: {value: 494 N*m, basis: drawing}
+    application_factor: {value: 1, basis: drawing}
+    yield_shaft: {value: 650 MPa, basis: drawing}
+    yield_hub: {value: %s, basis: measured, note: "protocol 17"}
+    brittle_hub: {value: true, basis: measured, note: "protocol 18"}
+"""
+
+
+@pytest.mark.parametrize("first", ["370 MPa", "370", "0.37 GPa", "370.0 MPa"])
 def test_a_stored_variant_says_what_its_values_rest_on(tmp_path: Path, first: str) -> None:
     """A certificate is of the value that was measured: the report of another variant does not name it, and `take` says the same."""
-    base = knife(tmp_path, f'{{value: {first}, basis: measured, note: "protocol 17"}}').config.tree
-    (tmp_path / "press.yaml").write_text(base.text, "utf-8")
-    study = (
-        "schema_version: 1\nbase: press.yaml\nsample: {method: grid}\nvary: {mechanisms.knife.friction: [0.28, 0.27]}\n"
+    (tmp_path / "press.yaml").write_text(HEAD + FOUNDED % first, "utf-8")
+    vary = "{mechanisms.key.yield_hub: [370 MPa, 380 MPa], mechanisms.key.brittle_hub: [true, false]}"
+    (tmp_path / "study.yaml").write_text(
+        f"schema_version: 1\nbase: press.yaml\nsample: {{method: zip}}\nvary: {vary}\n", "utf-8"
     )
-    (tmp_path / "study.yaml").write_text(study, "utf-8")
-    assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--quiet"]) == 0
+    main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--quiet"])
     for variant, basis in enumerate(["measured", "assumed"]):
         tree = variant_config(tmp_path / "out", variant, DISCOVERY, "v")
         taken = yaml.parse(taken_config(tmp_path / "out", variant, DISCOVERY)[0].decode(), "v")
-        place = ("mechanisms", "knife", "friction", "basis")
-        assert (tree.typed(place), taken.typed(place)) == (basis, basis)
+        for key in ("yield_hub", "brittle_hub"):
+            place = ("mechanisms", "key", key, "basis")
+            assert (tree.typed(place), taken.typed(place)) == (basis, basis), key
+
+
+@pytest.mark.parametrize(
+    ("typed", "basis"),
+    [("370 MPa", "measured"), ("0.37 GPa", "measured"), ("371 MPa", "assumed"), ("370 kPa", "assumed")],
+)
+def test_the_same_number_typed_otherwise_rests_on_what_it_did(tmp_path: Path, typed: str, basis: str) -> None:
+    press = Press.read(saved(tmp_path, HEAD + FOUNDED % "370"), DISCOVERY)
+    place = ("mechanisms", "key", "yield_hub")
+    assert press.with_values({(*place, "value"): typed}).config.tree.typed((*place, "basis")) == basis

@@ -294,8 +294,8 @@ class Demands:
     def _torque_on(self, part: ShaftPart) -> dict[str, Any] | None:
         port = self.port(part)
         if part.port is not None and port is not None and port.torque and not port.angle:
-            found, lost = self._source(part.name, part.port[0], port.torque, -1), self._lost_before(part)
-            return found | {"efficiency": (lost,)} if lost else found
+            taken, lost = self._source(part.name, part.port[0], port.torque, -1), self._lost_before(part)
+            return taken | {"efficiency": (lost,)} if lost else taken
         for join in self.parts.joins_of(part):
             if part in join.drivers and (found := self._of_swing(part) or self._through(join, len(join.drivers))):
                 return found | {"name": part.name}

@@ -15,10 +15,10 @@ from diecut_report.config.parts.demands import Element, TypedNumber, TypedValue,
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts, MachineShaft
-from diecut_report.config.parts.reading import PartsReader, section_blocks
+from diecut_report.config.parts.reading import PartsReader, typed_changes
 from diecut_report.config.parts.rules import coherence, misdriven
 from diecut_report.config.validation import ASSUMED, ConfigPlace
-from diecut_report.config.yaml import KeyPath, Tree, YamlNode, resolved, with_root, with_value
+from diecut_report.config.yaml import KeyPath, Scalar, Tree, YamlNode, resolved, with_root, with_value
 from diecut_report.errors import Problem, nearest
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.standards.ranges import asks_basis
@@ -122,15 +122,22 @@ def _sources(node: KeyPath, given: Any) -> Iterator[tuple[KeyPath, KeyPath | Non
         yield from _sources((*node, key), part)
 
 
+def retyped(parts: MachineParts, changes: Mapping[KeyPath, Scalar]) -> Tree:
+    """Return the file with these values in the places of what is typed."""
+    tree = parts.reader.tree
+    for path, value in typed_changes(tree, changes).items():
+        tree = with_value(tree, path, value)
+    return tree
+
+
+def with_parts(parts: MachineParts, changes: Mapping[KeyPath, Scalar], kinds: Mapping[str, Mechanism]) -> Expanded:
+    """Return the file with these values in the places of what is typed, and the calculations that are made of it then."""
+    return expanded(retyped(parts, changes), kinds.get)
+
+
 def refused(parts: MachineParts, changes: Mapping[KeyPath, str], kinds: Mapping[str, Mechanism]) -> bool:
     """Return whether the parts contradict each other, or cannot be read, with these texts in the places of what is typed."""
-    tree = parts.reader.tree
-    for path, text in changes.items():
-        sections = path[:3]
-        if path[2:3] == ("sections",) and isinstance(typed := tree.typed(sections), str):
-            tree = with_value(tree, sections, section_blocks(typed))
-        tree = with_value(tree, path, resolved(text))
-    return bool(expanded(tree, kinds.get).problems)
+    return bool(with_parts(parts, {path: resolved(text) for path, text in changes.items()}, kinds).problems)
 
 
 def _without(tree: Tree) -> Tree:

@@ -126,10 +126,15 @@ def losses(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
         meshes = [
             join for join in elements.chain_from(parts.keys.anchor, part.shaft.name) if isinstance(join.keys, MeshKeys)
         ]
-        given = line.get("path_efficiency", 1.0)
-        said = given.get("value") if isinstance(given, dict) else given
+        typed = parts.reader.typed_number(str(timing), f"lines.{index}.path_efficiency")
+        if typed is None and "path_efficiency" in line:
+            template = "refers to what is calculated, so that the parts are not known to lose it, too; type a number"
+            yield finding(
+                parts, "losses", "error", ("mechanisms", str(timing), "lines", index, "path_efficiency"), template
+            )
+        said = 1.0 if typed is None else typed
         there = prod(join.keys.efficiency for join in meshes)
-        if meshes and isinstance(said, int | float) and said > there + RATIO:
+        if meshes and said > there + RATIO:
             template = "has the efficiency {there}, but the cyclogram calculates with {said} for {name}: the main shaft takes more than it says"
             yield finding(parts, "losses", "warning", meshes[0].path, template, ("mechanisms", str(timing), "lines", index),
                 there=f"{there:.4g}", said=f"{said:.4g}", name=name)  # fmt: skip
@@ -296,11 +301,17 @@ def sector(parts: MachineParts) -> Iterator[Finding]:
 
 
 def chain(parts: MachineParts) -> Iterator[Finding]:
-    """A chain has an even number of links, and says what it moves."""
+    """A chain has an even number of links, and says what it moves, and where it pulls."""
     for join in (each for each in parts.joins if isinstance(each.keys, ChainKeys)):
         if join.keys.links % 2:
             template = "is {links}, which needs a cranked link; take an even number"
             yield finding(parts, "chain", "warning", (*join.path, "links"), template, links=join.keys.links)
+        if join.driven and join.keys.direction is not None:
+            template = "follows from the axes of the two sprockets; remove the key"
+            yield finding(parts, "chain", "error", (*join.path, "direction"), template)
+        if not join.driven and join.keys.direction is None:
+            template = "runs over idlers, and nothing says in which direction it pulls its sprocket: along the frame's x is taken; give direction"
+            yield finding(parts, "chain", "warning", join.path, template)
         if "moving_mass" in join.more and not join.keys.moves:
             template = "is moved by chains that say what they move; give moves"
             yield finding(parts, "chain", "error", (*join.path, "moving_mass"), template)

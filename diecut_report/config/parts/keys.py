@@ -187,6 +187,8 @@ class ChainKeys(Block):
     teeth_2: Annotated[int | None, Quantity("z_2", "1", "Teeth of the driven sprocket", ge=6, le=150, integer=True)] = None
     chain: Annotated[Literal["08B", "10B", "12B", "16B", "20B", "24B"], Text("Chain of ISO 606, series B")]
     links: Annotated[int, Quantity("X", "1", "Number of links", ge=8, le=100_000, integer=True)]
+    direction: Annotated[float | None,
+        Quantity("α_c", "deg", "Direction in the frame in which a chain over idlers pulls its sprocket, from x", ge=-360, le=360)] = None
     moves: Annotated[str | None, Text("What the chains move: MECHANISM.cylinder or MECHANISM.conveyor")] = None
     accepted: Accepted | None = None
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
+from math import prod
 from typing import Any
 
 from diecut_report.config.parts.demands import Demands, TypedNumber
@@ -81,9 +82,9 @@ class LoadCases(Demands):
         if driving is not None and flywheel is None:
             yield from self._towards_flywheel("engage", driving, torque, self._engagements_in_life)
         if enters := (flywheel,) if flywheel else driving.driven if driving else ():
-            yield from self._onward(enters, torque)
+            yield from self._onward("engage", enters, torque, self._engagements_in_life)
 
-    def _onward(self, enters: Sequence[ShaftPart], torque: str) -> Iterator[Passing | Meshing]:
+    def _onward(self, case: str, enters: Sequence[ShaftPart], torque: str, cycles: Any) -> Iterator[Passing | Meshing]:
         """The torque on a shaft from the part that drives it, and on the steadily turning shafts that it drives."""
         shaft = enters[0].shaft
         driving = self.parts.driving_join(shaft)
@@ -92,12 +93,12 @@ class LoadCases(Demands):
             joins = [each for each in self.parts.joins_of(part) if part in each.drivers]
             beside = joins[0].drivers if joins else (part,)
             if part is beside[0]:
-                yield Passing("engage", torque, enters, beside)
+                yield Passing(case, torque, enters, beside)
             for join in (each for each in joins if part is each.drivers[0]):
                 if join.driven and join.driven[0].shaft.name in self.parts.ratios:
                     if isinstance(join.keys, MeshKeys):
-                        yield Meshing("engage", torque, join, self._engagements_in_life)
-                    yield from self._onward(join.driven, f"{torque} / {join.ratio_text}")
+                        yield Meshing(case, torque, join, cycles)
+                    yield from self._onward(case, join.driven, f"{torque} / {join.ratio_text}", cycles)
 
     def _towards_flywheel(self, case: str, join: Join, torque: str, cycles: Any) -> Iterator[Passing | Meshing]:
         """The torque on the driving side of a join and of all before it, up to the shaft with the flywheel."""
@@ -129,40 +130,44 @@ class LoadCases(Demands):
                 torque = f"${{{train}.vbelt_peak_torque}} * ${{drive_line.{join.name}_belt_ratio}}"
                 yield Passing("start", torque, (pulley,), (flywheel,))
 
-    # The brake: it stops the flywheel, so that its torque acts on all that is between them.
+    # The brake: its torque acts on all between it and the flywheel, with what the mechanisms take there; behind a clutch on what it drives.
 
     def _stops(self) -> Iterator[Passing | Meshing]:
-        for index, brake in enumerate(self.parts.brakes):
-            torque, shaft = f"${{drive_line.brakes.{index}.torque}}", brake.shaft
-            flywheels = {
-                part.shaft.name: part
-                for each in self.parts.shafts.values()
-                for part in each.parts
-                if part.kind == "flywheel"
-            }
-            behind = next(((name, way) for name in flywheels if (way := self.chain_from(shaft.name, name))), None)
-            driving = self.parts.driving_join(shaft)
-            if shaft.name in flywheels:
-                yield Passing("stop", torque, (flywheels[shaft.name],), (brake,))
-            elif behind:
-                yield from self._from_behind(brake, behind[1], flywheels[behind[0]], torque)
-            elif driving:
-                yield Passing("stop", torque, driving.driven, (brake,))
-                yield from self._towards_flywheel("stop", driving, torque, self._stops_in_life(brake))
+        for brake in self.parts.brakes:
+            torque, cycles = self.brake_torque(brake), self._stops_in_life(brake)
+            if self.parts.is_behind_clutch(brake):
+                yield from self._onward("stop", (brake,), torque, cycles)
+                continue
+            for each in self._to_flywheel_from(brake, torque, cycles):
+                shaft = each.shaft if isinstance(each, Passing) else each.join.drivers[0].shaft
+                yield replace(each, torque=" + ".join([each.torque, *self._taken_by_run(shaft)]))
 
-    def _from_behind(
-        self, brake: ShaftPart, way: Sequence[Join], flywheel: ShaftPart, torque: str
-    ) -> Iterator[Passing | Meshing]:
-        """The torque of a brake on the joins from its shaft to the flywheel's that it drives."""
-        leaves: Sequence[ShaftPart] = (brake,)
-        for join in way:
-            yield Passing("stop", torque, join.drivers, leaves)
-            efficiency = 1.0
-            if isinstance(join.keys, MeshKeys):
-                yield Meshing("stop", torque, join, self._stops_in_life(brake))
-                efficiency = join.keys.efficiency
-            torque, leaves = f"{torque} / {join.ratio_text} / {efficiency:.15g}", join.driven
-        yield Passing("stop", torque, (flywheel,), leaves)
+    def _to_flywheel_from(self, brake: ShaftPart, torque: str, cycles: Any) -> Iterator[Passing | Meshing]:
+        flywheel = next((part for part in brake.shaft.parts if part.kind == "flywheel"), None)
+        driving = self.parts.driving_join(brake.shaft)
+        if flywheel is not None:
+            yield Passing("stop", torque, (flywheel,), (brake,))
+        elif driving is not None:
+            yield Passing("stop", torque, driving.driven, (brake,))
+            yield from self._towards_flywheel("stop", driving, torque, cycles)
+
+    def _taken_by_run(self, shaft: MachineShaft) -> Iterator[str]:
+        """The greatest torque that the lines take at the main shaft, on a shaft from the flywheel's to the main one."""
+        timing, anchor = self.named("cyclogram"), self.parts.keys.anchor
+        way = self.chain_from(shaft.name, anchor)
+        if timing is not None and (way or shaft.name == anchor):
+            losses = prod(self.loss(join).efficiency for join in way)
+            yield " * ".join([f"${{{timing}.torque_peak}}", *(join.ratio_text for join in way)]) + f" / {losses:.15g}"
+
+    def brake_torque(self, brake: ShaftPart) -> str:
+        """Return the reference to the torque of a brake."""
+        own = [
+            each
+            for each in self.parts.brakes
+            if self.parts.is_behind_clutch(each) == self.parts.is_behind_clutch(brake)
+        ]
+        word = "clutch_brakes" if self.parts.is_behind_clutch(brake) else "brakes"
+        return f"${{drive_line.{word}.{own.index(brake)}.torque}}"
 
     # As inputs.
 
@@ -188,7 +193,8 @@ class LoadCases(Demands):
         """Return the load cases of a pair of gears, as torques on its pinion."""
         onto = "" if pinion in join.drivers else f" / {join.ratio_text}"
         return [
-            {"name": each.case, "torque": f"{each.torque}{onto}", "cycles": each.cycles} for each in self.meshing(join)
+            {"name": each.case, "torque": f"({each.torque}){onto}" if onto else each.torque, "cycles": each.cycles}
+            for each in self.meshing(join)
         ]
 
     @property

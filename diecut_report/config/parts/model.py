@@ -464,14 +464,37 @@ class MachineParts:
 
     @cached_property
     def brakes(self) -> list[ShaftPart]:
-        """Return the brakes, which stand on shafts that turn steadily."""
-        return [
+        """Return the brakes on shafts that turn steadily: first the one that stops the flywheel, then those behind a clutch."""
+        found = [
             part
             for name in self.shafts
             if name in self.ratios
             for part in self.shafts[name].parts
             if part.keys.brake_torque
         ]
+        return sorted(found, key=self.is_behind_clutch)
+
+    def from_flywheel(self, part: ShaftPart) -> list[Join] | None:
+        """Return the joins between a part's shaft and that of the flywheel which drives it, the nearest first; None where none does."""
+        found: list[Join] = []
+        shaft = part.shaft
+        while not any(each.kind == "flywheel" for each in shaft.parts):
+            join = self.driving_join(shaft)
+            if join is None or join in found:
+                return None
+            found.append(join)
+            shaft = join.drivers[0].shaft
+        return found
+
+    def is_behind_clutch(self, part: ShaftPart) -> bool:
+        """Return whether a clutch is between a part and the flywheel that drives its shaft."""
+        joins = self.from_flywheel(part) or []
+        first = joins[-1].drivers[0].shaft if joins else part.shaft
+        between = [each for join in joins for each in (*join.drivers, *join.driven)] + [
+            each for each in first.parts if each.kind == "flywheel"
+        ]
+        clutches = {each.called for shaft in self.shafts.values() for each in shaft.parts if each.kind == "clutch"}
+        return any(f"{each.shaft.name}.{each.keys.rides_on}" in clutches for each in between)
 
     def joins_of(self, part: ShaftPart) -> Iterator[Join]:
         """Yield the joins that a part takes part in."""

@@ -92,7 +92,8 @@ def riding(parts: MachineParts) -> Iterator[Finding]:
 
 
 def braking(parts: MachineParts) -> Iterator[Finding]:
-    """A brake has a torque, and stands on a shaft that turns steadily."""
+    """A brake has a torque, and stands on a shaft that a flywheel drives; one alone stops the flywheel."""
+    known: list[ShaftPart] = []
     for part in (part for shaft in parts.shafts.values() for part in shaft.parts):
         for key in ("brake_torque", "stops_per_hour") if part.kind != "brake" else ():
             if getattr(part.keys, key) is not None:
@@ -101,9 +102,14 @@ def braking(parts: MachineParts) -> Iterator[Finding]:
         if part.kind == "brake" and not part.keys.brake_torque:
             template = "has no torque, by which what is between it and the flywheel is rated; give brake_torque"
             yield finding(parts, "brake", "error", part.path, template)
-        elif part.kind == "brake" and part.shaft.name not in parts.ratios:
-            template = "stands on a shaft that does not turn steadily; put it on one that does"
+        elif part.kind == "brake" and (part.shaft.name not in parts.ratios or parts.from_flywheel(part) is None):
+            template = "stands on a shaft that turns with no flywheel, or before it; put it on the flywheel's, or on a steady one behind it"
             yield finding(parts, "brake", "error", part.path, template)
+        elif part.kind == "brake" and not parts.is_behind_clutch(part):
+            known.append(part)
+    for part in known[1:]:
+        template = "is a second brake that stops the flywheel; give one of them the torque of both"
+        yield finding(parts, "brake", "error", part.path, template, known[0].path)
 
 
 def described(parts: MachineParts) -> Iterator[Finding]:

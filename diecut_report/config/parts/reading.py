@@ -25,12 +25,13 @@ from diecut_report.config.parts.keys import (
 )
 from diecut_report.config.references import WHOLE
 from diecut_report.config.validation import ConfigPlace, copied, declared, quoted, spread_out, validate
-from diecut_report.config.yaml import KeyPath, Position, Tree, resolved
+from diecut_report.config.yaml import KeyPath, Position, Scalar, Tree, resolved
 from diecut_report.errors import Problem, lookalikes
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.mechanism.inputs import Block, Meta, Quantity
-from diecut_report.quantities.units import unit
+from diecut_report.quantities.formatting import as_typed
+from diecut_report.quantities.units import UnitError, number_and_unit, unit
 from diecut_report.text.phrases import Phrase, phrase
 
 _NUMBER = r"\d+(?:\.\d*)?|\.\d+"
@@ -205,7 +206,8 @@ class PartsReader:
         found = read_expression(given, name)
         if refused := found.refused(meta.unit):
             raise ConditionError(refused)
-        return f"{found.known_value(values) / unit(meta.unit).factor!r} {meta.unit}"
+        number = found.known_value(values) / unit(meta.unit).factor
+        return number if meta.unit == "1" else f"{number!r} {meta.unit}"
 
     def _typed(self, path: str) -> tuple[float, str]:
         """The number that is typed at a path, in SI, and its SI unit; ConditionError where none is.
@@ -331,10 +333,77 @@ def _sections(data: dict[str, Any], place: ConfigPlace) -> _Apart:
     return _Apart(listed, frozenset([("sections",)]) if problems else frozenset(), tuple(problems))
 
 
-def section_blocks(text: str) -> list[dict[str, str]]:
-    """Return the sections of a text that can be read as blocks, as they may be typed in its place."""
-    found = (SECTION.fullmatch(each.strip()) for each in text.split(","))
-    return [{key: f"{value} mm" for key, value in each.groupdict().items() if value} for each in found if each]
+# Other values in the places of the parts.
+
+
+def place_of(data: Mapping[str, Any], path: str) -> KeyPath:
+    """Return the place in a file that a path of the parts names, ``shafts.main.parts.wheel.hub``: a part by its name or its number."""
+    key: KeyPath = tuple(int(word) if INDEX.fullmatch(word) else word for word in path.split("."))
+    rows = _at(data, key[:3]) if key[0] == "shafts" and key[2:3] == ("parts",) else None
+    for index, row in enumerate(rows if isinstance(rows, list) else ()):
+        if isinstance(row, dict) and key[3:4] and str(key[3]) in {str(row[kind]) for kind in PART_KINDS if kind in row}:
+            return (*key[:3], index, *key[4:])
+    return key
+
+
+def typed_changes(tree: Tree, changes: Mapping[KeyPath, Scalar]) -> dict[KeyPath, Scalar]:
+    """Return changes of values by where these are typed: of one within a text (``60x320 r1``, ``18/87``, ``[15, 75]``) the text or its place."""
+    found: dict[KeyPath, Scalar] = {}
+    for path, text in changes.items():
+        home, key = path[:-1], path[-1]
+        sections = path[:3] if path[0] == "shafts" and path[2:3] == ("sections",) else ()
+        pair = next((each for each in PAIRS.values() if key in each.single and len(path) == 3), None)
+        if sections and isinstance(typed := found.get(sections, tree.typed(sections)), str):
+            found[sections] = _section_text(typed, int(path[3]), str(key), str(text))
+        elif pair and isinstance(typed := found.get((*home, pair.key), tree.typed((*home, pair.key))), str):
+            numbers = [each.strip() for each in typed.split("/")]
+            if len(numbers) < len(pair.single) and (key != pair.single[0] or _at(tree.data, (*home, "to"))):
+                numbers *= 2  # one number for both
+            numbers[pair.single.index(str(key))] = _bare(str(text))
+            found[(*home, pair.key)] = "/".join(numbers)
+        elif key in PinKeys.spread["span"] and _at(tree.data, (*home, "span")) is not None:
+            found[(*home, "span", PinKeys.spread["span"].index(str(key)))] = text
+        else:
+            found[(*path, "value") if _at(tree.data, (*path, "value")) is not None else path] = text
+    return found
+
+
+def typed_value(tree: Tree, path: KeyPath) -> Any:
+    """Return what is typed at a place of the parts, also within a text; None where nothing is."""
+    home, key = path[:-1], path[-1]
+    given = _at(tree.data, path)
+    if given is not None:
+        return given.get("value") if isinstance(given, dict) else given
+    if path[0] == "shafts" and path[2:3] == ("sections",):
+        matched = SECTION.fullmatch(str(_at(tree.data, path[:3])).split(",")[int(path[3])].strip())
+        return matched and matched.groupdict().get(str(key))
+    if key in PinKeys.spread["span"]:
+        return _at(tree.data, (*home, "span", PinKeys.spread["span"].index(str(key))))
+    pair = next((each for each in PAIRS.values() if key in each.single and len(path) == 3), None)
+    texts = str(_at(tree.data, (*home, pair.key)) or "").split("/") if pair else [""]
+    return (texts[pair.single.index(str(key)) if pair and len(texts) > 1 else 0].strip() or None) if texts else None
+
+
+def _bare(text: str) -> str:
+    """A number as it stands in a text of several: teeth, or a length in mm."""
+    try:
+        number, own = number_and_unit(text)
+    except UnitError:  # which is told where the text is read
+        return text
+    return str(as_typed(unit(own).to_si(number), "mm")).removesuffix(" mm") if own else text
+
+
+def _section_text(sections: str, index: int, key: str, text: str) -> str:
+    """The text of sections with another number in one of them."""
+    every = [each.strip() for each in sections.split(",")]
+    matched = SECTION.fullmatch(every[index])
+    assert matched is not None, "sections that cannot be read are refused before"
+    own = {name: value for name, value in matched.groupdict().items() if value} | {key: _bare(text)}
+    bore, fillet = (
+        f"{sign}{own[name]}" if name in own else "" for sign, name in (("/", "bore"), (" r", "fillet_radius"))
+    )
+    every[index] = f"{own['diameter']}{bore}x{own['length']}{fillet}"
+    return ", ".join(every)
 
 
 def _unreadable_section(place: ConfigPlace, number: int, text: str, offset: int) -> Problem:

@@ -102,7 +102,7 @@ class ShaftElements(Masses, LoadCases):
         return ("y", x), ("z", self.sense(part.shaft.name) * y)
 
     def _chain_shares(self, part: ShaftPart) -> tuple[Join | None, list[tuple[str, float]]]:
-        """The chain on a sprocket, and the shares of its pull: towards the other one, or along the frame's x where it runs over idlers."""
+        """The chain on a sprocket, and the shares of its pull: towards the other one, or in its direction where it runs over idlers."""
         join = next((each for each in self.parts.joins_of(part) if each.word == "chains"), None)
         if join is None:
             return None, []
@@ -110,7 +110,7 @@ class ShaftElements(Masses, LoadCases):
             (join.driven[0] if part in join.drivers else join.drivers[0]).shaft.name if join.driven else part.shaft.name
         )
         (x, y), (u, v) = (self.parts.axes.get(name, (0.0, 0.0)) for name in (part.shaft.name, other))
-        angle = atan2(v - y, u - x)
+        angle = atan2(v - y, u - x) if join.driven else join.keys.direction or 0.0
         return join, [each for each in self._directions(part, cos(angle), sin(angle)) if abs(each[1]) > NOTHING]
 
     def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
@@ -348,8 +348,15 @@ class ShaftElements(Masses, LoadCases):
         """The torque that passes the key of a part: its own, or that of the only part with one which rides on it."""
         loads, joined, has_own = part.shaft.loads, self._joined(part), part in self.inertias(part.shaft)
         if part in self.parts.brakes:
-            return f"${{drive_line.brakes.{self.parts.brakes.index(part)}.torque}}"
-        if len(joined) > 1 or not (joined or has_own):
+            return self.brake_torque(part)
+        if (
+            len(joined) > 1
+        ):  # what rides on it together takes what the only other part there gives, or the other way round
+            others = [each for each in part.shaft.parts if each not in joined and self.torque_on(each)]
+            return (
+                f"${{{loads}.{others[0].name}_torque}}" if len(others) == 1 and not self.inertias(part.shaft) else None
+            )
+        if not (joined or has_own):
             return None
         if has_own:
             return f"${{{loads}.{part.name}_{'hub' if joined else 'inertia_torque'}}}"

@@ -18,7 +18,6 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.validation import ConfigPlace
 from diecut_report.design.machines import CHECKS, STATUS, UTILISATION, ProvedMachine, proved
@@ -29,7 +28,7 @@ from diecut_report.press import Press
 from diecut_report.quantities.plausible import plausible
 from diecut_report.study.analysis.variant_config import variant_of
 from diecut_report.study.analysis.variants import Stored, opened, quoted
-from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.base_inputs import present_value
 from diecut_report.study.definition.study_file import Optimise, Study
 from diecut_report.study.definition.variables import Values
 from diecut_report.study.definition.wanted_results import Objective
@@ -294,18 +293,8 @@ def _share(one: Any, other: float | None, least: float) -> float:
 
 def present_values(study: Study) -> dict[str, Any]:
     """Return what the base gives for each varied path (SI, texts); what it does not give, or calculates, is left out."""
-    found = {path: _value(study.base, asked) for path, asked in study.inputs.items()}
+    found = {path: present_value(study.base, asked) for path, asked in study.inputs.items()}
     return {path: value for path, value in found.items() if value is not None}
-
-
-def _value(base: Config, asked: Input) -> float | str | None:
-    instance = base.instances[asked.instance]
-    if instance is None or (asked.instance, *asked.key) in base.links:
-        return None
-    value = instance.value(asked.key)
-    if isinstance(value, bool):
-        return str(value).lower()
-    return float(value) if isinstance(value, int | float) else value if isinstance(value, str) else None
 
 
 PYMOO = "pymoo"

@@ -12,6 +12,7 @@ from typing import Any
 from diecut_report.config import yaml
 from diecut_report.config.own_tables import KEY as LOGO
 from diecut_report.config.own_tables import OWN_TABLES_KEY as TABLES
+from diecut_report.config.parts.reading import place_of, typed_changes
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.references import as_file, assumed_bases, rewritten
 from diecut_report.config.yaml import KeyPath, Scalar, Tree, printable, resolved, with_values
@@ -67,7 +68,8 @@ def variant_of(
     found = _variant(stored, variant, discovery, in_error=in_error)
     base, study = found.base, printable(stored.description.study.file)
     values = {place: as_config_value(value, column) for place, (column, value) in found.values.items()}
-    values |= assumed_bases(base, values)
+    units = {place: column.display for place, (column, _) in found.values.items()}
+    values = {**typed_changes(base, values), **assumed_bases(base, values, units)}
     values |= dict(_title_block(base, variant, study))
     home = kept(stored.folder)[stored.description.base.file].parent
     values |= {key: copy.relative_to(home).as_posix() for key, (_, copy) in found.beside.items()}
@@ -91,7 +93,10 @@ def taken_config(
     with opened(directory) as stored:
         found, study = _variant(stored, variant, discovery), printable(stored.description.study.file)
     values = {place: _typed(value, column, digits) for place, (column, value) in found.values.items()}
-    text = f"# Variant {variant} of {study}\n" + rewritten(found.base, values, over_references=True).text
+    places = {place: str(value) for place, value in typed_changes(found.base, values).items()}
+    units = {place: column.display for place, (column, _) in found.values.items()}
+    changed = rewritten(found.base, places, units, over_references=True)
+    text = f"# Variant {variant} of {study}\n" + changed.text
     return as_file(found.base, text), found
 
 
@@ -124,7 +129,7 @@ def _missing(stored: Stored, variant: int) -> Phrase:
 
 def _place(base: Tree, name: str, discovery: Discovery) -> KeyPath:
     """Return where a value stands in the file: in a list where the base gives one for several single keys, or in a block with its basis."""
-    path: KeyPath = tuple(int(part) if part.isdecimal() else part for part in name.split("."))
+    path = place_of(base.data, name)
     mechanism = (base.data.get(MECHANISMS) or {}).get(path[1]) if path[0] == MECHANISMS and len(path) == 3 else None
     if mechanism is not None:
         try:

@@ -11,14 +11,18 @@ from diecut_report.config import loader
 from diecut_report.config.instances import Instance, substituted
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, PressBlock
+from diecut_report.config.parts.keys import WORDS, MachineKeys
+from diecut_report.config.parts.model import MachineParts
+from diecut_report.config.parts.reading import COORDINATE, MODELS, place_of, typed_value
 from diecut_report.config.references import Linker, ordered
-from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, declared, keys_of, validate
-from diecut_report.config.yaml import KeyPath
+from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, declared, keys_of, validate, value_at
+from diecut_report.config.yaml import KeyPath, Scalar, resolved
 from diecut_report.errors import Problem, nearest
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
 from diecut_report.mechanism.inputs import Quantity, Referred, fields, list_inputs
 from diecut_report.mechanism.names import SI, Pending, Text
+from diecut_report.quantities.formatting import as_typed
 from diecut_report.text.phrases import MessageError, Phrase, phrase
 
 MECHANISMS = "mechanisms"
@@ -101,11 +105,94 @@ def _present_unit(base: Config, instance: Instance, key: KeyPath, meta: Quantity
 
 
 def varied_input(base: Config, path: str) -> Input:
-    """Return the input that a study varies; UnknownPath also where the parts of a machine do not follow it."""
+    """Return the input that a study varies, also a number or text of the parts; UnknownPath where it follows from these."""
+    if path.split(".")[0] in WORDS and base.parts is not None:
+        return _part_input(base, base.parts, path)
     found = find_input(base, path)
-    if tied := base.tied(found.node):
-        raise UnknownPath(tied)
+    if base.parts is not None and base.parts.follows(found.node):
+        typed = base.parts.typed_at(found.node)
+        place = ".".join(str(step) for step in typed or () if step != "value")
+        where = Phrase("; vary {path} in its place.", path=place) if typed else "."
+        raise UnknownPath("follows from the parts of the machine{where}", where=where)
     return found
+
+
+def _part_input(base: Config, parts: MachineParts, path: str) -> Input:
+    """The number or text that is typed at a place of the parts."""
+    data = parts.reader.data
+    key = place_of(data, path)
+    home = key[:1] if key[0] == "machine" else key[:2]
+    own = key[len(home) :]
+    if key[0] != "machine" and (len(key) < 2 or key[1] not in (data.get(str(key[0])) or {})):
+        names = ", ".join(f"{key[0]}.{name}" for name in data.get(str(key[0])) or {})
+        raise UnknownPath("names no part of the machine; known: {names}.", names=names or phrase("none"))
+    if key[0] == "machine" and own[:1] == ("frame",) and len(own) == 3 and value_at(data, key) is not None:
+        return Input(path, key[0], key[1:], COORDINATE, float, (COORDINATE,))
+    if any(isinstance(step, int) and not _has(parts, key[: index + 1]) for index, step in enumerate(key)):
+        raise UnknownPath("is not there in the base: its list is shorter.")
+    model = MachineKeys if key[0] == "machine" else MODELS[str(key[0])]
+    meta = declared(model, own) if own else None
+    if isinstance(meta, Quantity | Text):
+        block = declared(model, own[:-1]) if len(own) > 1 else model
+        assert isinstance(block, type)
+        field = keys_of(block)[str(own[-1])].field
+        return Input(path, str(key[0]), key[1:], meta, field.annotation, tuple(field.metadata))
+    for node in (node for node, there in parts.sources.items() if there == key and len(node) > 1):
+        made = find_input(base, ".".join(map(str, (MECHANISMS, *node))))
+        return replace(made, path=path, instance=str(key[0]), key=key[1:])
+    known = ", ".join(name for name, each in keys_of(model).items() if isinstance(each.meta, Quantity))
+    template = "is no number or text that is typed at a part in the base; give it there first, or vary another one, such as {known}."
+    raise UnknownPath(template, known=known)
+
+
+def _has(parts: MachineParts, key: KeyPath) -> bool:
+    """Whether the parts have a place in a list, also in one that is typed as a text."""
+    if key[:1] == ("shafts",) and key[2:3] == ("sections",) and len(key) == 4:
+        return int(key[3]) < len(parts.shafts[str(key[1])].sections)
+    return value_at(parts.reader.data, key) is not None
+
+
+def is_of_parts(base: Config, asked: Input) -> bool:
+    """Return whether the parts of a machine, and what is made of them, follow an input."""
+    return base.parts is not None and (asked.instance in WORDS or base.parts.is_made_with(asked.node))
+
+
+def typed_place(base: Config, asked: Input) -> KeyPath:
+    """Return where an input that the parts follow is typed."""
+    instance = base.instances.get(asked.instance)
+    return (asked.instance, *asked.key) if instance is None else instance.place.stands(asked.key)[1]
+
+
+def present_value(base: Config, asked: Input) -> float | str | None:
+    """Return the value (SI, text) that an input has in the base; None where it has none, or refers."""
+    if asked.instance in WORDS and base.parts is not None:
+        typed = typed_value(base.parts.reader.tree, (asked.instance, *asked.key))
+        return None if typed is None or "${" in str(typed) else number_of(asked, resolved(str(typed)))
+    instance = base.instances[asked.instance]
+    if instance is None or asked.node in base.links:
+        return None
+    value = instance.value(asked.key)
+    if isinstance(value, bool):
+        return str(value).lower()
+    return float(value) if isinstance(value, int | float) else value if isinstance(value, str) else None
+
+
+def typed_data(asked: Input, value: float | str) -> Scalar:
+    """Return a value (SI, text) as it is typed in a file."""
+    if isinstance(value, str):
+        return resolved(value) if isinstance(resolved(value), bool) else value
+    return int(value) if asked.is_integer else as_typed(float(value), asked.display or "1")
+
+
+def number_of(asked: Input, typed: Any) -> float | str | None:
+    """Return the value (SI, text) of what is typed; None where it is none that is allowed."""
+    if not isinstance(asked.meta, Quantity):
+        return str(typed).lower() if isinstance(typed, bool) else str(typed)
+    try:
+        value = asked.meta.validate(typed)
+    except ValueError:
+        return None
+    return float(value) if isinstance(value, int | float) else None
 
 
 def _with_entries(instance: Instance, key: KeyPath, annotation: Any) -> Any:

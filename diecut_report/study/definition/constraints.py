@@ -23,7 +23,7 @@ from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import Node, symbols, transform
 from diecut_report.mechanism.curve_inputs import InOtherUnit
-from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input, is_of_parts
 from diecut_report.text.phrases import Phrase, phrase
 
 WITHOUT_VALUE = phrase("a division by zero, or the root of a number below zero")
@@ -116,6 +116,14 @@ def term(base: Config, varied: Mapping[str, Input], path: str) -> tuple[Name, No
         asked = find_input(base, path)
     except UnknownPath as fault:
         raise ConditionError("“{path}”: {fault}", path=path, fault=fault) from None
+    if (
+        base.parts is not None
+        and base.parts.follows(asked.node)
+        and any(is_of_parts(base, each) for each in varied.values())
+    ):
+        raise ConditionError(
+            "“{path}” follows from the parts of the machine, which vary; name what is typed there.", path=path
+        )
     target = base.links.get(asked.node)
     if target is None:
         node = Node("qty", (_fixed(base, asked),))

@@ -17,7 +17,15 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.mechanism.inputs import Block, Quantity
 from diecut_report.mechanism.names import SI, Pending
-from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, varied_input, with_values
+from diecut_report.study.definition.base_inputs import (
+    Input,
+    UnknownPath,
+    is_of_parts,
+    typed_data,
+    typed_place,
+    varied_input,
+    with_values,
+)
 from diecut_report.study.definition.constraints import stored_value
 from diecut_report.study.definition.samples import Grid, LatinHypercube, Sample, Sobol, TableSample, Zip
 from diecut_report.study.definition.schema import (
@@ -83,7 +91,7 @@ class SampleReader:
         else:
             found = dict(self._found(vary))
             bases = self._bases({asked: _texts(vary[path]) for path, asked in found.items()})
-        inputs = {path: find_input(bases[0], path) for path in found}
+        inputs = {path: varied_input(bases[0], path) for path in found}
         made = Sampled(inputs, None, bases)
         if table:
             values = {path: self._column_values(asked, table.columns[path]) for path, asked in inputs.items()}
@@ -127,7 +135,7 @@ class SampleReader:
         numbers: dict[Input, Any] = {asked: Pending(asked.path, asked.unit) for asked in texts if asked.unit}
         first = numbers | {asked: given[0] for asked, given in texts.items() if given and not asked.unit}
         others = [first | {asked: text} for asked in first if not asked.unit for text in texts[asked][1:]]
-        made = [with_values(self.base, values) for values in (first, *others)]
+        made = [_with_stand_ins(self.base, values) for values in (first, *others)]
         if all(problems for _, problems in made):
             template = "with these paths varied, the base is wrong: {path}: {message}"
             wrong = [Phrase(template, path=problem.path, message=problem.message) for problem in made[0][1]]
@@ -264,6 +272,14 @@ class SampleReader:
                 return
         places = [place for place, text in enumerate(texts) if text in wrong]
         yield from column.faulty(places, lambda place: wrong[texts[place]])
+
+
+def _with_stand_ins(base: Config, values: Mapping[Input, Any]) -> tuple[Config, list[Problem]]:
+    """Return the base with other texts and stand-ins for numbers; the parts keep their numbers, by which they are made."""
+    tied = {asked: value for asked, value in values.items() if is_of_parts(base, asked)}
+    texts = {typed_place(base, asked): typed_data(asked, str(value)) for asked, value in tied.items() if not asked.unit}
+    config = (base.with_parts(texts) or base) if texts else base
+    return with_values(config, {asked: value for asked, value in values.items() if asked not in tied})
 
 
 def _outside(meta: Quantity, column: ReadColumn, values: Values) -> Iterator[Problem]:

@@ -134,7 +134,7 @@ def distribution_form(asked: Input, law: str) -> type[Block]:
 
 # --- JSON Schema (draft 2020-12) -------------------------------------------------------------------------------------
 
-PATH = r"^(mechanisms\.[A-Za-z][A-Za-z0-9_-]*|press)(\.\w+)+$"
+PATH = r"^(mechanisms\.[A-Za-z][A-Za-z0-9_-]*|press|machine|(shafts|meshes|chains|belts)\.\w+)(\.[\w-]+)+$"
 OUTPUT: Schema = {"type": "string", "pattern": r"^[A-Za-z][A-Za-z0-9_-]*(\.\w+)+$"}
 QUANTITY: Schema = {"anyOf": [{"type": "number"}, {"type": "string", "pattern": NUMBER}]}
 OBJECTIVES: Schema = {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -12,8 +13,10 @@ import numpy as np
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.parts.expansion import with_parts
 from diecut_report.config.plugins import said
 from diecut_report.config.source_hashes import plugin_code
+from diecut_report.config.yaml import KeyPath, Scalar
 from diecut_report.errors import PluginError
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
@@ -46,7 +49,17 @@ from diecut_report.results.checks import (
 from diecut_report.results.press_run import Tell
 from diecut_report.results.usual import usual_check
 from diecut_report.standards.ranges import ranges_of
-from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.base_inputs import (
+    MECHANISMS,
+    Input,
+    UnknownPath,
+    find_input,
+    is_of_parts,
+    number_of,
+    present_value,
+    typed_data,
+    typed_place,
+)
 from diecut_report.study.execution.press_batch import (
     CalculatedVariants,
     Mixed,
@@ -310,11 +323,130 @@ def calculate_rows(
     rows = Rows(count, curves, further, tell)
     if not count:  # of a chunk that constraints have emptied
         return rows
-    for alike, texts in _groups(given, count):
-        for chosen in np.array_split(alike, -(-len(alike) // TOGETHER)):
-            numbers = {asked: np.asarray(values)[chosen] for asked, values in given.items() if asked not in texts}
-            _group(base, numbers, texts, rows, chosen)
+    for machine in _machines_of_parts(base, given, rows):
+        for alike, texts in _groups(machine.given, len(machine.rows)):
+            for chosen in np.array_split(alike, -(-len(alike) // TOGETHER)):
+                own = machine.given.items()
+                numbers = {asked: np.asarray(values)[chosen] for asked, values in own if asked not in texts}
+                _group(machine.base, numbers, texts, rows, machine.rows[chosen])
     return rows
+
+
+@dataclass(frozen=True)
+class _OfParts:
+    """Hold variants of which the parts make the same calculations: a base of these, and what is varied in it; by their rows."""
+
+    base: Config
+    given: Given
+    rows: Array
+
+
+def _machines_of_parts(base: Config, given: Given, rows: Rows) -> Iterator[_OfParts]:
+    """Yield the variants by what their parts make; of those whose parts contradict each other the rows say why."""
+    typed = {asked: values for asked, values in given.items() if is_of_parts(base, asked)}
+    if not typed:
+        yield _OfParts(base, given, np.arange(rows.count))
+        return
+    others = {asked: values for asked, values in given.items() if asked not in typed}
+    for changes, config, chosen in _by_structure(base, typed, rows):
+        numbers = {
+            asked: np.array([own.get(asked, today) for own in changes])
+            for asked, today in _today(base, changes).items()
+        }
+        rest = {
+            asked: np.asarray(values, dtype=None if asked.unit else object)[chosen] for asked, values in others.items()
+        }
+        yield _OfParts(config, rest | numbers, chosen)
+
+
+def _today(base: Config, changes: Sequence[Mapping[Input, float]]) -> dict[Input, float]:
+    """What the base has of all inputs that differ from it in some of the variants."""
+    differing = dict.fromkeys(asked for own in changes for asked in own)
+    return {asked: float(present_value(base, asked) or 0.0) for asked in differing}
+
+
+def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list[dict[Input, float]], Config, Array]]:
+    """Yield of variants whose parts make the same calculations the numbers that differ from the base, for each, and their rows."""
+    kinds = {each.mechanism.kind: each.mechanism for each in base.instances.values() if each and each.mechanism}
+    assert base.parts is not None, "without parts nothing follows them"
+    found: dict[Any, tuple[list[dict[Input, float]], list[int]]] = {}
+    first: dict[Any, Mapping[KeyPath, Scalar]] = {}
+    known = _Leaves(base)
+    for key, alike in _alike(typed, rows.count).items():
+        changes = {typed_place(base, asked): typed_data(asked, value) for asked, value in zip(typed, key, strict=True)}
+        made = with_parts(base.parts, changes, kinds)
+        if made.problems:
+            rows.errors[alike] = f"{made.problems[0].path}: {made.problems[0].message}"
+            rows.status[alike] = "error"
+            continue
+        numbers, structure = known.differing(made.tree.data[MECHANISMS])
+        first.setdefault(structure, changes)
+        group = found.setdefault(structure, ([], []))
+        group[0].extend([numbers] * len(alike))
+        group[1].extend(alike)
+    for structure, (numbers_of, chosen) in found.items():
+        config = base.with_parts(first[structure]) if structure else base
+        if config is None or not {each.name for each in columns_of(config)} <= {each.name for each in columns_of(base)}:
+            rows.errors[chosen] = phrase(
+                "with these values the parts make other calculations than in the base; calculate it as a file of its own"
+            )
+            rows.status[chosen] = "error"
+            continue
+        yield numbers_of, config, np.array(chosen)
+
+
+def _alike(typed: Given, count: int) -> dict[tuple[Any, ...], list[int]]:
+    """The rows by what is typed in them."""
+    found: dict[tuple[Any, ...], list[int]] = {}
+    columns = [np.asarray(values, dtype=object) for values in typed.values()]
+    for row in range(count):
+        found.setdefault(tuple(column[row] for column in columns), []).append(row)
+    return found
+
+
+class _Leaves:
+    """Tell in which values the calculations of other parts differ from those of the base."""
+
+    def __init__(self, base: Config) -> None:
+        self.base, self.today = base, dict(_leaves(base.tree.data[MECHANISMS]))
+        self._inputs: dict[KeyPath, Input | None] = {}
+
+    def differing(self, data: Any) -> tuple[dict[Input, float], frozenset[Any]]:
+        """Return the numbers that differ (SI), and all else that does: by it the calculations are others."""
+        numbers: dict[Input, float] = {}
+        rest: set[Any] = {(path, None) for path in self.today}
+        for path, value in _leaves(data):
+            rest.discard((path, None))
+            if path in self.today and self.today[path] == value:
+                continue
+            asked = self._input(path)
+            number = number_of(asked, value) if asked else None
+            if asked is not None and isinstance(number, float) and isinstance(present_value(self.base, asked), float):
+                numbers[asked] = number
+            else:
+                rest.add((path, str(value)))
+        return numbers, frozenset(rest)
+
+    def _input(self, path: KeyPath) -> Input | None:
+        """The number that stands at a place of the mechanisms; None where none does, or it refers."""
+        own = path[:-1] if path[-1] == "value" else path
+        if own not in self._inputs:
+            self._inputs[own] = None
+            with suppress(UnknownPath):
+                found = find_input(self.base, ".".join(map(str, (MECHANISMS, *own))))
+                self._inputs[own] = (
+                    found if isinstance(found.meta, Quantity) and found.node not in self.base.links else None
+                )
+        return self._inputs[own]
+
+
+def _leaves(data: Any, path: KeyPath = ()) -> Iterator[tuple[KeyPath, Any]]:
+    """Yield the single values of plain data with their places."""
+    if not isinstance(data, dict | list):
+        yield path, data
+        return
+    for key, part in data.items() if isinstance(data, dict) else enumerate(data):
+        yield from _leaves(part, (*path, key))
 
 
 def _groups(given: Given, count: int) -> Iterator[tuple[Array, dict[Input, Any]]]:

@@ -80,12 +80,16 @@ def roller(run: Run, shaft: str) -> tuple[Array, Array]:
     return radius * np.cos(angle), radius * np.sin(angle)
 
 
+LOST = 0.95  # the cyclogram's path_efficiency of the Geneva drive
+
+
 @pytest.mark.parametrize("frame", few(FRAMES, keep=lambda frame: frame == "oblique"))
 def test_the_rollers_force_has_the_moment_of_the_torque_about_both_axes(frame: str) -> None:
     run = run_in(frame)
     right, up = roller(run, "main")
     along, across = force_on(run, "main", "disc")
     torque = run.calculations["shafts_main_loads"].curve_samples("disc_torque")[0] * SENSES["main"]
+    torque *= np.where(torque * SENSES["main"] < 0, LOST, 1 / LOST)  # what is lost between the shaft and the roller
     assert np.abs(torque).max() > 900
     np.testing.assert_allclose(right * across - up * along, torque, atol=1e-6 * np.abs(torque).max())
 

@@ -1,20 +1,27 @@
-"""Other values in a machine of parts: what is varied is what its parts do not depend on, and each variant is the file with that value."""
+"""Other values in a machine of parts: its parts are made anew with them, and each variant is the file with its values."""
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from diecut_report.cli.main import main
+from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
 from diecut_report.design.inputs import free_input, given_numbers, untied
 from diecut_report.design.machines import varied
 from diecut_report.errors import UserError
 from diecut_report.press import Press
-from diecut_report.study.definition.base_inputs import UnknownPath, varied_input
+from diecut_report.study.analysis.variant_config import variant_config
+from diecut_report.study.definition.base_inputs import UnknownPath, is_of_parts, present_value, varied_input
+from diecut_report.study.definition.study_file import load_study
+from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.config.parts.test_parts import FILE
 from tests.examples import few
 
@@ -33,12 +40,22 @@ def press() -> Press:
 
 
 @pytest.mark.parametrize(("name", "why"), TIED, ids=[name for name, _ in TIED])
-def test_what_follows_from_the_parts_or_they_from_it_is_not_varied(name: str, why: str) -> None:
-    with pytest.raises(UnknownPath, match=why):
-        varied_input(press().config, f"mechanisms.{name}")
+def test_what_follows_from_the_parts_is_not_varied_and_a_question_changes_none_that_they_are_made_with(
+    name: str, why: str
+) -> None:
+    if why == FOLLOWS:
+        with pytest.raises(UnknownPath, match=why):
+            varied_input(press().config, f"mechanisms.{name}")
+    else:
+        assert is_of_parts(press().config, varied_input(press().config, f"mechanisms.{name}"))
     if name not in ("timing.lines.0.turns_per_sheet", "drive.pinion_radius"):  # a text, and one that refers
         with pytest.raises(UserError, match=why):
             free_input(press().config, name)
+
+
+def test_what_follows_says_where_it_is_typed() -> None:
+    with pytest.raises(UnknownPath, match=r"vary shafts\.main\.sections\.0\.diameter in its place"):
+        varied_input(press().config, "mechanisms.shafts_main.sections.0.diameter")
 
 
 def test_a_place_in_a_list_is_the_same_with_a_leading_zero() -> None:
@@ -47,8 +64,127 @@ def test_a_place_in_a_list_is_the_same_with_a_leading_zero() -> None:
         "of: cross.crank, at: 52", 'of: cross.crank, at: "${timing.lines.01.path_efficiency} / 0.95 * 52 mm"'
     )
     config = Press.read(parse(text, "a.yaml"), Discovery([])).config
-    with pytest.raises(UnknownPath, match=MADE_WITH):
-        varied_input(config, "mechanisms.timing.lines.1.path_efficiency")
+    assert is_of_parts(config, varied_input(config, "mechanisms.timing.lines.1.path_efficiency"))
+
+
+# What stands at the parts themselves.
+
+PLACES = [
+    ("shafts.main.sections.2.diameter", "m"), ("shafts.main.sections.2.bore", "m"), ("shafts.main.parts.wheel.hub", "m"),
+    ("shafts.main.parts.2.hub", "m"), ("shafts.rocker.parts.arm.pin.span_end", "m"), ("shafts.main.parts.a.designation", None),
+    ("shafts.main.parts.a.limiting_speed", "rad/s"), ("shafts.main.allowable_twist", "rad/m"), ("meshes.sector.teeth_2", "1"),
+    ("meshes.sector.application_factor", "1"), ("chains.grippers.links", "1"), ("belts.motor.diameter_2", "m"), ("belts.motor.section", None),
+    ("machine.required_life", "s"), ("machine.gears.sigma_h_lim", "Pa"), ("machine.frame.motor.1", "m"), ("shafts.motor.motor.speed", "rad/s"),
+]  # fmt: skip
+NO_PLACES = [
+    ("shafts.nope.left", "names no part"), ("shafts", "names no part"), ("shafts.main.sections.4.diameter", "its list is shorter"),
+    ("shafts.main.parts.wheel", "is no number or text"), ("shafts.main.sections", "is no number or text"), ("machine", "is no number or text"),
+    ("machine.frame.nope.0", "its list is shorter"), ("meshes.sector.nope", "is no number or text"), ("machine.frame.motor.2", "its list is shorter"),
+    ("shafts.main.parts.nope.hub", "is no number or text"), ("shafts.main.allowable_slope", "is no number or text"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("path", "unit"), PLACES, ids=[path for path, _ in PLACES])
+def test_a_number_or_text_of_a_part_is_varied_by_its_place(path: str, unit: str | None) -> None:
+    found = varied_input(press().config, path)
+    assert found.unit == unit and is_of_parts(press().config, found)
+    assert present_value(press().config, found) is not None or path.endswith("bore")
+
+
+@pytest.mark.parametrize(("path", "why"), NO_PLACES, ids=[path for path, _ in NO_PLACES])
+def test_what_is_no_place_of_a_part_is_told(path: str, why: str) -> None:
+    with pytest.raises(UnknownPath, match=why):
+        varied_input(press().config, path)
+
+
+def changed(*changes: tuple[str, str]) -> Press:
+    text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    return Press.read(parse(text, str(FILE)), Discovery([]))
+
+
+def test_each_machine_of_other_parts_is_the_file_with_these_parts() -> None:
+    """Numbers are calculated together, another bearing or what the parts make otherwise by itself; what contradicts itself says so."""
+    values: dict[str, list[Any]] = {
+        "shafts.main.sections.2.diameter": [0.09, 0.092, 0.092, 0.09],
+        "shafts.main.parts.b.designation": ["6217", "6217", "6317", "6217"],
+        "meshes.crank_drive.teeth_1": [24, 24, 24, 20],
+        "chains.grippers.pretension": [1000, 1200, 1000, 1000],
+        "mechanisms.clutch.shoe_radius": [0.14, 0.138, 0.14, 0.14],
+        "mechanisms.clutch.wedge_friction": [0.1, 0.1, 0.11, 0.1],
+    }
+    inputs = {varied_input(press().config, path): given for path, given in values.items()}
+    rows = calculate_rows(
+        press().config,
+        {asked: np.array(given, dtype=None if asked.unit else object) for asked, given in inputs.items()},
+        4,
+    )
+    assert [*rows.errors[:3]] == [None] * 3 and rows.status[3] == "error"
+    assert "puts the axes 204 mm apart" in rows.errors[3]
+    thick = ("90x330", "92x330")
+    files = (
+        (
+            thick,
+            ("pretension: 1000", "pretension: 1200"),
+            ("shoe_radius: {value: 140 mm", "shoe_radius: {value: 138 mm"),
+        ),
+        (
+            thick,
+            ('at: 497, designation: "6217"', 'at: 497, designation: "6317"'),
+            ("wedge_friction: 0.1", "wedge_friction: 0.11"),
+        ),
+    )
+    for row, file in enumerate(files, 1):
+        alone = calculate_rows(changed(*file).config, {}, 1)
+        assert alone.columns.keys() == rows.columns.keys() and alone.verdict[0] == rows.verdict[row]
+        for name, column in alone.columns.items():
+            own, there = column[0], rows.columns[name][row]
+            same = (
+                own == there
+                if isinstance(own, str | bool | None)
+                else np.isclose(own, there, rtol=1e-9, atol=1e-12, equal_nan=True)
+            )
+            assert same, (name, own, there)
+
+
+STUDY = """\
+schema_version: 1
+base: press.yaml
+sample: {method: zip}
+vary:
+  shafts.main.sections.2.diameter: [90 mm, 92 mm]
+  shafts.main.parts.wheel.key: [90 mm, 80 mm]
+  meshes.main_drive.teeth_2: [87, 86]
+outputs: [shafts_main_body.mass]
+"""
+
+
+def test_a_variant_of_parts_is_taken_as_a_file_that_differs_where_they_are_typed(tmp_path: Path) -> None:
+    base = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
+    (tmp_path / "press.yaml").write_text(base, "utf-8")
+    (tmp_path / "study.yaml").write_text(STUDY.replace("teeth_2: [87, 86]", "width: [50 mm, 48 mm]"), "utf-8")
+    assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--quiet"]) == 1
+    assert main(["take", str(tmp_path / "out#1"), "-o", str(tmp_path / "own.yaml"), "--quiet"]) == 0
+    before, after = base.splitlines(), (tmp_path / "own.yaml").read_text("utf-8").splitlines()[1:]
+    lines = [new for old, new in zip(before, after, strict=True) if old != new]
+    assert [re.search("92x330|key: 80 mm|width: 48 mm", line) is not None for line in lines] == [True] * 3
+    tree = variant_config(tmp_path / "out", 1, Discovery([]), "v")
+    variant, own = (load_config(each, Discovery([])).tree.data["mechanisms"] for each in (tree, tmp_path / "own.yaml"))
+    assert variant == own
+
+
+def test_a_condition_names_what_is_typed_and_not_what_follows_from_it(tmp_path: Path) -> None:
+    (tmp_path / "press.yaml").write_text(FILE.with_stem("flat_cylinder_corrected").read_text("utf-8"), "utf-8")
+    limits = ["shafts.main.sections.2.diameter < '91 mm'", "mechanisms.shafts_main.sections.1.diameter < '90 mm'"]
+    for limit, is_known in zip(limits, (True, False), strict=True):
+        (tmp_path / "study.yaml").write_text(f'{STUDY}constraints: ["{limit}"]\n', "utf-8")
+        if is_known:
+            load_study(tmp_path / "study.yaml", Discovery([]))
+            continue
+        with pytest.raises(UserError, match="follows from the parts of the machine, which vary"):
+            load_study(tmp_path / "study.yaml", Discovery([]))
 
 
 @pytest.mark.nightly
