@@ -87,6 +87,14 @@ class Brake(Block):
     ratio: Annotated[float, Quantity("i_B", "1", "Speed of its shaft for each of the main shaft")]
 
 
+class HeldBrake(Block):
+    """A brake behind a clutch, on a shaft that turns steadily."""
+
+    name: Annotated[str, Text("Name of the brake")]
+    torque: Annotated[float, Quantity("M_h", "N*m", "Torque of the brake on its shaft", gt=0)]
+    ratio: Annotated[float, Quantity("i_H", "1", "Speed of its shaft for each of the main shaft")]
+
+
 class DriveLine(Inputs):
     """Keys of ``drive_line``."""
 
@@ -99,7 +107,7 @@ class DriveLine(Inputs):
     rolling: Annotated[list[Rolling], Text("Chains that roll a cylinder")] = []  # noqa: RUF012
     belts: Annotated[list[Belt], Text("V-belts")] = []  # noqa: RUF012
     brakes: Annotated[list[Brake], Text("Brakes that stop the flywheel")] = []  # noqa: RUF012
-    clutch_brakes: Annotated[list[Brake], Text("Brakes behind a clutch, which hold what it drives and do not stop the flywheel")] = []  # noqa: RUF012
+    clutch_brakes: Annotated[list[HeldBrake], Text("Brakes behind a clutch, which hold what it drives and do not stop the flywheel")] = []  # noqa: RUF012
 
 
 turning = Chapter("Speeds of the shafts")

@@ -84,7 +84,7 @@ class PressConsistency(Inputs):
     clutch_load: Annotated[float, Quantity("M_l", "N*m", "Load torque of the driven side during slip", ge=0)] = 0
     clutch_speed: Annotated[float | None, Quantity("ω_c", "rpm", "Speed of the clutch's driving side", gt=0)] = None
     clutch_turns: Annotated[float | None,
-        Quantity("i_c", "1", "Revolutions of the clutch per revolution of the crank; default: by its speed", gt=0)] = None
+        Quantity("i_ct", "1", "Revolutions of the clutch per revolution of the crank; default: by its speed", gt=0)] = None
     clutch_inertia: Annotated[float | None, Quantity("J_c", "kg*m**2", "Moment of inertia used in the clutch's calculation", gt=0)] = None
     clutch_drives: Annotated[list[str], Text("Lines of the cyclogram that the clutch couples, by name")] = []  # noqa: RUF012
     single_position: Annotated[bool, Text("Clutch engages at one angle only")] = False

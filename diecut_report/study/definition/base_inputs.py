@@ -141,7 +141,7 @@ def _part_input(base: Config, parts: MachineParts, path: str) -> Input:
         made = find_input(base, ".".join(map(str, (MECHANISMS, *node))))
         return replace(made, path=path, instance=str(key[0]), key=key[1:])
     known = ", ".join(name for name, each in keys_of(model).items() if isinstance(each.meta, Quantity))
-    template = "is no number or text that is typed at a part in the base; give it there first, or vary another one, such as {known}."
+    template = "is not a number or text that is typed at a part in the base; give it there first, or vary another one, such as {known}."
     raise UnknownPath(template, known=known)
 
 

@@ -76,11 +76,12 @@ PLACES = [
     ("meshes.sector.application_factor", "1"), ("chains.grippers.links", "1"), ("belts.motor.diameter_2", "m"), ("belts.motor.section", None),
     ("machine.required_life", "s"), ("machine.gears.sigma_h_lim", "Pa"), ("machine.frame.motor.1", "m"), ("shafts.motor.motor.speed", "rad/s"),
 ]  # fmt: skip
+NOTHING = "is not a number or text"
 NO_PLACES = [
     ("shafts.nope.left", "names no part"), ("shafts", "names no part"), ("shafts.main.sections.4.diameter", "its list is shorter"),
-    ("shafts.main.parts.wheel", "is no number or text"), ("shafts.main.sections", "is no number or text"), ("machine", "is no number or text"),
-    ("machine.frame.nope.0", "its list is shorter"), ("meshes.sector.nope", "is no number or text"), ("machine.frame.motor.2", "its list is shorter"),
-    ("shafts.main.parts.nope.hub", "is no number or text"), ("shafts.main.allowable_slope", "is no number or text"),
+    ("shafts.main.parts.wheel", NOTHING), ("shafts.main.sections", NOTHING), ("machine", NOTHING),
+    ("machine.frame.nope.0", "its list is shorter"), ("meshes.sector.nope", NOTHING), ("machine.frame.motor.2", "its list is shorter"),
+    ("shafts.main.parts.nope.hub", NOTHING), ("shafts.main.allowable_slope", NOTHING),
 ]  # fmt: skip
 
 
