@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from diecut_report.config.catalogues import catalogues_for, lacking
 from diecut_report.config.loader import FOLLOWS, Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
+from diecut_report.config.parts.reading import typed_changes
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import rewritten
 from diecut_report.config.yaml import KeyPath, Tree, dotted
@@ -134,6 +135,7 @@ class Press:
             tree = parts.reader.tree  # what follows from the parts is worked out again
             if derived := next((path for path in values if parts.follows(path[1:])), None):
                 raise refusal("{path} {reason}", tree.file, path=dotted(derived[1:]), reason=FOLLOWS)
+            values = {place: str(text) for place, text in typed_changes(tree, values).items()}
         changed = rewritten(tree, values, self.config.units(values), over_references=over_references)
         return replace(self, config=load_config(changed, self.discovery))
 

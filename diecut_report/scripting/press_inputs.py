@@ -25,7 +25,7 @@ from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
 from diecut_report.scripting.parts import PartList
 from diecut_report.scripting.values import QuantityValue, notebook_page, typed
-from diecut_report.study.definition.base_inputs import MECHANISMS, UnknownPath, find_input
+from diecut_report.study.definition.base_inputs import MECHANISMS, UnknownPath, find_input, typed_place, varied_input
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, speaking
@@ -147,14 +147,17 @@ def placed(config: Config, name: str, value: Any) -> tuple[KeyPath, str]:
     key: KeyPath = tuple(int(part) if part.isdigit() else part for part in rest)
     if first in ("project", "report"):
         return (first, *key), typed(value, name)
+    is_of_parts = first in WORDS and config.parts is not None
     try:
-        found = find_input(config, whole_path(name))
+        found = varied_input(config, name) if is_of_parts else find_input(config, whole_path(name))
     except UnknownPath as fault:
         raise ConfigError(Problem(str(fault), config.tree.file, path=name)) from None
-    instance = config.instances[found.instance]
-    assert instance is not None, "an input of a broken plugin is not found"
-    tree, place = instance.place.stands(found.key)
     if isinstance(value, str) and isinstance(found.meta, Quantity):
         with suppress(UnitError):  # of an expression, or of what is judged when it is read
             value = with_point(value)
+    if is_of_parts:
+        return typed_place(config, found), typed(value, name)
+    instance = config.instances[found.instance]
+    assert instance is not None, "an input of a broken plugin is not found"
+    tree, place = instance.place.stands(found.key)
     return place if tree is config.tree else (*instance.place.root, *found.key), typed(value, name)

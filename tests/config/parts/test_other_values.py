@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from diecut_report import ConfigError, load
 from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
@@ -148,6 +149,28 @@ def test_each_machine_of_other_parts_is_the_file_with_these_parts() -> None:
                 else np.isclose(own, there, rtol=1e-9, atol=1e-12, equal_nan=True)
             )
             assert same, (name, own, there)
+
+
+def test_a_script_changes_the_parts_by_their_places() -> None:
+    machine = load(FILE.with_stem("flat_cylinder_corrected"))
+    changes = {
+        "shafts.main.sections.2.diameter": "9.2 cm",
+        "shafts.main.parts.b.designation": "6317",
+        "meshes.main_drive.width": 48,
+    }
+    other = machine.with_values(changes)
+    text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
+    for old, new in (
+        ("90x330", "92x330"),
+        ('"6217", limiting', '"6317", limiting'),
+        ("module: 5, width: 50", "module: 5, width: 48"),
+    ):
+        text = text.replace(old, new, 1)
+    assert other.text == text
+    with pytest.raises(ConfigError, match="names no part of the machine"):
+        machine.with_values({"shafts.nope.left": 3})
+    with pytest.raises(ConfigError, match="has a bore of 85 mm, but sits on a diameter of 86 mm"):
+        machine.with_values({"shafts.main.sections.1.diameter": 86})
 
 
 STUDY = """\
