@@ -459,21 +459,25 @@ def placed_findings(parts: MachineParts | None, kind: str) -> tuple[PlacedFindin
     )
 
 
+def finding_check(level: str, texts: Sequence[Phrase]) -> Check:
+    """Return the check of what warns, or fails, of the parts."""
+    is_failure = level == "fail"
+    title, label = (
+        (phrase("Torque carried"), phrase("parts that nothing joins to their shaft")) if is_failure
+        else (phrase("Parts that fit each other"), phrase("doubtful places"))
+    )  # fmt: skip
+    return Check(
+        id=CARRIED if is_failure else FITS, title=title, check_class="function" if is_failure else "practice",
+        severity="fail" if is_failure else "warn", demand=CARRIED if is_failure else FITS, limit=0.0, unit="1", demand_label=label,
+        limit_label=phrase("allowed"), consequence=Phrase("{findings}.", findings=joined(texts, "; ")),
+    )  # fmt: skip
+
+
 def note_findings(calc: Calculation, findings: Sequence[PlacedFinding]) -> None:
     """Give the calculation of the drive line the checks of its parts; those that nothing contradicts are left out."""
     checks = []
-    for level, id, title, label in (
-        ("warning", FITS, phrase("Parts that fit each other"), phrase("doubtful places")),
-        ("fail", CARRIED, phrase("Torque carried"), phrase("parts that nothing joins to their shaft")),
-    ):
-        texts = [text for own, text in findings if own == level]
-        if texts:
-            calc.values[id] = np.full((calc.count, 1), float(len(texts)))
-            checks.append(
-                Check(
-                    id=id, title=title, check_class="function" if level == "fail" else "practice", severity="fail" if level == "fail" else "warn",
-                    demand=id, limit=0.0, unit="1", demand_label=label, limit_label=phrase("allowed"),
-                    consequence=Phrase("{findings}.", findings=joined(texts, "; ")),
-                )
-            )  # fmt: skip
+    for level in ("warning", "fail"):
+        if texts := [text for own, text in findings if own == level]:
+            checks.append(finding_check(level, texts))
+            calc.values[checks[-1].id] = np.full((calc.count, 1), float(len(texts)))
     calc.further_checks = (*(each for each in calc.further_checks if each.id not in (FITS, CARRIED)), *checks)

@@ -35,6 +35,7 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI
 from diecut_report.mechanism.steps import PREFIX
 from diecut_report.quantities.plausible import without_rounding
+from diecut_report.results.coherence import note_findings, placed_findings
 from diecut_report.results.open_items import doubtful, open_values, unrated_forces, varied_open
 from diecut_report.results.origins import Absent, number, output, require_facts
 from diecut_report.results.press_run import Run, Tell
@@ -257,6 +258,7 @@ class _Rows(Run):
         found.unfounded = self.bases.unfounded(instance, block)
         self.calculations[name] = found
         self._slips(instance, note_usual(found, instance, block, beside))
+        note_findings(found, placed_findings(self.config.parts, instance.mechanism.kind))
         for row, (key, message) in found.flaws.items():
             self._reason([row], _flaw_text(instance, key, message))
         for missed in found.withheld.values():

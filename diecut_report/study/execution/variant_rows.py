@@ -13,7 +13,8 @@ import numpy as np
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.parts.expansion import with_parts
+from diecut_report.config.parts.expansion import Expanded, with_parts
+from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import said
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.yaml import KeyPath, Scalar
@@ -46,6 +47,7 @@ from diecut_report.results.checks import (
     missing_checks,
     rests_on_typing,
 )
+from diecut_report.results.coherence import DRIVE_LINE, finding_check
 from diecut_report.results.press_run import Tell
 from diecut_report.results.usual import usual_check
 from diecut_report.standards.ranges import ranges_of
@@ -166,6 +168,8 @@ def _checks(name: str, instance: Instance) -> Iterator[ResultColumn]:
             yield from _check(name, check)
     if ranges_of(mechanism.kind):
         yield from _check(name, usual_check([]))
+    for level in ("warning", "fail") if mechanism.kind == DRIVE_LINE else ():
+        yield from _check(name, finding_check(level, []))
 
 
 def _check(name: str, check: Check) -> Iterator[ResultColumn]:
@@ -379,7 +383,7 @@ def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list
             rows.errors[alike] = f"{made.problems[0].path}: {made.problems[0].message}"
             rows.status[alike] = "error"
             continue
-        numbers, structure = known.differing(made.tree.data[MECHANISMS])
+        numbers, structure = known.differing(made)
         first.setdefault(structure, changes)
         group = found.setdefault(structure, ([], []))
         group[0].extend([numbers] * len(alike))
@@ -409,13 +413,14 @@ class _Leaves:
 
     def __init__(self, base: Config) -> None:
         self.base, self.today = base, dict(_leaves(base.tree.data[MECHANISMS]))
+        self.found = _findings(base.parts)
         self._inputs: dict[KeyPath, Input | None] = {}
 
-    def differing(self, data: Any) -> tuple[dict[Input, float], frozenset[Any]]:
-        """Return the numbers that differ (SI), and all else that does: by it the calculations are others."""
+    def differing(self, made: Expanded) -> tuple[dict[Input, float], frozenset[Any]]:
+        """Return the numbers that differ (SI), and all else that does, also what is doubtful of the parts: by it the calculations are others."""
         numbers: dict[Input, float] = {}
-        rest: set[Any] = {(path, None) for path in self.today}
-        for path, value in _leaves(data):
+        rest: set[Any] = {(path, None) for path in self.today} | (self.found ^ _findings(made.parts))
+        for path, value in _leaves(made.tree.data[MECHANISMS]):
             rest.discard((path, None))
             if path in self.today and self.today[path] == value:
                 continue
@@ -438,6 +443,11 @@ class _Leaves:
                     found if isinstance(found.meta, Quantity) and found.node not in self.base.links else None
                 )
         return self._inputs[own]
+
+
+def _findings(parts: MachineParts | None) -> set[Any]:
+    """What only warns or fails of the parts, each with where."""
+    return {(each.level, each.rule, each.path) for each in parts.findings} if parts else set()
 
 
 def _leaves(data: Any, path: KeyPath = ()) -> Iterator[tuple[KeyPath, Any]]:

@@ -151,6 +151,18 @@ def test_each_machine_of_other_parts_is_the_file_with_these_parts() -> None:
             assert same, (name, own, there)
 
 
+def test_what_is_doubtful_of_the_parts_is_told_of_each_machine() -> None:
+    """An odd number of links warns; of the file alone the same."""
+    links = varied_input(press().config, "chains.cylinder.links")
+    rows = calculate_rows(press().config, {links: np.array([120.0, 121.0, 120.0])}, 3)
+    status = "drive_line.checks.parts_fit.status"
+    assert list(rows.columns[status]) == [None, "warn", None]
+    alone = calculate_rows(
+        changed(("teeth: 27, chain: 16B, links: 120", "teeth: 27, chain: 16B, links: 121")).config, {}, 1
+    )
+    assert alone.columns[status][0] == "warn"
+
+
 def test_a_script_changes_the_parts_by_their_places() -> None:
     machine = load(FILE.with_stem("flat_cylinder_corrected"))
     changes = {
