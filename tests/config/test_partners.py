@@ -15,6 +15,7 @@ from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.press import Press
 from diecut_report.results.mechanism_record import MechanismRecord
 from diecut_report.study.definition.base_inputs import find_input, with_values
+from diecut_report.testing.contract import ContractTest
 from tests.configs import DISCOVERY, HEAD, loaded, problems, saved
 from tests.processes import Example
 
@@ -153,3 +154,20 @@ def test_the_example_press_is_held_against_itself(example: Example) -> None:
     assert checks["actual_rate"] == "warn"
     assert checks["format_rolled"] == "pass"
     assert checks["damper_velocity"] == "pass"
+
+
+@pytest.mark.parametrize(
+    ("partner", "words"),
+    [
+        (Partner(key="drive", kinds=("cylinder_driv",), takes={"stroke": "stroke"}), ["no plugin has the kind cylinder_driv of a partner"]),
+        (Partner(key="drive", kinds=("cylinder_drive",), takes={"stroke": "strok"}), ["no partner of kind cylinder_drive has strok;"]),
+        (Partner(key="chain", kinds=("roller_chain",), takes={}, unless={"aceleration": "cylinder_drv"}),
+         ["no plugin has the kind cylinder_drv", "no partner of kind roller_chain has aceleration;"]),
+    ],
+)  # fmt: skip
+def test_what_no_plugin_has_of_a_partner_is_noted(partner: Partner, words: list[str]) -> None:
+    """Its checks would vanish without a word; what the program itself declares is known."""
+    for partners, expected in ((MECHANISM.partners, []), ((partner,), words)):
+        doubts = ContractTest(replace(MECHANISM, partners=partners), DISCOVERY).doubts()
+        found = [text for text in map(str, doubts.faults) if "partner" in text]
+        assert len(found) == len(expected) and all(part in text for part, text in zip(expected, found, strict=True))
