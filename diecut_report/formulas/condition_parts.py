@@ -6,7 +6,7 @@ import ast
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import lru_cache, reduce
 from itertools import chain
 from typing import Any, Literal, cast
 
@@ -517,10 +517,15 @@ class Expression:
         )
 
 
+@lru_cache(maxsize=4096)  # a machine of parts has the same five hundred each time that it is read
+def _whole(text: str) -> Parsed:
+    return parsed(calculation(text))
+
+
 def read_expression(text: str, find: Find) -> Expression:
     """Read an expression; ConditionError in words, with the place, for what it may not say. ``find`` says what a reference is."""
     try:
-        whole = parsed(calculation(text))
+        whole = _whole(text)
         made = quantity(ConditionReader(whole, find, exact=True).part(whole.body, 0))
     except ConditionError as fault:
         text_of_fault: str = fault.words  # which tells of conditions

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from math import acos, asin, cos, hypot, pi, sin
 
 
@@ -10,6 +11,7 @@ def crank_radius(center_distance: float, slots: float) -> float:
     return center_distance * sin(pi / slots)
 
 
+@lru_cache(maxsize=256)  # of one wheel it is asked for again and again
 def area_and_polar(
     slots: int, center_distance: float, roller_radius: float, locking_radius: float | None, bore: float
 ) -> tuple[float, float]:

@@ -128,6 +128,7 @@ class Demands:
     twice: list[tuple[KeyPath, KeyPath]] = field(default_factory=list)  # typed keys that follow, each with from where
     counted: set[KeyPath] = field(default_factory=set)  # typed efficiencies that count in a torque
     _torques: dict[ShaftPart, dict[str, Any] | None] = field(default_factory=dict)
+    _inertias: dict[str, dict[ShaftPart | None, dict[str, Any]]] = field(default_factory=dict)
 
     def _beside(
         self,

@@ -53,6 +53,11 @@ class ShaftElements(Masses, LoadCases):
 
         A chain that rolls a cylinder is of its driving sprockets, an even share of each.
         """
+        if shaft.name not in self._inertias:
+            self._inertias[shaft.name] = self._made_inertias(shaft)
+        return self._inertias[shaft.name]
+
+    def _made_inertias(self, shaft: MachineShaft) -> dict[ShaftPart | None, dict[str, Any]]:
         whole = self.inertia_of(shaft)
         if whole is None:
             return {}
