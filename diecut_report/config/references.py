@@ -22,6 +22,7 @@ import yaml
 
 from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
 from diecut_report.config.model import PRESS, texts
+from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, ConfigPlace, declared, value_at
 from diecut_report.config.yaml import LOADER, KeyPath, Scalar, Tree, dotted, parse
 from diecut_report.errors import Problem, UserError, nearest, seeming_latin
@@ -367,7 +368,12 @@ def assumed_bases(tree: Tree, values: Mapping[KeyPath, Scalar], units: Mapping[K
         for path, value in values.items()
         if path[-1:] == ("value",) and _differs(tree.typed(path), value, units.get(path, ""))
     )
-    bases = ((*path, "basis") for path in moved)
+    bases = [(*path, "basis") for path in moved]
+    is_inherited = any(
+        path[0] in WORDS and path[-1] != "value" and _differs(tree.typed(path), value, units.get(path, "mm"))
+        for path, value in values.items()
+    )
+    bases += [("machine", "basis")] if is_inherited else []  # of all numbers of the parts that do not say their own
     return {path: ASSUMED for path in bases if tree.typed(path) in OF_ONE_VALUE}
 
 

@@ -40,6 +40,14 @@ engagement.require("clutch_pulls", lambda clutch_load, clutch_torque: clutch_loa
         "engaging")
 RATIO = ("clutch_ratio", "i_c", "1")
 ON_OUTPUT = ("output_speed", "output_turns_per_sheet", "productivity")
+engagement.require("one_ratio",
+    bind(lambda clutch_turns, clutch_speed, crank_speed, tolerance:
+        abs(clutch_speed - clutch_turns * crank_speed) <= tolerance * clutch_turns * crank_speed, tolerance=clutch.ONE_SHAFT),
+    key="clutch_turns", needs=("clutch_turns",),
+    message="is {clutch_turns}, but the clutch turns at {clutch_speed} and the crank at {crank_speed}; give their ratio, or leave the key out")
+engagement.require("one_position", lambda single_position: single_position, key="engagement_angle", needs=("engagement_angle",),
+    message="is {engagement_angle}, but a friction clutch engages at any angle; say single_position where a pin lets it engage there alone, or "
+        "leave the key out")
 engagement.value(*RATIO, "Revolutions of the clutch per revolution of the crank: as given", lambda clutch_turns: clutch_turns, source="input",
     needs=("clutch_turns",), output=False)
 ON_CRANK = case(lambda: 1, "it is on the crank's shaft: its driving side is at most a tenth faster or slower",

@@ -168,6 +168,21 @@ def test_lines_whose_inertia_nobody_compares_are_told(drives: list[str], expecte
     assert ("consistency.driven_inertia" in found) == inertia
 
 
+@pytest.mark.parametrize(
+    ("typed", "words"),
+    [
+        ({"clutch_turns": 2}, "but the clutch turns at"),
+        ({"engagement_angle": "0 deg"}, "a friction clutch engages at any angle"),
+    ],
+)
+def test_no_word_makes_an_engagement_mild(typed: dict[str, Any], words: str) -> None:
+    """A clutch on the crank's shaft turned half as fast by a typed ratio, and began to slip where that makes least heat."""
+    with pytest.raises(Impossible, match=words):
+        consistency(example_keys(), **typed)
+    pinned = consistency(example_keys(), engagement_angle="0 deg", single_position=True)
+    assert number(pinned, "slip_heat") < number(the_example(), "slip_heat")
+
+
 def test_the_drive_gives_all_that_its_crank_moves() -> None:
     """The greatest kinetic energy that the drive tells is that of the inertia at the crank, where nothing is out of balance."""
     moved = drive(pinion_inertia="0.3 kg*m**2", rocker_inertia="6 kg*m**2", static_unbalance=0)
@@ -351,7 +366,7 @@ def test_where_the_drive_is_always_slower_the_way_is_the_stroke() -> None:
 
 
 def test_an_engagement_angle_that_is_given_is_taken() -> None:
-    found = consistency(example_keys(), engagement_angle="90 deg")
+    found = consistency(example_keys(), engagement_angle="90 deg", single_position=True)
     assert number(found, "start_angle") == pytest.approx(np.pi / 2)
     assert number(found, "slip_heat") < number(consistency(example_keys()), "slip_heat")
 

@@ -131,8 +131,12 @@ def retyped(parts: MachineParts, changes: Mapping[KeyPath, Scalar]) -> Tree:
 
 
 def with_parts(parts: MachineParts, changes: Mapping[KeyPath, Scalar], kinds: Mapping[str, Mechanism]) -> Expanded:
-    """Return the file with these values in the places of what is typed, and the calculations that are made of it then."""
-    return expanded(retyped(parts, changes), kinds.get)
+    """Return the file with these values in the places of what is typed, and the calculations that are made of it then.
+
+    What is wrong with it names a second place by its line in the base, wherever that is read from.
+    """
+    tree = retyped(parts, changes)
+    return expanded(Tree(tree.root, "base", tree.text, tree.sha256, tree.name, tree.problems), kinds.get)
 
 
 def refused(parts: MachineParts, changes: Mapping[KeyPath, str], kinds: Mapping[str, Mechanism]) -> bool:

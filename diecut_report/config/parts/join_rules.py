@@ -140,6 +140,23 @@ def losses(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
                 there=f"{there:.4g}", said=f"{said:.4g}", name=name)  # fmt: skip
 
 
+def clutch_lines(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
+    """The lines that a clutch is said to drive are those behind it."""
+    taking = [
+        part
+        for shaft in parts.shafts.values()
+        for part in shaft.parts
+        if (port := elements.port(part)) and port.torque and not port.angle
+    ]
+    behind = {part.port[0] for part in taking if part.port and parts.is_behind_clutch(part)}
+    consistency = elements.named("press_consistency")
+    typed = elements.blocks[consistency].get("clutch_drives") if consistency else None
+    if behind and isinstance(typed, list) and {str(each) for each in typed} != behind:
+        template = "is {typed}, but of the parts the clutch drives {behind}; name these"
+        yield finding(parts, "losses", "error", ("mechanisms", str(consistency), "clutch_drives"), template,
+            typed=", ".join(map(str, typed)), behind=", ".join(sorted(behind)))  # fmt: skip
+
+
 def one_belt(parts: MachineParts) -> Iterator[Finding]:
     """One belt is calculated, with the drive train, which knows the motor that pulls it."""
     for join in [each for each in parts.joins if each.word == "belts"][1:]:

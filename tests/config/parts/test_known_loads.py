@@ -209,6 +209,7 @@ def test_a_clutch_on_a_shaft_that_drives_two_parts_is_engaged_through_both() -> 
          "      - {gear: wheel, at: 200, rides_on: clutch}"),
         ("- {clutch: clutch, at: 130, hub: 80,", "- {coupling: sleeve, at: 130, hub: 80,"),
         ("- {gear: wheel, at: 130, rides_on: clutch}", "- {gear: wheel, at: 130, rides_on: sleeve}"),
+        ("clutch_drives: [drive]", "clutch_drives: [drive, cross]"),
     )  # fmt: skip
     assert problems == []
     cases = [(each["name"], each["enters"], each["leaves"]) for each in made["shafts_main"]["load_cases"]]
@@ -868,6 +869,7 @@ def test_flywheel_and_pulley_on_a_clutch_pass_it_what_the_pinion_takes() -> None
         ("- {flywheel: rim, at: 170, hub: 82, key: 70,", "- {flywheel: rim, at: 170, rides_on: clutch,"),
         ("- {clutch: clutch, at: 130, hub: 80,", "- {coupling: sleeve, at: 130, hub: 80,"),
         ("rides_on: clutch}\n      - {bearing: b, at: 270", "rides_on: sleeve}\n      - {bearing: b, at: 270"),
+        ("clutch_drives: [drive]", "clutch_drives: [drive, cross]"),
     )  # fmt: skip
     assert made["clutch"]["torque_curve"] == "${shafts_flywheel_loads.pinion_torque}"
 
@@ -894,3 +896,10 @@ def test_a_chain_over_idlers_pulls_in_its_direction() -> None:
 
 
 LINE = "turns_per_sheet: 1/2, path_efficiency: {value: 0.97, basis: assumed, note: the pair u = 2}"
+
+
+@pytest.mark.parametrize(("drives", "is_right"), [("[drive]", True), ("[cross]", False), ("[drive, cross]", False)])
+def test_the_lines_of_a_clutch_are_those_behind_it(drives: str, is_right: bool) -> None:
+    assert (
+        "of the parts the clutch drives drive" in told(("clutch_drives: [drive]", f"clutch_drives: {drives}"))
+    ) != is_right

@@ -211,6 +211,21 @@ def test_a_variant_of_parts_is_taken_as_a_file_that_differs_where_they_are_typed
     assert variant == own
 
 
+def test_a_part_of_a_measured_machine_that_is_changed_is_not_measured() -> None:
+    """Its basis is that of all parts, of which one is another now."""
+    measured = changed(("basis: drawing # of the dimensions", "basis: measured # of the dimensions"))
+    same = measured.with_values({("shafts", "main", "parts", 2, "at"): "200 mm"})
+    other = measured.with_values({("shafts", "main", "parts", 2, "key"): "80 mm"})
+    assert [each.config.parts.keys.basis for each in (same, other) if each.config.parts] == ["measured", "assumed"]
+
+
+def test_the_reason_of_a_machine_names_no_place_of_the_disk() -> None:
+    """Where the base is read from is not of the study: equal studies have equal bytes."""
+    teeth = varied_input(press().config, "meshes.crank_drive.teeth_1")
+    reason = calculate_rows(press().config, {teeth: np.array([20.0])}, 1).errors[0]
+    assert "(against base:" in reason and "/" not in reason
+
+
 def test_a_condition_names_what_is_typed_and_not_what_follows_from_it(tmp_path: Path) -> None:
     (tmp_path / "press.yaml").write_text(FILE.with_stem("flat_cylinder_corrected").read_text("utf-8"), "utf-8")
     limits = ["shafts.main.sections.2.diameter < '91 mm'", "mechanisms.shafts_main.sections.1.diameter < '90 mm'"]
