@@ -190,11 +190,11 @@ class Config:
         known = {path: meta.unit for path, meta in slots if isinstance(meta, Quantity)}
         return {path: known[path] for path in places if path in known}
 
-    def with_parts(self, changes: Mapping[KeyPath, Scalar]) -> Config | None:
-        """Return the machine with these values in the places of its parts; None where it cannot be."""
+    def with_parts(self, changes: Mapping[KeyPath, Scalar]) -> tuple[Config, list[Problem]]:
+        """Return the machine with these values in the places of its parts, and what is wrong with it."""
         assert self.parts is not None, "without parts nothing follows them"
         config, problems = examined(retyped(self.parts, changes), self.discovery, find=self.find)
-        return None if problems else config
+        return config, in_order(problems)
 
     @property
     def source_hashes(self) -> dict[str, str]:

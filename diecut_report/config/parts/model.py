@@ -486,6 +486,14 @@ class MachineParts:
             shaft = join.drivers[0].shaft
         return found
 
+    def is_braked(self, part: ShaftPart) -> bool:
+        """Return whether a brake may stand where a part does: from the flywheel's shaft to the main one, or behind a clutch."""
+        anchor = self.shafts[self.keys.anchor]
+        before = self.from_flywheel(anchor.parts[0]) if anchor.parts else None
+        between = {anchor.name, *(join.drivers[0].shaft.name for join in before or ())}
+        is_driven = part.shaft.name in self.ratios and self.from_flywheel(part) is not None
+        return is_driven and (part.shaft.name in between or self.is_behind_clutch(part))
+
     def is_behind_clutch(self, part: ShaftPart) -> bool:
         """Return whether a clutch is between a part and the flywheel that drives its shaft."""
         joins = self.from_flywheel(part) or []

@@ -102,8 +102,8 @@ def braking(parts: MachineParts) -> Iterator[Finding]:
         if part.kind == "brake" and not part.keys.brake_torque:
             template = "has no torque, by which what is between it and the flywheel is rated; give brake_torque"
             yield finding(parts, "brake", "error", part.path, template)
-        elif part.kind == "brake" and (part.shaft.name not in parts.ratios or parts.from_flywheel(part) is None):
-            template = "stands on a shaft that turns with no flywheel, or before it; put it on the flywheel's, or on a steady one behind it"
+        elif part.kind == "brake" and not parts.is_braked(part):
+            template = "stands neither between the flywheel and the main shaft nor, on a shaft that turns steadily, behind a clutch; put it there"
             yield finding(parts, "brake", "error", part.path, template)
         elif part.kind == "brake" and not parts.is_behind_clutch(part):
             known.append(part)

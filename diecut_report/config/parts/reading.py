@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -30,7 +31,6 @@ from diecut_report.errors import Problem, lookalikes
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.mechanism.inputs import Block, Meta, Quantity
-from diecut_report.quantities.formatting import as_typed
 from diecut_report.quantities.units import UnitError, number_and_unit, unit
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -385,19 +385,20 @@ def typed_value(tree: Tree, path: KeyPath) -> Any:
 
 
 def _bare(text: str) -> str:
-    """A number as it stands in a text of several: teeth, or a length in mm."""
+    """A number as it stands in a text of several: teeth, or a length in mm, with all digits and without an exponent."""
     try:
         number, own = number_and_unit(text)
     except UnitError:  # which is told where the text is read
         return text
-    return str(as_typed(unit(own).to_si(number), "mm")).removesuffix(" mm") if own else text
+    return f"{Decimal(repr(unit('mm').from_si(unit(own).to_si(number)))).normalize():f}" if own else text
 
 
 def _section_text(sections: str, index: int, key: str, text: str) -> str:
     """The text of sections with another number in one of them."""
     every = [each.strip() for each in sections.split(",")]
     matched = SECTION.fullmatch(every[index])
-    assert matched is not None, "sections that cannot be read are refused before"
+    if matched is None:  # as a value before it could not be read, which is told
+        return sections
     own = {name: value for name, value in matched.groupdict().items() if value} | {key: _bare(text)}
     bore, fillet = (
         f"{sign}{own[name]}" if name in own else "" for sign, name in (("/", "bore"), (" r", "fillet_radius"))

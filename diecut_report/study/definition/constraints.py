@@ -13,6 +13,7 @@ import numpy as np
 from diecut_report.config.instances import Target
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.yaml import dotted
 from diecut_report.formulas import Array
 from diecut_report.formulas.condition_numpy import JudgedRows, judged, shortfall
@@ -94,7 +95,7 @@ def parse(text: str, find: Callable[[str], tuple[Name, Node]], known: Collection
         return named
 
     tree = read(text, known, name, EXAMPLE)
-    outputs = tuple(path for path in found if path.partition(".")[0] not in (MECHANISMS, PRESS))
+    outputs = tuple(path for path in found if path.partition(".")[0] not in (MECHANISMS, PRESS, *WORDS))
     made = Constraint(text, tree, found, outputs)
     if not made.paths:
         template = "“{text}” names no varied path, so it would keep all variants or none; name one of vary."

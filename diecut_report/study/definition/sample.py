@@ -92,6 +92,7 @@ class SampleReader:
             found = dict(self._found(vary))
             bases = self._bases({asked: _texts(vary[path]) for path, asked in found.items()})
         inputs = {path: varied_input(bases[0], path) for path in found}
+        self._require_once(inputs)
         made = Sampled(inputs, None, bases)
         if table:
             values = {path: self._column_values(asked, table.columns[path]) for path, asked in inputs.items()}
@@ -121,6 +122,15 @@ class SampleReader:
                 template = " A unit stands in square brackets: {path} [{unit}]."
                 unit = Phrase(template, path=round_[1], unit=round_[2]) if round_ else ""
                 self.problems.append(column.problem(Phrase("the column's name {fault}{unit}", fault=fault, unit=unit)))
+
+    def _require_once(self, inputs: Mapping[str, Input]) -> None:
+        """Note what is varied under two names."""
+        known: dict[Any, str] = {}
+        for path, asked in inputs.items():
+            if (first := known.setdefault(asked.node, path)) != path:
+                key = ("vary",) if path in self.place.tree.data.get("vary", {}) else ("sample",)
+                message = Phrase("{path} is the same place as {first}; vary it once.", path=path, first=first)
+                self.problems.append(self.place.problem(key, message, at_key=True))
 
     def _sample(self, form: SampleForm, variables: list[Variable]) -> Sample | None:
         try:
@@ -278,7 +288,9 @@ def _with_stand_ins(base: Config, values: Mapping[Input, Any]) -> tuple[Config, 
     """Return the base with other texts and stand-ins for numbers; the parts keep their numbers, by which they are made."""
     tied = {asked: value for asked, value in values.items() if is_of_parts(base, asked)}
     texts = {typed_place(base, asked): typed_data(asked, str(value)) for asked, value in tied.items() if not asked.unit}
-    config = (base.with_parts(texts) or base) if texts else base
+    config, problems = base.with_parts(texts) if texts else (base, [])
+    if problems:  # which are the reason of such machines
+        config = base
     return with_values(config, {asked: value for asked, value in values.items() if asked not in tied})
 
 

@@ -389,11 +389,12 @@ def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list
         group[0].extend([numbers] * len(alike))
         group[1].extend(alike)
     for structure, (numbers_of, chosen) in found.items():
-        config = base.with_parts(first[structure]) if structure else base
-        if config is None or not {each.name for each in columns_of(config)} <= {each.name for each in columns_of(base)}:
-            rows.errors[chosen] = phrase(
-                "with these values the parts make other calculations than in the base; calculate it as a file of its own"
-            )
+        config, problems = base.with_parts(first[structure]) if structure else (base, [])
+        other = phrase(
+            "with these values the parts make other calculations than in the base; calculate it as a file of its own"
+        )
+        if problems or not {each.name for each in columns_of(config)} <= {each.name for each in columns_of(base)}:
+            rows.errors[chosen] = f"{problems[0].path}: {problems[0].message}" if problems else other
             rows.status[chosen] = "error"
             continue
         yield numbers_of, config, np.array(chosen)

@@ -653,6 +653,7 @@ def stops(*changes: tuple[str, str]) -> list[tuple[str, ...]]:
     ]
 
 
+NOT_THERE = "stands neither between the flywheel and the main shaft"
 TORQUE, RUN = "${drive_line.brakes.0.torque}", "${timing.torque_peak}"
 TO_FLYWHEEL = "(${drive_line.meshes.0.teeth_1} / ${drive_line.meshes.0.teeth_2})"
 
@@ -712,8 +713,8 @@ def test_a_brake_beside_the_flywheel_and_one_behind_a_clutch() -> None:
         ("{gear: wheel, at: 200, hub: 100,", "{gear: wheel, at: 200, hub: 100, brake_torque: 5 N*m,", "is a key of a brake, and this is a gear"),
         ("{gear: wheel, at: 200, hub: 100,", "{gear: wheel, at: 200, hub: 100, stops_per_hour: 5 1/h,", "is a key of a brake"),
         ("      - {sprocket: left, at: 75, hub: 60, key: 50}\n      - {gear: pinion,",
-         f"      - {{sprocket: left, at: 75, hub: 60, key: 50}}\n      - {BRAKE}}}\n      - {{gear: pinion,", "turns with no flywheel, or before it"),
-        ("[{pulley: small, at: 25}]", f"[{{pulley: small, at: 25}}, {BRAKE}}}]", "turns with no flywheel, or before it"),
+         f"      - {{sprocket: left, at: 75, hub: 60, key: 50}}\n      - {BRAKE}}}\n      - {{gear: pinion,", NOT_THERE),
+        ("[{pulley: small, at: 25}]", f"[{{pulley: small, at: 25}}, {BRAKE}}}]", NOT_THERE),
         (ON_MAIN, f"      - {BRAKE}}}\n      - {BRAKE.replace('stop', 'more').replace('290', '275')}}}\n{ON_MAIN}", "is a second brake"),
         ("    single_position:", "    brake_torque: 900 N*m\n    single_position:", "drive_line.brake_torque"),
     ],
@@ -723,6 +724,17 @@ def test_a_brake_that_cannot_be_is_refused(old: str, new: str, what: str) -> Non
     if old.startswith("    single"):
         changes.append((ON_MAIN, f"      - {BRAKE}}}\n{ON_MAIN}"))
     assert what in told(*changes)
+
+
+def test_a_brake_beyond_the_main_shaft_stands_behind_a_clutch() -> None:
+    """Elsewhere what the run takes of the shafts between is not known as one number."""
+    brake = BRAKE.replace("at: 290, hub: 60, key: 50", "at: 215, hub: 40, key: 36")
+    sleeve = "      - {coupling: sleeve, at: 130, hub: 80,"
+    said = told(
+        ("      - {clutch: clutch, at: 130, hub: 80,", f"      - {brake}}}\n{sleeve}"),
+        ("rides_on: clutch}", "rides_on: sleeve}"),
+    )
+    assert NOT_THERE in said
 
 
 def test_a_brake_of_which_no_part_is_known_is_open() -> None:

@@ -13,6 +13,8 @@ import pytest
 from diecut_report import ConfigError, load
 from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
+from diecut_report.config.parts.expansion import retyped
+from diecut_report.config.parts.reading import SECTION
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
 from diecut_report.design.inputs import free_input, given_numbers, untied
@@ -20,7 +22,14 @@ from diecut_report.design.machines import varied
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from diecut_report.study.analysis.variant_config import variant_config
-from diecut_report.study.definition.base_inputs import UnknownPath, is_of_parts, present_value, varied_input
+from diecut_report.study.definition.base_inputs import (
+    UnknownPath,
+    is_of_parts,
+    present_value,
+    typed_data,
+    typed_place,
+    varied_input,
+)
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.config.parts.test_parts import FILE
@@ -224,6 +233,68 @@ def test_the_reason_of_a_machine_names_no_place_of_the_disk() -> None:
     teeth = varied_input(press().config, "meshes.crank_drive.teeth_1")
     reason = calculate_rows(press().config, {teeth: np.array([20.0])}, 1).errors[0]
     assert "(against base:" in reason and "/" not in reason
+
+
+DRAWN = """\
+schema_version: 1
+base: press.yaml
+sample: {method: latin_hypercube, count: 6, seed: 2}
+vary:
+  shafts.main.sections.2.diameter: {from: 90 mm, to: 96 mm}
+  shafts.main.sections.2.bore: {from: 0 mm, to: 20 mm}
+constraints: ["shafts.main.sections.2.diameter > '91 mm'"]
+"""
+
+
+def test_drawn_numbers_of_one_section_stand_in_its_text_and_a_condition_on_them_is_judged_before(
+    tmp_path: Path,
+) -> None:
+    """Not every millimetre reads back as the metre that it was drawn as; and a path of the parts is no result."""
+    (tmp_path / "press.yaml").write_text(FILE.with_stem("flat_cylinder_corrected").read_text("utf-8"), "utf-8")
+    (tmp_path / "study.yaml").write_text(DRAWN, "utf-8")
+    study = load_study(tmp_path / "study.yaml", Discovery([]))
+    assert study.constraints[0].outputs == ()
+    given = study.sample.rows(0, 6)
+    parts = study.base.parts
+    assert parts is not None
+    for row in range(6):
+        own = {
+            typed_place(study.base, study.inputs[path]): typed_data(study.inputs[path], float(values[row]))
+            for path, values in given.items()
+        }
+        text = retyped(parts, own).data["shafts"]["main"]["sections"].split(", ")[2]
+        matched = SECTION.fullmatch(text)
+        assert matched is not None, text
+        for name, values in zip(("diameter", "bore"), given.values(), strict=True):
+            assert float(matched[name]) / 1e3 == pytest.approx(float(values[row]), rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("vary", "words"),
+    [
+        (
+            "{shafts.main.parts.wheel.key: [90 mm], shafts.main.parts.2.key: [80 mm]}",
+            "is the same place as shafts.main.parts.wheel.key",
+        ),
+        (
+            "{shafts.main.sections.2.diameter: [90 mm], shafts.main.sections.02.diameter: [91 mm]}",
+            "is the same place as",
+        ),
+    ],
+)
+def test_one_place_is_varied_once(tmp_path: Path, vary: str, words: str) -> None:
+    (tmp_path / "press.yaml").write_text(FILE.with_stem("flat_cylinder_corrected").read_text("utf-8"), "utf-8")
+    (tmp_path / "study.yaml").write_text(
+        f"schema_version: 1\nbase: press.yaml\nsample: {{method: zip}}\nvary: {vary}\n", "utf-8"
+    )
+    with pytest.raises(UserError, match=words):
+        load_study(tmp_path / "study.yaml", Discovery([]))
+
+
+def test_a_text_that_is_none_of_those_allowed_is_the_reason_of_its_machine() -> None:
+    steel = varied_input(press().config, "machine.shaft_material")
+    reason = calculate_rows(press().config, {steel: np.array(["C45+N"], dtype=object)}, 1).errors[0]
+    assert "did you mean 'C45E+N'" in reason
 
 
 def test_a_condition_names_what_is_typed_and_not_what_follows_from_it(tmp_path: Path) -> None:
