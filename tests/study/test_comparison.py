@@ -228,6 +228,7 @@ def test_a_torque_counts_whichever_way_it_turns(tmp_path: Path) -> None:
     assert values(made.results)["torque_max"] == pytest.approx([500, 500])
 
 
+@pytest.mark.nightly
 def test_the_parts_on_the_shafts_of_a_machine_are_weighed_once(tmp_path: Path) -> None:
     """All shafts with what is mounted on them, and the cylinder; a shaft that is none of the parts is weighed, too."""
     beside = """\

@@ -23,6 +23,7 @@ from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution import press_batch
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 from tests.configs import DISCOVERY, EXAMPLES, HEAD, saved
+from tests.examples import few
 
 PLATEN, KNIFE, MENDED = (
     next(path for path in EXAMPLES if path.stem == stem)
@@ -334,7 +335,7 @@ FOUNDED = """
 """
 
 
-@pytest.mark.parametrize("first", ["370 MPa", "370", "0.37 GPa", "370.0 MPa"])
+@pytest.mark.parametrize("first", few(["370 MPa", "370", "0.37 GPa", "370.0 MPa"], keep=lambda first: first == "370"))
 def test_a_stored_variant_says_what_its_values_rest_on(tmp_path: Path, first: str) -> None:
     """A certificate is of the value that was measured: the report of another variant does not name it, and `take` says the same."""
     (tmp_path / "press.yaml").write_text(HEAD + FOUNDED % first, "utf-8")

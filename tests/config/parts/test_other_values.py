@@ -206,6 +206,7 @@ outputs: [shafts_main_body.mass]
 """
 
 
+@pytest.mark.nightly
 def test_a_variant_of_parts_is_taken_as_a_file_that_differs_where_they_are_typed(tmp_path: Path) -> None:
     base = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
     (tmp_path / "press.yaml").write_text(base, "utf-8")
