@@ -51,6 +51,7 @@ def typed(press: Press, mechanism: str, way: list[KeyChangeRecord], message: str
     return [dict(zip(places, each, strict=True)) for each in product(*texts)]
 
 
+@pytest.mark.nightly
 def test_what_another_mechanism_refuses_is_not_advised() -> None:
     """A longer key leaves its section; below 30 mm the segment leaves the carriages no room below the cylinder's flat."""
     found = checks(PUBLISHED)
@@ -67,6 +68,7 @@ def test_what_another_mechanism_refuses_is_not_advised() -> None:
             press.with_values(values).calculate()
 
 
+@pytest.mark.nightly
 def test_what_no_machine_has_is_not_advised(tmp_path: Path) -> None:
     """A module of 10 mm would be more than half the width of the gears; a clearance of zero is none."""
     file = tmp_path / "gears.yaml"

@@ -171,6 +171,7 @@ def test_the_bearing_that_locates_a_shaft_takes_the_axial_force_of_its_helical_g
     )
 
 
+@pytest.mark.nightly
 def test_the_couplers_force_has_the_moment_of_the_torque_about_the_rockers_axis() -> None:
     run = run_in("above")
     loads = run.calculations["shafts_rocker_loads"]
@@ -189,6 +190,7 @@ def test_the_couplers_force_has_the_moment_of_the_torque_about_the_rockers_axis(
     np.testing.assert_allclose(moment, driving, atol=1e-6 * np.abs(driving).max())
 
 
+@pytest.mark.nightly
 def test_the_motor_drives_the_pulley_with_what_a_first_order_lag_leaves_of_the_load() -> None:
     run = run_in("above")
     loads, train = run.calculations["shafts_flywheel_loads"], run.calculations["train"]

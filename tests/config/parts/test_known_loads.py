@@ -480,6 +480,7 @@ def of_cycle(calc: Any, name: str) -> Any:
     return calc.sample(name, places, domain.middle_of(places))[0]
 
 
+@pytest.mark.nightly
 def test_the_key_of_a_gear_on_a_stepping_shaft_passes_the_torque_of_its_inertia_too(run: Any) -> None:
     """By Newton for the gear alone: what its key passes accelerates it, and the rest of what is behind its teeth."""
     loads, cross = run["shafts_geneva_loads"], run["cross"]
@@ -600,6 +601,7 @@ def test_a_stepping_shaft_comes_back_after_all_its_steps_however_often_its_crank
     assert Demands(config.parts, data, kinds).turns("geneva") == Fraction(1, cycle)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     ("outside", "status"), [("", "not_checked"), (", outside: 600", "pass"), (", outside: 1500", "fail")]
 )
