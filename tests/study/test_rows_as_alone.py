@@ -258,6 +258,7 @@ def test_shafts_that_turn_unlike_often_in_a_cycle_are_as_each_alone(tmp_path: Pa
 MARGIN = "mechanisms.timing.interlocks.0.margin"
 
 
+@pytest.mark.nightly
 def test_a_margin_in_milliseconds_is_varied_as_it_is_typed() -> None:
     """It may be an angle or a time; the rate that it leaves room for goes with its inverse where it governs."""
     press = Press.read(MENDED, DISCOVERY)
