@@ -69,7 +69,8 @@ def variant_of(
     base, study = found.base, printable(stored.description.study.file)
     values = {place: as_config_value(value, column) for place, (column, value) in found.values.items()}
     units = {place: column.display for place, (column, _) in found.values.items()}
-    values = {**typed_changes(base, values), **assumed_bases(base, values, units)}
+    typed = typed_changes(base, values)
+    values = {**typed, **assumed_bases(base, typed, units)}
     values |= dict(_title_block(base, variant, study))
     home = kept(stored.folder)[stored.description.base.file].parent
     values |= {key: copy.relative_to(home).as_posix() for key, (_, copy) in found.beside.items()}
