@@ -32,7 +32,7 @@ from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields
 from diecut_report.mechanism.names import FromPress
 from diecut_report.mechanism.steps import count_name, has_own_names, named, names_ahead
-from diecut_report.quantities.units import UnitError, number_and_unit, pretty, unit
+from diecut_report.quantities.units import UnitError, parse_quantity, pretty, unit
 from diecut_report.text.phrases import Phrase, phrase
 
 PHASES = "phases"
@@ -366,7 +366,7 @@ def assumed_bases(tree: Tree, values: Mapping[KeyPath, Scalar], units: Mapping[K
     moved = (
         path[:-1]
         for path, value in values.items()
-        if path[-1:] == ("value",) and _differs(tree.typed(path), value, units.get(path, ""))
+        if path[-1:] == ("value",) and _differs(tree.typed(path), value, units.get(path, "1"))
     )
     bases = [(*path, "basis") for path in moved]
     is_inherited = any(
@@ -383,15 +383,9 @@ def _differs(typed: str | None, value: Scalar, own: str) -> bool:
     if typed is None or typed == text.strip('"'):
         return False
     try:
-        (one, si), (other, other_si) = _in_si(typed, own), _in_si(text, own)
+        return not math.isclose(parse_quantity(typed, own), parse_quantity(text, own), rel_tol=1e-12)
     except UnitError:
         return True
-    return si != other_si or not math.isclose(one, other, rel_tol=1e-12)
-
-
-def _in_si(text: str, own: str) -> tuple[float, str]:
-    number, named = number_and_unit(text)
-    return unit(named or own or "1").to_si(float(number)), unit(named or own or "1").si
 
 
 def rewritten(

@@ -137,10 +137,11 @@ def unrated(
     for name in (name for name, kind in parts.mechanisms.items() if kind == "clutch" and name not in clutches):
         why = phrase("no part of the machine is this clutch, so that its engagement loads nothing")
         yield record(f"mechanisms.{name}", why)
-    for name in (name for name, kind in parts.mechanisms.items() if kind == "press_consistency" and not parts.brakes):
-        if "brake_torque" in parts.reader.data["mechanisms"][name]:
-            why = phrase("no part of the machine is this brake, so that its torque loads nothing")
-            yield record(f"mechanisms.{name}.brake_torque", why)
+    if not any(row.startswith("brakes") for row in parts.brakes.values()):
+        for name in (name for name, kind in parts.mechanisms.items() if kind == "press_consistency"):
+            if "brake_torque" in parts.reader.data["mechanisms"][name]:
+                why = phrase("no part of the machine is this brake, so that its torque loads nothing")
+                yield record(f"mechanisms.{name}.brake_torque", why)
     for each in (part for part in every if part.keys.accepted is None):
         for template in _without_method(each, parts.mechanisms):
             yield record(dotted(each.path), Phrase(template, part=each.called))

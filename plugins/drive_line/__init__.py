@@ -31,6 +31,12 @@ def one_turn_a_sheet(productivity: Any) -> Any:
     return 2 * np.pi * productivity
 
 
+@formula
+def at_main_shaft(torque: Any, ratio: Any) -> Any:
+    """Torque of a brake referred to the main shaft."""
+    return torque * abs(ratio)
+
+
 class ShaftRatio(Block):
     """A shaft that turns steadily."""
 
@@ -154,13 +160,13 @@ belts.value("belt_ratio", "i_b", "1", "Speed of the driving pulley for each of t
 belts.part_table("belts_table", "V-belts", "belts", ("belt_ratio",))
 brakes = Chapter("Brakes", needs=("brakes",))
 brakes.value("referred_torque", "M_b,m", "N*m", "Torque of the brake referred to the main shaft",
-    bind(lambda torque, ratio: torque * abs(ratio), torque="brakes.torque", ratio="brakes.ratio"), source="statics",
+    bind(at_main_shaft, torque="brakes.torque", ratio="brakes.ratio"), source="statics",
     named_by="brakes.name", output=False)
 brakes.part_table("brakes_table", "Brakes", "brakes", ("referred_torque",))
 brakes.total("brake_torque", "M_b,Σ", "N*m", "Torque of all brakes, referred to the main shaft", "sum", of="referred_torque")
 held = Chapter("Brakes behind a clutch", needs=("clutch_brakes",))
 held.value("held_torque", "M_h,m", "N*m", "Torque of the brake referred to the main shaft",
-    bind(lambda torque, ratio: torque * abs(ratio), torque="clutch_brakes.torque", ratio="clutch_brakes.ratio"), source="statics",
+    bind(at_main_shaft, torque="clutch_brakes.torque", ratio="clutch_brakes.ratio"), source="statics",
     named_by="clutch_brakes.name", output=False)
 held.part_table("clutch_brakes_table", "Brakes behind a clutch", "clutch_brakes", ("held_torque",))
 

@@ -45,9 +45,7 @@ engagement.require("one_ratio",
         abs(clutch_speed - clutch_turns * crank_speed) <= tolerance * clutch_turns * crank_speed, tolerance=clutch.ONE_SHAFT),
     key="clutch_turns", needs=("clutch_turns",),
     message="is {clutch_turns}, but the clutch turns at {clutch_speed} and the crank at {crank_speed}; give their ratio, or leave the key out")
-engagement.computed("is_pinned", "b_p", "1", "Clutch engages at one angle only (1) or not (0)", on_main_shaft.is_pinned, ("single_position",),
-    "as given", needs=("engagement_angle",), output=False, printed=False)
-engagement.require("one_position", lambda is_pinned: is_pinned > 0, key="engagement_angle", needs=("engagement_angle",),
+engagement.require("one_position", lambda: 0 >= 1, key="engagement_angle", needs=("engagement_angle",), lacks=("single_position=true",),
     message="is {engagement_angle}, but a friction clutch engages at any angle; say single_position where a pin lets it engage there alone, or "
         "leave the key out")
 engagement.value(*RATIO, "Revolutions of the clutch per revolution of the crank: as given", lambda clutch_turns: clutch_turns, source="input",

@@ -48,11 +48,6 @@ def _dwell_margins(timing: GivenMechanism) -> list[float]:
     return [turns[within.removesuffix(DWELL)] * margin for within, margin in held if within.endswith(DWELL)]
 
 
-def is_pinned(single_position: bool) -> float:
-    """Return 1 where the clutch engages at one angle only."""
-    return float(single_position)
-
-
 def is_coupled(drives: tuple[str, ...], drive: str) -> float:
     """Return whether the clutch drives the cylinder."""
     return float(drive in drives)

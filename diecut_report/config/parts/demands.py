@@ -247,19 +247,27 @@ class Demands:
         """Return the revolutions of the main shaft after which all lines are back at their start."""
         return lcm(*(self.line(name)[0].denominator for name in self.parts.mechanisms))
 
-    def line(self, mechanism: str) -> tuple[Fraction, str]:
-        """Return the revolutions of a mechanism for each of the main shaft, and the reference to its offset."""
+    def _line_place(self, mechanism: str) -> tuple[str, int, Mapping[str, Any]] | None:
+        """The cyclogram, and a mechanism's line in it: its number from 0, and its block."""
         timing = self.named("cyclogram")
         lines = self.blocks[timing].get("lines", []) if timing else []
         for index, line in enumerate(lines if isinstance(lines, list) else []):
-            if isinstance(line, dict) and line.get("mechanism") == mechanism:
-                self.parts.reader.read.add(f"{timing}.lines.{index}.turns_per_sheet")
-                try:
-                    turns = exact_turns(str(line.get("turns_per_sheet", "1")))
-                except ValueError:
-                    turns = Fraction(1)
-                return turns, f"${{{timing}.line_offset.{index}}}"
-        return Fraction(1), "0 deg"
+            if timing and isinstance(line, dict) and line.get("mechanism") == mechanism:
+                return timing, index, line
+        return None
+
+    def line(self, mechanism: str) -> tuple[Fraction, str]:
+        """Return the revolutions of a mechanism for each of the main shaft, and the reference to its offset."""
+        place = self._line_place(mechanism)
+        if place is None:
+            return Fraction(1), "0 deg"
+        timing, index, line = place
+        self.parts.reader.read.add(f"{timing}.lines.{index}.turns_per_sheet")
+        try:
+            turns = exact_turns(str(line.get("turns_per_sheet", "1")))
+        except ValueError:
+            turns = Fraction(1)
+        return turns, f"${{{timing}.line_offset.{index}}}"
 
     def cycle(self, shaft: str) -> int:
         """Return the revolutions of the main shaft after which a shaft and the machine are back at their start."""
@@ -446,15 +454,10 @@ class Demands:
 
     def _lost_before(self, part: ShaftPart) -> Loss | None:
         """What the cyclogram loses on the way to a mechanism beyond the meshes there: the mechanism takes as much more from its shaft."""
-        timing, name = self.named("cyclogram"), str(part.port and part.port[0])
-        lines = self.blocks[timing].get("lines", []) if timing else []
-        named = (
-            line.get("mechanism") if isinstance(line, dict) else None
-            for line in (lines if isinstance(lines, list) else [])
-        )
-        index = next((index for index, each in enumerate(named) if each == name), None)
-        if timing is None or index is None or not self._is_behind(part.shaft):
+        place = self._line_place(str(part.port and part.port[0]))
+        if place is None or not self._is_behind(part.shaft):
             return None
+        timing, index, _ = place
         typed = self.parts.reader.typed_number(timing, f"lines.{index}.path_efficiency")
         meshes = prod(self.loss(join).efficiency for join in self.chain_from(self.parts.keys.anchor, part.shaft.name))
         if typed is None or typed >= meshes - SAME:

@@ -140,9 +140,8 @@ class Elements(ShaftElements):
             else {}
         )
         joins = {word: rows for word in ("meshes", "chains", "belts") if (rows := self._joins(word))}
-        for part in self.parts.brakes:
-            word = "clutch_brakes" if self.parts.is_behind_clutch(part) else "brakes"
-            joins.setdefault(word, []).append(self._brake(part, speeds))
+        for part, home in self.parts.brakes.items():
+            joins.setdefault(home.partition(".")[0], []).append(self._brake(part, speeds))
         rolling = [row for join in self.parts.joins if (row := self._rolling(join))]
         joins |= {"rolling": rolling} if rolling else {}
         self._add("drive_line", "drive_line", rate | {"shafts": speeds} | joins, ("machine",))

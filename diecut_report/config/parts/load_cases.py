@@ -161,13 +161,7 @@ class LoadCases(Demands):
 
     def brake_torque(self, brake: ShaftPart) -> str:
         """Return the reference to the torque of a brake."""
-        own = [
-            each
-            for each in self.parts.brakes
-            if self.parts.is_behind_clutch(each) == self.parts.is_behind_clutch(brake)
-        ]
-        word = "clutch_brakes" if self.parts.is_behind_clutch(brake) else "brakes"
-        return f"${{drive_line.{word}.{own.index(brake)}.torque}}"
+        return f"${{drive_line.{self.parts.brakes[brake]}.torque}}"
 
     # As inputs.
 

@@ -463,16 +463,14 @@ class MachineParts:
         return next((each for each in self.joins if any(part.shaft is shaft for part in each.driven)), None)
 
     @cached_property
-    def brakes(self) -> list[ShaftPart]:
-        """Return the brakes on shafts that turn steadily: first the one that stops the flywheel, then those behind a clutch."""
-        found = [
-            part
-            for name in self.shafts
-            if name in self.ratios
-            for part in self.shafts[name].parts
-            if part.keys.brake_torque
-        ]
-        return sorted(found, key=self.is_behind_clutch)
+    def brakes(self) -> dict[ShaftPart, str]:
+        """Return the brakes on shafts that turn steadily, each with its row in the drive line: ``clutch_brakes.0`` behind a clutch."""
+        found: dict[ShaftPart, str] = {}
+        for part in (part for name, shaft in self.shafts.items() if name in self.ratios for part in shaft.parts):
+            if part.keys.brake_torque:
+                word = "clutch_brakes" if self.is_behind_clutch(part) else "brakes"
+                found[part] = f"{word}.{sum(each.startswith(word) for each in found.values())}"
+        return found
 
     def from_flywheel(self, part: ShaftPart) -> list[Join] | None:
         """Return the joins between a part's shaft and that of the flywheel which drives it, the nearest first; None where none does."""

@@ -352,7 +352,7 @@ def typed_changes(tree: Tree, changes: Mapping[KeyPath, Scalar]) -> dict[KeyPath
     for path, text in changes.items():
         home, key = path[:-1], path[-1]
         sections = path[:3] if path[0] == "shafts" and path[2:3] == ("sections",) else ()
-        pair = next((each for each in PAIRS.values() if key in each.single and len(path) == 3), None)
+        pair = _pair_of(path)
         if sections and isinstance(typed := found.get(sections, tree.typed(sections)), str):
             found[sections] = _section_text(typed, int(path[3]), str(key), str(text))
         elif pair and isinstance(typed := found.get((*home, pair.key), tree.typed((*home, pair.key))), str):
@@ -379,9 +379,16 @@ def typed_value(tree: Tree, path: KeyPath) -> Any:
         return matched and matched.groupdict().get(str(key))
     if key in PinKeys.spread["span"]:
         return _at(tree.data, (*home, "span", PinKeys.spread["span"].index(str(key))))
-    pair = next((each for each in PAIRS.values() if key in each.single and len(path) == 3), None)
-    texts = str(_at(tree.data, (*home, pair.key)) or "").split("/") if pair else [""]
-    return (texts[pair.single.index(str(key)) if pair and len(texts) > 1 else 0].strip() or None) if texts else None
+    pair = _pair_of(path)
+    if pair is None or (given := _at(tree.data, (*home, pair.key))) is None:
+        return None
+    numbers = str(given).split("/")
+    return numbers[pair.single.index(str(key)) if len(numbers) > 1 else 0].strip()
+
+
+def _pair_of(path: KeyPath) -> _TwoNumbers | None:
+    """The text of two numbers that the value of a join may stand in."""
+    return next((each for each in PAIRS.values() if path[-1] in each.single and len(path) == 3), None)
 
 
 def _bare(text: str) -> str:

@@ -354,13 +354,10 @@ class ShaftElements(Masses, LoadCases):
         loads, joined, has_own = part.shaft.loads, self._joined(part), part in self.inertias(part.shaft)
         if part in self.parts.brakes:
             return self.brake_torque(part)
-        if (
-            len(joined) > 1
-        ):  # what rides on it together takes what the only other part there gives, or the other way round
-            others = [each for each in part.shaft.parts if each not in joined and self.torque_on(each)]
-            return (
-                f"${{{loads}.{others[0].name}_torque}}" if len(others) == 1 and not self.inertias(part.shaft) else None
-            )
+        if len(joined) > 1:  # together they take what the only other part of the shaft gives, or give what it takes
+            others = [each.name for each in part.shaft.parts if each not in joined and self.torque_on(each)]
+            is_known = len(others) == 1 and not self.inertias(part.shaft)
+            return f"${{{loads}.{others[0]}_torque}}" if is_known else None
         if not (joined or has_own):
             return None
         if has_own:

@@ -388,14 +388,16 @@ def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list
         group = found.setdefault(structure, ([], []))
         group[0].extend([numbers] * len(alike))
         group[1].extend(alike)
+    own = {each.name for each in columns_of(base)}
     for structure, (numbers_of, chosen) in found.items():
         config, problems = base.with_parts(first[structure]) if structure else (base, [])
-        other = phrase(
-            "with these values the parts make other calculations than in the base; calculate it as a file of its own"
-        )
-        if problems or not {each.name for each in columns_of(config)} <= {each.name for each in columns_of(base)}:
-            rows.errors[chosen] = f"{problems[0].path}: {problems[0].message}" if problems else other
-            rows.status[chosen] = "error"
+        reason = f"{problems[0].path}: {problems[0].message}" if problems else ""
+        if not problems and not {each.name for each in columns_of(config)} <= own:
+            reason = phrase(
+                "with these values the parts make other calculations than in the base; calculate it as a file of its own"
+            )
+        if reason:
+            rows.errors[chosen], rows.status[chosen] = reason, "error"
             continue
         yield numbers_of, config, np.array(chosen)
 
