@@ -75,7 +75,7 @@ def _only(results: ResultsRecord, names: list[str]) -> ResultsRecord:
         drive_line=None,
         governing=governing(checks),
         status=max((data.status for data in mechanisms.values()), key=RANK.__getitem__),
-        summary=summary(checks, [*assumed, *taken]).with_(open=left, verdict=whole.verdict),
+        summary=summary(checks, [*assumed, *taken]).with_(open=left, verdict=whole.verdict, parts=whole.parts),
     )
     return found.with_(summary=rejudged(found))
 

@@ -156,8 +156,8 @@ class LoadCases(Demands):
         timing, anchor = self.named("cyclogram"), self.parts.keys.anchor
         way = self.chain_from(shaft.name, anchor)
         if timing is not None and (way or shaft.name == anchor):
-            losses = prod(self.loss(join).efficiency for join in way)
-            yield " * ".join([f"${{{timing}.torque_peak}}", *(join.ratio_text for join in way)]) + f" / {losses:.15g}"
+            losses = [f"1 / {prod(self.loss(join).efficiency for join in way):.15g}"] if way else []
+            yield " * ".join([f"${{{timing}.torque_peak}}", *(join.ratio_text for join in way), *losses])
 
     def brake_torque(self, brake: ShaftPart) -> str:
         """Return the reference to the torque of a brake."""

@@ -663,9 +663,9 @@ TO_FLYWHEEL = "(${drive_line.meshes.0.teeth_1} / ${drive_line.meshes.0.teeth_2})
 def test_a_brake_on_the_main_shaft_loads_all_up_to_the_flywheel_with_what_the_lines_take() -> None:
     made, problems = read((ON_MAIN, f"      - {BRAKE}, stops_per_hour: 10 1/h}}\n{ON_MAIN}"))
     assert problems == []
-    before = f"{TORQUE} * {TO_FLYWHEEL} / 0.97 + {RUN} * {TO_FLYWHEEL} / 0.97"
+    before = f"{TORQUE} * {TO_FLYWHEEL} / 0.97 + {RUN} * {TO_FLYWHEEL} * 1 / 0.97"
     own = [each["torque"] for each in made["shafts_main"]["load_cases"] if each["name"] == "stop"]
-    assert own == [f"{TORQUE} + {RUN} / 1"]
+    assert own == [f"{TORQUE} + {RUN}"]
     stop = next(each for each in made["meshes_main_drive"]["load_cases"] if each["name"] == "stop")
     assert stop["torque"] == before and stop["cycles"] == "200000"
     assert made["shafts_flywheel_rim_key"]["load_cases"][-1] == {"name": "stop", "torque": before}
@@ -692,7 +692,7 @@ def test_a_brake_beside_the_flywheel_and_one_behind_a_clutch() -> None:
     """Behind the clutch it holds what the clutch drives; the flywheel turns on, and nothing of its way to rest is said."""
     bearing, clutch = "      - {bearing: b, at: 387.5", "      - {clutch: clutch, at: 130"
     beside = stops((bearing, f"      - {BRAKE}}}\n{bearing}"))
-    assert beside == [("flywheel", "rim", "stop", f"{TORQUE} + {RUN} * {TO_FLYWHEEL} / 0.97")]
+    assert beside == [("flywheel", "rim", "stop", f"{TORQUE} + {RUN} * {TO_FLYWHEEL} * 1 / 0.97")]
     held = (clutch, f"      - {BRAKE.replace('at: 290, hub: 60, key: 50', 'at: 215, hub: 40, key: 36')}}}\n{clutch}")
     config, problems = changed(held)
     assert problems == [] and config.parts is not None

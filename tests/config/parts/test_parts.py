@@ -20,6 +20,9 @@ from diecut_report.config.validation import Basis
 from diecut_report.config.yaml import parse
 from diecut_report.errors import Problem, UserError
 from diecut_report.press import Press
+from diecut_report.report.chapters.front import not_covered
+from diecut_report.report.scope import scope
+from diecut_report.report.text import Catalogue
 from diecut_report.results.carrying_parts import CarryingPart, carrying_parts, is_rated, unrated
 from diecut_report.results.open_items import is_formula, unrated_forces
 from diecut_report.results.press_run import Run
@@ -950,3 +953,6 @@ def test_the_whole_machine_is_calculated_and_fails_where_the_sheet_says() -> Non
     assert {"shafts_crank_disc_key.pressure_key", "meshes_step_up.pitting_1"} <= failing
     inertia = results.mechanisms["cross"].inputs["driven_inertia"].value
     assert inertia == pytest.approx(8.813, abs=1e-3)
+    asked = results.with_(report=results.report.with_(only=["shafts_main", "drive_line"]))
+    told = [each.text for each in not_covered(scope(asked).results, Catalogue("en"))]
+    assert any("main.disc" in text for text in told) and not any("are not modelled" in text for text in told)
