@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the documentation site: build/site/index.html, with which a browser needs no network.
 #
-#   scripts/site.sh [--quick]   --quick: with the reports of the small examples alone, as CI builds it
+#   scripts/site.sh [--quick]   --quick: with the reports of the small examples alone
 #
 # The pages are made from the documents, the plugins' declarations and the examples (tools/site), and set by Sphinx; a warning is
 # an error, and so is a link within the site that leads nowhere. A few pages are opened in a headless browser, where one is installed. Needs .venv (./run-tests sets it up).

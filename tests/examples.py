@@ -21,5 +21,11 @@ def few(values: Iterable[Any], keep: Callable[[Any], bool]) -> list[Any]:
     return [value if keep(value) else _at_night(value) for value in values]
 
 
+def every(step: int, values: Iterable[Any]) -> list[Any]:
+    """Return parameters of a test of which the first, and every so many further ones, are kept; all run at night."""
+    known = list(values)
+    return [value if index % step == 0 else _at_night(value) for index, value in enumerate(known)]
+
+
 def _at_night(value: Any) -> Any:
     return pytest.param(*(value if isinstance(value, tuple) else (value,)), marks=pytest.mark.nightly)

@@ -261,6 +261,7 @@ def test_what_is_no_file_is_written_into_and_not_replaced(tmp_path: Path) -> Non
     assert not Path(os.devnull).is_file()
 
 
+@pytest.mark.nightly
 def test_a_reader_that_closes_early_is_no_error() -> None:
     reader, writer = os.pipe()
     os.close(reader)
@@ -326,6 +327,7 @@ def test_colours_and_what_it_does_are_shown_only_on_a_terminal_that_wants_them(t
         assert "fail a: Moment." in told and "\x1b" not in told
 
 
+@pytest.mark.nightly
 def test_an_interrupted_run_ends_at_once_and_writes_nothing(tmp_path: Path) -> None:
     (tmp_path / "slow.py").write_text(
         SLOW.replace("sleep(2)", "sleep(60)").replace("import time\n", "import time, sys\nprint('here')\n", 1)

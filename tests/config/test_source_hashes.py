@@ -47,6 +47,7 @@ def hash_at(place: Path) -> str:
     return digest
 
 
+@pytest.mark.nightly
 def test_the_hash_of_the_program_does_not_depend_on_its_place_or_on_compiled_files(tmp_path: Path) -> None:
     package = copy_of_program(tmp_path)
     assert hash_at(tmp_path) == program_hash()

@@ -8,6 +8,7 @@ import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError
+from tests.examples import every
 
 PLUGIN = """\
 from __future__ import annotations
@@ -116,7 +117,7 @@ def judged(folder: Path, **code: str) -> list[str]:
 
 
 @pytest.mark.parametrize("code", ASKED)
-@pytest.mark.parametrize("place", ["body", "helper"])
+@pytest.mark.parametrize("place", every(2, ["body", "helper"]))
 def test_what_is_asked_beside_the_inputs_is_told(place: str, code: str, tmp_path: Path) -> None:
     (line,) = judged(tmp_path, **{place: code})
     name = {"body": "found", "helper": "helper"}[place]

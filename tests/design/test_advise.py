@@ -136,6 +136,7 @@ def test_what_is_measured_is_changed_only_where_it_is_named(tmp_path: Path, capf
     assert [each["name"] for each in found(capfd)["changes"]] == ["clutch.shoe_radius"]
 
 
+@pytest.mark.nightly
 def test_what_steps_do_not_see_is_found_by_one_input_over_its_range(tmp_path: Path, capfd: Capture) -> None:
     assert advise(saved(tmp_path, DAMPER), "--free", "damper.ring_width", "--format", "json") == 0
     answer = found(capfd)

@@ -108,6 +108,7 @@ def with_tables(folder: Path) -> Path:
     return folder / "out" / "shaft.html"
 
 
+@pytest.mark.nightly
 def test_the_users_own_tables_come_back_and_are_used_again(tmp_path: Path, capfd: Capture) -> None:
     report = with_tables(tmp_path / "in")
     assert run("extract", report, "-o", tmp_path / "out") == 0

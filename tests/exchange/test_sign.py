@@ -253,6 +253,7 @@ def test_who_asks_for_trust_asks_for_a_signature(
     assert run("verify", report, "--numbers", "--trust", tmp_path / "missing.pem") == 2
 
 
+@pytest.mark.nightly
 def test_a_key_signs_without_a_password_and_as_pem_with_its_certificate_beside_it(
     pdf: Path, engineer: Signer, tmp_path: Path, monkeypatch: Patch
 ) -> None:
@@ -379,6 +380,7 @@ def test_an_output_that_cannot_be_written_is_told(pdf: Path, key: Path, tmp_path
     assert key.read_bytes() == before and there == ["folder", "key.p12", "small.pdf"]
 
 
+@pytest.mark.nightly
 def test_a_report_without_signatures_is_judged_without_the_library_that_reads_them(small_report: Path) -> None:
     code = (
         "import sys; from diecut_report.cli.main import main; "

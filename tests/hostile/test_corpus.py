@@ -9,6 +9,7 @@ from tests.hostile.seeds import seeds, words
 
 
 @pytest.mark.parametrize("target", READERS)
+@pytest.mark.nightly
 def test_what_the_fuzzer_kept_is_read_or_refused_in_words(target: str) -> None:
     kept = sorted((CORPUS / target).iterdir())
     read = READERS[target]()

@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.configs import GOOD, LEVER, saved
 
 
@@ -26,6 +28,7 @@ def calculated(tmp_path: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=60)
 
 
+@pytest.mark.nightly
 def test_pipes_beside_a_plugin_are_no_part_of_it(tmp_path: Path) -> None:
     folder = tmp_path / "plugins" / "lever"
     folder.mkdir(parents=True)
@@ -35,6 +38,7 @@ def test_pipes_beside_a_plugin_are_no_part_of_it(tmp_path: Path) -> None:
     assert calculated(tmp_path).returncode == 0
 
 
+@pytest.mark.nightly
 def test_a_pipe_is_not_a_plugin(tmp_path: Path) -> None:
     (tmp_path / "plugins").mkdir()
     os.mkfifo(tmp_path / "plugins" / "lever.py")

@@ -14,6 +14,7 @@ from diecut_report.cli import output
 from diecut_report.cli.main import main
 from diecut_report.errors import Problem
 from tests.configs import GOOD, HEAD, LEVER, saved
+from tests.examples import every, few
 
 Capture = pytest.CaptureFixture[str]
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
@@ -31,11 +32,11 @@ def shell(folder: Path, text: str, ending: str) -> subprocess.CompletedProcess[s
 QUICK = [
     (LEVER, "$ME calc $CONFIG $OWN >&-", UNWRITABLE),
     (FAILS, "$ME calc $CONFIG $OWN >/dev/full", UNWRITABLE),
-    (LEVER, "$ME --help >/dev/full", UNWRITABLE),
     (WRONG, "$ME check $CONFIG $OWN 2>/dev/full", BAD),
     (FAILS, "set -o pipefail; $ME calc $CONFIG $OWN | true", FAILED),
 ]
 REST = [
+    (LEVER, "$ME --help >/dev/full", UNWRITABLE),
     (LEVER, "$ME calc $CONFIG $OWN >&- 2>&-", UNWRITABLE),
     (LEVER, "$ME calc $CONFIG $OWN -o /dev/full", UNWRITABLE),
     (LEVER, "$ME calc --help >&-", UNWRITABLE),
@@ -59,9 +60,7 @@ REST = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("text", "command", "code"), [*QUICK, *(pytest.param(*each, marks=pytest.mark.nightly) for each in REST)]
-)
+@pytest.mark.parametrize(("text", "command", "code"), few([*QUICK, *REST], lambda each: each in QUICK))
 def test_lost_streams_have_their_own_code(tmp_path: Path, text: str, command: str, code: int) -> None:
     done = shell(tmp_path, text, command)
     told = ("Traceback" in done.stderr, "fault of diecut-report" in done.stderr)
@@ -95,12 +94,12 @@ class Interrupts:
 sys.meta_path.insert(0, Interrupts())
 runpy.run_module("diecut_report", run_name="__main__", alter_sys=True)
 """
-MODULES = ["click", "numpy", "weasyprint"]
-MORE = ["diecut_report.cli", "yaml", "diecut_report.cli.main", "pydantic", "diecut_report.config.loader", "numpy.linalg", "jinja2",
+MODULES = ["weasyprint", "click", "numpy", "diecut_report.cli", "yaml", "diecut_report.cli.main", "pydantic",
+        "diecut_report.config.loader", "numpy.linalg", "jinja2",
         "diecut_report.results.document", "diecut_report.report"]  # fmt: skip
 
 
-@pytest.mark.parametrize("module", [*MODULES, *(pytest.param(each, marks=pytest.mark.nightly) for each in MORE)])
+@pytest.mark.parametrize("module", every(len(MODULES), MODULES))
 def test_ctrl_c_while_modules_are_loaded_leaves_no_traceback(tmp_path: Path, module: str) -> None:
     """Sent as a module is sought: a time after the start would be another place on each machine."""
     command = [sys.executable, "-c", INTERRUPTS, module, "report", str(saved(tmp_path, LEVER)), "--plugins", str(GOOD)]

@@ -59,6 +59,7 @@ def test_a_shadowing_module_is_reported_where_it_would_run(tmp_path: Path) -> No
     assert ran(tmp_path, [sys.executable, "-c", "import yaml, colorsys"]) == "yaml\ncolorsys\n"
 
 
+@pytest.mark.nightly
 def test_nor_as_a_module_where_python_itself_leaves_the_choice(folder: Path) -> None:
     (folder / "pkgutil.py").unlink(missing_ok=True)  # Python's own -m imports it before the program begins
     assert ran(folder, [sys.executable, "-m", "diecut_report", "calc", "press.yaml", "-o", "out.json"]) == ""

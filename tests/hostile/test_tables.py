@@ -38,6 +38,7 @@ def test_each_is_read_or_refused_in_words_and_soon(told: Told) -> None:
     assert [line for line in words if len(line) > 5000 or re.search(r"Traceback|Error\(", line)] == []
 
 
+@pytest.mark.nightly
 def test_none_takes_much_memory(told: Told) -> None:
     assert {name: growth for name, (_, _, growth) in told.items() if growth > GROWTH} == {}
 

@@ -33,6 +33,7 @@ def test_a_pdf_leaves_nothing_among_the_temporary_files(tmp_path: Path, small_re
 
 
 @pytest.mark.parametrize("command", few(["report", "render", "verify"], keep=lambda command: command == "report"))
+@pytest.mark.nightly
 def test_no_room_for_the_files_of_fonts_is_told(
     tmp_path: Path, small_report: Path, command: str, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:

@@ -25,7 +25,7 @@ from diecut_report.live.server import LiveApplication
 from diecut_report.text.translation import spoken_language
 from tests.cli.test_cli import Capture, run
 from tests.configs import EXAMPLES
-from tests.examples import few
+from tests.examples import every, few
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 SECONDS = 120
@@ -197,7 +197,7 @@ def test_page_script_numbers_and_refusals_are_in_the_language_that_is_asked_for(
     assert "Рух протягом розрізу" in told and "маса" in json.loads(refused)["refused"]
 
 
-@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("ending", every(2, [signal.SIGINT, signal.SIGTERM]))
 def test_it_tells_what_is_not_written_when_it_is_ended(tmp_path: Path, ending: signal.Signals) -> None:
     file = tmp_path / "knife.yaml"
     file.write_bytes(KNIFE.read_bytes())

@@ -49,6 +49,7 @@ def test_a_page_is_told_that_a_saved_file_is_being_calculated(tmp_path: Path, mo
     assert found[1] == b"event: busy\ndata: 1\n\n" and found[-1].startswith(b"data: ")
 
 
+@pytest.mark.nightly
 def test_a_table_in_another_folder_is_read_again_when_it_changes(tmp_path: Path) -> None:
     file, table = tmp_path / "knife.yaml", tmp_path / "tables" / "own.yaml"
     table.parent.mkdir()
@@ -122,6 +123,7 @@ def test_the_report_of_the_page_is_that_of_the_command(tmp_path: Path, named: bo
     assert served == file.with_suffix(".html").read_bytes()
 
 
+@pytest.mark.nightly
 def test_full_passes_over_what_stays_do_not_stop_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     kept = list[int]()
     monkeypatch.setattr(server._Server, "run", lambda *_, **__: kept.append(gc.get_freeze_count()))

@@ -285,6 +285,7 @@ def test_layouts_together_are_the_layouts_alone(listed: list[list[tuple[float, f
 
 @given(belt=scattered())
 @examples(150)
+@pytest.mark.nightly
 def test_a_layout_is_possible_where_its_drawn_belt_is_simple_and_clear_of_the_pulleys(belt: Layout) -> None:
     polygon = drawn(belt, 90)
     centers = np.column_stack(belt[:2])

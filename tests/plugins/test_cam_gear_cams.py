@@ -65,6 +65,7 @@ def test_the_rollers_stay_tangent_to_their_profiles(n: str, law: str) -> None:
 )
 @example(arm=150.0, roller=5.0, one=40.0, other=200.0, phi=0.0, dwell=60.0)  # a roller that stands still on its cam
 @examples(25)
+@pytest.mark.nightly
 def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
     arm: float, roller: float, one: float, other: float, phi: float, dwell: float
 ) -> None:

@@ -71,6 +71,7 @@ def test_a_knife_of_another_size_has_the_same_angles_and_its_force_grows_with_th
 
 @examples(25)
 @given(board=SHARE, cut=SHARE, low=SHARE)
+@pytest.mark.nightly
 def test_the_figures_of_any_knife_are_drawn_and_its_three_positions_beside_one_another(
     board: float, cut: float, low: float
 ) -> None:

@@ -130,7 +130,7 @@ def compare(machine: Case, count: int, alone: int, seed: int) -> None:
 # --- report ----------------------------------------------------------------------------------------------------------
 
 
-@main_cases
+@pytest.mark.parametrize(("kind", "name"), few(CASES, keep=lambda one: is_main(*one) and CASES.index(one) % 2 == 0))
 def test_all_that_a_report_prints_is_made_of_a_machine(kind: str, name: str) -> None:
     machine = case(kind, name)
     calc = calculate(machine.mechanism, machine.values)

@@ -168,6 +168,7 @@ def test_the_modulus_is_that_of_a_half_space_under_the_durometers_punch(hardness
 
 
 @given(steps=st.integers(1, 2000), stress=st.floats(0.1, 5), modulus=st.floats(1, 30), count=st.integers(1, 8))
+@pytest.mark.nightly
 def test_a_length_that_is_a_multiple_of_the_step_stays(steps: int, stress: float, modulus: float, count: int) -> None:
     energy = count * 1.5e-3 * stress**2 * steps * 0.005 / (2 * modulus) * 1e6
     calc = damper(kinetic_energy=energy, allowable_stress=stress, elastic_modulus=modulus, damper_count=count)

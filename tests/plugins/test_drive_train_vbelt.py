@@ -225,6 +225,7 @@ def test_few_teeth_are_a_warning(teeth: int, status: str) -> None:
 
 @examples(30)
 @given(ratio=st.floats(1.2, 4.5), diameter=st.sampled_from([90, 100, 112, 118, 125, 127.5, 140, 160]))
+@pytest.mark.nightly
 def test_the_pulleys_that_the_message_names_meet_the_speed(ratio: float, diameter: float) -> None:
     def made(driver: float) -> Calculation:
         vbelt = {"driver_diameter": driver, "center_distance": 850}

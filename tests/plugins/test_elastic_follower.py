@@ -97,6 +97,7 @@ def spectrum() -> dict[str, CurveRecord]:
 
 @pytest.mark.parametrize("part", few(range(3), keep=lambda part: part == 1))
 @pytest.mark.parametrize("place", few(range(5), keep=lambda place: place == 2))
+@pytest.mark.nightly
 def test_the_spectrum_is_what_scipy_integrates(place: int, part: int) -> None:
     """Each law and damping at three places of the spectrum, in CI at one in its middle; a rise of 1 in 1 s."""
     curves, damping = spectrum(), (0, 0.02, 0.05, 0.1, 0.2)[place]
@@ -258,6 +259,7 @@ def test_the_recommended_law_is_that_of_the_least_peak(ratio: float, damping: fl
         assert number(calcs["harmonic"], f"{law}_acceleration") == pytest.approx(peak, rel=1e-9)
 
 
+@pytest.mark.nightly
 def test_ratios_are_held_against_their_limits() -> None:
     calc = follower()
     peak, residual = number(calc, "peak_ratio"), number(calc, "residual_ratio")

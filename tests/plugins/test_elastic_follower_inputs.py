@@ -16,7 +16,7 @@ from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.press import Press
 from tests.configs import HEAD, saved
-from tests.examples import few
+from tests.examples import every, few
 from tests.machines import number
 from tests.plugins.followers import driven, follower
 
@@ -107,7 +107,7 @@ REFUSED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("keys, changes, words", REFUSED, ids=lambda part: str(part)[:60])
+@pytest.mark.parametrize("keys, changes, words", every(3, REFUSED), ids=lambda part: str(part)[:60])
 def test_bad_inputs_are_told_in_words(
     tmp_path: Path, capfd: Capture, keys: dict[str, Any], changes: dict[str, Any], words: str
 ) -> None:

@@ -217,6 +217,7 @@ RATED = ("pitting_1", "pitting_2", "root_1", "root_2")
 
 
 @pytest.mark.parametrize("speed", few([2500, 6000, 40_000], keep=lambda speed: speed == 6000))
+@pytest.mark.nightly
 def test_beyond_method_c_the_teeth_are_not_rated_until_the_dynamic_factor_is_given(speed: float) -> None:
     fast = pair(GRADED, speed=speed)
     assert not {*FACTORS, "pitting_safety_1", "root_safety_1"} & fast.values.keys()

@@ -293,6 +293,7 @@ def test_all_checks_pass_where_the_drive_is_sound() -> None:
     assert {check.status for check in found.values()} == {"pass", "not_checked"}
 
 
+@pytest.mark.nightly
 def test_the_figures_are_drawn_even_where_nothing_holds_the_wheel() -> None:
     for changes in (
         {"locking_radius": "20 mm"},

@@ -51,6 +51,7 @@ def test_a_press_with_pins_of_five_millimetres_fails_for_its_pins(thin: ResultsR
 
 
 @pytest.mark.parametrize("name", PINS)
+@pytest.mark.nightly
 def test_the_stress_of_a_pin_is_that_of_a_beam_in_the_middle(thin: ResultsRecord, name: str) -> None:
     force = 9994.35  # N, the greatest of the coupler, as the method's worked example has it
     expected = force * 60e-3 / 4 * 32 / (3.141592653589793 * 5e-3**3)  # F l/4 over π d³/32

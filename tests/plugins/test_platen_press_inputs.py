@@ -38,6 +38,7 @@ def test_four_frictions_act_each_in_its_place() -> None:
     assert "friction_limit" in platen().values and "friction_limit" not in calc.values
 
 
+@pytest.mark.nightly
 def test_a_list_of_frictions_may_hold_references_and_be_referred_to(tmp_path: Path) -> None:
     config = saved(tmp_path, HEAD + "  a: {kind: platen_press, friction: [0.1, 0.02, '${b.friction}', 0.05]}\n"
                    "  b: {kind: platen_press, friction: 0.03}\n  c: {kind: platen_press, friction: [0.1, 0.02, 0.03, 0.05]}\n"

@@ -177,6 +177,7 @@ def test_unknown_type_is_refused() -> None:
         exports(results)
 
 
+@pytest.mark.nightly
 def test_the_library_is_imported_only_when_a_profile_is_drawn() -> None:
     code = (
         "import sys, diecut_report.report.profile_files as e; from tests.report.made_results import typed;"

@@ -49,6 +49,7 @@ def brief(plain: Data) -> Data:
     return plain | {"mechanisms": {"cylinder": cylinder}, "comparisons": {}, "report": {"detail": "brief"}}
 
 
+@pytest.mark.nightly
 def test_the_example_overrides_its_blocks_on_screen_and_in_print(plain: Data) -> None:
     house = house_style(DOCS / "house-style")
     material = Material(typed(plain), house=house)

@@ -217,6 +217,7 @@ def given(config: Config, key: Input) -> float | None:
 
 
 @pytest.mark.parametrize("path", few(EXAMPLES, lambda path: path.stem == "folding_knife"), ids=lambda path: path.stem)
+@pytest.mark.nightly
 def test_an_example_and_edits_of_it_give_what_the_ordinary_way_gives(path: Path) -> None:
     press, config = WarmPress(), load_config(path, DISCOVERY)
     assert_same(press, config)

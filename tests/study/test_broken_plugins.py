@@ -13,6 +13,7 @@ from diecut_report.cli.main import main
 from diecut_report.errors import PluginError
 from diecut_report.press import CalculatedPress, ReportOutcome
 from tests.configs import saved
+from tests.examples import every
 
 Capture = pytest.CaptureFixture[str]
 pytestmark = pytest.mark.usefixtures("without_summary")
@@ -144,7 +145,7 @@ COMMANDS = {  # those that calculate many machines at once, and one
 
 
 @pytest.mark.parametrize("raised", LEAVES)
-@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("command", every(3, COMMANDS))
 def test_code_cannot_leave_the_program(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch, command: str, raised: str
 ) -> None:

@@ -201,6 +201,7 @@ def test_an_output_that_a_machine_does_not_have_is_empty() -> None:
         assert np.isfinite(places).sum() == min(kept["drive.flank_change_count"][row], len(places))
 
 
+@pytest.mark.nightly
 def test_curves_come_on_demand_as_each_machine_alone_has_them() -> None:
     name, count = "flat_cylinder_mechanisms.yaml", 2
     base, values = config(name), drawn(name, count)
@@ -228,6 +229,7 @@ def test_the_columns_are_known_before(name: str) -> None:
     assert set(together(base, first, 1).columns) <= declared
 
 
+@pytest.mark.nightly
 def test_machines_with_unlike_numbers_of_samples_have_the_curves_that_they_ask_for() -> None:
     base = config("flat_cylinder_mechanisms.yaml")
     points = np.array([90.0, 180.0, 90.0])

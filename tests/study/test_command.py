@@ -109,6 +109,7 @@ NO_VALUE = "1 of them because a constraint has no value there (a division by zer
 
 
 @pytest.mark.usefixtures("with_html_summary")
+@pytest.mark.nightly
 def test_variants_for_which_a_constraint_has_no_value_are_dropped_and_counted(tmp_path: Path, capfd: Capture) -> None:
     out = tmp_path / "out"
     text = varied("[1 kN, 2 kN, 3 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
@@ -157,6 +158,7 @@ def test_a_variant_in_error_keeps_its_reason_whatever_a_constraint_asks_of_outpu
     assert [row["status"] for row in rows(tmp_path / "out")] == ["pass", "error"]
 
 
+@pytest.mark.nightly
 def test_a_study_of_which_the_outputs_leave_nothing_still_tells_so(tmp_path: Path, capfd: Capture) -> None:
     text = varied("[1 kN, 2 kN]", rest="constraints: [\"a.moment > '5 kN*m'\"]\n")
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 0
@@ -215,6 +217,7 @@ def test_the_failed_ones_get_a_report(tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 @pytest.mark.usefixtures("without_summary")
+@pytest.mark.nightly
 def test_a_full_report_says_and_verifies_what_the_report_of_its_variant_does(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -307,6 +310,7 @@ def test_wrong_usage_gives_2_with_words(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.nightly
 def test_progress_on_a_terminal(tmp_path: Path) -> None:
     program = [sys.executable, "-m", "tests.study.without_summary"]
     command = [*program, "batch", str(files(tmp_path)), "--plugins", str(GOOD), "-o"]

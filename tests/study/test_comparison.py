@@ -188,6 +188,7 @@ def test_the_parts_stand_there_where_they_are_known() -> None:
     assert "parts" not in values(MachineComparison([unknown], []).verdicts)
 
 
+@pytest.mark.nightly
 def test_the_same_machines_give_the_same_workbook(tmp_path: Path) -> None:
     made = side_by_side(tmp_path, LEVER, LEVER.replace("2 kN", "3 kN"))
     first = book_of(sheets(made))

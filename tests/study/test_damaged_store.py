@@ -194,6 +194,7 @@ def test_large_parts_are_read_once(folder: Path, tmp_path: Path, monkeypatch: py
 MARKED = '{{"part-00000.parquet": {{"sha256": "", "mark": [{mark}], "counts": {{}}}}}}'
 
 
+@pytest.mark.nightly
 def test_a_memory_that_cannot_be_read_or_written_costs_nothing(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -268,6 +269,7 @@ def check_edits(folder: Path, every: int) -> None:
         assert (edited == data and json.dumps(edited) == json.dumps(data)) or found != right, name
 
 
+@pytest.mark.nightly
 def test_a_single_edit_of_the_state_is_told_in_words(folder: Path) -> None:
     check_edits(folder, 7)
 

@@ -188,6 +188,7 @@ def test_lost_scheduler_is_told(cluster: Cluster, tmp_path: Path, caplog: pytest
     assert [record.name for record in caplog.records] == []  # no traceback beside the words
 
 
+@pytest.mark.nightly
 def test_cluster_without_workers_is_told(cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "TIMEOUT", 2)
     with (

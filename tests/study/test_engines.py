@@ -18,6 +18,7 @@ from diecut_report.errors import UserError
 from diecut_report.study.execution import engines
 from diecut_report.study.execution.engines import Engine, InProcess, Pool, results
 from diecut_report.study.execution.study_run import dask_cluster
+from tests.examples import every
 from tests.processes import at_most, until
 from tests.study.made_store import dies_at_three, dies_in_its_result, fails_at_three, slow_square, square, warm
 
@@ -122,6 +123,7 @@ def test_killed_process_loses_nothing(tmp_path: Path) -> None:
     assert len(begun(tmp_path)) > 2  # new processes took over
 
 
+@pytest.mark.nightly
 def test_process_killed_in_the_middle_of_a_result_loses_nothing(tmp_path: Path) -> None:
     """The rest of the result would be awaited for ever, as the other process could still write it."""
     with at_most(30), Pool(2, warm(tmp_path)) as pool:
@@ -157,7 +159,7 @@ def started(folder: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, env=paths, process_group=0)
 
 
-@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("sent", every(2, [signal.SIGKILL, signal.SIGINT]))
 def test_ended_run_leaves_no_process(tmp_path: Path, sent: signal.Signals) -> None:
     run = started(tmp_path)
     until(lambda: len(begun(tmp_path)) == 2)

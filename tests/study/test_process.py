@@ -30,6 +30,7 @@ def faults(how: str) -> int:
 
 
 @pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only glibc has this setting")
+@pytest.mark.nightly
 def test_the_next_chunk_takes_no_new_pages() -> None:
     assert faults("settled") < 200 < faults("as it was")
 

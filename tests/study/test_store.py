@@ -333,6 +333,7 @@ def test_folder_in_use_tells_who_uses_it(tmp_path: Path) -> None:
 
 
 # whole or absent
+@pytest.mark.nightly
 def test_killed_writer_leaves_whole_parts_alone(tmp_path: Path) -> None:
     study = description(200_000, 500)
     store = Store.create(tmp_path / "out", study)

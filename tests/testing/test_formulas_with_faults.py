@@ -65,6 +65,7 @@ def test_check_and_calc_are_strict_and_tell_it(tmp_path: Path, home: Path, capfd
 
 
 @pytest.mark.usefixtures("with_html_summary")
+@pytest.mark.nightly
 def test_a_study_tells_it_at_its_end_and_on_its_page(tmp_path: Path, home: Path, capfd: Capture) -> None:
     assert run(home, "batch", str(home / "examples" / "toggle_study.yaml"), "-o", str(tmp_path / "s")) in (0, 1)
     told = capfd.readouterr().err

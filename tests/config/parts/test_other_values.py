@@ -116,6 +116,7 @@ def changed(*changes: tuple[str, str]) -> Press:
     return Press.read(parse(text, str(FILE)), Discovery([]))
 
 
+@pytest.mark.nightly
 def test_each_machine_of_other_parts_is_the_file_with_these_parts() -> None:
     """Numbers are calculated together, another bearing or what the parts make otherwise by itself; what contradicts itself says so."""
     values: dict[str, list[Any]] = {
@@ -160,6 +161,7 @@ def test_each_machine_of_other_parts_is_the_file_with_these_parts() -> None:
             assert same, (name, own, there)
 
 
+@pytest.mark.nightly
 def test_what_is_doubtful_of_the_parts_is_told_of_each_machine() -> None:
     """An odd number of links warns; of the file alone the same."""
     links = varied_input(press().config, "chains.cylinder.links")

@@ -107,6 +107,7 @@ def test_it_speaks_ukrainian(tmp_path: Path, capfd: Any) -> None:
     assert not re.search(r"\d\.\d", text)
 
 
+@pytest.mark.nightly
 def test_a_cluster_that_cannot_be_reached_is_told_before_anything_is_written(
     tmp_path: Path, capfd: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -46,6 +46,7 @@ def test_the_front_of_a_lever_is_the_hyperbola_of_its_least_force(tmp_path: Path
     assert knee["values"][ARM] == pytest.approx(0.1, rel=0.15)
 
 
+@pytest.mark.nightly
 def test_a_search_that_was_stopped_goes_on_where_it_ended(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Any
 ) -> None:
