@@ -77,12 +77,18 @@ corrected_option = path_option(
 )  # fmt: skip
 @click.option("--from", "low", metavar="VALUE", help="Lower end of the range (default: a third of the present value).")
 @click.option("--to", "high", metavar="VALUE", help="Upper end of the range (default: three times the present value).")
+@click.option(
+    "--among",
+    metavar="VALUE",
+    multiple=True,
+    help="A value to try, such as a size of a series or a bearing; may be given several times, or several with semicolons.",
+)
 @click.option("--passing", is_flag=True, help="Only values for which no check fails.")
 @corrected_option
 @form_option("text", "json")
 @common
 def solve(
-    config: Path, vary: str, asked: str, low: str | None, high: str | None, passing: bool, target: Path | None,
+    config: Path, vary: str, asked: str, low: str | None, high: str | None, among: tuple[str, ...], passing: bool, target: Path | None,
     form: str, discovery: Discovery
 ) -> int:  # fmt: skip
     """Find the values of one input that satisfy a requirement, the nearest to the present value first.
@@ -90,12 +96,12 @@ def solve(
     Exit codes: 0 found, 1 out of reach (the nearest value is reported), 2 bad input, 3 a plugin broke.
     """
     from diecut_report.design.answers import data, lines
-    from diecut_report.design.inputs import free_input
+    from diecut_report.design.inputs import solved_input
     from diecut_report.design.solving import solved
 
     with Progress() as progress, without_output():
         press = _read(config, discovery, progress)
-        design = free_input(press.config, vary)
+        design = solved_input(press.config, vary, split(";".join(among), ";"))
         ends = (_end(design, low, "--from"), _end(design, high, "--to"))
         answer = solved(press, asked, design, passing=passing, low=ends[0], high=ends[1])
     _give(as_json(data(answer)) if form == "json" else _text(lines(answer)), press, answer.machine, target)
@@ -275,6 +281,11 @@ def _read(config: Path, discovery: Discovery, progress: Progress) -> Press:
 def _end(design: DesignInput, given: str | None, option: str) -> float | None:
     if given is None:
         return None
+    if design.is_text:
+        words = say(
+            "{name} is a text, a choice or a yes/no; name those that are to be tried with --among", name=design.name
+        )
+        raise click.BadParameter(words, param_hint=option)
     try:
         return design.read(given)
     except ValueError as fault:

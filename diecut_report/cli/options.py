@@ -42,9 +42,9 @@ output_file = OutputFile(path_type=Path)
 # Options, and what reads their values.
 
 
-def split(given: str) -> list[str]:
+def split(given: str, between: str = ",") -> list[str]:
     """Return the names of a list with commas."""
-    return [part for part in map(str.strip, given.split(",")) if part]
+    return [part for part in map(str.strip, given.split(between)) if part]
 
 
 def path_option(*names: str, help: str, metavar: str = "FILE", **more: Any) -> Callable[[Given], Given]:

@@ -11,6 +11,7 @@ Merge keys (<<) and tags are refused.
 from __future__ import annotations
 
 import hashlib
+import json
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -380,6 +381,15 @@ def resolved(text: str) -> Any:
         return int(text)
     value = float(text) if _FLOAT.fullmatch(text) else math.inf
     return value if math.isfinite(value) else text
+
+
+SIGNS = ",[]{}#:&*!|>'\"%@`\n"  # of YAML, or within its braces
+
+
+def plain_text(text: str) -> str:
+    """Return a text as it is typed: in quotes where it would be read as something else."""
+    is_plain = text == text.strip() and resolved(text) == text and not any(sign in text for sign in SIGNS)
+    return text if is_plain and not text.startswith(("-", "?")) else json.dumps(text, ensure_ascii=False)
 
 
 # A YAML tree with other values in some of its places, and a tree written as text that reads back as the same tree.

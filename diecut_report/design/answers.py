@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from diecut_report.config.loader import Config
@@ -17,7 +17,7 @@ from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import UnitError, parse_quantity, unit
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.variant_rows import columns_of
-from diecut_report.text.phrases import Counted, Phrase, phrase
+from diecut_report.text.phrases import Counted, Phrase, named, phrase
 from diecut_report.text.translation import localised
 
 # What a designer asks of a machine: a quantity that is to have a value, stay below or above one, or be as small or great as can be.
@@ -133,16 +133,16 @@ def _unknown(config: Config, home: str, own: str) -> Phrase:
     return Phrase(template, name=f"{home}.{own}", home=home, near=near)
 
 
-Role = Literal["root", "lower", "upper", "extreme", "today", "nearest"]
+Role = Literal["root", "lower", "upper", "extreme", "choice", "today", "nearest"]
 
 
 @dataclass(frozen=True)
 class FoundValue:
     """Hold a value that answers: of the input (SI and as typed), of what is asked, and the checks that fail there.
 
-    ``role``: a root; the lower or upper end of a range of values where it holds; an extreme; today's value, which holds already;
-    or the nearest value that is reached where none answers. ``at_end``: it is the end of the range that was searched. ``beyond`` are the checks that
-    fail just beyond it, where only machines that pass are searched.
+    ``role``: a root; the lower or upper end of a range of values where it holds; an extreme; one of some texts, of which ``value`` is NaN;
+    today's value, which holds already; or the nearest value that is reached where none answers. ``at_end``: it is the end of the range
+    that was searched. ``beyond`` are the checks that fail just beyond it, where only machines that pass are searched.
     """
 
     value: float
@@ -157,7 +157,8 @@ class FoundValue:
     def data(self) -> dict[str, Any]:
         """Return it as plain data."""
         reached = None if math.isnan(self.reached) else self.reached
-        return {"value": self.value, "typed": self.typed, "reached": reached, "role": self.role, "at_end": self.at_end,
+        value = None if math.isnan(self.value) else self.value
+        return {"value": value, "typed": self.typed, "reached": reached, "role": self.role, "at_end": self.at_end,
                 "beyond": list(self.beyond)}  # fmt: skip
 
 
@@ -170,7 +171,7 @@ class Answer:
     asked number jumps over the value; the proof of the first.
 
     Without an answer ``nearest`` is the value that comes nearest, and ``always`` are the checks that fail with every value, where all are to pass.
-    ``reached`` is what is asked for today (NaN where that is nothing).
+    ``reached`` is what is asked for today (NaN where that is nothing). ``refused`` are texts with which no machine can be, and why.
     """
 
     question: DesignQuestion
@@ -185,6 +186,7 @@ class Answer:
     machine: ProvedMachine | None = None
     passing: bool = False
     always: tuple[str, ...] = ()
+    refused: Mapping[str, str] = field(default_factory=dict)
 
 
 def lines(answer: Answer) -> Iterator[str]:
@@ -193,8 +195,9 @@ def lines(answer: Answer) -> Iterator[str]:
     passing = phrase(" with no check failing") if answer.passing else ""
     reached = "" if math.isnan(answer.reached) else f", {asked.name} {asked.told(answer.reached)}"
     now = phrase("not given at present")
-    if present is not None:
-        now = Phrase("at present {value}", value=localised(design.told(present)))
+    if present is not None or (design.is_text and design.written):
+        value = str(design.written) if present is None else localised(design.told(present))
+        now = Phrase("at present {value}", value=value)
     template = "{question}{passing}, by {input} ({now}{reached})"
     yield Phrase(template, question=answer.question.told, passing=passing, input=design.name, now=now, reached=reached)
     for line in _found(answer) if answer.found else _nearest(answer):
@@ -204,6 +207,9 @@ def lines(answer: Answer) -> Iterator[str]:
         yield Phrase(
             jump, place=localised(design.told(place)), asked=asked.name, value=asked.told(answer.question.value)
         )
+
+    for text, reason in answer.refused.items():
+        yield Phrase("  {input} = {typed} cannot be: {reason}", input=design.name, typed=text, reason=reason)
 
 
 def _found(answer: Answer) -> Iterator[str]:
@@ -221,7 +227,10 @@ def _found(answer: Answer) -> Iterator[str]:
     if first.beyond:
         yield Phrase("just beyond it, these fail: {checks}", checks=", ".join(first.beyond))
     for low, high in answer.ranges:
-        yield Phrase("satisfied from {low} to {high}", low=_side(low), high=_side(high))
+        if low.typed == high.typed:
+            yield Phrase("satisfied by {value} alone", value=low.typed)
+        else:
+            yield Phrase("satisfied from {low} to {high}", low=_side(low), high=_side(high))
     others = () if answer.ranges else answer.found[1:]  # of which a text names the nearest
     for each in others[:SHOWN]:
         template = "also {input} = {typed}: {asked} is {value}"
@@ -241,8 +250,12 @@ def _end(found: FoundValue) -> str:
 
 def _nearest(answer: Answer) -> Iterator[str]:
     design, asked, near = answer.design, answer.question.quantity, answer.nearest
-    ends = {"low": localised(design.told(answer.low)), "high": localised(design.told(answer.high))}
-    yield Phrase("no value of {input} from {low} to {high} satisfies it", input=design.name, **ends)
+    if design.among or design.is_text:
+        template = "none of these satisfies it: {input} = {values}"
+        yield Phrase(template, input=design.name, values=named([*(design.among or design.options)], " or "))
+    else:
+        ends = {"low": localised(design.told(answer.low)), "high": localised(design.told(answer.high))}
+        yield Phrase("no value of {input} from {low} to {high} satisfies it", input=design.name, **ends)
     if near is not None:
         fails: str = Phrase(", and these checks fail: {checks}", checks=", ".join(near.failing)) if near.failing else ""
         reached = {"asked": asked.name, "value": asked.told(near.reached), "end": _end(near), "fails": fails}
@@ -252,8 +265,16 @@ def _nearest(answer: Answer) -> Iterator[str]:
         one = "at any value, {checks} fails: change another input first; `advise` looks for one"
         many = "at any value, {checks} fail: change another input first; `advise` looks for one"
         yield Counted(len(answer.always), one, many, checks=", ".join(answer.always))
-    elif near is not None:
+    elif near is not None and not (design.among or design.is_text):
         yield phrase("give another range with --from and --to, or change another input")
+
+
+def _varied(answer: Answer) -> dict[str, Any]:
+    design = answer.design
+    if design.is_text:
+        return {"unit": None, "today": design.written, "among": list(design.options), "refused": dict(answer.refused)}
+    ends = {"among": list(design.among)} if design.among else {"from": answer.low, "to": answer.high}
+    return {"unit": design.meta.parsed_unit.si, "today": design.present, **ends}
 
 
 def data(answer: Answer) -> dict[str, Any]:
@@ -261,7 +282,7 @@ def data(answer: Answer) -> dict[str, Any]:
     question, design, machine = answer.question, answer.design, answer.machine
     return {
         "schema_version": 1,
-        "vary": {"path": design.asked.path, "unit": design.meta.parsed_unit.si, "today": design.present, "from": answer.low, "to": answer.high},
+        "vary": {"path": design.asked.path, **_varied(answer)},
         "for": {"name": question.quantity.name, "kind": question.kind, "passing": answer.passing, "unit": question.quantity.si,
                 "today": None if math.isnan(answer.reached) else answer.reached,
                 **({} if question.is_extreme else {"value": question.value})},

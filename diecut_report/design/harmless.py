@@ -14,7 +14,7 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.design.inputs import DesignInput, standing_numbers
-from diecut_report.design.machines import SLACK, downstream, slacks
+from diecut_report.design.machines import MARGIN, SIZE, downstream, margins
 from diecut_report.errors import PluginError
 from diecut_report.formulas import Array
 from diecut_report.results.conclusion import VALUES
@@ -27,7 +27,7 @@ from diecut_report.study.execution.variant_rows import STATUS, verdicts
 from diecut_report.text.phrases import Phrase, phrase
 
 SHARE = 0.1  # of a value for which no range is known, downwards and upwards
-STILL = 1e-9  # of a slack, by which rounding alone moves it
+STILL = 1e-9  # of the greater side of a check, by which rounding alone moves its margin
 # how many of those that change a check together are taken out, strongest first
 LEFT_OUT = tuple(2**k for k in range(8))
 UNTRIED = phrase(
@@ -114,21 +114,23 @@ K = TypeVar("K")
 
 @dataclass
 class TriedOpenValues:
-    """Hold machines with other values: the status codes and slacks of each check by name, and which machines cannot exist."""
+    """Hold machines with other values: the status codes, margins and sizes of each check by name, and which machines cannot exist."""
 
     codes: dict[str, Array] = field(default_factory=dict)
-    slacks: dict[str, Array] = field(default_factory=dict)
+    margins: dict[str, Array] = field(default_factory=dict)
+    sizes: dict[str, Array] = field(default_factory=dict)
     impossible: set[int] = field(default_factory=set)
 
     def keep(self, made: CalculatedVariants, rows: Array, count: int) -> None:
         """Keep what came out of some of the machines; a value is tried for what it is, not for what it rests on."""
         for calc in made.calculations.values():
             calc.unfounded = {}
-        found, own = verdicts(made.calculations, made.count), slacks(made)
+        found, own = verdicts(made.calculations, made.count), margins(made)
         for name, codes in zip(found.names, found.codes, strict=True):
             self.codes.setdefault(name, np.zeros(count, dtype=int))[rows] = codes
-            if name + SLACK in own:
-                self.slacks.setdefault(name, np.full(count, np.nan))[rows] = own[name + SLACK]
+            for what, kept in ((MARGIN, self.margins), (SIZE, self.sizes)):
+                if name + what in own:
+                    kept.setdefault(name, np.full(count, np.nan))[rows] = own[name + what]
         self.impossible |= {int(rows[row]) for row in {**found.faults, **made.reasons}}
 
 
@@ -137,19 +139,21 @@ class Effects:
     """Hold of each check what it is today, and what each trial alone makes of it at both of its ends, shape (trials, 2)."""
 
     codes: dict[str, Array]
-    slacks: dict[str, Array]
+    margins: dict[str, Array]
     today: Mapping[str, int]
-    slack: Mapping[str, float]
+    margin: Mapping[str, float]
+    size: Mapping[str, float]
     impossible: Array
 
     @staticmethod
     def none(machine: TriedOpenValues, trials: int) -> Effects:
         """Return the effects of trials that change nothing of a machine."""
         today = {name: int(codes[0]) for name, codes in machine.codes.items()}
-        slack = {name: float(own[0]) for name, own in machine.slacks.items()}
+        margin = {name: float(own[0]) for name, own in machine.margins.items()}
+        size = {name: float(own[0]) for name, own in machine.sizes.items()}
         codes = {name: np.full((trials, 2), code) for name, code in today.items()}
-        slacks = {name: np.full((trials, 2), own) for name, own in slack.items()}
-        return Effects(codes, slacks, today, slack, np.zeros((trials, 2), dtype=bool))
+        margins = {name: np.full((trials, 2), own) for name, own in margin.items()}
+        return Effects(codes, margins, today, margin, size, np.zeros((trials, 2), dtype=bool))
 
     def take(
         self, groups: Sequence[Sequence[int]], trials: Sequence[Trial], tried: TriedOpenValues, first: int
@@ -162,8 +166,8 @@ class Effects:
                 self.impossible[trial] = [each in tried.impossible for each in range(rows.start, rows.stop)]
                 for name in (each for each, home in homes.items() if home in trials[trial].reached):
                     self.codes[name][trial] = tried.codes[name][rows] if name in tried.codes else 0
-                    if name in self.slacks:
-                        self.slacks[name][trial] = tried.slacks[name][rows] if name in tried.slacks else np.nan
+                    if name in self.margins:
+                        self.margins[name][trial] = tried.margins[name][rows] if name in tried.margins else np.nan
 
     def change(self, trial: int, values: Sequence[str]) -> Phrase | None:
         """Return what changes with a trial at its ends, whose values are these; None where nothing does."""
@@ -180,12 +184,12 @@ class Effects:
 
     def corner(self, name: str, trials: Sequence[Trial]) -> Corner:
         """Return the trials that bring a check nearer to its limit, at the worse end of each; none where it fails already or has no limit."""
-        slack = self.slack.get(name, np.nan)
-        if STATUS[self.today[name]] == "fail" or not np.isfinite(slack):
+        margin = self.margin.get(name, np.nan)
+        if STATUS[self.today[name]] == "fail" or not np.isfinite(margin):
             return Corner(name, np.array([], dtype=int), np.array([]))
-        ends = np.nan_to_num(self.slacks[name] - slack, nan=0.0)
+        ends = np.nan_to_num(self.margins[name] - margin, nan=0.0)
         harm, side = ends.min(axis=1), ends.argmin(axis=1)
-        order = np.argsort(harm, kind="stable")[: int((harm < -STILL).sum())]
+        order = np.argsort(harm, kind="stable")[: int((harm < -STILL * self.size[name]).sum())]
         return Corner(
             name, order, np.array([(each.low, each.high)[end] for each, end in zip(trials, side, strict=True)])
         )

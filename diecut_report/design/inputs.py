@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Collection, Container, Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Literal, get_args, get_origin
 
@@ -14,6 +14,8 @@ import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.parts.keys import WORDS
+from diecut_report.config.parts.reading import typed_value
 from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
@@ -24,7 +26,15 @@ from diecut_report.mechanism.names import Text
 from diecut_report.mechanism.steps import Require
 from diecut_report.quantities.formatting import number_text, outward, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit, unit
-from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+from diecut_report.study.definition.base_inputs import (
+    MECHANISMS,
+    Input,
+    UnknownPath,
+    find_input,
+    present_value,
+    typed_place,
+    varied_input,
+)
 from diecut_report.text.phrases import Phrase, phrase
 
 MANY_STEPS = 20  # references that are followed to where a value stands; a loop is refused where a file is read
@@ -34,7 +44,8 @@ MANY_STEPS = 20  # references that are followed to where a value stands; a loop 
 class DesignInput:
     """Hold an input that may be changed. ``present`` is its value (SI), None of a text or without one; ``unit`` the one it is typed in.
 
-    ``stands`` is its place in the file, whether it is there or not; ``written`` what is typed there, None where nothing is.
+    ``stands`` is its place in the file, whether it is there or not; ``written`` what is typed there, None where nothing is. ``among`` are the
+    only values that are tried, as they are typed; none where it may be any.
     """
 
     asked: Input
@@ -42,6 +53,7 @@ class DesignInput:
     unit: str
     written: str | None
     stands: KeyPath
+    among: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -66,18 +78,30 @@ class DesignInput:
     @property
     def listed(self) -> np.ndarray:
         """Return the only numbers (SI) that it may be, ascending; none where it may be any of a range."""
+        if self.among:
+            return np.unique([self.read(text) for text in self.among])
         return np.sort([self.meta.parsed_unit.to_si(value) for value in self.meta.listed])
 
     @property
     def is_stepped(self) -> bool:
         """Return whether a number takes some values alone, and so none between them."""
-        return self.is_whole or bool(self.meta.listed)
+        return self.is_whole or bool(self.among or self.meta.listed)
+
+    @property
+    def is_text(self) -> bool:
+        return not isinstance(self.asked.meta, Quantity)
 
     @property
     def options(self) -> tuple[str, ...]:
         """Return the values of a text or yes/no, as they are typed; none of a number, or where it may be any text."""
         meta = self.asked.meta
-        return () if isinstance(meta, Quantity) else tuple(meta.options) or tuple(allowed_texts(self.asked.annotation))
+        return (
+            self.among
+            if self.among
+            else ()
+            if isinstance(meta, Quantity)
+            else tuple(meta.options) or tuple(allowed_texts(self.asked.annotation))
+        )
 
     @property
     def bounds(self) -> tuple[float, float]:
@@ -145,13 +169,18 @@ def design_input(config: Config, name: str) -> DesignInput:
                 template, config.tree.file, name=name, what=what, told=target.told, origins=origins, path=asked.path
             )
         asked = find_input(config, _path(target.instance, target.key))
+    return _number(config, asked)
+
+
+def _number(config: Config, asked: Input) -> DesignInput:
+    found = _made(config, asked)
     if not isinstance(asked.meta, Quantity):
         template = "{name} is a text, a choice or a yes/no; name an input that is a number."
-        raise refusal(template, config.tree.file, name=name)
+        raise refusal(template, config.tree.file, name=found.name)
     if asked.meta is POINTS:
         template = "{name} only sets how densely curves are listed; it does not affect the machine."
-        raise refusal(template, config.tree.file, name=name)
-    return _made(config, asked)
+        raise refusal(template, config.tree.file, name=found.name)
+    return found
 
 
 def free_input(config: Config, name: str) -> DesignInput:
@@ -159,6 +188,39 @@ def free_input(config: Config, name: str) -> DesignInput:
     found = design_input(config, name)
     require_untied(config, found)
     return found
+
+
+def solved_input(config: Config, name: str, among: Sequence[str] = ()) -> DesignInput:
+    """Return the input that a name stands for, also one of the parts of a machine, or that these are made with, which then follow it.
+
+    Of ``among``, values as they are typed, one is looked for; a text takes one of them, or of all that it may be. UserError in words where
+    it cannot be changed, or follows from the parts itself.
+    """
+    found = _solved_input(config, name)
+    if isinstance(found.written, str) and "${" in found.written:
+        template = "{name} follows from {written}; change what that refers to, or write a value there first."
+        raise refusal(template, config.tree.file, name=found.name, written=found.written)
+    if found.is_text and not (among or found.options):
+        template = "{name} is a text; name those that are to be tried with --among."
+        raise refusal(template, config.tree.file, name=found.name)
+    for text in () if found.is_text else among:
+        try:
+            found.read(text)
+        except ValueError as fault:
+            wrong = Phrase("{name}: {fault}", name=found.name, fault=fault)
+            raise UserError(Problem(wrong, config.tree.file, path="--among")) from None
+    return replace(found, among=tuple(among))
+
+
+def _solved_input(config: Config, name: str) -> DesignInput:
+    is_part = config.parts is not None and name.split(".")[0] in WORDS
+    try:
+        asked = varied_input(config, name if is_part else _asked(config, name).path)
+        if isinstance(asked.meta, Quantity) and not is_part:
+            asked = varied_input(config, design_input(config, name).asked.path)
+    except UnknownPath as fault:
+        raise refusal("{name} {fault}", config.tree.file, name=name, fault=fault) from None
+    return _number(config, asked) if isinstance(asked.meta, Quantity) else _made(config, asked)
 
 
 def require_untied(config: Config, design: DesignInput) -> None:
@@ -233,6 +295,12 @@ def _path(instance: str, key: KeyPath) -> str:
 
 
 def _made(config: Config, asked: Input) -> DesignInput:
+    if config.parts is not None and asked.instance in WORDS:
+        stands = typed_place(config, asked)
+        typed, present = typed_value(config.parts.reader.tree, stands), present_value(config, asked)
+        written = None if typed is None else str(typed)
+        number = present if isinstance(present, float) else None
+        return DesignInput(asked, number, _typed_unit(written, asked.meta), written, stands)
     instance = config.instances[asked.instance]
     assert instance is not None
     _, stands = instance.place.stands(asked.key)

@@ -35,7 +35,7 @@ from diecut_report.text.phrases import Phrase
 
 CHECKS = ".checks."
 AT_LIMIT = 1e-9
-STATUS, UTILISATION, SLACK, MARGIN, SIZE = ".status", ".utilisation", ".slack", ".margin", ".size"
+STATUS, UTILISATION, MARGIN, SIZE = ".status", ".utilisation", ".margin", ".size"
 
 
 @dataclass
@@ -58,15 +58,15 @@ class VariedMachines(Rows):
     @cached_property
     def checks(self) -> list[str]:
         """Return the checks that are made of any machine, as ``drive.crank_torque``."""
-        ends = (name for name in self.columns if name.endswith(SLACK))
-        return [name.removesuffix(SLACK).replace(CHECKS, ".", 1) for name in ends]
+        ends = (name for name in self.columns if name.endswith(MARGIN))
+        return [name.removesuffix(MARGIN).replace(CHECKS, ".", 1) for name in ends]
 
     def values(self, name: str) -> Array:
         """Return a number of each machine (SI); NaN where it has none, also where the name is not known."""
         return self.columns.get(name, np.full(self.count, np.nan)).astype(float)
 
     def check(self, name: str, what: str = STATUS) -> Array:
-        """Return of a check its status, utilisation, margin, size of the greater side, or slack (margin by size)."""
+        """Return of a check its status, utilisation, margin, or size of the greater side."""
         empty = np.full(self.count, None) if what == STATUS else np.full(self.count, np.nan)
         return self.columns.get(name.replace(".", CHECKS, 1) + what, empty)
 
@@ -74,12 +74,15 @@ class VariedMachines(Rows):
         """Return the checks of one machine that fail."""
         return [name for name in self.checks if self.check(name)[row] == "fail"]
 
-    @cached_property
-    def least_slack(self) -> Array:
-        """Return the slack of the failing check that is furthest beyond its limit, else of the one nearest to it; NaN without machine."""
+    def least_slack(self, sizes: dict[str, float]) -> Array:
+        """Return the slack of the failing check that is furthest beyond its limit, else of the one nearest to it; NaN without machine.
+
+        A slack is a margin by a size that stays the same in all machines: ``sizes`` are those known, to which new ones are added.
+        """
         slack = np.full(self.count, np.inf)
         for name in self.checks:
-            fails, own = self.check(name) == "fail", self.check(name, SLACK)
+            size = sizes.setdefault(name, float(np.nanmax(self.check(name, SIZE).astype(float), initial=0.0)))
+            fails, own = self.check(name) == "fail", self.check(name, MARGIN).astype(float) / (size or 1.0)
             # a warning is neither, and what is at its limit was sized to it
             holds = (self.check(name) == "pass") & (own > AT_LIMIT)
             found = np.where(fails, np.minimum(own, -AT_LIMIT), own)
@@ -99,7 +102,7 @@ def varied(
 
     def further(made: CalculatedVariants) -> dict[str, Array]:
         own = {each.path: _input(config, made, each) for each in asked}
-        return slacks(made) | {path: values for path, values in own.items() if values is not None}
+        return margins(made) | {path: values for path, values in own.items() if values is not None}
 
     made = VariedMachines(count)
     vars(made).update(vars(calculate_rows(config, given, count, further=further, tell=tell)))
@@ -163,8 +166,8 @@ def _reached(neighbours: Mapping[str, set[str]], names: Iterable[str]) -> set[st
     return found
 
 
-def slacks(made: CalculatedVariants) -> dict[str, Array]:
-    """Return how far each check is from its limit: the margin as a share of the greater of demand and limit."""
+def margins(made: CalculatedVariants) -> dict[str, Array]:
+    """Return how far each check is from its limit, and the size of the greater of demand and limit."""
     found: dict[str, Array] = {}
     for name, calc in made.calculations.items():
         for check in checks_of(calc):
@@ -174,9 +177,7 @@ def slacks(made: CalculatedVariants) -> dict[str, Array]:
             there, demand, limit = (sides.governing(part) for part in (sides.there, sides.demand, sides.limit))
             limit = check.reach(limit)
             size = np.maximum(np.abs(demand), np.abs(limit))
-            with np.errstate(all="ignore"):
-                share = np.where(size > 0, (limit - demand) / size, 0.0)
-            for what, values in ((SLACK, share), (MARGIN, limit - demand), (SIZE, size)):
+            for what, values in ((MARGIN, limit - demand), (SIZE, size)):
                 column = np.where(there, values, np.nan)
                 found[f"{name}{CHECKS}{check.id}{what}"] = np.broadcast_to(column, (made.count,))
     return found

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diecut_report.config.loader import Config
+from diecut_report.config.yaml import plain_text
 from diecut_report.design.answers import Answer, DesignQuestion, FoundValue, Range, Role, question
 from diecut_report.design.inputs import DesignInput
 from diecut_report.design.line_search import Function, crossings, greatest, looked_closer, roots, runs, without_gaps
@@ -18,7 +19,7 @@ from diecut_report.formulas import Array
 from diecut_report.mechanism.names import SI
 from diecut_report.press import Press
 from diecut_report.quantities.formatting import told
-from diecut_report.study.definition.base_inputs import with_values
+from diecut_report.study.definition.base_inputs import is_of_parts, typed_data, with_values
 from diecut_report.text.phrases import Phrase
 
 # Where the values of an input are looked for: the range, and the numbers in it at which machines are calculated first.
@@ -79,13 +80,23 @@ def solved(
 
     UserError in words where that is not a question, there is no range to search, or what is asked does not vary with the input.
     """
-    config = press.config
+    config, of_parts = press.config, is_of_parts(press.config, design.asked)
     if design.present is None and low is not None:  # a value may bring quantities with it that are not there without
-        config, _ = with_values(config, {design.asked: SI(low, design.meta.parsed_unit.si, design.name)})
+        config, _ = _with_value(config, design, low)
     what = question(config, asked)
     press.tell(Phrase("solving for {input}", input=design.name))
-    answer = _RangeSearch(press.config, what, design, passing).answer(*searched_range(design, low, high))
+    base = config if of_parts else press.config
+    if design.is_text:
+        answer = _TextSearch(base, what, design, passing, of_parts).chosen()
+    else:
+        answer = _RangeSearch(base, what, design, passing, of_parts).answer(*searched_range(design, low, high))
     return _proved(answer, press) if answer.found else answer
+
+
+def _with_value(config: Config, design: DesignInput, value: float) -> tuple[Config, list[Problem]]:
+    if is_of_parts(config, design.asked):
+        return config.with_parts({design.stands: typed_data(design.asked, value)})
+    return with_values(config, {design.asked: SI(value, design.meta.parsed_unit.si, design.name)})
 
 
 def _proved(answer: Answer, press: Press) -> Answer:
@@ -93,7 +104,9 @@ def _proved(answer: Answer, press: Press) -> Answer:
     faults: list[UserError] = []
     for index, first in enumerate(answer.found):
         try:
-            machine = proved(press.with_values({answer.design.stands: first.typed}))
+            is_word = answer.design.is_text and first.typed not in ("true", "false")
+            text = plain_text(first.typed) if is_word else first.typed
+            machine = proved(press.with_values({answer.design.stands: text}))
         except UserError as fault:
             faults.append(fault)
             continue
@@ -107,19 +120,24 @@ def _proved(answer: Answer, press: Press) -> Answer:
 
 @dataclass
 class _RangeSearch:
-    """Looks along the range of an input; ``part`` are the mechanisms that must be calculated for it."""
+    """Looks along the range of an input; ``part`` are the mechanisms that must be calculated for it, all where the parts follow it."""
 
     config: Config
     question: DesignQuestion
     design: DesignInput
     passing: bool
+    of_parts: bool
 
     def __post_init__(self) -> None:
         asked = self.question.quantity
-        is_whole = self.passing or asked.asked is not None  # of an input the whole says whether it can be
+        is_whole = (
+            self.passing or self.of_parts or asked.asked is not None
+        )  # of an input the whole says whether it can be
         self.part = self.config if is_whole else narrowed(self.config, [asked.home, self.design.asked.instance])
         self.inputs = [] if asked.asked is None else [asked.asked]
         self.known: dict[float, tuple[float, float]] = {}
+        self.size = 0.0  # of what is asked, and of the checks: the same for all machines
+        self.sizes: dict[str, float] = {}
 
     def machines(self, x: Array) -> VariedMachines:
         return varied(self.part, {self.design.asked: x}, len(x), self.inputs)
@@ -203,9 +221,9 @@ class _RangeSearch:
             held = np.where(np.isfinite(y), 1.0, np.nan)
         else:
             sign = 1.0 if self.question.kind == "<=" else -1.0
-            size = np.maximum(np.maximum(np.abs(y), abs(self.question.value)), 1e-300)
-            held = sign * (self.question.value - y) / size
-        return np.minimum(held, made.least_slack) if self.passing else np.where(made.exists, held, np.nan)
+            self.size = self.size or float(np.nanmax(np.abs(y), initial=abs(self.question.value)))
+            held = sign * (self.question.value - y) / (self.size or 1.0)
+        return np.minimum(held, made.least_slack(self.sizes)) if self.passing else np.where(made.exists, held, np.nan)
 
     def _ranges(self, x: Array, held: Array) -> list[Range]:
         refined: dict[float, float] = {}
@@ -220,7 +238,7 @@ class _RangeSearch:
             high = _between(refined, x[last], x[last + 1], x[last]) if last + 1 < len(x) else x[last]
             places += [(float(low), "lower"), (float(high), "upper")]
         found = [
-            replace(each, at_end=place in (x[0], x[-1]))
+            replace(each, at_end=self._is_end(place, x))
             for each, (place, _) in zip(typed_answers(self, places), places, strict=True)
         ]
         return list(zip(found[::2], found[1::2], strict=True))
@@ -239,7 +257,7 @@ class _RangeSearch:
         else:
             top = self._top(np.union1d(x, self._about_the_best(x, heights(x))), sign, heights)
         found = [] if top is None else typed_answers(self, [(top, "extreme")])
-        return [replace(each, at_end=top in (x[0], x[-1])) for each in found]
+        return [replace(each, at_end=self._is_end(top, x)) for each in found]
 
     def _about_the_best(self, x: Array, known: Array) -> Array:
         """More numbers about the best of these, as far as its neighbours: what is rounded fails and passes in steps."""
@@ -263,6 +281,10 @@ class _RangeSearch:
         return greatest(heights, places, known)[0] if np.isfinite(known).any() else None
 
     # --- the answers -------------------------------------------------------------------------------------------------
+
+    def _is_end(self, place: float | None, x: Array) -> bool:
+        """Whether a number lies at an end of the range, beyond which others might answer."""
+        return place in (x[0], x[-1]) and not self.design.among
 
     def _nearest_first(self, found: list[FoundValue]) -> list[FoundValue]:
         present = self.design.present
@@ -288,7 +310,45 @@ class _RangeSearch:
             best = x[away <= away.min()]  # where all are as far away the one that is nearest to today's
             value = float(best[np.argmin(np.abs(best - (self.design.present or best[0])))])
         found = typed_answers(self, [(value, "nearest")])
-        return replace(found[0], at_end=value in (x[0], x[-1])) if found else None
+        return replace(found[0], at_end=self._is_end(value, x)) if found else None
+
+
+class _TextSearch(_RangeSearch):
+    """Tries each text that an input may be; the numbers along the range are their places in the list."""
+
+    def machines(self, x: Array) -> VariedMachines:
+        return varied(self.part, {self.design.asked: [self.design.options[int(i)] for i in x]}, len(x), self.inputs)
+
+    def chosen(self) -> Answer:
+        """Return the texts with which what is asked holds, today's first; nothing of it is proved yet."""
+        options, present = self.design.options, self.design.written
+        made = self.machines(np.arange(len(options)))
+        y = made.values(self.question.quantity.column)
+        self._refuse_constant(made, y)
+        tried = [FoundValue(math.nan, text, float(y[i]), "today" if text == present else "choice", tuple(made.failing(i)))
+                 for i, text in enumerate(options)]  # fmt: skip
+        today = next((each.reached for each in tried if each.role == "today"), math.nan)
+        answer = Answer(self.question, self.design, math.nan, math.nan, today, passing=self.passing)
+        answer = replace(answer, refused={options[i]: why for i, why in enumerate(made.errors) if why})
+        held = self._held_by(made, y)
+        if held.any():
+            found = sorted((tried[i] for i in np.flatnonzero(held)), key=lambda each: each.role != "today")
+            return replace(answer, found=tuple(found))
+        away = np.abs(y - self.question.value) if self.question.kind == "=" else -self.holds(made, y)
+        nearest = tried[int(np.nanargmin(away))] if np.isfinite(away).any() else None
+        return replace(answer, nearest=nearest and replace(nearest, role="nearest"))
+
+    def _held_by(self, made: VariedMachines, y: Array) -> Array:
+        """The texts that answer: of an extreme the best of those that hold."""
+        if self.question.kind == "=":
+            size = max(abs(self.question.value), float(np.ptp(y[np.isfinite(y)])))
+            passes = made.passes if self.passing else made.exists
+            return np.asarray(passes & (np.abs(y - self.question.value) <= REACHED * size))
+        held = self.holds(made, y) >= 0
+        if self.question.is_extreme and held.any():
+            height = np.where(held, y if self.question.kind == "max" else -y, -np.inf)
+            held &= height >= height.max() - SAME * abs(height.max())
+        return np.asarray(held)
 
 
 def _between(refined: dict[float, float], low: float, high: float, known: float) -> float:
@@ -335,7 +395,7 @@ def typed_answers(search: _RangeSearch, places: Sequence[tuple[float, Role]]) ->
 def _candidates(design: DesignInput, value: float, role: Role) -> list[str]:
     """What may be typed, the best first."""
     exact = design.typed(value, EXACT)
-    if design.is_whole or role == "today" or value == design.present:
+    if design.is_stepped or role == "today" or value == design.present:
         return [exact]
     inwards = [design.typed_inwards(value, EXACT, up=up) for up in (True, False)]
     few = {
@@ -369,9 +429,10 @@ def _chosen(own: Array, x: Array, y: Array, held: Array, missed: Array, failed: 
 
 def _outside(search: _RangeSearch, value: float, role: Role) -> list[float]:
     """Values just beyond the end of what passes."""
-    if not search.passing or role in ("root", "today", "nearest"):
+    is_whole = search.design.is_whole
+    if not search.passing or role in ("root", "today", "nearest") or search.design.is_stepped > is_whole:
         return []
-    step = 1.0 if search.design.is_whole else BEYOND * abs(value)
+    step = 1.0 if is_whole else BEYOND * abs(value)
     ways = {"lower": (-step,), "upper": (step,)}.get(role, (-step, step))
     beyond = np.array([value + way for way in ways])
     return [float(each) for each in beyond[search.design.allows(beyond)]]

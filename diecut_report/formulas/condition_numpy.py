@@ -172,7 +172,7 @@ LEAST = 1e-9  # of what does not hold by next to nothing
 
 
 def shortfall(node: Node, value_of: ValueOf, count: int) -> Array:
-    """Return for each of so many rows 0 where the condition holds, else how far it is from that, as a share of the greater side."""
+    """Return for each of so many rows 0 where the condition holds, else how far it is from that, from 0 to 1: the further, the greater."""
     holds = judged(node, value_of, count).holds
     with np.errstate(all="ignore"):
         found = np.broadcast_to(_distance(node, value_of, count), (count,))
@@ -186,7 +186,12 @@ def _distance(node: Node, value_of: ValueOf, count: int) -> Array:
         case Joined(_, parts):
             return np.asarray(np.min([shortfall(part, value_of, count) for part in parts], axis=0))
         case Compared(sign, left, right) if sign != "!=" and not (is_text(left) or is_condition(left)):
-            low, high = numbers(left, value_of), numbers(right, value_of)
-            share = np.abs(low - high) / np.maximum(np.maximum(np.abs(low), np.abs(high)), np.finfo(float).tiny)
-            return np.where(np.isfinite(share), share, UNKNOWN)
+            share = _beyond(numbers(left, value_of), numbers(right, value_of))
+            return np.where(np.isfinite(share), share / (1 + share), UNKNOWN)
     return np.array(UNKNOWN)
+
+
+def _beyond(left: Array, right: Array) -> Array:
+    """How far two sides are apart, by the size of the one that is the same in all rows: a size of each row turns round at zero."""
+    same = next((abs(float(side)) for side in (right, left) if not side.ndim), 0.0)
+    return np.asarray(np.abs(left - right) / (same or 1.0))

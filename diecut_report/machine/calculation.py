@@ -219,6 +219,9 @@ class CurveHandle:
     def cycle(self) -> str:
         return self.abscissa.id
 
+    def is_in(self, unit_text: str) -> bool:
+        return unit(self.calculation.curves[self.curve_id].unit).kind == unit(unit_text).kind
+
     @property
     def rate(self) -> Array:
         found = cycle_rate(self.calculation, self.cycle)

@@ -102,6 +102,9 @@ class Pending:
 class Curve(Protocol):
     """Hold a curve that an input refers to, over shares of its period."""
 
+    def is_in(self, unit: str) -> bool:
+        """Return whether its values are of the dimension of a unit."""
+
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         """Return values at shares, shape (variants, points), each in the smooth piece that the share ``middle`` lies in."""
 

@@ -173,17 +173,17 @@ class LoadedPress:
             return swept(self.config, self.press.discovery, self.language, vary, sample, asked)
 
     def solve(
-        self, vary: str, target: str, *, low: str | None = None, high: str | None = None, passing: bool = False
-    ) -> Solution[LoadedPress]:
+        self, vary: str, target: str, *, low: str | None = None, high: str | None = None, among: Iterable[str] = (), passing: bool = False
+    ) -> Solution[LoadedPress]:  # fmt: skip
         """Return the values of one input with which a target is met, ``"drive.crank_torque_peak = 400 N*m"``: the command ``solve``.
 
-        It is searched from ``low`` to ``high`` (a third of today's value to three times it); with ``passing`` only machines with which no
-        check fails. ConfigError where nothing can be searched.
+        It is searched from ``low`` to ``high`` (a third of today's value to three times it), or ``among`` some values, such as bearings;
+        with ``passing`` only machines with which no check fails. ConfigError where nothing can be searched.
         """
         from diecut_report.scripting.questions import solved_press
 
         with told_in(self.language), one_thread():
-            return solved_press(self.press.usable(), self._of, vary, target, (low, high), passing=passing)
+            return solved_press(self.press.usable(), self._of, vary, target, (low, high), [*among], passing=passing)
 
     def advise(self, *, free: Iterable[str] = (), keep: Iterable[str] = ()) -> MendedPress[LoadedPress]:
         """Return the smallest changes with which no check fails: the command ``advise``."""

@@ -24,8 +24,15 @@ from diecut_report.quantities.units import UnitError, unit, with_point
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
 from diecut_report.scripting.parts import PartList
-from diecut_report.scripting.values import QuantityValue, notebook_page, typed
-from diecut_report.study.definition.base_inputs import MECHANISMS, UnknownPath, find_input, typed_place, varied_input
+from diecut_report.scripting.values import QuantityValue, notebook_page, scalar, typed
+from diecut_report.study.definition.base_inputs import (
+    MECHANISMS,
+    Input,
+    UnknownPath,
+    find_input,
+    typed_place,
+    varied_input,
+)
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, speaking
@@ -138,6 +145,18 @@ def whole_path(name: str) -> str:
     return name if name.split(".")[0] in (PRESS, MECHANISMS, *WORDS) else f"{MECHANISMS}.{name}"
 
 
+def _typed_at_part(config: Config, found: Input, value: Any) -> str:
+    """A value as it is typed at a part, where it may stand within a text of several numbers."""
+    given = scalar(value, found.path)
+    if not isinstance(found.meta, Quantity) or (isinstance(given, str) and "${" in given):
+        return typed(value, found.path)
+    try:
+        found.meta.validate(given)
+    except ValueError as fault:
+        raise ConfigError(Problem(str(fault), config.tree.file, path=found.path)) from None
+    return str(given)
+
+
 def placed(config: Config, name: str, value: Any) -> tuple[KeyPath, str]:
     """Return the place in the file of what a path names (an input, or a field of ``project`` or ``report``), and the value as typed there.
 
@@ -156,7 +175,7 @@ def placed(config: Config, name: str, value: Any) -> tuple[KeyPath, str]:
         with suppress(UnitError):  # of an expression, or of what is judged when it is read
             value = with_point(value)
     if is_of_parts:
-        return typed_place(config, found), typed(value, name)
+        return typed_place(config, found), _typed_at_part(config, found, value)
     instance = config.instances[found.instance]
     assert instance is not None, "an input of a broken plugin is not found"
     tree, place = instance.place.stands(found.key)

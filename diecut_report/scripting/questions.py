@@ -10,7 +10,7 @@ from typing import Any, Generic, TypeVar
 from diecut_report.config.loader import Config
 from diecut_report.design import advice, influence
 from diecut_report.design.answers import Answer, FoundValue, data, lines
-from diecut_report.design.inputs import free_input
+from diecut_report.design.inputs import solved_input
 from diecut_report.design.solving import solved
 from diecut_report.errors import ConfigError, Problem
 from diecut_report.press import Press
@@ -38,13 +38,13 @@ class _Answered:
 class Solution(_Answered, Generic[PressT]):
     """Hold the values of an input that answer (``values``, the nearest to today's first); ``press`` is the press with the first, calculated once.
 
-    Without one ``values`` is empty, ``nearest`` is the value that comes nearest, and ``press`` is None. ``data`` is what the command
-    gives as JSON; ``str`` what it says.
+    Of an input that is a text they are texts. Without one ``values`` is empty, ``nearest`` is the value that comes nearest, and ``press`` is
+    None. ``data`` is what the command gives as JSON; ``str`` what it says.
     """
 
     found: bool
-    values: tuple[QuantityValue, ...]
-    nearest: QuantityValue | None
+    values: tuple[QuantityValue | str, ...]
+    nearest: QuantityValue | str | None
     press: PressT | None
 
 
@@ -73,14 +73,14 @@ class InfluenceTable(_Answered):
 
 
 def solved_press(
-    asked: Press, make: Make[PressT], vary: str, target: str, ends: tuple[str | None, str | None], *, passing: bool
+    asked: Press, make: Make[PressT], vary: str, target: str, ends: tuple[str | None, str | None], among: Sequence[str], *, passing: bool
 ) -> Solution[PressT]:  # fmt: skip
     """Return the answer to a question, as the command gives it; ``make`` makes the press of a script."""
-    design = free_input(asked.config, vary)
+    design = solved_input(asked.config, vary, among)
 
     def end(given: str | None, name: str) -> float | None:
         try:
-            return None if given is None else design.read(given)
+            return None if given is None or design.is_text else design.read(given)
         except ValueError as fault:
             raise ConfigError(Problem(fault.args[0], path=f"{name} of {design.name}")) from None
 
@@ -92,7 +92,9 @@ def solved_press(
     return Solution(data(answer), "\n".join(lines(answer)), bool(values), values, near, press)
 
 
-def _value(answer: Answer, found: FoundValue) -> QuantityValue:
+def _value(answer: Answer, found: FoundValue) -> QuantityValue | str:
+    if answer.design.is_text:
+        return found.typed
     meta, (number, own) = answer.design.meta, number_and_unit(found.typed)
     printed = str(number), own or "1"
     return QuantityValue(

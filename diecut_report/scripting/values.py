@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -16,7 +15,7 @@ from markupsafe import Markup
 
 from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.plugins import Discovery
-from diecut_report.config.yaml import resolved
+from diecut_report.config.yaml import plain_text
 from diecut_report.errors import ConfigError, Problem, UnknownName, Unwritable, UserError
 from diecut_report.quantities.formatting import shown, with_unit
 from diecut_report.quantities.units import UnitError, kind_name, parse_quantity, pretty, unit
@@ -202,7 +201,6 @@ class InputValue(QuantityValue):
 # Values of a script as they are typed into a configuration: numbers, texts with units, quantities of this program, of pint and of NumPy.
 
 
-SIGNS = ",[]{}#:&*!|>'\"%@`\n"  # of YAML, or within its braces
 NEEDED = phrase("a number, a text such as `120 mm`, a quantity, true or false is needed")
 
 
@@ -244,10 +242,7 @@ def typed(given: Any, path: str) -> str:
     value = scalar(given, path)
     if isinstance(value, bool):
         return str(value).lower()
-    if not isinstance(value, str):
-        return repr(value)
-    is_plain = value == value.strip() and resolved(value) == value and not any(sign in value for sign in SIGNS)
-    return value if is_plain and not value.startswith(("-", "?")) else json.dumps(value, ensure_ascii=False)
+    return plain_text(value) if isinstance(value, str) else repr(value)
 
 
 def plain(given: Any, path: str) -> Any:

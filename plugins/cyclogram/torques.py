@@ -177,6 +177,9 @@ def _torque(line: LineOfMachines, key: str) -> ShaftCurve | None:
             name=line.name,
         )
         raise Refusal(key, message)
+    if curve is not None and not curve.is_in("N*m"):
+        template = "is “{curve}” of {name}, which is not a curve in N*m; name that of the torque at its crank"
+        raise Refusal(key, Phrase(template, curve=line.torque_curve, name=line.name))
     if curve is not None and not isclose(line.mechanism.period(), line.mechanism.cycle()):
         template = (
             "is over a part of the cycle of {name} alone, so that it tells no torque over the main shaft; leave it out"

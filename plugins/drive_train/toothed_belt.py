@@ -172,8 +172,12 @@ length.value("toothed_belt_take_up", "ΔL", "mm", "Difference of belt and path l
 length.value("teeth_in_mesh", "z_m", "1", "Number of teeth in mesh along the wrap",
     bind(lambda radius, wrap, pitch: radius * as_number(wrap) / pitch, radius=f"{PULLEYS}.radius", wrap="wraps", pitch="toothed_belt.pitch"),
     source="this method")
-length.total("teeth_in_mesh_min", "z_m,min", "1", "Minimum number of teeth in mesh of the toothed pulleys", "min", of="teeth_in_mesh",
-    among="has_teeth")
+length.total("teeth_in_mesh_inside", "z_m,i", "1", "Minimum number of teeth in mesh of the toothed pulleys inside", "min", of="teeth_in_mesh",
+    among="has_teeth", output=False)
+length.part("teeth_in_mesh_driving", "z_m,1", "1", "Number of teeth in mesh of the first pulley, which drives", of="teeth_in_mesh", index=0,
+    output=False)
+length.value("teeth_in_mesh_min", "z_m,min", "1", "Minimum number of teeth in mesh of the toothed pulleys",
+    lambda teeth_in_mesh_inside, teeth_in_mesh_driving: np.minimum(teeth_in_mesh_inside, teeth_in_mesh_driving), source="this method")
 
 TOOTHED_BELT = (speed, path, length, listed)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Mechanism
-from diecut_report.plugins.press_consistency import drive, sheet
+from diecut_report.plugins.press_consistency import cylinder, drive, sheet
 from diecut_report.plugins.press_consistency.checks import CHECKS
 from diecut_report.plugins.press_consistency.example import EXAMPLE
 from diecut_report.plugins.press_consistency.figures import FIGURES
@@ -20,7 +20,7 @@ MECHANISM = Mechanism(
             "register.",
     inputs=PressConsistency,
     example=EXAMPLE,
-    chapters=(sheet.sides, sheet.rate, drive.inertia, drive.engagement, drive.coupling,
+    chapters=(sheet.sides, cylinder.CYLINDER, sheet.rate, drive.inertia, drive.engagement, drive.coupling,
               drive.ends_chapter, sheet.conveyor, drive.motor_chapter, sheet.stopping, sheet.dwell, sheet.register),
     key_results=("step_room", "actual_rate", "crank_inertia_mean", "crank_inertia_max", "slip_heat", "equal_inertia", "way_inner", "way_outer",
                  "motor_torque_rms", "motor_torque_peak", "speed_swing", "play_total"),

@@ -22,6 +22,14 @@ CHECKS = (
     Check(id="format_generatrix", check_class="function", presumed=True, title="Sheet across the feed and cylinder", demand="side_across",
         limit="generatrix_length", unit="mm", demand_label="sheet across the feed", limit_label="generatrix of the cylinder",
         source="geometry", consequence="the sheet reaches beyond the cylinder's end; take a longer cylinder or a smaller sheet."),
+    Check(id="cylinder_sizes", check_class="function", presumed=True, title="One cylinder: sizes", demand="cylinder_sizes_apart", limit=0.0,
+        unit="1", demand_label="sizes given otherwise", limit_label="accepted", source="geometry",
+        consequence="the drive or the dampers are calculated for another cylinder than the one that is sized: {cylinder_sizes}; refer to the "
+            "cylinder there."),
+    Check(id="cylinder_loads", check_class="strength", severity="warn", presumed=True, title="One cylinder: masses and moments",
+        demand="cylinder_loads_short", limit=0.0, unit="1", demand_label="values less than the cylinder's", limit_label="accepted",
+        source="dynamics", consequence="forces and energies are calculated for a lighter cylinder than the one that is sized, or without its "
+            "unbalance, or for less cutting: {cylinder_loads}; refer to the cylinder there."),
     Check(id="step", check_class="function", title="Sheet and step", demand="side_in_feed", limit="sheet_step", unit="mm",
         demand_label="sheet in the feed direction", limit_label="step of the transport", source="geometry",
         consequence="the next sheet comes to lie on this one; the step must be longer, or the sheet shorter."),
@@ -95,6 +103,11 @@ CHECKS = (
         unit="deg", tolerance=1e-6, demand_label="angle used for the play", limit_label="angle left by the timing", source="geometry",
         consequence="the sheet must rest where the locking disc covers less of its arc than calculated; give the wheel a cover_angle of at most "
             "{dwell_margin:down}, or a longer dwell."),
+    Check(id="held_in_dwell", check_class="function", severity="warn", presumed=True, title="Phases within the wheel's dwell", demand=1.0,
+        only_with=("cover_angle",),
+        limit="held_in_dwell", unit="1", demand_label="required interlocks", limit_label="given", source="this method",
+        consequence="nothing in the timing says what must lie within the wheel's dwell, so that its play is calculated for an angle that nothing "
+            "holds; give the cyclogram an interlock within the wheel's dwell, or apart from its motion."),
     Check(id="register", check_class="function", title="Play and register", demand="play_total", limit="register_tolerance", unit="mm",
         demand_label="total play", limit_label="allowed", source="geometry",
         consequence="sheet and cut may lie further apart than allowed; take play out of the transport."),

@@ -21,16 +21,16 @@ class PressConsistency(Inputs):
     feed_side: Annotated[Literal["width", "length"], Text("Side of the sheet in the direction of feed")] = "width"
     sheet_gap: Annotated[float | None, Quantity("g_s", "mm", "Space required between two sheets in the feed, for grippers and carriage", ge=0)] = None
 
-    cylinder: Annotated[str | None, Text("Mechanism that is the cylinder; default: the only cylinder_sizing")] = None
-    drive: Annotated[str | None, Text("Mechanism that drives it; default: the only cylinder_drive")] = None
+    cylinder: Annotated[Any | None, MechanismInput("Mechanism that is the cylinder; default: the only cylinder_sizing")] = None
+    drive: Annotated[Any | None, MechanismInput("Mechanism that drives it; default: the only cylinder_drive")] = None
     transport: Annotated[str | None, Text("Mechanism that moves the sheet; default: the only cam_gear_transport or geneva_transport")] = None
     conveyor: Annotated[str | None, Text("Mechanism that provides the conveyor's mass; default: the only cam_gear_transport")] = None
     chain: Annotated[str | None, Text("Chain that carries the gripper bars; default: the only roller_chain that moves no cylinder")] = None
-    wheel: Annotated[str | None, Text("Mechanism that provides the wheel's inertia; default: the only geneva_transport")] = None
+    wheel: Annotated[Any | None, MechanismInput("Mechanism that provides the wheel's inertia; default: the only geneva_transport")] = None
     train: Annotated[str | None, Text("Mechanism that drives the main shaft; default: the only drive_train")] = None
     clutch: Annotated[str | None, Text("Clutch before the cylinder drive's crank; default: the only clutch")] = None
     timing: Annotated[Any | None, MechanismInput("Cyclogram of the press; default: the only cyclogram")] = None
-    damper: Annotated[str | None, Text("Dampers at the ends of the travel; default: the only damper")] = None
+    damper: Annotated[Any | None, MechanismInput("Dampers at the ends of the travel; default: the only damper")] = None
     drive_line: Annotated[str | None, Text("Drive line that provides the brakes' torque; default: that of the machine's parts")] = None
 
     timing_slack: Annotated[float | None,

@@ -11,7 +11,7 @@ TIMES = (
     ListedColumn("what", "Quantity"), ListedColumn("time", "At the productivity", "t", "ms"),
     ListedColumn("actual_time", "At the rate given by the gears", "t_a", "ms"),
 )  # fmt: skip
-DWELL = ".dwell"  # phase of a transport
+DWELL, MOVING = "dwell", "moving"  # phases of a Geneva wheel
 PHASE, MARGIN_START, MARGIN_END, PHASE_TIME = 1, 5, 6, 7  # columns of the cyclogram's tables
 
 
@@ -32,30 +32,43 @@ def lines_out_of_step(drives: tuple[str, ...], single_position: bool, timing: Gi
     return 0.0 if single_position or set(drives) == set(lines) else float(len(set(drives)))
 
 
-def held_in_dwell(timing: GivenMechanism) -> int:
-    """Return how many interlocks hold something within the dwell of a line."""
-    return len(_dwell_margins(timing))
+def held_in_dwell(timing: GivenMechanism, wheel: GivenMechanism) -> int:
+    """Return how many interlocks hold something within the dwell of the wheel."""
+    return len(_dwell_margins(timing, wheel))
 
 
-def dwell_margin(timing: GivenMechanism) -> float:
-    """Return the least angle of a line's own crank between an end of its dwell and what must lie within, rad; 0 where nothing must."""
-    return min(_dwell_margins(timing), default=0.0)
+def dwell_margin(timing: GivenMechanism, wheel: GivenMechanism) -> float:
+    """Return the least angle of the wheel's crank between an end of its dwell and what must lie within, rad; 0 where nothing must."""
+    return min(_dwell_margins(timing, wheel), default=0.0)
 
 
-def _dwell_margins(timing: GivenMechanism) -> list[float]:
+def _dwell_margins(timing: GivenMechanism, wheel: GivenMechanism) -> list[float]:
+    """The margins of what must lie within the dwell, or apart from the motion, of the wheel, whichever of both is named first."""
     turns = dict(zip(timing.texts("lines.mechanism"), timing.parts("line_turns"), strict=True))
-    held = zip(timing.texts("interlocks.within"), timing.parts("margin_least"), strict=True)
-    return [turns[within.removesuffix(DWELL)] * margin for within, margin in held if within.endswith(DWELL)]
+    sides = (timing.texts(f"interlocks.{side}") for side in ("phase", "within", "apart_from"))
+    rests = [
+        _of(within, wheel.name) == DWELL or (apart and MOVING in (_of(phase, wheel.name), _of(apart, wheel.name)))
+        for phase, within, apart in zip(*sides, strict=True)
+    ]
+    return [
+        turns[wheel.name] * margin for rest, margin in zip(rests, timing.parts("margin_least"), strict=True) if rest
+    ]
 
 
-def is_coupled(drives: tuple[str, ...], drive: str) -> float:
+def _of(named: str, line: str) -> str:
+    """The phase that a name means, be it of all its turns or of a numbered one; empty where it is another line's."""
+    home, _, phase = named.partition(".")
+    return phase.partition(".")[0] if home == line else ""
+
+
+def is_coupled(drives: tuple[str, ...], drive: GivenMechanism) -> float:
     """Return whether the clutch drives the cylinder."""
-    return float(drive in drives)
+    return float(drive.name in drives)
 
 
-def lines_beside(drives: tuple[str, ...], drive: str) -> float:
+def lines_beside(drives: tuple[str, ...], drive: GivenMechanism) -> float:
     """Return how many lines a clutch drives beside the cylinder's."""
-    return float(len({*drives} - {drive}))
+    return float(len({*drives} - {drive.name}))
 
 
 def listed(drives: tuple[str, ...]) -> str:

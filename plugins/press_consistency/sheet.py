@@ -101,13 +101,13 @@ conveyor.value("moved_inertia", "J_Σ", "kg*m**2", "Moment of inertia at the whe
 conveyor.value("inertia_error", "Δ_J", "%", "Relative difference of the inertia used in the wheel's calculation",
     lambda wheel_inertia, moved_inertia: abs(wheel_inertia / moved_inertia - 1), source="energy")
 
-dwell = Chapter("Dwell and the phases within it", needs=("timing", "cover_angle"),
+dwell = Chapter("Dwell and the phases within it", needs=("timing", "wheel", "cover_angle"),
     text="The wheel has the largest play just after its exit and just before its entry; the smaller the margins of the timing, the larger the play.",
     absent="not calculated: there is no cyclogram, or the wheel's cover_angle is not given")
-dwell.computed("held_in_dwell", "N_d", "1", "Number of interlocks that contain something within the dwell of a line", on_main_shaft.held_in_dwell,
-    ("timing",), "as given", output=False)
+dwell.computed("held_in_dwell", "N_d", "1", "Number of interlocks that contain something within the wheel's dwell", on_main_shaft.held_in_dwell,
+    ("timing", "wheel"), "as given", output=False)
 dwell.computed("dwell_margin", "φ_m", "deg", "Minimum angle of the wheel's crank between an end of the dwell and what must lie within it",
-    on_main_shaft.dwell_margin, ("timing",), "smaller margin of each interlock, multiplied by the revolutions of the line per sheet",
+    on_main_shaft.dwell_margin, ("timing", "wheel"), "smaller margin of each interlock, multiplied by the revolutions of the line per sheet",
     exists=lambda held_in_dwell: held_in_dwell > 0)
 
 register = Chapter("Register",

@@ -189,6 +189,10 @@ def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> C
         )
         raise Refusal(f"{home}.curve", Phrase(template, curve=name, mechanism=mechanism.name))
     inertia, lever = number("inertia", 0.0), number("lever", 0.0)
+    wanted = _unit(of, bool((inertia > 0).any()), bool((lever > 0).any()))
+    if not curve.is_in(wanted):
+        template = "is “{curve}” of {mechanism}, which is not a curve in {unit}"
+        raise Refusal(f"{home}.curve", Phrase(template, curve=name, mechanism=mechanism.name, unit=wanted))
     factor = number("ratio", 1.0) * np.where(inertia > 0, inertia, 1.0) / np.where(lever > 0, lever, 1.0)
     offset = np.broadcast_to(number("offset", 0.0), (count, 1))
     turns = _turns(text("turns_per_sheet"), mechanism, f"{home}.turns_per_sheet")
@@ -205,6 +209,15 @@ def _load(given: Mapping[str, Any], of: str, index: int | None, count: int) -> C
     )
     lag = number("lag", 0.0)
     return load.lagging(lag) if (lag > 0).any() else load
+
+
+def _unit(of: str, has_inertia: bool, has_lever: bool) -> str:
+    """The unit of a curve that is taken over: of an acceleration where it moves an inertia, of a torque where a lever makes a force of it."""
+    if of == "motion":
+        return "rad"
+    if has_inertia:
+        return "rad/s**2"
+    return "N*m" if of == "torques" or has_lever else "N"
 
 
 def _turns(text: str, mechanism: GivenMechanism, key: str) -> Fraction:

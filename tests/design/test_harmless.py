@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.findings import decided, with_findings
-from diecut_report.design.harmless import UNTRIED, apart, without_harmless
+from diecut_report.design.harmless import UNTRIED, Effects, Trial, apart, without_harmless
+from diecut_report.design.inputs import design_input
 from diecut_report.press import Press
+from diecut_report.results.model import OpenRecord
 from tests.configs import GOOD, HEAD, saved
 
 FORCE, ARM, TEETH = "mechanisms.a.force", "mechanisms.a.arm", "mechanisms.a.teeth"
@@ -97,3 +100,16 @@ def test_a_failing_machine_is_not_tried_with_other_values(tmp_path: Path) -> Non
 def test_sets_with_an_element_in_common_stand_in_different_groups() -> None:
     found = apart([frozenset("ab"), frozenset("c"), frozenset("bc"), frozenset(), frozenset("d")])
     assert sorted(sorted(group) for group in found) == [[0, 1, 3, 4], [2]]
+
+
+def test_a_check_with_nothing_for_a_limit_is_brought_nearer_to_it_by_what_takes_its_margin(tmp_path: Path) -> None:
+    """As a share of the greater side nothing would: that is the margin itself."""
+    made, name = press(tmp_path, "250 N*m"), "a.checks.slack"
+    item, design = OpenRecord(what="assumed", path=FORCE, owner="", why=""), design_input(made.config, "a.force")
+    trials = [Trial(item, design, 1800.0, 2200.0, frozenset(["a"])), Trial(item, design, 1.0, 2.0, frozenset(["a"]))]
+    margins = {name: np.array([[0.5, 0.05], [0.3, 0.3]])}
+    effects = Effects(
+        {name: np.full((2, 2), 1)}, margins, {name: 1}, {name: 0.3}, {name: 0.3}, np.zeros((2, 2), dtype=bool)
+    )
+    corner = effects.corner(name, trials)
+    assert list(corner.order) == [0] and corner.worse[0] == 2200.0

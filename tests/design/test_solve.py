@@ -16,8 +16,10 @@ from diecut_report.config.loader import load_config
 from diecut_report.design.inputs import design_input
 from diecut_report.design.machines import proved, varied
 from diecut_report.press import Press
+from tests.config.parts.test_parts import FILE
 from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 
+PARTS = FILE.with_stem("flat_cylinder_corrected")
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")
 Capture = pytest.CaptureFixture[str]
 TEXT = (
@@ -130,7 +132,9 @@ def test_whole_numbers_are_all_tried(press: Path, capfd: Capture) -> None:
         ("a.arm", "a.moment = 1 N*m", ["--from", "2 m"], "2 m is out of range"),
         ("a.arm", "a.moment = 1 N*m", ["--from", "9 mm", "--to", "8 mm"], "the range from 9 mm to 8 mm is empty"),
         ("a.width", "a.moment = 1 N*m", [], "a.width has no value at present; give the range to search"),
-        ("a.grade", "a.moment = 1 N*m", [], "a.grade is a text, a choice or a yes/no"),
+        ("a.grade", "a.moment = 1 N*m", [], "a.moment does not vary with a.grade: it is 200 N·m in the whole range"),
+        ("a.grade", "a.moment = 1 N*m", ["--from", "1"], "a.grade is a text, a choice or a yes/no; name those that are to be tried with --among"),
+        ("a.arm", "a.moment = 1 N*m", ["--among", "2 g"], "a.arm: 2 g is a mass"),
     ],
 )  # fmt: skip
 def test_bad_input_is_told_and_ends_with_2(
@@ -270,3 +274,63 @@ def test_what_is_told_in_ukrainian_has_decimal_commas_and_what_is_typed_points(t
     assert solve(press, "a.arm", "a.moment = 240.5 N*m", "--language", "uk") == 0
     out = capfd.readouterr().out
     assert "a.moment = 240.5 N·m" in out and "a.arm = 120.25 mm: a.moment дорівнює 240,5 N·m" in out
+
+
+@pytest.mark.parametrize(
+    ("question", "typed", "others"),
+    [
+        ("a.moment >= 230 N*m", "120 mm", ["120 mm", "150 mm"]),
+        ("a.moment = 300 N*m", "150 mm", ["150 mm"]),
+        ("min a.moment", "90 mm", ["90 mm"]),
+        ("a.moment >= 400 N*m", "", ["150 mm"]),  # the nearest
+    ],
+)
+def test_one_size_of_a_series_is_found(
+    press: Path, capfd: Capture, question: str, typed: str, others: list[str]
+) -> None:
+    code = solve(press, "a.arm", question, "--among", "150 mm; 90 mm", "--among", "120 mm", "--format", "json")
+    answer = found(capfd, code)
+    solutions = [each["typed"] for each in answer["solutions"]]
+    ends = [end["typed"] for each in answer["ranges"] for end in each]
+    assert solutions[:1] == [typed][: bool(typed)] and (ends or solutions or [answer["nearest"]["typed"]]) == others
+    assert answer["vary"]["among"] == ["150 mm", "90 mm", "120 mm"]
+
+
+def test_where_no_size_of_a_series_will_do_it_is_said(press: Path, capfd: Capture) -> None:
+    assert solve(press, "a.arm", "a.moment >= 400 N*m", "--among", "90 mm;120 mm") == 1
+    lines = capfd.readouterr().out.splitlines()
+    assert lines[1:] == [
+        "  none of these satisfies it: a.arm = 90 mm or 120 mm",
+        "  nearest: a.arm = 120 mm, where a.moment is 240 N·m",
+    ]
+
+
+@pytest.mark.parametrize(("limit", "nearest"), [("10 deg", "104.6"), ("-20 deg", "")])
+def test_the_nearest_value_is_that_on_the_way_to_the_limit_beyond_zero(
+    capfd: Capture, limit: str, nearest: str
+) -> None:
+    """Of a margin below zero the greater one is nearer to a limit above zero."""
+    question = f"timing.best_margin >= {limit}"
+    code = main(["solve", str(EXAMPLE), "--vary", "cylinder.segment_height", "--for", question, "--format", "json"])
+    answer = found(capfd, code)
+    assert bool(answer["solutions"]) is not bool(nearest)
+    assert nearest == "" or answer["nearest"]["typed"].startswith(nearest)
+
+
+def test_a_size_and_a_bearing_of_a_shaft_are_solved_for_where_they_are_typed(tmp_path: Path, capfd: Capture) -> None:
+    """All that is made of the parts follows: a thicker shaft is heavier for the chain that drives it, and a bearing must fit its seat."""
+    series = "65 mm; 60 mm; 70 mm; 75 mm; 80 mm"
+    asked = ("shafts.far.sections.1.diameter", "shafts_far.checks.deflection <= 0.1", "--among", series)
+    assert solve(PARTS, *asked, "-o", tmp_path / "far.yaml") == 0
+    assert "shafts.far.sections.1.diameter = 75 mm: " in (told := capfd.readouterr().out)
+    assert "satisfied from 75 mm to 80 mm" in told and "chains_grippers.bearing_pressure" in told
+    assert (tmp_path / "far.yaml").read_text("utf-8") == PARTS.read_text("utf-8").replace("65x640", "75x640")
+    asked = (
+        "shafts.far.parts.a.designation",
+        "shafts_far_bearings.checks.a_life <= 0.2",
+        "--among",
+        "6011; 6211; 6311; 6212",
+    )
+    answer = found(capfd, solve(PARTS, *asked, "--format", "json"))
+    assert [each["typed"] for each in answer["solutions"]] == ["6211", "6011"] and answer["vary"]["today"] == "6211"
+    assert list(answer["vary"]["refused"]) == ["6311", "6212"] and "bore of 60 mm" in answer["vary"]["refused"]["6212"]

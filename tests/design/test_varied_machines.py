@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from diecut_report.design.inputs import design_input, given_numbers
-from diecut_report.design.machines import SLACK, narrowed, proved, quantities, varied, write_config
+from diecut_report.design.machines import MARGIN, narrowed, proved, quantities, varied, write_config
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from tests.configs import DISCOVERY, EXAMPLE, HEAD, loaded, saved
@@ -79,11 +79,12 @@ def test_a_run_gives_outputs_checks_and_slack_of_each_machine(tmp_path: Path) ->
     assert list(found.status) == ["pass", "pass", "pass", "fail", "error"]
     assert "mechanisms.a.arm" in found.errors[4] and np.isnan(found.values("a.moment")[4])
     assert found.failing(3) == ["a.moment", "b.moment"]
-    assert found.check("a.moment", SLACK)[:4] == pytest.approx(
-        [0.6, 0.2, 0.0, 250 / 400 - 1], abs=2e-9
-    )  # but for rounding
-    assert found.least_slack[:4] == pytest.approx(
-        [0.6, 0.2, 1 - 125 / 150, -0.375]
+    assert found.check("a.moment", MARGIN)[:4] == pytest.approx([150, 50, 0.0, -150], abs=1e-6)  # but for rounding
+    sizes = {"a.moment": 500.0}
+    least = found.least_slack(sizes)
+    assert sizes == {"a.moment": 500.0, "b.moment": 200.0}  # of all machines the greatest side, where none is known
+    assert least[:4] == pytest.approx(
+        [150 / 500, 50 / 500, 25 / 200, -150 / 500]
     )  # what is at its limit does not count
 
 

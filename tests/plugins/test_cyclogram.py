@@ -366,6 +366,10 @@ FAULTS: dict[str, tuple[Data, str]] = {
         {"lines": [{"mechanism": "cross", "torque_curve": "torqe"}]},
         "lines.0.torque_curve: is “torqe”, but cross has no curve of this name",
     ),
+    "a curve of another quantity": (
+        {"lines": [{"mechanism": "cross", "torque_curve": "wheel_acceleration"}]},
+        "lines.0.torque_curve: is “wheel_acceleration” of cross, which is not a curve in N*m",
+    ),
     "two automatic offsets": (
         {"lines": [{"mechanism": "drive", "offset": "auto"}, {"mechanism": "cross", "offset": "auto"}]},
         "lines.1.offset: is auto, and so is another line's",

@@ -144,6 +144,14 @@ def test_a_loaded_pulley_outside_has_teeth_in_mesh_too() -> None:
     assert calc["teeth_in_mesh"][0, 2] < 6 < calc["teeth_in_mesh"][0, 0]
 
 
+def test_the_driving_pulley_has_teeth_in_mesh_wherever_it_lies() -> None:
+    """On the back of a belt with teeth on both sides it is wrapped least."""
+    driving = (300, whole(126) + whole(40) - 6, whole(40), "outside", "other")
+    calc = belt([driving, (0, 0, whole(126), "inside", "other"), (600, 0, whole(126), "inside", "other")])
+    assert check(calc, "teeth_in_mesh").limit == pytest.approx(calc["teeth_in_mesh"][0, 0], rel=1e-12)
+    assert check(calc, "teeth_in_mesh").status == "fail" and calc["teeth_in_mesh"][0, 0] < 1
+
+
 def test_the_advised_pitch_puts_six_teeth_into_mesh() -> None:
     told = check(belt(OVER, pitch=20), "teeth_in_mesh")
     advised = re.search(r"toothed_belt.pitch to at most (\d+(?:\.\d+)?) mm", told.message)

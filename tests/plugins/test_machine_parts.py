@@ -155,6 +155,8 @@ def test_a_swinging_shaft_comes_back_and_follows_its_rocker() -> None:
 
 BAD: list[tuple[dict[str, Any], str, str]] = [
     ({"curve": "crank_torqu"}, "torques.0.curve", "no curve of this name"),
+    ({"curve": "velocity"}, "torques.0.curve", "not a curve in N*m"),
+    ({"inertia": "0.2 kg*m**2"}, "torques.0.curve", "not a curve in rad/s**2"),
     *(({"turns_per_sheet": text}, "torques.0.turns_per_sheet", "number or a ratio")
       for text in ("", "often", "1/0", "-1", "0", "1/65", "nan", "1/2/3")),
 ]  # fmt: skip
@@ -166,6 +168,21 @@ def test_a_curve_or_a_ratio_that_is_not_there_is_refused_in_words(keys: dict[str
     with pytest.raises(Impossible) as refused:
         loads(main_turns=2, torques=[torque])
     assert refused.value.key == path and words in str(refused.value.message)
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"forces": [HALF | {"name": "wheel", "curve": "crank_torque"}]}, "forces.0.curve: not a curve in N"),
+        ({"forces": [HALF | {"name": "wheel", "curve": "velocity", "lever": "0.1 m"}]}, "forces.0.curve: not a curve in N*m"),
+        ({"motion": HALF | {"curve": "velocity"}}, "motion.curve: not a curve in rad"),
+    ],
+)  # fmt: skip
+def test_a_force_and_a_motion_are_made_of_curves_of_their_own(keys: dict[str, Any], words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        loads(main_turns=2, **keys)
+    key, told = words.split(": ")
+    assert refused.value.key == key and str(refused.value.message).endswith(told)
 
 
 def test_a_curve_over_the_main_shaft_is_taken_as_it_is() -> None:

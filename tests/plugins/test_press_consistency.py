@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.source_hashes import plugin_hash
-from diecut_report.config.yaml import load
+from diecut_report.config.yaml import load, parse
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
@@ -266,9 +266,9 @@ BESIDE = {
 """Elements of the mended press, of which neither timing nor consistency takes anything."""
 
 
-def mended(**changes: dict[str, Any]) -> dict[str, str]:
-    """The statuses of the checks of the mended press without its elements, with other inputs of its mechanisms."""
-    tree = load(EXAMPLE.with_stem("flat_cylinder_press_mended"))
+def mended(text: str = "", **changes: dict[str, Any]) -> dict[str, str]:
+    """The statuses of the checks of the mended press, or of a text, without its elements, with other inputs of its mechanisms."""
+    tree = parse(text, "press.yaml") if text else load(EXAMPLE.with_stem("flat_cylinder_press_mended"))
     tree.data["mechanisms"] = {
         name: {key: value for key, value in (block | changes.get(name, {})).items() if value is not None}
         for name, block in tree.data["mechanisms"].items()
@@ -298,6 +298,49 @@ def test_the_play_of_the_wheel_is_calculated_for_what_the_timing_leaves() -> Non
         assert told["consistency.register"] == told["cross.sheet_play"] == play
     told = mended(cross={"cover_angle": None})
     assert told["consistency.register"] == told["cross.sheet_play"] == told["consistency.cover_angle"] == "not_checked"
+
+
+@pytest.mark.parametrize(
+    ("held", "margin", "is_held"),
+    [
+        ("phase: drive.contact, within: cross.dwell", "fail", "pass"),
+        ("phase: drive.contact, within: cross.dwell.0", "fail", "pass"),
+        ("phase: drive.contact, apart_from: cross.moving", "fail", "pass"),
+        ("phase: cross.moving, apart_from: drive.contact", "fail", "pass"),
+        ("phase: drive.contact, within: drive.contact", "", "warn"),  # says nothing of what rests
+    ],
+)
+def test_what_must_rest_may_be_said_in_any_way(held: str, margin: str, is_held: str) -> None:
+    text = EXAMPLE.with_stem("flat_cylinder_press_mended").read_text("utf-8")
+    for old, new in (
+        ("phase: drive.contact, within: cross.dwell", held),
+        ("cover_angle: {value: 10.9", "cover_angle: {value: 11.2"),
+    ):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    told = mended(text)
+    assert told.get("consistency.cover_angle", "") == margin and told["consistency.held_in_dwell"] == is_held
+
+
+@pytest.mark.parametrize(
+    ("changes", "statuses"),
+    [
+        ({}, ("pass", "pass")),
+        ({"drive": {"segment_height": "30 mm"}}, ("fail", "pass")),
+        ({"drive": {"cylinder_radius": "95 mm"}}, ("fail", "pass")),
+        ({"damper": {"rolling_radius": "95 mm"}}, ("fail", "pass")),
+        ({"drive": {"static_unbalance": "0.5 kg*m"}}, ("pass", "warn")),
+        ({"drive": {"cutting_arc_fraction": 0.5}}, ("pass", "warn")),
+        ({"damper": {"static_unbalance": "0.5 kg*m", "mass": "90 kg"}}, ("pass", "warn")),
+        (
+            {"drive": {"cylinder_mass": "150 kg"}, "damper": {"mass": "150 kg"}},
+            ("pass", "pass"),
+        ),  # other masses move with it
+    ],
+)
+def test_drive_and_dampers_move_the_cylinder_that_is_sized(changes: dict[str, Any], statuses: tuple[str, str]) -> None:
+    told = mended(**changes)
+    assert (told["consistency.cylinder_sizes"], told["consistency.cylinder_loads"]) == statuses
 
 
 def test_the_mended_press_is_calculated_for_its_true_rate_and_all_that_its_wheel_moves() -> None:

@@ -41,7 +41,7 @@ def test_each_kind_has_a_page_and_an_example() -> None:
 
 
 def made(folder: Path) -> dict[str, bytes]:
-    """The site, built as CI builds it, by the names of its files."""
+    """The site with the reports of the small examples, by the names of its files."""
     sources, built = folder / "sources", folder / "site"
     for command in (
         ("tools.site", sources, "--quick"),

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from diecut_report.errors import UserError
-from diecut_report.formulas.condition_numpy import judged
+from diecut_report.formulas.condition_numpy import judged, shortfall
 from diecut_report.formulas.condition_parts import Name, read
 from diecut_report.formulas.condition_tree import Node, names
 from diecut_report.formulas.conditions import ConditionError
@@ -434,3 +434,13 @@ def test_any_condition_means_what_plain_python_says(database: duckdb.DuckDBPyCon
     assert on_arrays(node) == expected, text
     assert in_database(node, database) == expected, text
     assert set(names(node)) <= {"n", "ratio", "slip"}
+
+
+@pytest.mark.parametrize("bound", [1.0, 0.0, -1.0])
+@pytest.mark.parametrize("sides", ["n >= {}", "{} <= n"])
+def test_a_row_that_is_nearer_to_where_a_condition_holds_falls_less_short(bound: float, sides: str) -> None:
+    """On whichever side of zero row and bound lie."""
+    values = {"n": np.array([-8.0, -5.0, -2.0, -1.5, bound, 4.0])}
+    short = shortfall(tree(sides.format(f"{bound:g}")), lambda name: values[name], 6)
+    assert (np.diff(short)[: 4 if bound > -1.5 else 3] < 0).all() and (short[:4] < 1).all()
+    assert (short[4:] == 0).all()

@@ -20,7 +20,7 @@ import numpy as np
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.validation import ConfigPlace
-from diecut_report.design.machines import CHECKS, STATUS, UTILISATION, ProvedMachine, proved
+from diecut_report.design.machines import CHECKS, MARGIN, SIZE, STATUS, UTILISATION, ProvedMachine, margins, proved
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import refuse_unreadable_name
 from diecut_report.formulas import Array
@@ -116,11 +116,16 @@ def evaluate(study: Study, piece: GenerationPiece) -> Tried:
     broken = broken_inputs(study, piece.values)
     left = np.flatnonzero(broken == 0)
     values = rows_of(piece.values, left)
-    rows = calculate_rows(study.base, {study.inputs[p]: v for p, v in values.items()}, len(left), study.curves)
+    given = {study.inputs[p]: v for p, v in values.items()}
+    further = margins if asked_of(study).is_passing else None
+    rows = calculate_rows(study.base, given, len(left), study.curves, further=further)
     known = {**values, **rows.columns}
     violation = _violation(study, rows, known)
-    wanted = {*(rows.columns if study.outputs is None else study.outputs), *study.curves}
-    kept = {name: column for name, column in rows.columns.items() if CHECKS in name or name in wanted}
+    own = {
+        name: column for name, column in rows.columns.items() if not (CHECKS in name and name.endswith((MARGIN, SIZE)))
+    }
+    wanted = {*(own if study.outputs is None else study.outputs), *study.curves}
+    kept = {name: column for name, column in own.items() if CHECKS in name or name in wanted}
     inputs = {path: np.asarray(v, dtype=float if isinstance(v, np.ndarray) else object) for path, v in values.items()}
     found = {"variant": piece.start + left} | inputs | kept | {VIOLATION.name: violation}
     found |= {JUDGED.name: rows.verdict, "status": rows.status, "governing": rows.governing, "error": rows.errors}
@@ -163,10 +168,16 @@ def failing(known: Mapping[str, Array], count: int) -> Array:
     found = np.zeros(count)
     for name in known:
         if CHECKS in name and name.endswith(STATUS):
-            used = np.asarray(known[name.removesuffix(STATUS) + UTILISATION], dtype=float) - 1
-            beyond = np.clip(np.nan_to_num(used, nan=MOST, posinf=MOST), LEAST, MOST)
-            found += np.where(known[name] == "fail", beyond, 0.0)
+            found += np.where(known[name] == "fail", _beyond(known, name.removesuffix(STATUS)), 0.0)
     return found
+
+
+def _beyond(known: Mapping[str, Array], check: str) -> Array:
+    """How far a check is beyond its limit: by its utilisation, and further, the more the margin is below zero, where the limit is not above zero."""
+    used = np.clip(np.asarray(known[check + UTILISATION], dtype=float) - 1, LEAST, MOST)
+    short = -np.asarray(known.get(check + MARGIN, np.nan), dtype=float)
+    share = np.nan_to_num(short / (1 + np.abs(short)), nan=1.0)
+    return np.asarray(np.where(np.isnan(used), MOST * (1 + np.maximum(share, 0.0)), used))
 
 
 def joined(tried: Sequence[Tried]) -> Tried:

@@ -23,7 +23,7 @@ A_PLACE = NUMBER | {"crossings"}
 PREPARED: Kinds = frozenset({"prepared"})
 PARTS: Kinds = frozenset({"list of parts", "block"})
 HELD = PLAIN | {"block"}
-SAID = ROW | {"text", "prepared"} | CURVE_INPUT
+SAID = ROW | {"text", "prepared", "mechanism"} | CURVE_INPUT
 WANTED = {
     NUMBER: phrase("a single number"), ROW: phrase("a number or a row over repeated parts"), CURVE: phrase("a number, a row or a curve"),
     CURVE_INPUT: phrase("an input declared as a CurveInput"), PARTS: phrase("the id of PartNames"),

@@ -196,6 +196,28 @@ def test_a_script_changes_the_parts_by_their_places() -> None:
         machine.with_values({"shafts.main.sections.1.diameter": 86})
 
 
+@pytest.mark.parametrize(
+    ("path", "typed", "words"),
+    [
+        ("shafts.main.sections.2.diameter", "92 g", "92 g is a mass; a length is needed"),
+        ("shafts.main.sections.2.diameter", "5.3 deg", "5.3 deg is an angle; a length is needed"),
+        ("shafts.main.sections.2.length", "95 mmm", "'mmm' is not a known unit"),
+        ("meshes.main_drive.teeth_1", "18 mm", "18 mm is a length; a pure number is needed"),
+        ("belts.motor.diameter_1", "125 g", "125 g is a mass; a length is needed"),
+    ],
+)
+def test_a_value_of_another_dimension_is_refused_within_a_text_too(path: str, typed: str, words: str) -> None:
+    with pytest.raises(ConfigError, match=re.escape(words)) as refused:
+        load(FILE.with_stem("flat_cylinder_corrected")).with_values({path: typed, "press.nope": 1})
+    assert len(refused.value.problems) == 2  # all that is wrong is told at once
+
+
+def test_a_number_in_quotes_is_a_number_within_a_text_too() -> None:
+    machine = load(FILE.with_stem("flat_cylinder_corrected"))
+    changes = {"shafts.main.sections.2.diameter": "92", "meshes.main_drive.teeth_1": "18"}
+    assert "92x330" in (made := machine.with_values(changes)).text and "teeth: 18/87" in made.text
+
+
 STUDY = """\
 schema_version: 1
 base: press.yaml
