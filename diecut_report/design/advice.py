@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.config.loader import Config
 from diecut_report.design.advised import (
     Advised,
     CheckConflict,
@@ -20,7 +21,15 @@ from diecut_report.design.advised import (
     scattered,
     with_choices,
 )
-from diecut_report.design.inputs import DesignInput, changeable, is_fixed, named_input, nothing_free, untried
+from diecut_report.design.inputs import (
+    DesignInput,
+    changeable,
+    is_fixed,
+    named_input,
+    nothing_free,
+    touched_by,
+    untried,
+)
 from diecut_report.design.machines import (
     MOST,
     ChangedMachines,
@@ -36,6 +45,7 @@ from diecut_report.formulas import Array
 from diecut_report.press import Press
 from diecut_report.quantities.formatting import number_text, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit
+from diecut_report.study.definition.base_inputs import Input
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import localised
 
@@ -218,7 +228,7 @@ def mended(press: Press, *, free: Iterable[str] = (), keep: Iterable[str] = (), 
     free_ones = [each.asked for each in (*inputs, *(each for each, _ in (*choices.values(), *begun.values())))]
     if not free_ones:
         raise UserError(Problem(nothing_free(config, {*only, *kept}), config.tree.file))
-    touched, count = {asked.instance for asked in free_ones}, len(inputs) + len(choices)
+    touched, count = set().union(*(touched_by(config, asked) for asked in free_ones)), len(inputs) + len(choices)
     left_out = () if named else untried(config, touched, {each.path for each in free_ones} | kept)
     reached = {name: upstream(config, [name.split(".")[0]]) for name in failing}
     if unreached := tuple(name for name in failing if reached[name].isdisjoint(touched)):
@@ -280,7 +290,7 @@ def _with_single_change(path: MendingPath) -> MendingPath:
     run.tell(phrase("trying changes of a single input"))
     failing = {name.split(".")[0] for name in run(present[None]).failing(0)}
     among = changed if path.passes else range(len(run.inputs))
-    among = [each for each in among if failing <= set(downstream(run.config, run.inputs[each].asked.instance))]
+    among = [each for each in among if failing <= _reached(run.config, run.inputs[each].asked)]
     for base in [present] if path.passes or not changed else [present, path.share]:
         found = single_change(run, base, among, path.merit if path.passes else math.inf)
         if found is not None:
@@ -288,6 +298,11 @@ def _with_single_change(path: MendingPath) -> MendingPath:
             other.go()
             return other
     return path
+
+
+def _reached(config: Config, asked: Input) -> set[str]:
+    """The mechanisms that follow from an input."""
+    return set().union(*(downstream(config, name) for name in touched_by(config, asked)))
 
 
 def _again(path: MendingPath) -> MendingPath:

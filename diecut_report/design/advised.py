@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.design.inputs import DesignInput, given_numbers, is_form, named_input, untied
+from diecut_report.design.inputs import DesignInput, given_numbers, is_form, typed_input, untied
 from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, Chosen, VariedMachines, varied
 from diecut_report.errors import PluginError, UserError
 from diecut_report.formulas import Array
@@ -58,7 +58,7 @@ def _take(config: Config, found: Advised, path: str, change: KeyChangeRecord) ->
     """Note a change that can be made, of a number the value that is furthest from today's; return whether it can."""
     values = change.value if isinstance(change.value, list) else [change.value]
     try:
-        design = named_input(config, path)
+        design = typed_input(config, path)
         if design.asked.unit is None:
             texts = [str(each).lower() if isinstance(each, bool) else str(each) for each in values]
             known = [text for text in texts if text in design.options]

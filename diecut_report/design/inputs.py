@@ -31,6 +31,7 @@ from diecut_report.study.definition.base_inputs import (
     Input,
     UnknownPath,
     find_input,
+    is_of_parts,
     present_value,
     typed_place,
     varied_input,
@@ -196,7 +197,7 @@ def solved_input(config: Config, name: str, among: Sequence[str] = ()) -> Design
     Of ``among``, values as they are typed, one is looked for; a text takes one of them, or of all that it may be. UserError in words where
     it cannot be changed, or follows from the parts itself.
     """
-    found = _solved_input(config, name)
+    found = _followed_input(config, name)
     if isinstance(found.written, str) and "${" in found.written:
         template = "{name} follows from {written}; change what that refers to, or write a value there first."
         raise refusal(template, config.tree.file, name=found.name, written=found.written)
@@ -212,7 +213,8 @@ def solved_input(config: Config, name: str, among: Sequence[str] = ()) -> Design
     return replace(found, among=tuple(among))
 
 
-def _solved_input(config: Config, name: str) -> DesignInput:
+def _followed_input(config: Config, name: str) -> DesignInput:
+    """The input that a name stands for, which the parts of a machine follow; UserError in words where it follows from them."""
     is_part = config.parts is not None and name.split(".")[0] in WORDS
     try:
         asked = varied_input(config, name if is_part else _asked(config, name).path)
@@ -235,11 +237,15 @@ def untied(config: Config, designs: Iterable[DesignInput]) -> list[DesignInput]:
 
 
 def named_input(config: Config, name: str) -> DesignInput:
-    """Return the input of a name, be it a number, a text or a yes/no; UserError in words where there is none."""
-    asked = _asked(config, name)
-    found = design_input(config, name) if isinstance(asked.meta, Quantity) else _made(config, asked)
-    require_untied(config, found)
-    return found
+    """Return the input of a name, be it a number, a text or a yes/no, also one of the parts; UserError in words where there is none."""
+    return _followed_input(config, name)
+
+
+def typed_input(config: Config, path: str) -> DesignInput:
+    """Return the input of a path, or the part of a machine that it follows from; UserError in words where that is not typed."""
+    asked, parts = _asked(config, path), config.parts
+    place = parts.typed_at(asked.node) if parts is not None and parts.follows(asked.node) else None
+    return named_input(config, ".".join(str(step) for step in place if step != "value") if place else path)
 
 
 def _asked(config: Config, name: str) -> Input:
@@ -248,6 +254,11 @@ def _asked(config: Config, name: str) -> Input:
         return find_input(config, f"{MECHANISMS}.{name}" if first in config.instances and first != PRESS else name)
     except UnknownPath as fault:
         raise refusal("{name} {fault}", config.tree.file, name=name, fault=fault) from None
+
+
+def touched_by(config: Config, asked: Input) -> set[str]:
+    """Return the mechanisms that an input is of: all that are calculated, where the parts of a machine follow it."""
+    return {*config.instances} if is_of_parts(config, asked) else {asked.instance}
 
 
 def given_numbers(config: Config) -> list[DesignInput]:
@@ -435,6 +446,6 @@ def is_form(config: Config, design: DesignInput) -> bool:
 
 def is_fixed(config: Config, asked: Input) -> bool:
     """Return whether an input rests on what no designer changes: a standard, a catalogue, a measurement."""
-    instance = config.instances[asked.instance]
+    instance = config.instances.get(asked.instance)
     basis = instance.bases.get(asked.key) if instance else None
     return basis is not None and basis.basis in FIXED_BASES

@@ -317,6 +317,7 @@ def test_the_nearest_value_is_that_on_the_way_to_the_limit_beyond_zero(
     assert nearest == "" or answer["nearest"]["typed"].startswith(nearest)
 
 
+@pytest.mark.nightly
 def test_a_size_and_a_bearing_of_a_shaft_are_solved_for_where_they_are_typed(tmp_path: Path, capfd: Capture) -> None:
     """All that is made of the parts follows: a thicker shaft is heavier for the chain that drives it, and a bearing must fit its seat."""
     series = "65 mm; 60 mm; 70 mm; 75 mm; 80 mm"

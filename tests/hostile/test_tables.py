@@ -12,6 +12,7 @@ from tests.hostile.bounded import read
 from tests.hostile.made_tables import LARGEST, QUICK, made
 from tests.shared import once
 
+pytestmark = pytest.mark.nightly  # how tables are read at all is tried in tests/study
 Told = dict[str, tuple[list[str], float, int]]
 GROWTH = 500_000_000  # bytes
 
@@ -30,7 +31,6 @@ def told(tmp_path_factory: pytest.TempPathFactory) -> Told:
     return found
 
 
-@pytest.mark.nightly
 def test_each_is_read_or_refused_in_words_and_soon(told: Told) -> None:
     assert told.keys() == QUICK.keys()
     assert {name: seconds for name, (_, seconds, _) in told.items() if seconds > 8} == {}
@@ -38,7 +38,6 @@ def test_each_is_read_or_refused_in_words_and_soon(told: Told) -> None:
     assert [line for line in words if len(line) > 5000 or re.search(r"Traceback|Error\(", line)] == []
 
 
-@pytest.mark.nightly
 def test_none_takes_much_memory(told: Told) -> None:
     assert {name: growth for name, (_, _, growth) in told.items() if growth > GROWTH} == {}
 
@@ -98,7 +97,6 @@ def test_a_flipped_bit_costs_no_traceback(told: Told) -> None:
     assert len(refused) > len(lines) / 2 and all(lines)
 
 
-@pytest.mark.nightly
 @pytest.mark.parametrize("name", LARGEST)
 def test_the_largest_that_is_read_takes_bearable_memory(tmp_path: Path, name: str) -> None:
     plain = tmp_path / "plain.csv"

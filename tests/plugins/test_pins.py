@@ -58,6 +58,7 @@ def test_the_stress_of_a_pin_is_that_of_a_beam_in_the_middle(thin: ResultsRecord
     assert thin.mechanisms[name].outputs["von_mises_max"].value == pytest.approx(expected, rel=1e-5)
 
 
+@pytest.mark.nightly
 def test_pins_that_have_grown_as_the_report_says_hold(
     thin: ResultsRecord, tmp_path_factory: pytest.TempPathFactory
 ) -> None:

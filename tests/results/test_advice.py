@@ -115,7 +115,7 @@ def follow_advice_of_random_machines(kind: str, count: int, seed: int) -> int:
 
 
 @pytest.mark.parametrize(
-    "kind", few(OF_KINDS, keep=lambda kind: kind not in ("elastic_follower", "cam_gear_transport"))
+    "kind", few(OF_KINDS, keep=lambda kind: [*OF_KINDS].index(kind) % 2 == 0 and kind != "cam_gear_transport")
 )
 def test_advice_of_the_examples_makes_its_check_hold(kind: str) -> None:
     for machine in machines(kind):

@@ -185,9 +185,8 @@ PAGES = {
 }
 
 
-@pytest.mark.parametrize(
-    "name", few(PAGES, keep=lambda name: name not in ("study/summary.html", "search/optimisation.html"))
-)
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", PAGES)
 def test_no_english_is_left(name: str, made: Path, known: set[str]) -> None:
     told = list(texts_of(made / name))
     assert any(PAGES[name].lower() in text.lower() for text in told)
