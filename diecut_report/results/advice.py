@@ -7,8 +7,8 @@ down, rounded to the side that holds, and calculated again as it is printed. No 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -63,10 +63,11 @@ def advice_text(ways: Sequence[Way]) -> Phrase:
 
 @dataclass(frozen=True)
 class AdvisedCheck:
-    """Hold what was found of a failing check, and the ways in which it is made to hold."""
+    """Hold what was found of a failing check, the ways in which it is made to hold, and how others are found: with some numbers kept."""
 
     finding: Phrase
     ways: Sequence[Way]
+    again: Callable[[frozenset[str]], Sequence[Way]] = field(default=lambda _: (), compare=False)
 
     @property
     def fields(self) -> dict[str, Any]:
@@ -112,17 +113,20 @@ class Advisor:
         self.calc, self.held, self.failing, self.judge = calc, held, failing, judge
         self._common: dict[tuple[AdviceWay, ...], list[Way]] = {}
 
-    def ways(self, check: Check) -> list[Way]:
+    def ways(self, check: Check, kept: frozenset[str] = frozenset()) -> list[Way]:
         """Return the ways in which a failing check is made to hold; those that break none that held, if there are such.
 
-        Of several failing checks with the same keys those values are taken with which all of them hold, if there are such.
+        The numbers that are ``kept`` stay as they are. Of several failing checks with the same keys those values are taken with which all
+        of them hold, if there are such.
         """
-        if check.advise in self._common:
+        if check.advise in self._common and not kept:
             return self._common[check.advise]
         alike = [each for each in self.failing if each.advise == check.advise]
-        trials = CheckTrials(self.calc, check.index, self.judge, check, self.held, alike)
+        trials = CheckTrials(self.calc, check.index, self.judge, check, self.held, alike, kept=kept)
         found = _ways(trials, check.advise)
         found = [way for way in found if not way.broken] or found[:1]
+        if kept:
+            return found
         if check.index is None and all(way.level == LEVELS - 1 for way in found):
             self._common[check.advise] = found
         return found
@@ -444,10 +448,12 @@ def _nearest(trials: Trials, ray: Ray) -> float | None:
 
 
 def _needed(trials: Trials, ray: Ray, parameter: float) -> Ray:
-    """The ray without the numbers that may stay as they are."""
-    for place in ray.places if len(ray.places) > 1 else ():
+    """The ray without the numbers that may stay as they are: what holds with all of them, holds without these."""
+    at = np.array([parameter])
+    level = _level(trials.with_numbers(ray.places, ray.at(at))) if len(ray.places) > 1 else None
+    for place in ray.places if level is not None else ():
         left = ray.without(place)
-        if left.places and trials.with_numbers(left.places, left.at(np.array([parameter])))[1, 0]:
+        if left.places and trials.with_numbers(left.places, left.at(at))[min(level or 0, 1), 0]:
             ray = left
     return ray
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from decimal import Decimal
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -330,7 +331,7 @@ def _check(calc: Calculation, check: Check, found: JudgedCheck, advisor: Advisor
         consequence = filled(calc, check.consequence, places=places)
         message = Phrase("{bounds:capital}: {consequence}", {"bounds:capital": sentence, "consequence": consequence})
         ways = advisor.ways(check) if advisor else []
-        calc.advised[check.id] = AdvisedCheck(message, ways)
+        calc.advised[check.id] = AdvisedCheck(message, ways, partial(advisor.ways, check) if advisor else lambda _: ())
     return CheckRecord(
         **_head(check),
         **told,

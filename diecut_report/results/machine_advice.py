@@ -9,22 +9,28 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.config.instances import Node
+from diecut_report.config.instances import Instance, Node
+from diecut_report.config.loader import Config
+from diecut_report.config.model import PRESS
 from diecut_report.config.parts.expansion import refused
 from diecut_report.config.parts.model import MachineParts
-from diecut_report.config.yaml import KeyPath, dotted
+from diecut_report.config.yaml import KeyPath, dotted, resolved
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import recalculated
-from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.inputs import Block, Quantity, flatten
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.quantities.formatting import outward
+from diecut_report.quantities.units import unit
 from diecut_report.results.advice import AdvisedCheck, Way, printed
-from diecut_report.results.checks import checks_of
-from diecut_report.results.coherence import Machine, disagreements
+from diecut_report.results.checks import checks_of, verdicts
+from diecut_report.results.coherence import DRIVE_LINE, Machine, disagreements
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
-from diecut_report.results.press_run import Run
+from diecut_report.results.press_run import Run, same_inputs
 from diecut_report.results.record import Value
 from diecut_report.results.usual import outside
 from diecut_report.text.phrases import Phrase, joined
 
+FURTHER, DIGITS = (0.1, 0.3, 1.0), 4  # shares of a change by which more is tried, and how many digits it has
 FOLLOWS = "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
 FOUNDED = "Say what {key} rests on, by its basis; without it the check is not made."
 Typed = dict[Node, tuple[Value, str]]  # values by the inputs that are typed, with their unit
@@ -47,7 +53,9 @@ class _WholeMachine:
         if not check.advice or name not in self.run.calculations:
             return check
         known: AdvisedCheck = self.run.calculations[name].advised[check.id]
-        ways = [fitting for way in known.ways for fitting in self._fitting(name, way)]
+        ways = [fitting for way in known.ways for fitting in self._holding(name, check.id, way)]
+        if not ways and (kept := self._not_alone(name, known.ways)):
+            ways = [fitting for way in known.again(kept) for fitting in self._holding(name, check.id, way)]
         made = check.with_(**AdvisedCheck(known.finding, ways).fields) if ways != known.ways else check
         begun = ((change.key, self._origin((name, *_path(change.key)))) for way in ways for change in way.changes)
         words = dict.fromkeys(Phrase(FOLLOWS, key=key, origin=origin) for key, origin in begun if origin)
@@ -55,6 +63,64 @@ class _WholeMachine:
         changed = (change.key for way in ways for change in way.changes)
         words |= dict.fromkeys(Phrase(FOUNDED, key=key) for key in changed if dotted(_path(key)) in founded)
         return made.with_(message=joined([made.message, *words], " ")) if words else made
+
+    def _holding(self, name: str, check: str, way: Way) -> Iterator[Way]:
+        """Yield a way as far as the machine allows it, and with which the check holds when all that is made of the parts follows."""
+        for fitting in self._fitting(name, way):
+            made = self._typed(name, fitting.changes, [_first(each) for each in fitting.changes])
+            if self.run.config.parts is None or not self._made_anew(made) or self._holds(name, check, made):
+                yield fitting
+            elif (further := self._further(name, check, fitting)) is not None:
+                yield further
+
+    def _further(self, name: str, check: str, way: Way) -> Way | None:
+        """A way of a single number that goes further, as all that follows from it makes the check harder to hold; None where none is found."""
+        change, present = way.changes[0], self._present(name, way.changes[0])
+        if len(way.changes) > 1 or present is None or not isinstance(change.value, float | int):
+            return None
+        for share in FURTHER:
+            value = outward(change.value + share * (change.value - present), change.value > present, DIGITS)
+            [tried] = changes = [change.with_(value=value)]
+            if self._allows(name, changes, [value]) and self._holds(name, check, self._typed(name, changes, [value])):
+                return replace(way, changes=[tried])
+        return None
+
+    def _present(self, name: str, change: KeyChangeRecord) -> float | None:
+        """The value that a key has today, in the unit of its change."""
+        path = _path(change.key)
+        row: Any = self.run.calculations[name].inputs.get(dotted(path), ())
+        values = [*np.ravel(row)] if isinstance(row, np.ndarray) else [*row]
+        index = next((part for part in path if isinstance(part, int)), 0)
+        known = values[index] if index < len(values) else None
+        return None if known is None else unit(change.unit).from_si(float(known))
+
+    def _holds(self, name: str, check: str, made: Typed) -> bool:
+        """Whether a check holds in the machine with these values at its parts."""
+        texts = {path: resolved(text) for path, text in self._texts(made).items()}
+        config, problems = self.run.config.with_parts(texts)
+        if problems:
+            return False
+        changed = _ChangedRun(self.run, config, name)
+        calc = changed.calculations.get(name)
+        return (
+            calc is not None
+            and not changed.problems
+            and all(each.status != "fail" for each in verdicts(calc) if each.id == check)
+        )
+
+    def _not_alone(self, name: str, ways: Iterable[Way]) -> frozenset[str]:
+        """Which numbers that several ways change together the machine does not allow by themselves, such as the seat of a bearing."""
+        changes = [change for way in ways if len(way.changes) > 1 for change in way.changes]
+        alone = {
+            change.key: self._allows(name, [change], [change.value])
+            for change in changes
+            if not isinstance(change.value, list)
+        }
+        return (
+            frozenset(key for key, is_allowed in alone.items() if not is_allowed)
+            if any(alone.values())
+            else frozenset()
+        )
 
     def _fitting(self, name: str, way: Way) -> Iterator[Way]:
         """Yield a way as far as the machine allows it: of several values of one change those that it does."""
@@ -72,25 +138,38 @@ class _WholeMachine:
 
     def _allows(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> bool:
         """Whether the parts of the machine agree with some values of a mechanism's keys; of a key that is calculated nothing is known."""
-        typed: Typed = {}
-        for change, value in zip(changes, values, strict=True):
-            if (begin := self._beginning((name, *_path(change.key)))) is not None:
-                typed[begin] = value, change.unit
-        parts = self.run.config.parts
-        made = {node: given for node, given in typed.items() if parts and parts.follows(node)}  # anew with the parts
+        typed, parts = self._typed(name, changes, values), self.run.config.parts
+        made = self._made_anew(typed)
         if parts and made and self._contradicts(parts, made):
             return False
         return not self._disagrees({node: given for node, given in typed.items() if node not in made})
 
+    def _typed(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> Typed:
+        """Values of a mechanism's keys by where they are typed."""
+        typed: Typed = {}
+        for change, value in zip(changes, values, strict=True):
+            if (begin := self._beginning((name, *_path(change.key)))) is not None:
+                typed[begin] = value, change.unit
+        return typed
+
+    def _made_anew(self, typed: Typed) -> Typed:
+        """Those that stand at the parts, with which all that is made of them is made anew."""
+        parts = self.run.config.parts
+        return {node: given for node, given in typed.items() if parts and parts.follows(node)}
+
     def _contradicts(self, parts: MachineParts, made: Typed) -> bool:
         """Whether parts do not fit each other with these values, or one of them is nowhere in the file."""
-        places = {node: parts.typed_at(node) for node in made}
-        if None in places.values():
+        if None in map(parts.typed_at, made):
             return True
-        texts = {path: printed(*made[node]) for node, path in places.items() if path is not None}
         instances = (each for each in self.run.config.instances.values() if each and each.mechanism)
         kinds = {each.mechanism.kind: each.mechanism for each in instances if each.mechanism}
-        return refused(parts, texts, kinds)
+        return refused(parts, self._texts(made), kinds)
+
+    def _texts(self, made: Typed) -> dict[KeyPath, str]:
+        """How values are typed at the parts."""
+        parts = self.run.config.parts
+        places = {node: parts.typed_at(node) for node in made} if parts else {}
+        return {path: printed(*made[node]) for node, path in places.items() if path is not None}
 
     def _disagrees(self, typed: Typed) -> bool:
         """Whether mechanisms contradict each other that take these values, each calculated with them alone, or one has what none has."""
@@ -143,6 +222,50 @@ class _WholeMachine:
         ends = (end for end in range(1, len(place)) if parts.reader.tree.typed(place[:end]) is not None)
         told = place[: next(ends, len(place))]  # a text may hold the number
         return ".".join(map(str, told)).removesuffix(".value")
+
+
+class _ChangedRun(Run):
+    """A machine with other values at its parts, as far as one mechanism follows from it: what is as it was is not calculated again."""
+
+    def __init__(self, before: Run, config: Config, name: str) -> None:
+        self.before, self.wanted = before, _upstream(config, name)
+        super().__init__(config, lambda _: None)
+
+    def _mechanism(self, name: str) -> None:
+        if name in self.wanted:
+            super()._mechanism(name)
+
+    def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
+        known, judged = (
+            self.before.calculations.get(instance.name),
+            mechanism.kind == DRIVE_LINE,
+        )  # by what is found of the parts
+        if known is None or judged or not same_inputs(flatten(self.before.blocks[instance.name]), flatten(block)):
+            return super()._made(instance, mechanism, block)
+        return known
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        """Nothing is printed of it."""
+
+    def _agree(self) -> None:
+        """What the parts are refused for is known before."""
+
+    def _comparisons(self) -> None:
+        """A comparison has no checks."""
+
+
+def _upstream(config: Config, name: str) -> set[str]:
+    """A mechanism, with all that it follows from."""
+    found, left = {PRESS}, [name]
+    while left:
+        if (own := left.pop()) not in found:
+            found.add(own)
+            left += [each.instance for node, target in config.links.items() if node[0] == own for each in target.single]
+    return found
+
+
+def _first(change: KeyChangeRecord) -> Value:
+    return change.value[0] if isinstance(change.value, list) else change.value
 
 
 def _path(key: str) -> KeyPath:

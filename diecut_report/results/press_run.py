@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -20,7 +21,7 @@ from diecut_report.config.validation import declared, validate
 from diecut_report.errors import MAX_COMPARISONS, PluginError, Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.formulas.conditions import ConditionError
-from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUnits, Impossible
+from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUnits, CurveHandle, Impossible, same_curve
 from diecut_report.machine.steps.needed import needed
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form, taken
@@ -137,6 +138,23 @@ def _taken(calc: Calculation, name: str) -> Any:
         return value
     si = unit(calc.step_or_input(name).unit).si
     return None if np.isnan(value) else SI(float(without_rounding(value, si)), si, name)
+
+
+def same_inputs(one: Any, other: Any) -> bool:
+    """Return whether two inputs are the same to the last bit: zero is not the same as minus zero, nor 1 as 1.0 or true."""
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same_inputs(part, other[key]) for key, part in one.items())
+    if isinstance(one, tuple | list):
+        return len(one) == len(other) and all(map(same_inputs, one, other))
+    if isinstance(one, CurveHandle):
+        return same_curve(one, other)
+    if isinstance(one, SI):
+        return all(same_inputs(getattr(one, part), getattr(other, part)) for part in ("value", "unit", "told"))
+    if isinstance(one, float):
+        return one == other and math.copysign(1, one) == math.copysign(1, other)
+    return one is other or bool(one == other)
 
 
 Tell = Callable[[str], None]

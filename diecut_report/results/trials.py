@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
@@ -59,11 +59,15 @@ def _possible(calc: Calculation, key: str, meta: Quantity) -> Quantity:
 
 @dataclass(frozen=True)
 class Trials(ABC):
-    """Try other inputs on the machine of a calculation; ``part`` is the only part of a list whose inputs are changed, None for all."""
+    """Try other inputs on the machine of a calculation; ``part`` is the only part of a list whose inputs are changed, None for all.
+
+    Numbers at the paths ``kept`` stay as they are.
+    """
 
     calc: Calculation
     part: int | None
     judge: Judge
+    kept: frozenset[str] = field(default=frozenset(), kw_only=True)
 
     @abstractmethod
     def hold(self, changed: Mapping[str, Any], count: int) -> Array | None:
@@ -101,13 +105,15 @@ class Trials(ABC):
         meta, home = _possible(self.calc, key, meta), list_inputs(self.calc.mechanism.inputs).get(key)
         if home is None:
             present = None if value is None else float(np.ravel(value)[0])
-            return [VariedNumber(key, meta, None, present, key)]
-        parts = [] if value is None else list(value[0] if isinstance(value, np.ndarray) else value)
-        return [
-            VariedNumber(key, meta, i, float(part), f"{home}.{i}.{key.removeprefix(f'{home}.')}")
-            for i, part in enumerate(parts)
-            if isinstance(part, int | float | np.number) and self.part in (None, i)
-        ]
+            found = [VariedNumber(key, meta, None, present, key)]
+        else:
+            parts = [] if value is None else list(value[0] if isinstance(value, np.ndarray) else value)
+            found = [
+                VariedNumber(key, meta, i, float(part), f"{home}.{i}.{key.removeprefix(f'{home}.')}")
+                for i, part in enumerate(parts)
+                if isinstance(part, int | float | np.number) and self.part in (None, i)
+            ]
+        return [each for each in found if each.path not in self.kept]
 
     def with_text(self, key: str, text: str | bool) -> Array:
         """Return whether checks hold with a text, by level, shape (LEVELS, 1)."""

@@ -19,7 +19,6 @@ from ``curves``, ``sections`` or ``outputs``, while ``document`` tells it as the
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any, NamedTuple, TypeVar
@@ -27,11 +26,10 @@ from typing import Any, NamedTuple, TypeVar
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.machine.calculation import Calculation, ChosenUnits, CurveHandle, same_curve
+from diecut_report.machine.calculation import Calculation, ChosenUnits
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import SI
 from diecut_report.results.checks import check_results, verdicts
 from diecut_report.results.coherence import PlacedFinding, placed_findings
 from diecut_report.results.conclusion import governing
@@ -54,7 +52,7 @@ from diecut_report.results.mechanism import (
 from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, SectionRecord
 from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.open_items import run_summary
-from diecut_report.results.press_run import Run, Tell, require_possible
+from diecut_report.results.press_run import Run, Tell, require_possible, same_inputs
 from diecut_report.results.usual import Beside
 
 Data = dict[str, Any]
@@ -83,7 +81,7 @@ class Remembered:
 
     def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], told: Told) -> bool:
         """Return whether it was calculated from these inputs, and is told alike."""
-        return self.calculation.mechanism is mechanism and self.told == told and _same(self.taken, taken)
+        return self.calculation.mechanism is mechanism and self.told == told and same_inputs(self.taken, taken)
 
     def of(self, make: Callable[[Calculation], T]) -> T:
         """Return what a function makes of the calculation; made once."""
@@ -91,23 +89,6 @@ class Remembered:
             self._made[make] = make(self.calculation)
         made: T = self._made[make]
         return made
-
-
-def _same(one: Any, other: Any) -> bool:
-    """Whether two inputs are the same to the last bit: zero is not the same as minus zero, nor 1 as 1.0 or true."""
-    if type(one) is not type(other):
-        return False
-    if isinstance(one, dict):
-        return one.keys() == other.keys() and all(_same(part, other[key]) for key, part in one.items())
-    if isinstance(one, tuple | list):
-        return len(one) == len(other) and all(map(_same, one, other))
-    if isinstance(one, CurveHandle):
-        return same_curve(one, other)
-    if isinstance(one, SI):
-        return all(_same(getattr(one, part), getattr(other, part)) for part in ("value", "unit", "told"))
-    if isinstance(one, float):
-        return one == other and math.copysign(1, one) == math.copysign(1, other)
-    return one is other or bool(one == other)
 
 
 class WarmPress:
@@ -156,7 +137,7 @@ class WarmRun(Run):
     def _validated(self, name: str, instance: Instance, data: Data) -> bool:
         """What was found valid is not judged a second time."""
         model, known, block = self.press.judged.get(name, (None, None, None))
-        if block is not None and model is instance.model and _same(known, data):
+        if block is not None and model is instance.model and same_inputs(known, data):
             self.blocks[name] = block
             return True
         is_valid = super()._validated(name, instance, data)

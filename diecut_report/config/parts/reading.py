@@ -351,7 +351,7 @@ def typed_changes(tree: Tree, changes: Mapping[KeyPath, Scalar]) -> dict[KeyPath
     found: dict[KeyPath, Scalar] = {}
     for path, text in changes.items():
         home, key = path[:-1], path[-1]
-        sections = path[:3] if path[0] == "shafts" and path[2:3] == ("sections",) else ()
+        sections = path[:3] if path[0] == "shafts" and path[2:3] == ("sections",) and len(path) > 3 else ()
         pair = _pair_of(path)
         if sections and isinstance(typed := found.get(sections, tree.typed(sections)), str):
             found[sections] = _section_text(typed, int(path[3]), str(key), str(text))
