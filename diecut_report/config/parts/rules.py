@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import combinations, pairwise
@@ -358,10 +359,9 @@ def _key_on_section(parts: MachineParts, shaft: MachineShaft, part: ShaftPart, l
             share=LONGEST_KEY,
             diameter=mm(section.diameter),
         )
-    near = min((end_ for end_ in (start - section.start, section.end - end) if end_ >= 0), default=1.0)
     steps = [start - section.start] if section.index else []
     steps += [section.end - end] if section.index < len(shaft.sections) - 1 else []
-    near = min(steps, default=near + section.diameter)
+    near = max(min(steps, default=math.inf), 0.0)  # but for rounding
     if near < KEY_TO_FILLET * section.diameter - SAME_PLACE:
         template = "ends {distance} from a step, less than a tenth of the diameter {diameter}: both notches act together; move or shorten it"
         yield finding(

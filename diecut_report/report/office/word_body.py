@@ -231,7 +231,7 @@ def _noted(cell: TableCell) -> Inline:
 # The organisation's logo above the title of a DOCX: a PNG as it is, an SVG beside a picture for programs that show none.
 
 
-WIDEST, HIGHEST = 144.0, 48.0  # points
+WIDEST, HIGHEST, LEAST_SIDE = 144.0, 48.0, 1.0  # points
 POINTS = 0.75  # to a pixel
 
 
@@ -248,7 +248,7 @@ def logo(body: WordBody, given: LogoRecord, owner: str, embed_svg: Callable[[byt
     width, height = (POINTS * side for side in natural_size(content))
     scale = min(WIDEST / width, HIGHEST / height)
     if given.media_type == SVG:
-        plain = raster_of_text(told, width * scale, height * scale)
+        plain = raster_of_text(told, max(width * scale, LEAST_SIDE), max(height * scale, LEAST_SIDE))
         body.say(body.drawn(plain, told, embed_svg(content)))
     else:
         shown = Raster(content, width * min(1.0, scale), height * min(1.0, scale))

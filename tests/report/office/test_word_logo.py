@@ -73,3 +73,9 @@ def test_it_keeps_its_shape_within_its_bounds(content: bytes, kind: str) -> None
     width, height = (int(extent.attrib[side]) / 12700 for side in ("cx", "cy"))
     wide, high = natural_size(content)
     assert width <= 144.01 and height <= 48.01 and width / height == pytest.approx(wide / high, rel=1e-3)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1, 200), (3000, 1)])
+def test_a_thin_one_is_shown_too(width: int, height: int) -> None:
+    thin = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}"><rect width="{width}" height="{height}"/></svg>'
+    assert set(media(word(thin.encode(), "image/svg+xml"))) >= {"logo.svg"}
