@@ -16,6 +16,7 @@ from diecut_report.config.parts.expansion import refused
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.yaml import KeyPath, dotted, resolved
 from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.mechanism import intervals, phases_of
 from diecut_report.machine.steps.run import recalculated
 from diecut_report.mechanism.inputs import Block, Quantity, flatten
 from diecut_report.mechanism.mechanism import Mechanism
@@ -184,6 +185,8 @@ class _WholeMachine:
             beside = self.run.beside(own.instance)
             if calc is None or any(each.slips.any() for each in outside(own.instance, taken, beside, calc.values)):
                 return True
+            if any(intervals(own.calc, phase) and not intervals(calc, phase) for phase in phases_of(own.calc)):
+                return True  # which the timing may name
             machine = machine.with_part(replace(own, inputs=taken, calc=calc))
         return bool(changed) and any(True for _ in disagreements(machine))
 

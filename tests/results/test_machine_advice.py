@@ -53,16 +53,15 @@ def typed(press: Press, mechanism: str, way: list[KeyChangeRecord], message: str
 
 @pytest.mark.nightly
 def test_what_another_mechanism_refuses_is_not_advised() -> None:
-    """A longer key leaves its section; below 30 mm the segment leaves the carriages no room below the cylinder's flat."""
+    """A longer key leaves its section; at 30 mm the segment leaves the carriages no room below the cylinder's flat."""
     found = checks(PUBLISHED)
     assert keys(found["crank_key"]["pressure_hub"]) == [["key_count"]]
     assert keys(found["crank_key"]["pressure_key"]) == []
     assert "key_length" not in found["crank_key"]["pressure_hub"].message + found["crank_key"]["pressure_key"].message
     assert "Say what single_position rests on" in found["consistency"]["clutch_position"].message
-    assert keys(found["cylinder"]["closed_section"]) == [["bore_radius"], ["segment_height"]]
-    assert "set segment_height to at most 30 mm" in found["cylinder"]["closed_section"].message
+    assert keys(found["cylinder"]["closed_section"]) == [["bore_radius"]]  # at 30 mm the carriages have no time to pass
     press = Press.read(PUBLISHED, DISCOVERY)
-    for mechanism, key, text in (("crank_key", "key_length", "63 mm"), ("cylinder", "segment_height", "29.99 mm")):
+    for mechanism, key, text in (("crank_key", "key_length", "63 mm"), ("cylinder", "segment_height", "30 mm")):
         [values] = typed(press, mechanism, [KeyChangeRecord(key=key, relation="equal", value=text, unit="1")])
         with pytest.raises(UserError):
             press.with_values(values).calculate()
