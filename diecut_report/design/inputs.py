@@ -197,7 +197,7 @@ def solved_input(config: Config, name: str, among: Sequence[str] = ()) -> Design
     Of ``among``, values as they are typed, one is looked for; a text takes one of them, or of all that it may be. UserError in words where
     it cannot be changed, or follows from the parts itself.
     """
-    found = _followed_input(config, name)
+    found = named_input(config, name)
     if isinstance(found.written, str) and "${" in found.written:
         template = "{name} follows from {written}; change what that refers to, or write a value there first."
         raise refusal(template, config.tree.file, name=found.name, written=found.written)
@@ -213,18 +213,6 @@ def solved_input(config: Config, name: str, among: Sequence[str] = ()) -> Design
     return replace(found, among=tuple(among))
 
 
-def _followed_input(config: Config, name: str) -> DesignInput:
-    """The input that a name stands for, which the parts of a machine follow; UserError in words where it follows from them."""
-    is_part = config.parts is not None and name.split(".")[0] in WORDS
-    try:
-        asked = varied_input(config, name if is_part else _asked(config, name).path)
-        if isinstance(asked.meta, Quantity) and not is_part:
-            asked = varied_input(config, design_input(config, name).asked.path)
-    except UnknownPath as fault:
-        raise refusal("{name} {fault}", config.tree.file, name=name, fault=fault) from None
-    return _number(config, asked) if isinstance(asked.meta, Quantity) else _made(config, asked)
-
-
 def require_untied(config: Config, design: DesignInput) -> None:
     """Raise UserError in words where the parts of a machine do not follow other values of an input."""
     if tied := config.tied(design.asked.node):
@@ -237,8 +225,19 @@ def untied(config: Config, designs: Iterable[DesignInput]) -> list[DesignInput]:
 
 
 def named_input(config: Config, name: str) -> DesignInput:
-    """Return the input of a name, be it a number, a text or a yes/no, also one of the parts; UserError in words where there is none."""
-    return _followed_input(config, name)
+    """Return the input of a name, be it a number, a text or a yes/no, which the parts of a machine follow where it is of them.
+
+    UserError in words where there is none, or it follows from the parts.
+    """
+    try:
+        if config.parts is not None and name.split(".")[0] in WORDS:
+            asked = varied_input(config, name)
+        else:
+            own = _asked(config, name)
+            asked = varied_input(config, (design_input(config, name).asked if own.unit is not None else own).path)
+    except UnknownPath as fault:
+        raise refusal("{name} {fault}", config.tree.file, name=name, fault=fault) from None
+    return _number(config, asked) if asked.unit is not None else _made(config, asked)
 
 
 def typed_input(config: Config, path: str) -> DesignInput:
