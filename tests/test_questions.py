@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
+from tests.config.parts.test_parts import FILE
 from tests.configs import EXAMPLES, STUDIES
 from tests.examples import few
 
@@ -34,9 +35,11 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with the example configurations, and those that the guide shows."""
     (own,) = re.findall(r"`(\w+\.yaml)`, whose.*?```yaml\n(.*?)```", GUIDE.read_text("utf-8"), re.DOTALL)
     (tmp_path / own[0]).write_text(own[1], "utf-8")
-    (tmp_path / "configs").mkdir()
+    (tmp_path / "configs" / "machines").mkdir(parents=True)
     for config in [*EXAMPLES, *STUDIES]:
         (tmp_path / "configs" / config.name).write_bytes(config.read_bytes())
+    for machine in FILE.parent.glob("*.yaml"):
+        (tmp_path / "configs" / "machines" / machine.name).write_bytes(machine.read_bytes())
     monkeypatch.setattr(
         "diecut_report.design.optimisation.command._files", lambda *_: {}
     )  # the page has a test of its own

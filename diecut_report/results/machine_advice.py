@@ -239,11 +239,11 @@ class _ChangedRun(Run):
             super()._mechanism(name)
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
-        known, judged = (
-            self.before.calculations.get(instance.name),
-            mechanism.kind == DRIVE_LINE,
-        )  # by what is found of the parts
-        if known is None or judged or not same_inputs(flatten(self.before.blocks[instance.name]), flatten(block)):
+        known = self.before.calculations.get(instance.name)
+        is_known = (
+            known is not None and mechanism.kind != DRIVE_LINE
+        )  # which is judged by what is found of the parts, too
+        if known is None or not is_known or not same_inputs(flatten(self.before.blocks[instance.name]), flatten(block)):
             return super()._made(instance, mechanism, block)
         return known
 
