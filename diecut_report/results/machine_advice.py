@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -66,23 +66,24 @@ class _WholeMachine:
         return made.with_(message=joined([made.message, *words], " ")) if words else made
 
     def _holding(self, name: str, check: str, way: Way) -> Iterator[Way]:
-        """Yield a way as far as the machine allows it, and with which the check holds when all that is made of the parts follows."""
-        for fitting in self._fitting(name, way):
-            made = self._typed(name, fitting.changes, [_first(each) for each in fitting.changes])
-            if self.run.config.parts is None or not self._made_anew(made) or self._holds(name, check, made):
-                yield fitting
-            elif (further := self._further(name, check, fitting)) is not None:
-                yield further
+        """Yield a way as far as the machine allows it, and the check holds with it when all that is made of the parts follows."""
+        fitting = list(self._fitting(name, check, way))
+        further = None if fitting else self._further(name, check, way)
+        yield from fitting or ([further] if further else [])
 
     def _further(self, name: str, check: str, way: Way) -> Way | None:
         """A way of a single number that goes further, as all that follows from it makes the check harder to hold; None where none is found."""
         change, present = way.changes[0], self._present(name, way.changes[0])
-        if len(way.changes) > 1 or present is None or not isinstance(change.value, float | int):
+        values = change.value if isinstance(change.value, list) else [change.value]
+        numbers = [each for each in values if isinstance(each, float | int)]
+        if len(way.changes) > 1 or present is None or not numbers:
             return None
+        nearest = min(numbers, key=lambda each: abs(each - present))
+        relation = "equal" if isinstance(change.value, list) else change.relation
         for share in FURTHER:
-            value = outward(change.value + share * (change.value - present), change.value > present, DIGITS)
-            [tried] = changes = [change.with_(value=value)]
-            if self._allows(name, changes, [value]) and self._holds(name, check, self._typed(name, changes, [value])):
+            value = outward(nearest + share * (nearest - present), nearest > present, DIGITS)
+            [tried] = changes = [change.with_(relation=relation, value=value)]
+            if self._suits(name, check, changes, [value]):
                 return replace(way, changes=[tried])
         return None
 
@@ -123,19 +124,26 @@ class _WholeMachine:
             else frozenset()
         )
 
-    def _fitting(self, name: str, way: Way) -> Iterator[Way]:
+    def _fitting(self, name: str, check: str, way: Way) -> Iterator[Way]:
         """Yield a way as far as the machine allows it: of several values of one change those that it does."""
         if len(way.changes) > 1 or not isinstance(way.changes[0].value, list):
             values = [each.value[0] if isinstance(each.value, list) else each.value for each in way.changes]
-            if self._allows(name, way.changes, values):
+            if self._suits(name, check, way.changes, values):
                 yield way
             return
         [change] = way.changes
-        values = [each for each in change.value if self._allows(name, [change], [each])]  # type: ignore[union-attr]
+        values = [each for each in change.value if self._suits(name, check, [change], [each])]  # type: ignore[union-attr]
         if len(values) > 1:
             yield replace(way, changes=[change.with_(value=values)])
         elif values:
             yield replace(way, changes=[change.with_(relation="equal", value=values[0])])
+
+    def _suits(self, name: str, check: str, changes: Sequence[KeyChangeRecord], values: Sequence[Value]) -> bool:
+        """Whether the parts of the machine agree with some values, and a check holds with them."""
+        if not self._allows(name, changes, values):
+            return False
+        made = self._made_anew(self._typed(name, changes, values))
+        return not made or self._holds(name, check, made)
 
     def _allows(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> bool:
         """Whether the parts of the machine agree with some values of a mechanism's keys; of a key that is calculated nothing is known."""
@@ -265,10 +273,6 @@ def _upstream(config: Config, name: str) -> set[str]:
             found.add(own)
             left += [each.instance for node, target in config.links.items() if node[0] == own for each in target.single]
     return found
-
-
-def _first(change: KeyChangeRecord) -> Value:
-    return change.value[0] if isinstance(change.value, list) else change.value
 
 
 def _path(key: str) -> KeyPath:
