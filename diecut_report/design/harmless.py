@@ -1,6 +1,7 @@
 """Which assumed and default values are harmless: no check changes its status at either end of what is usual for them.
 
-Each value is tried alone, then all of them together in the direction that is worst for each check. What remains open says why.
+Each value is tried alone, then all of them together in the direction that is worst for each check, then all at ends that are drawn: no check
+may fail there that does not today. What remains open says why.
 """
 
 from __future__ import annotations
@@ -30,6 +31,9 @@ SHARE = 0.1  # of a value for which no range is known, downwards and upwards
 STILL = 1e-9  # of the greater side of a check, by which rounding alone moves its margin
 # how many of those that change a check together are taken out, strongest first
 LEFT_OUT = tuple(2**k for k in range(8))
+SEED, DRAWN = 29, 16  # of machines that are drawn, and how many at once
+CLEAN, ROUNDS = 4, 40  # how often without a find, and at most
+JUDGED = 4  # of those of one draw in which a check fails
 UNTRIED = phrase(
     "it is not one number of the configuration, parts of the machine are made with it, or its mechanism takes no arrays, "
     "so no other value was tried"
@@ -238,7 +242,8 @@ class OpenValueTrials:
             if why is not None:
                 harmful.add(index)
                 yield trial.item.path, why
-        for index, name in self._together(effects, harmful).items():
+        together = self._together(effects, harmful)
+        for index, name in (together | self._scattered(effects, {*harmful, *together})).items():
             template = "together with other assumed and default values it changes the check {check}"
             yield self.trials[index].item.path, Phrase(template, check=_check(name))
 
@@ -286,6 +291,48 @@ class OpenValueTrials:
             for name in failing:
                 enough = next((k for k in LEFT_OUT if changing.get((name, k)) is False), len(asked[name].order))
                 found |= {int(index): name for index in asked[name].order[:enough] if index not in found}
+
+    def _scattered(self, effects: Effects, out: set[int]) -> dict[int, str]:
+        """The values with which a check fails when others stand at any of their ends, with that check: found in machines that are drawn.
+
+        A size of a series, or the place that governs, may be another one within the corners.
+        """
+        found, draw, clean = dict[int, str](), np.random.default_rng(SEED), 0
+        for _ in range(ROUNDS):
+            drawn = self._drawn(draw, {*out, *found})
+            failing = self._failing(effects, drawn)
+            clean = 0 if failing else clean + 1
+            if clean == CLEAN:
+                break
+            strongest = {self._strongest(effects, name, drawn[row]): name for name, row in failing}
+            found |= {index: name for index, name in strongest.items() if index is not None}
+        return found
+
+    def _drawn(self, draw: np.random.Generator, out: set[int]) -> Array:
+        """Machines of which each value that is not out stands at one of its ends, shape (machines, trials)."""
+        ends = np.array([(each.low, each.high) for each in self.trials])
+        drawn = np.take_along_axis(ends.T, draw.integers(0, 2, (DRAWN, len(ends))), axis=0)
+        return np.where(np.isin(np.arange(len(ends)), list(out)), self.present, drawn)
+
+    def _failing(self, effects: Effects, values: Array) -> list[tuple[str, int]]:
+        """Checks that fail in some of the machines and do not today, each with one, or a few of them."""
+        made = self._tried(values)
+        rows = [row for row in range(len(values)) if row not in made.impossible]
+        fails = {name: [row for row in rows if STATUS[codes[row]] == "fail"] for name, codes in made.codes.items()}
+        new = ((name, own) for name, own in fails.items() if STATUS[effects.today.get(name, 0)] != "fail")
+        return [(name, row) for name, own in new for row in own[:JUDGED]]
+
+    def _strongest(self, effects: Effects, name: str, values: Array) -> int | None:
+        """Of the values of a machine in which a check fails that which takes most of its margin alone; of those that take none, the first.
+
+        None where the check feels none.
+        """
+        home = name.partition(".")[0]
+        felt = [i for i, each in enumerate(self.trials) if home in each.reached and values[i] != each.present]
+        if not felt or name not in effects.margins:
+            return next(iter(felt), None)
+        side = [int(values[i] == self.trials[i].high) for i in felt]
+        return felt[int(np.argmin(np.nan_to_num(effects.margins[name][felt, side])))]
 
     def _changing(self, effects: Effects, corners: Mapping[K, Corner]) -> dict[K, bool]:
         """Whether the check of each corner changes its status there, or the machine cannot exist."""

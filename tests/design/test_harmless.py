@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -113,3 +114,48 @@ def test_a_check_with_nothing_for_a_limit_is_brought_nearer_to_it_by_what_takes_
     )
     corner = effects.corner(name, trials)
     assert list(corner.order) == [0] and corner.worse[0] == 2200.0
+
+
+SERIES = """\
+schema_version: 1
+project: {title: train}
+press: {name: p, productivity: 6000 1/h, sheet: {length: 700 mm, width: 470 mm, thickness: 0.6 mm}}
+mechanisms:
+  train:
+    kind: drive_train
+    gears: [{driver_teeth: 18, driven_teeth: 87}]
+    vbelt: {section: SPA, driver_diameter: 125 mm, center_distance: 600 mm, tension: 350 N, groove_friction: FOUND(0.5)EFFICIENCY}
+    flywheel_material: cast_iron
+    motor_speed: FOUND(1450 rpm)
+    output_speed: FOUND(100 rpm)
+    torque_mean: FOUND(76.4 N*m)
+    torque_peak: FOUND(150 N*m)
+    power_per_belt: FOUND(3.5 kW)
+    allowable_radial_force: FOUND(900 N)
+    reserve_factor: FOUND(1.3)
+    speed_fluctuation: FOUND(0.09)
+    breakdown_ratio: FOUND(2.3)
+    run_up_torque_ratio: FOUND(1.7)
+    motor_inertia: FOUND(0.01 kg*m**2)
+    load_inertia: FOUND(83 kg*m**2)
+"""
+
+
+def of_series(folder: Path, efficiency: str = "", more: str = "") -> Press:
+    """A drive train whose motor is the next one of a series; what it is given is measured."""
+    text = SERIES.replace("EFFICIENCY", efficiency) + more
+    return Press.read(
+        saved(folder, re.sub(r"FOUND\((.*?)\)", r"{value: \1, basis: measured, note: test 12}", text)), Discovery()
+    )
+
+
+def test_values_that_fail_together_within_the_worst_corner_are_not_harmless(tmp_path: Path) -> None:
+    """A belt that loses less asks for a smaller motor, which runs up too slowly; in the corner the gears lose more, and ask for the greater."""
+    made = of_series(tmp_path)
+    results = made.calculate().results
+    assert {each.status for each in results.mechanisms["train"].checks} <= {"pass", "warn", "not_checked"}
+    ends = of_series(tmp_path, ", efficiency: 0.98", "    allowable_run_up_time: 9 s\n").calculate().results
+    assert [each.id for each in ends.mechanisms["train"].checks if each.status == "fail"] == ["run_up_time"]
+    known = left(made)
+    assert {*known} & {"mechanisms.train.vbelt.efficiency", "mechanisms.train.allowable_run_up_time"}
+    assert all("together" in words for path, words in known.items() if path.endswith(("efficiency", "run_up_time")))
