@@ -206,6 +206,9 @@ ENDLESS = [
 ]  # fmt: skip
 
 
+@pytest.mark.filterwarnings(
+    "ignore::pytest.PytestUnraisableExceptionWarning"
+)  # the end may come within a hook of the collector
 @pytest.mark.parametrize(("text", "words"), ENDLESS)
 def test_what_never_ends_or_takes_all_memory_is_told(
     brief: Data, text: str, words: str, monkeypatch: pytest.MonkeyPatch
