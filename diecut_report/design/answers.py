@@ -252,7 +252,7 @@ def _nearest(answer: Answer) -> Iterator[str]:
     design, asked, near = answer.design, answer.question.quantity, answer.nearest
     if design.among or design.is_text:
         template = "none of these satisfies it: {input} = {values}"
-        yield Phrase(template, input=design.name, values=named([*(design.among or design.options)], " or "))
+        yield Phrase(template, input=design.name, values=named([*design.options], " or "))
     else:
         ends = {"low": localised(design.told(answer.low)), "high": localised(design.told(answer.high))}
         yield Phrase("no value of {input} from {low} to {high} satisfies it", input=design.name, **ends)

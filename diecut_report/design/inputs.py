@@ -94,15 +94,11 @@ class DesignInput:
 
     @property
     def options(self) -> tuple[str, ...]:
-        """Return the values of a text or yes/no, as they are typed; none of a number, or where it may be any text."""
+        """Return the values of a text or yes/no, as they are typed, or those that are tried; none of a number, or where it may be any text."""
         meta = self.asked.meta
-        return (
-            self.among
-            if self.among
-            else ()
-            if isinstance(meta, Quantity)
-            else tuple(meta.options) or tuple(allowed_texts(self.asked.annotation))
-        )
+        if self.among or isinstance(meta, Quantity):
+            return self.among
+        return tuple(meta.options) or tuple(allowed_texts(self.asked.annotation))
 
     @property
     def bounds(self) -> tuple[float, float]:

@@ -130,9 +130,8 @@ class _RangeSearch:
 
     def __post_init__(self) -> None:
         asked = self.question.quantity
-        is_whole = (
-            self.passing or self.of_parts or asked.asked is not None
-        )  # of an input the whole says whether it can be
+        # of an input the whole says whether it can be
+        is_whole = self.passing or self.of_parts or asked.asked is not None
         self.part = self.config if is_whole else narrowed(self.config, [asked.home, self.design.asked.instance])
         self.inputs = [] if asked.asked is None else [asked.asked]
         self.known: dict[float, tuple[float, float]] = {}
