@@ -29,10 +29,13 @@ from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.press_run import Run, same_inputs
 from diecut_report.results.record import Value
 from diecut_report.results.usual import outside
-from diecut_report.text.phrases import Phrase, joined
+from diecut_report.text.phrases import Phrase, joined, phrase
 
 FURTHER, DIGITS = (0.1, 0.3, 1.0), 4  # shares of a change by which more is tried, and how many digits it has
-FOLLOWS = "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
+FOLLOWS = phrase(
+    "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
+)
+CALCULATED = phrase("{key} is {origin}, which is calculated; change what it follows from.")
 FOUNDED = "Say what {key} rests on, by its basis; without it the check is not made."
 Typed = dict[Node, tuple[Value, str]]  # values by the inputs that are typed, with their unit
 
@@ -58,8 +61,10 @@ class _WholeMachine:
         if not ways and (kept := self._not_alone(name, known.ways)):
             ways = [fitting for way in known.again(kept) for fitting in self._holding(name, check.id, way)]
         made = check.with_(**AdvisedCheck(known.finding, ways).fields) if ways != known.ways else check
-        begun = ((change.key, self._origin((name, *_path(change.key)))) for way in ways for change in way.changes)
-        words = dict.fromkeys(Phrase(FOLLOWS, key=key, origin=origin) for key, origin in begun if origin)
+        begun = ((change.key, *self._origin((name, *_path(change.key)))) for way in ways for change in way.changes)
+        words = dict.fromkeys(
+            Phrase(CALCULATED if result else FOLLOWS, key=key, origin=origin) for key, origin, result in begun if origin
+        )
         founded = next(each.founded for each in checks_of(self.run.calculations[name]) if each.id == check.id)
         changed = (change.key for way in ways for change in way.changes)
         words |= dict.fromkeys(Phrase(FOUNDED, key=key) for key in changed if dotted(_path(key)) in founded)
@@ -220,19 +225,22 @@ class _WholeMachine:
             node = target.node
         return node
 
-    def _origin(self, node: Node) -> str:
-        """Where the value of an input that is not typed itself begins: a field of the press, a result, a key; nothing of others."""
+    def _origin(self, node: Node) -> tuple[str, bool]:
+        """Where the value of an input that is not typed itself begins, and whether that is a result: else a field of the press, or a key.
+
+        Nothing of others.
+        """
         links, parts, origin = self.run.config.links, self.run.config.parts, ""
         while (target := links.get(node)) is not None and not target.expression:
             origin, node = target.path, target.node
             if target.result is not None:
-                return origin
+                return origin, True
         place = parts.typed_at(node) if parts and parts.follows(node) else None
         if not parts or not place:
-            return origin
+            return origin, False
         ends = (end for end in range(1, len(place)) if parts.reader.tree.typed(place[:end]) is not None)
         told = place[: next(ends, len(place))]  # a text may hold the number
-        return ".".join(map(str, told)).removesuffix(".value")
+        return ".".join(map(str, told)).removesuffix(".value"), False
 
 
 class _ChangedRun(Run):
