@@ -40,6 +40,9 @@ UNTRIED = phrase(
 )
 
 
+STANDS_ALONE = phrase("what else it might be nothing tells, so no other value was tried")
+
+
 def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]:
     """Return what is open of a machine without the assumed and default values that are proved harmless; those left say which check changes.
 
@@ -55,7 +58,8 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
     trials = [Trial.of(config, each, numbers[each.path], reached) for each in named]
     machines = OpenValueTrials(config, [each for each in trials if not each.is_still])
     changes = dict(machines.harmful()) if machines.trials else {}
-    harmless = {each.item.path for each in trials if each.is_still}
+    changes |= {each.item.path: STANDS_ALONE for each in trials if each.is_still}
+    harmless = {each.item.path for each in trials if each.is_plain}
     harmless |= {each.item.path for each in machines.trials if each.item.path not in changes}
     harmless -= {each.item.path for each in trials if machines.left_out & each.reached}
     left = [each for each in results.summary.open if each.what not in VALUES or each.path not in harmless]
@@ -64,13 +68,14 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """Hold an open value, its least and greatest usual one (SI), and the mechanisms that follow from it."""
+    """Hold an open value, its least and greatest usual one (SI), the mechanisms that follow from it, and whether its range is known."""
 
     item: OpenRecord
     design: DesignInput
     low: float
     high: float
     reached: frozenset[str]
+    has_range: bool = False
 
     @staticmethod
     def of(config: Config, item: OpenRecord, design: DesignInput, reached: Mapping[str, frozenset[str]]) -> Trial:
@@ -78,7 +83,8 @@ class Trial:
         home, present = design.asked.instance, design.present or 0.0
         low, high = sorted((present * (1 - SHARE), present * (1 + SHARE)))
         usual = range_of(config.kinds.get(home, PRESS), design.key)
-        if usual is not None and not usual.of:  # a ratio bounds no key by itself
+        has_range = usual is not None and not usual.of  # a ratio bounds no key by itself
+        if usual is not None and has_range:
             low, high = usual.usual
         ends = np.clip([low, high], *design.bounds)
         ends = np.where(design.allows(ends), ends, (ends + present) / 2)  # an end that is not of the range
@@ -87,7 +93,7 @@ class Trial:
         if len(listed := design.listed):
             within = listed[(listed >= low) & (listed <= high)]
             ends = np.array([within.min(initial=present), within.max(initial=present)])
-        return Trial(item, design, float(ends[0]), float(ends[1]), reached[home])
+        return Trial(item, design, float(ends[0]), float(ends[1]), reached[home], has_range)
 
     @property
     def present(self) -> float:
@@ -96,8 +102,13 @@ class Trial:
 
     @property
     def is_still(self) -> bool:
-        """Return whether no other value is usual."""
+        """Return whether no other value is tried."""
         return self.low == self.present == self.high
+
+    @property
+    def is_plain(self) -> bool:
+        """Return whether no other value is usual, or nobody has said what is not there, such as a bore, or there once, such as a key."""
+        return self.is_still and (self.has_range or (self.item.what == "default" and self.present in (0, 1)))
 
 
 def apart(sets: Iterable[frozenset[str]]) -> list[list[int]]:

@@ -194,7 +194,7 @@ class _RangeSearch:
     def missed(self, y: Array) -> Array:
         """Return by how much of the value, or of the range that is taken, each misses it."""
         known = [each for each, _ in self.known.values() if math.isfinite(each)]
-        return np.abs(y - self.question.value) / max(abs(self.question.value), float(np.ptp(known)))
+        return np.abs(y - self.question.value) / (max(abs(self.question.value), float(np.ptp(known))) or 1.0)
 
     def _off(self, x: Array) -> Array:
         return self._along(x)[0] - self.question.value

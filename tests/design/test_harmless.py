@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.findings import decided, with_findings
-from diecut_report.design.harmless import UNTRIED, Effects, Trial, apart, without_harmless
+from diecut_report.design.harmless import STANDS_ALONE, UNTRIED, Effects, Trial, apart, without_harmless
 from diecut_report.design.inputs import design_input
 from diecut_report.press import Press
 from diecut_report.results.model import OpenRecord
@@ -58,6 +58,35 @@ def test_a_check_that_an_end_makes_hold_changes_too(tmp_path: Path) -> None:
 def test_a_machine_that_cannot_be_at_an_end_is_open(tmp_path: Path) -> None:
     known = left(press(tmp_path, "900 N*m", ", teeth: {value: 95, basis: assumed}"))  # a hundred at most
     assert known == {TEETH: "with 104 the machine cannot exist"}
+
+
+@pytest.mark.parametrize(
+    ("count", "is_open"), [("{value: 2, basis: assumed}", True), ("{value: 2, basis: drawing}", False), ("1", False)]
+)
+def test_an_assumed_number_of_keys_stays_open(tmp_path: Path, count: str, is_open: bool) -> None:
+    """A tenth of two is none; of one key nobody need say anything."""
+    sizes = "shaft_diameter: 50 mm, key_length: 50 mm, hub_length: 60 mm, torque: 400 N*m, application_factor: 1.25"
+    yields = "yield_key: 450 MPa, yield_shaft: 650 MPa, yield_hub: 370 MPa"
+    text = HEAD + f"  k: {{kind: parallel_key, {sizes}, {yields}, key_count: {count}}}\n"
+    known = left(Press.read(saved(tmp_path, text), Discovery()))
+    assert (known.get("mechanisms.k.key_count") == str(STANDS_ALONE)) is is_open
+
+
+def test_an_assumed_direction_stays_open(tmp_path: Path) -> None:
+    """Of nothing a tenth is nothing; the deflection is 73 % of what is allowed at 0°, and 120 % at 90°."""
+    part = "{value: %s, basis: drawing, note: D1}"
+    shaft = {
+        "kind": "shaft", "material": "C45E+QT", "sections": [{"length": part % "400 mm", "diameter": part % "60 mm"}],
+        "bearing_a": part % "20 mm", "bearing_b": part % "320 mm", "speed": part % "100 rpm", "allowable_deflection": part % "0.025 mm",
+        "loads": [
+            {"name": "wheel", "position": part % "150 mm", "torque": "balance",
+             "gear": {"pitch_radius": part % "60 mm", "mesh_angle": "{value: 0 deg, basis: assumed}"}},
+            {"name": "arm", "position": part % "190 mm", "torque": part % "250 N*m", "force_y": part % "3 kN"},
+        ],
+    }  # fmt: skip
+    text = HEAD + f"  s: {shaft!r}\n".replace("'{", "{").replace("}'", "}")
+    known = left(Press.read(saved(tmp_path, text), Discovery()))
+    assert known["mechanisms.s.loads.0.gear.mesh_angle"] == str(STANDS_ALONE)
 
 
 def test_what_is_not_one_number_of_the_file_stays_open(tmp_path: Path) -> None:
