@@ -281,9 +281,6 @@ def _read(config: Path, discovery: Discovery, progress: Progress) -> Press:
 def _end(design: DesignInput, given: str | None, option: str) -> float | None:
     if given is None:
         return None
-    if design.is_text:
-        words = say("{name} is a text; name those that are to be tried with --among.", name=design.name)
-        raise click.BadParameter(words, param_hint=option)
     try:
         return design.read(given)
     except ValueError as fault:

@@ -11,7 +11,7 @@ import copy
 import hashlib
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from graphlib import CycleError, TopologicalSorter
@@ -386,6 +386,25 @@ def _differs(typed: str | None, value: Scalar, own: str) -> bool:
         return not math.isclose(parse_quantity(typed, own), parse_quantity(text, own), rel_tol=1e-12)
     except UnitError:
         return True
+
+
+def upstream(links: Mapping[Node, Target], names: Iterable[str]) -> set[str]:
+    """Return these mechanisms and all that they follow from, the press too where they do."""
+    sources: dict[str, set[str]] = {}
+    for (name, *_), target in links.items():
+        sources.setdefault(str(name), set()).update(each.instance for each in target.single)
+    return reached(sources, names)
+
+
+def reached(neighbours: Mapping[str, set[str]], names: Iterable[str]) -> set[str]:
+    """Return these names, and all that are reached from one to its neighbours."""
+    found: set[str] = set()
+    left = list(names)
+    while left:
+        if (name := left.pop()) not in found:
+            found.add(name)
+            left += neighbours.get(name, ())
+    return found
 
 
 def rewritten(

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.loader import Config
+from diecut_report.config.references import upstream
 from diecut_report.design.advised import (
     Advised,
     CheckConflict,
@@ -38,7 +39,6 @@ from diecut_report.design.machines import (
     Spent,
     downstream,
     proved,
-    upstream,
 )
 from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
@@ -230,7 +230,7 @@ def mended(press: Press, *, free: Iterable[str] = (), keep: Iterable[str] = (), 
         raise UserError(Problem(nothing_free(config, {*only, *kept}), config.tree.file))
     touched, count = set().union(*(touched_by(config, asked) for asked in free_ones)), len(inputs) + len(choices)
     left_out = () if named else untried(config, touched, {each.path for each in free_ones} | kept)
-    reached = {name: upstream(config, [name.split(".")[0]]) for name in failing}
+    reached = {name: upstream(config.links, [name.split(".")[0]]) for name in failing}
     if unreached := tuple(name for name in failing if reached[name].isdisjoint(touched)):
         conflict = CheckConflict(unreached, is_proved=True)  # no search can mend it
         return Mended(before, left=failing, conflict=conflict, free=count, untried=left_out)

@@ -38,6 +38,7 @@ from diecut_report.study.definition.base_inputs import (
 )
 from diecut_report.text.phrases import Phrase, phrase
 
+TEXT = phrase("is a text; name those that are to be tried with --among.")
 MANY_STEPS = 20  # references that are followed to where a value stands; a loop is refused where a file is read
 
 
@@ -137,7 +138,9 @@ class DesignInput:
         return text if self.unit == "1" else f"{text} {self.unit}"
 
     def read(self, typed: str) -> float:
-        """Return the value (SI) of what was typed; ValueError in words where it is not allowed."""
+        """Return the value (SI) of what was typed; ValueError in words where it is not allowed, or is no number."""
+        if self.is_text:
+            raise ValueError(TEXT)
         return float(self.meta.validate(typed))
 
     def read_allowed(self, typed: str) -> float:
@@ -198,15 +201,14 @@ def solved_input(config: Config, name: str, among: Sequence[str] = ()) -> Design
         template = "{name} follows from {written}; change what that refers to, or write a value there first."
         raise refusal(template, config.tree.file, name=found.name, written=found.written)
     if found.is_text and not (among or found.options):
-        template = "{name} is a text; name those that are to be tried with --among."
-        raise refusal(template, config.tree.file, name=found.name)
+        raise refusal("{name} {fault}", config.tree.file, name=found.name, fault=TEXT)
     for text in () if found.is_text else among:
         try:
             found.read(text)
         except ValueError as fault:
             wrong = Phrase("{name}: {fault}", name=found.name, fault=fault)
             raise UserError(Problem(wrong, config.tree.file, path="--among")) from None
-    return replace(found, among=tuple(among))
+    return replace(found, among=tuple(dict.fromkeys(among)))
 
 
 def require_untied(config: Config, design: DesignInput) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.references import as_file
+from diecut_report.config.references import as_file, reached, upstream
 from diecut_report.config.yaml import Tree, dotted
 from diecut_report.design.inputs import DesignInput
 from diecut_report.errors import PluginError, Problem, UserError
@@ -132,18 +132,10 @@ def quantities(config: Config) -> dict[str, ResultColumn]:
 
 def narrowed(config: Config, names: Iterable[str]) -> Config:
     """Return the configuration with these mechanisms alone, and those that they follow from: what else there is need not be calculated."""
-    wanted = {PRESS, *upstream(config, [PRESS, *names])}
+    wanted = {PRESS, *upstream(config.links, [PRESS, *names])}
     instances = {name: instance for name, instance in config.instances.items() if name in wanted}
     links = {node: target for node, target in config.links.items() if node[0] in wanted}
     return replace(config, instances=instances, links=links, order=tuple(n for n in config.order if n[0] in wanted))
-
-
-def upstream(config: Config, names: Iterable[str]) -> set[str]:
-    """Return these mechanisms and all that they follow from, the press too where they do."""
-    sources: dict[str, set[str]] = {}
-    for (name, *_), target in config.links.items():
-        sources.setdefault(str(name), set()).update(each.instance for each in target.single)
-    return _reached(sources, names)
 
 
 def downstream(config: Config, name: str) -> list[str]:
@@ -152,18 +144,8 @@ def downstream(config: Config, name: str) -> list[str]:
     for (own, *_), target in config.links.items():
         for each in target.single:
             followers.setdefault(each.instance, set()).add(str(own))
-    found = _reached(followers, [name])
+    found = reached(followers, [name])
     return [each for each in config.instances if each in found]
-
-
-def _reached(neighbours: Mapping[str, set[str]], names: Iterable[str]) -> set[str]:
-    found: set[str] = set()
-    left = list(names)
-    while left:
-        if (name := left.pop()) not in found:
-            found.add(name)
-            left += neighbours.get(name, ())
-    return found
 
 
 def margins(made: CalculatedVariants) -> dict[str, Array]:

@@ -125,9 +125,7 @@ class Advisor:
         trials = CheckTrials(self.calc, check.index, self.judge, check, self.held, alike, kept=kept)
         found = _ways(trials, check.advise)
         found = [way for way in found if not way.broken] or found[:1]
-        if kept:
-            return found
-        if check.index is None and all(way.level == LEVELS - 1 for way in found):
+        if check.index is None and not kept and all(way.level == LEVELS - 1 for way in found):
             self._common[check.advise] = found
         return found
 
@@ -451,9 +449,11 @@ def _needed(trials: Trials, ray: Ray, parameter: float) -> Ray:
     """The ray without the numbers that may stay as they are: what holds with all of them, holds without these."""
     at = np.array([parameter])
     level = _level(trials.with_numbers(ray.places, ray.at(at))) if len(ray.places) > 1 else None
-    for place in ray.places if level is not None else ():
+    if level is None:
+        return ray
+    for place in ray.places:
         left = ray.without(place)
-        if left.places and trials.with_numbers(left.places, left.at(at))[min(level or 0, 1), 0]:
+        if left.places and trials.with_numbers(left.places, left.at(at))[min(level, 1), 0]:
             ray = left
     return ray
 

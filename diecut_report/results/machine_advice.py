@@ -14,6 +14,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.parts.expansion import refused
 from diecut_report.config.parts.model import MachineParts
+from diecut_report.config.references import upstream
 from diecut_report.config.yaml import KeyPath, dotted, resolved
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.mechanism import intervals, phases_of
@@ -28,6 +29,7 @@ from diecut_report.results.coherence import DRIVE_LINE, Machine, disagreements
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.press_run import Run, same_inputs
 from diecut_report.results.record import Value
+from diecut_report.results.trials import parts_of
 from diecut_report.results.usual import outside
 from diecut_report.text.phrases import Phrase, joined, phrase
 
@@ -95,8 +97,7 @@ class _WholeMachine:
     def _present(self, name: str, change: KeyChangeRecord) -> float | None:
         """The value that a key has today, in the unit of its change."""
         path = _path(change.key)
-        row: Any = self.run.calculations[name].inputs.get(dotted(path), ())
-        values = [*np.ravel(row)] if isinstance(row, np.ndarray) else [*row]
+        values = parts_of(self.run.calculations[name].inputs.get(dotted(path)))
         index = next((part for part in path if isinstance(part, int)), 0)
         known = values[index] if index < len(values) else None
         return None if known is None else unit(change.unit).from_si(float(known))
@@ -247,7 +248,7 @@ class _ChangedRun(Run):
     """A machine with other values at its parts, as far as one mechanism follows from it: what is as it was is not calculated again."""
 
     def __init__(self, before: Run, config: Config, name: str) -> None:
-        self.before, self.wanted = before, _upstream(config, name)
+        self.before, self.wanted = before, {PRESS, *upstream(config.links, [name])}
         super().__init__(config, lambda _: None)
 
     def _mechanism(self, name: str) -> None:
@@ -271,16 +272,6 @@ class _ChangedRun(Run):
 
     def _comparisons(self) -> None:
         """A comparison has no checks."""
-
-
-def _upstream(config: Config, name: str) -> set[str]:
-    """A mechanism, with all that it follows from."""
-    found, left = {PRESS}, [name]
-    while left:
-        if (own := left.pop()) not in found:
-            found.add(own)
-            left += [each.instance for node, target in config.links.items() if node[0] == own for each in target.single]
-    return found
 
 
 def _path(key: str) -> KeyPath:

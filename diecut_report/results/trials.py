@@ -57,6 +57,11 @@ def _possible(calc: Calculation, key: str, meta: Quantity) -> Quantity:
     return replace(meta, plausible=(low, high))
 
 
+def parts_of(value: Any) -> list[Any]:
+    """Return what a calculation of one machine has of an input, of a list for each part; nothing where it is not given."""
+    return [] if value is None else list(value[0] if isinstance(value, np.ndarray) else value)
+
+
 @dataclass(frozen=True)
 class Trials(ABC):
     """Try other inputs on the machine of a calculation; ``part`` is the only part of a list whose inputs are changed, None for all.
@@ -107,10 +112,9 @@ class Trials(ABC):
             present = None if value is None else float(np.ravel(value)[0])
             found = [VariedNumber(key, meta, None, present, key)]
         else:
-            parts = [] if value is None else list(value[0] if isinstance(value, np.ndarray) else value)
             found = [
                 VariedNumber(key, meta, i, float(part), f"{home}.{i}.{key.removeprefix(f'{home}.')}")
-                for i, part in enumerate(parts)
+                for i, part in enumerate(parts_of(value))
                 if isinstance(part, int | float | np.number) and self.part in (None, i)
             ]
         return [each for each in found if each.path not in self.kept]

@@ -80,7 +80,7 @@ def solved_press(
 
     def end(given: str | None, name: str) -> float | None:
         try:
-            return None if given is None or design.is_text else design.read(given)
+            return None if given is None else design.read(given)
         except ValueError as fault:
             raise ConfigError(Problem(fault.args[0], path=f"{name} of {design.name}")) from None
 

@@ -16,6 +16,7 @@ from diecut_report.config import yaml
 from diecut_report.config.loader import Config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
+from diecut_report.config.references import upstream
 from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import UserError
 from diecut_report.mechanism.chapters import in_unit
@@ -131,9 +132,10 @@ class TriedExtremes:
     @cached_property
     def data(self) -> dict[str, Any]:
         """Return the plain data of the configuration with the machine alone, and the mechanisms that it refers to."""
-        from diecut_report.design.machines import upstream  # with studies, which no other rule needs
-
-        data, needed = json.loads(json.dumps(self.config.tree.data, default=str)), upstream(self.config, [self.name])
+        data, needed = (
+            json.loads(json.dumps(self.config.tree.data, default=str)),
+            upstream(self.config.links, [self.name]),
+        )
         own = {name: block for name, block in data["mechanisms"].items() if name in needed}
         return {**data, "mechanisms": own}
 

@@ -133,7 +133,7 @@ def test_whole_numbers_are_all_tried(press: Path, capfd: Capture) -> None:
         ("a.arm", "a.moment = 1 N*m", ["--from", "9 mm", "--to", "8 mm"], "the range from 9 mm to 8 mm is empty"),
         ("a.width", "a.moment = 1 N*m", [], "a.width has no value at present; give the range to search"),
         ("a.grade", "a.moment = 1 N*m", [], "a.moment does not vary with a.grade: it is 200 N·m in the whole range"),
-        ("a.grade", "a.moment = 1 N*m", ["--from", "1"], "a.grade is a text; name those that are to be tried with --among"),
+        ("a.grade", "a.moment = 1 N*m", ["--from", "1"], "a.grade: is a text; name those that are to be tried with --among"),
         ("a.arm", "a.moment = 1 N*m", ["--among", "2 g"], "a.arm: 2 g is a mass"),
     ],
 )  # fmt: skip

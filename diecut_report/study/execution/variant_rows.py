@@ -18,7 +18,7 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import said
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.yaml import KeyPath, Scalar
-from diecut_report.errors import PluginError
+from diecut_report.errors import PluginError, Problem
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
@@ -71,7 +71,7 @@ from diecut_report.study.execution.press_batch import (
     untold,
 )
 from diecut_report.study.storage.description import Kind, ResultColumn
-from diecut_report.text.phrases import phrase
+from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import contained
 
 # Columns of results: what is known of each before anything is calculated, and its values for many variants.
@@ -380,7 +380,7 @@ def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list
         changes = {typed_place(base, asked): typed_data(asked, value) for asked, value in zip(typed, key, strict=True)}
         made = with_parts(base.parts, changes, kinds)
         if made.problems:
-            rows.errors[alike] = f"{made.problems[0].path}: {made.problems[0].message}"
+            rows.errors[alike] = _reason(made.problems[0])
             rows.status[alike] = "error"
             continue
         numbers, structure = known.differing(made)
@@ -391,7 +391,7 @@ def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list
     own = {each.name for each in columns_of(base)}
     for structure, (numbers_of, chosen) in found.items():
         config, problems = base.with_parts(first[structure]) if structure else (base, [])
-        reason = f"{problems[0].path}: {problems[0].message}" if problems else ""
+        reason = _reason(problems[0]) if problems else ""
         if not problems and not {each.name for each in columns_of(config)} <= own:
             reason = phrase(
                 "with these values the parts make other calculations than in the base; calculate it as a file of its own"
@@ -400,6 +400,10 @@ def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list
             rows.errors[chosen], rows.status[chosen] = reason, "error"
             continue
         yield numbers_of, config, np.array(chosen)
+
+
+def _reason(problem: Problem) -> str:
+    return Phrase("{name}: {fault}", name=problem.path, fault=problem.message)
 
 
 def _alike(typed: Given, count: int) -> dict[tuple[Any, ...], list[int]]:
