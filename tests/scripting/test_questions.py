@@ -63,6 +63,7 @@ def test_inputs_are_ranked_by_what_they_move(press: dr.LoadedPress) -> None:
     [
         (lambda p: p.solve("a.ar", "a.moment = 1 N*m"), "is not an input of a (did you mean 'arm'?)"),
         (lambda p: p.solve("a.arm", "a.moment = 1 kg"), "a.moment: 1 kg is a mass"),
+        (lambda p: p.solve("a.grade", "a.moment = 1 N*m", low="1"), "is a text; name those that are to be tried"),
         (lambda p: p.solve("a.arm", "a.moment = 1 N*m", low="1 kg"), "low of a.arm: 1 kg is a mass"),
         (lambda p: p.influence("a.momen"), "did you mean 'moment'?"),
         (lambda p: p.influence(share=2), "share: 2 is not a share between 0 and 1"),
