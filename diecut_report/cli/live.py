@@ -65,7 +65,9 @@ def live(config: Path, port: int, is_opened: bool, discovery: Discovery) -> int:
     with TemporaryDirectory(prefix="diecut-report-") as doors, spoken, _until_ended():
         serve(LiveApplication(session, discovery.folders, asked_language()), port, ready)
     template = "changed on the page but not saved: {name}: {typed}"  # so that nothing is lost
-    tell(say(template, name=name, typed=typed) for name, typed in session.edits.items())
+    for state, edits in session.unsaved:
+        tell([say("state not saved: {name}", name=state)] if state else [])
+        tell(say(template, name=name, typed=typed) for name, typed in edits.items())
     return PASSED
 
 

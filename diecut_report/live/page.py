@@ -27,6 +27,7 @@ from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import shown_figures
 from diecut_report.results.mechanism_record import CheckRecord, QuantityRecord
 from diecut_report.results.press_run import Tell
+from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.execution.press_batch import untold
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import catalogues_spoken, localised, said, say, spoken_language
@@ -48,12 +49,25 @@ def page_data(session: LiveSession) -> Data:
         "serial": session.serial,
         "file": session.file.name,
         "edits": dict(session.edits),
+        "can": {"undo": bool(session.past), "redo": bool(session.future)},
+        "states": [_state(name, each, is_kept=name in session.states) for name, each in session.machines.items()],
         "faults": [
             {"text": said(each.message), "line": each.line, "column": each.column, "path": each.path}
             for each in session.faults[:MAX_FAULTS]
         ],
         "more_faults": max(0, len(session.faults) - MAX_FAULTS),
         "machine": None if machine is None or start is None else _machine(machine, start, session.edits),
+    }
+
+
+def _state(name: str, machine: LiveMachine, *, is_kept: bool) -> Data:
+    summary = machine.run.summary
+    return {
+        "name": name,
+        "is_kept": is_kept,
+        "verdict": summary.verdict,
+        "fail": summary.fail,
+        "governing": summary.governing or "",
     }
 
 
@@ -65,6 +79,10 @@ def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str])
         "summary": run.summary.data(),
         "conclusion": said(run.summary.conclusion),
         "start": {"status": start.run.status, "summary": start.run.summary.data()},
+        "open": [
+            {"path": each.path.removeprefix(f"{MECHANISMS}."), "why": said(each.why), "owner": each.owner}
+            for each in run.summary.open
+        ],
         "views": [each.title for each in _drive_line(machine)],
         "mechanisms": [
             _mechanism(name, machine, start, edits)
@@ -85,7 +103,8 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
         "title": said(mechanism.title, kind) if mechanism else said(phrase("Press")),
         "skipped": mechanism is not None and not is_there,
         "inputs": [
-            _input(each, kind, start, edits) if each.asked.unit is not None else _choice(each, kind, start, edits)
+            (_input if each.asked.unit is not None else _choice)(each, kind, start, edits)
+            | {"is_default": machine.tree.typed(each.stands) is None}
             for each in _inputs(name, machine)
         ],
         "checks": [_check(each, kind, before.get(each.id)) for each in run.checks.get(name, ()) if each.check_class != "numerical"],
@@ -99,8 +118,13 @@ def _text(text: object, kind: str) -> str:
 
 
 def _inputs(name: str, machine: LiveMachine) -> list[DesignInput]:
-    own = (each for each in machine.inputs.values() if each.asked.instance == name)
-    return sorted(own, key=lambda each: machine.config.tree.position(each.stands))
+    """Those of the file in its order, then those at default in that of their declaration, where they stay when they are changed."""
+    own = [each for each in machine.inputs.values() if each.asked.instance == name]
+    given = [each for each in own if machine.tree.typed(each.stands) is not None]
+    instance = machine.config.instances[name]
+    order = {slot.key: index for index, slot in enumerate(instance.slots if instance else ())}
+    rest = sorted((each for each in own if each not in given), key=lambda each: order[each.asked.key])
+    return [*sorted(given, key=lambda each: machine.tree.position(each.stands)), *rest]
 
 
 def _choice(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
@@ -163,6 +187,15 @@ def _check(check: CheckRecord, kind: str, before: CheckRecord | None) -> Data:
         "start_status": before.status if before else "",
         "start_utilisation": before.utilisation if before else None,
     }
+
+
+def advice(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
+    """Return what the failing checks of a mechanism say with their advice, by their ids; UserError where there is no such mechanism."""
+    if name not in machine.run.calculations:
+        raise refusal("There is no mechanism {name}.", name=repr(name))
+    kind = machine.config.kinds.get(name, "")
+    checks = machine.run.advised_checks(name, tell)
+    return {"mechanism": name, "messages": {each.id: _text(each.message, kind) for each in checks if each.advice}}
 
 
 def _outputs(name: str, kind: str, machine: LiveMachine, start: LiveMachine) -> Iterator[Data]:
@@ -267,10 +300,19 @@ WORDS = {
     "write": phrase("Write to file"),
     "write_n": phrase("Write {n} to file"),
     "written": phrase("Written to {file}."),
-    "taken_back": phrase("Undone: {n}."),
-    "put_back": phrase("Redo"),
     "take_back": phrase("Undo"),
     "take_back_of": phrase("Undo {input}"),
+    "at_default": phrase("At default"),
+    "open_n": phrase("Open: {n}"),
+    "pin": phrase("Keep in view"),
+    "pin_of": phrase("Keep {quantity} in view"),
+    "compare_of": phrase("Compare {state}"),
+    "state_return": phrase("Return to"),
+    "state_save": phrase("Save as file"),
+    "state_forget": phrase("Remove"),
+    "verdict_pass": phrase("pass"),
+    "verdict_conditional": phrase("conditional"),
+    "verdict_fail": phrase("fail"),
     "slider": phrase("{input}, slider"),
     "before": phrase("initially {value}"),
     "no_inputs": phrase("The file gives no number of its own here; all are taken from elsewhere."),

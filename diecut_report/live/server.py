@@ -27,8 +27,9 @@ from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from watchfiles import awatch
 
 from diecut_report.errors import PluginError, UserError, refusal
-from diecut_report.live.page import Pictures, assets, effect, page, page_data
+from diecut_report.live.page import Pictures, advice, assets, effect, page, page_data
 from diecut_report.live.session import MEDIA_TYPES, NAME, LiveMachine, LiveReports, LiveSession, in_time
+from diecut_report.results.press_run import Tell
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, say
 
@@ -62,10 +63,12 @@ class LiveApplication:
         routes = [
             Route("/", self._page), Route("/assets/{name}", self._asset), Route("/events", self._events),
             Route("/figure/{mechanism}/{index}", self._figure), Route("/effect", self._effect),
+            Route("/advice", self._advice),
             Route("/view/{index}", self._view),
-            Route("/report/{form}", self._report),
+            Route("/report/{form}", self._report), Route("/comparison", self._comparison),
             Route("/change", self._change, methods=["POST"]), Route("/back", self._back, methods=["POST"]),
-            Route("/write", self._write, methods=["POST"]),
+            Route("/write", self._write, methods=["POST"]), Route("/undo", self._undo, methods=["POST"]),
+            Route("/redo", self._redo, methods=["POST"]), Route("/state/{act}", self._state_act, methods=["POST"]),
         ]  # fmt: skip
         self.starlette = Starlette(
             routes=routes, lifespan=self._lifespan, exception_handlers={UserError: _refused, PluginError: _refused}
@@ -185,15 +188,23 @@ class LiveApplication:
         return JSONResponse(await self._done(self._of_last(lambda machine: draw(machine, int(index)))))
 
     async def _effect(self, request: Request) -> Response:
-        """An effect is a whole run of many machines: it gives way to all else, and ends where its page looks at another."""
-        name, has_gone = request.query_params.get("input", ""), threading.Event()
+        name = request.query_params.get("input", "")
+        return await self._giving_way(request, lambda machine, tell: effect(machine, name, tell))
+
+    async def _advice(self, request: Request) -> Response:
+        name = request.query_params.get("mechanism", "")
+        return await self._giving_way(request, lambda machine, tell: advice(machine, name, tell))
+
+    async def _giving_way(self, request: Request, make: Callable[[LiveMachine, Tell], dict[str, Any]]) -> Response:
+        """What is a run of many machines gives way to all else, and ends where its page looks at another."""
+        has_gone = threading.Event()
 
         def give_way(_mechanism: str) -> None:
             if self._waiting or has_gone.is_set():
                 raise _GivesWay
 
         while not has_gone.is_set():
-            found = self._begun(self._of_last(lambda machine: effect(machine, name, give_way)))
+            found = self._begun(self._of_last(lambda machine: make(machine, give_way)))
             while not (await asyncio.wait([found], timeout=LOOK))[0]:
                 if self._is_ending.is_set() or await request.is_disconnected():
                     has_gone.set()
@@ -220,12 +231,20 @@ class LiveApplication:
         headers = {"content-disposition": f'inline; filename="{NAME}.{form}"'}
         return Response(content, media_type=MEDIA_TYPES[form], headers=headers)
 
+    async def _comparison(self, request: Request) -> Response:
+        machines = self.session.machines
+        chosen = {name: machines[name].config for name in request.query_params.getlist("state") if name in machines}
+        if not chosen:
+            return Response(say("Choose the states to be compared."), 409)
+        content = await self.reports.compared(chosen)
+        return Response(content, media_type=MEDIA_TYPES["html"])
+
     async def _change(self, request: Request) -> Response:
         given = await _sent(request)
-        changes = given.get("changes")
-        if not isinstance(changes, dict) or not all(isinstance(typed, str) for typed in changes.values()):
+        changes, stroke = given.get("changes"), given.get("stroke", "")
+        if not isinstance(changes, dict) or not all(isinstance(text, str) for text in (stroke, *changes.values())):
             return Response(status_code=400)
-        return await self._acted(lambda: self.session.change(changes))
+        return await self._acted(lambda: self.session.change(changes, stroke))
 
     async def _back(self, request: Request) -> Response:
         names = (await _sent(request)).get("names")
@@ -236,7 +255,22 @@ class LiveApplication:
     async def _write(self, _request: Request) -> Response:
         return await self._acted(self.session.write)
 
-    async def _acted(self, act: Callable[[], None]) -> Response:
+    async def _undo(self, _request: Request) -> Response:
+        return await self._acted(self.session.undo)
+
+    async def _redo(self, _request: Request) -> Response:
+        return await self._acted(self.session.redo)
+
+    async def _state_act(self, request: Request) -> Response:
+        session = self.session
+        acts: dict[str, Callable[[str], object]]
+        acts = {"keep": session.keep, "forget": session.forget, "return": session.return_to, "save": session.save}
+        act, name = acts.get(request.path_params["act"]), (await _sent(request)).get("name")
+        if act is None or not isinstance(name, str):
+            return Response(status_code=400)
+        return await self._acted(lambda: act(name))
+
+    async def _acted(self, act: Callable[[], object]) -> Response:
         try:
             await self._done(act)
         finally:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import re
 import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
@@ -15,26 +17,40 @@ from diecut_report.config import yaml
 from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery, said
 from diecut_report.config.references import as_file, rewritten
+from diecut_report.config.validation import value_at
 from diecut_report.config.yaml import KeyPath, Tree, YamlNode
-from diecut_report.design.inputs import DesignInput, given_choices, given_numbers
+from diecut_report.design.inputs import (
+    DesignInput,
+    choices_at_default,
+    given_choices,
+    given_numbers,
+    numbers_at_default,
+)
 from diecut_report.errors import PluginError, Problem, UserError, own_fault, refusal
 from diecut_report.files import write
 from diecut_report.press import Press
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity, with_point
 from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.text.phrases import phrase
+from diecut_report.text.translation import say
 from diecut_report.time_limit import MECHANISM_SECONDS, Overran, limited
 
 Data = dict[str, Any]
 MAX_TYPED_LENGTH = 100  # letters of a number that is typed on the page
 MAX_EDITS = 1_000
+MAX_STEPS = 500  # that can be undone
+MAX_STATES = 20
+INITIALLY, NOW = phrase("Initially"), phrase("Now")
+STATE_NAME = re.compile(r"\w(?:[\w .,+=-]{0,38}[\w])?")  # also the name of a file
 
 
 @dataclass(frozen=True)
 class LiveMachine:
-    """Hold a machine that could be calculated: the file that it was read from, its configuration, its run, and its inputs by name."""
+    """Hold a machine that could be calculated: the file that it was read from, that with the changes of the page, its configuration, its run,
+    and its inputs by name."""
 
     tree: Tree
+    changed: Tree
     config: Config
     run: WarmRun
     inputs: Mapping[str, DesignInput]
@@ -44,7 +60,8 @@ class LiveSession:
     """Keep a configuration calculated while it is changed. Not for several threads at a time.
 
     ``faults`` is what is wrong now; ``machine`` is the last machine that could be calculated (None before the first), ``start``
-    the first. ``edits`` are the numbers changed on the page and not written, by the names of their inputs, as typed.
+    the first. ``edits`` are the numbers changed on the page and not written, by the names of their inputs, as typed; ``past`` and
+    ``future`` what they were before each step, and before it was undone. ``states`` are machines kept under a name.
     """
 
     def __init__(self, file: Path, discovery: Discovery) -> None:
@@ -54,11 +71,16 @@ class LiveSession:
         self.start: LiveMachine | None = None
         self.faults: list[Problem] = []
         self.edits: dict[str, str] = {}
+        self.past: list[dict[str, str]] = []
+        self.future: list[dict[str, str]] = []
+        self.states: dict[str, LiveMachine] = {}
         self.serial = 0
+        self._saved: set[str] = set()
+        self._stroke = ""
         self._places: dict[str, KeyPath] = {}
         self._items: dict[str, list[object]] = {}
         self._typed: dict[str, str | None] = {}
-        self._press = WarmPress()
+        self._press = WarmPress(is_advised=False)  # a hand does not wait for advice: the page asks for it
         self._read: dict[Path, object] = {}
         self.read()
 
@@ -67,6 +89,13 @@ class LiveSession:
         """Return the files whose change matters: the configuration, and the tables and the logo that it names."""
         named = self.machine.config.files if self.machine else ()
         return {self.file, *(self.file.parent / name for name in named)}
+
+    @property
+    def machines(self) -> dict[str, LiveMachine]:
+        """Return the machines that can be compared: the first, those that were kept, and the one that is shown."""
+        if self.start is None or self.machine is None:
+            return {}
+        return {say(INITIALLY): self.start, **self.states, say(NOW): self.machine}
 
     def is_stale(self) -> bool:
         """Return whether the files are others than those that were read. Any thread may ask."""
@@ -101,27 +130,120 @@ class LiveSession:
                 found[file] = about.st_ino, about.st_mtime_ns, about.st_size
         return found
 
-    def change(self, changes: Mapping[str, str]) -> None:
-        """Take values of the page, as typed, by the names of their inputs; UserError where one is not a value of its input."""
+    def change(self, changes: Mapping[str, str], stroke: str = "") -> None:
+        """Take values of the page, as typed, by the names of their inputs; UserError where one is not a value of its input.
+
+        All changes of one ``stroke``, such as the move of a slider, are one step for ``undo``.
+        """
         if (machine := self.machine) is None:
             raise refusal("Nothing can be changed before the file can be calculated.", self.file)
         taken = {name: self._judged(machine, name, typed.strip()) for name, typed in changes.items()}
         if len(self.edits.keys() | taken.keys()) > MAX_EDITS:
             raise refusal("At most {n} numbers can be changed before they are written to the file.", n=MAX_EDITS)
+        self._begin_step(stroke)
         for name, typed in taken.items():
             self._places[name] = machine.inputs[name].stands
-            if name not in self.edits:  # by what the page shows, which the file may not be any more
-                self._items[name] = _items(machine.tree, self._places[name])
-                self._typed[name] = machine.tree.typed(self._places[name])
-            self.edits[name] = typed
+            self._edit(machine.tree, name, typed)
         self._forget_written()
         self._calculate()
 
     def take_back(self, names: Iterable[str] | None = None) -> None:
         """Forget changes of the page: these, or all."""
+        self._begin_step()
         for name in list(self.edits) if names is None else names:
             self.edits.pop(name, None)
         self._calculate()
+
+    def undo(self) -> None:
+        """Go back by a step; nothing where there is none."""
+        self._go(self.past, self.future)
+
+    def redo(self) -> None:
+        """Go forward again by a step that was undone; nothing where there is none."""
+        self._go(self.future, self.past)
+
+    def _go(self, steps: list[dict[str, str]], others: list[dict[str, str]]) -> None:
+        if steps:
+            others.append(self.edits)
+            self.edits, self._stroke = steps.pop(), ""
+            self._calculate()
+
+    def _begin_step(self, stroke: str = "") -> None:
+        if not stroke or stroke != self._stroke:
+            self.past = [*self.past, dict(self.edits)][-MAX_STEPS:]
+        self.future, self._stroke = [], stroke
+
+    def _edit(self, tree: Tree, name: str, typed: str) -> None:
+        if name not in self.edits:  # by what the page shows, which the file may not be any more
+            self._items[name] = _items(tree, self._places[name])
+            self._typed[name] = tree.typed(self._places[name])
+        self.edits[name] = typed
+
+    def keep(self, name: str) -> None:
+        """Keep the machine as it is shown under a name; UserError where there is none, or the name is taken or cannot be that of a file."""
+        if self.machine is None or self.faults:
+            raise refusal("This machine cannot be calculated and is not kept; see the errors.", self.file)
+        if not STATE_NAME.fullmatch(name):
+            template = "{name} cannot be the name of a state, which may become that of a file: use up to 40 letters, digits, spaces and .,+=-_"
+            raise refusal(template, name=repr(name))
+        if name in self.machines:
+            raise refusal("There is a state {name} already; remove it first.", name=repr(name))
+        if len(self.states) == MAX_STATES:
+            raise refusal("At most {n} states can be kept; remove one first.", n=MAX_STATES)
+        self.states[name] = self.machine
+        self.serial += 1
+
+    def forget(self, name: str) -> None:
+        """Remove a state that was kept."""
+        self._state(name)
+        del self.states[name]
+        self._saved.discard(name)
+        self.serial += 1
+
+    def return_to(self, name: str) -> None:
+        """Make the changes those of a state; UserError where the file has been changed since in other places."""
+        kept, file = self._state(name).changed, self.tree
+        if file is None:
+            raise refusal("Nothing can be changed before the file can be calculated.", self.file)
+        edits = self._edits(kept, file)
+        if self._with(file, {self._places[each]: typed for each, typed in edits.items()}).data != kept.data:
+            template = (
+                "The file has been changed since {name} was kept. Save the state as a file of its own, and open that."
+            )
+            raise refusal(template, self.file, name=repr(name))
+        self._begin_step()
+        self.edits = {}
+        for each, typed in edits.items():
+            self._edit(file, each, typed)
+        self._calculate()
+
+    def _edits(self, kept: Tree, file: Tree) -> dict[str, str]:
+        """The numbers changed on the page, now or before they were written, that stand otherwise in a state than in the file."""
+        typed = {each: kept.typed(place) or "" for each, place in self._places.items()}
+        return {each: text for each, text in typed.items() if text and text != file.typed(self._places[each])}
+
+    @property
+    def unsaved(self) -> Iterator[tuple[str, dict[str, str]]]:
+        """Yield the changes of the page, and of each state that was not saved, that are not in the file, by its name; empty for the page's."""
+        yield "", self.edits
+        for name, machine in self.states.items():
+            if name not in self._saved:
+                yield name, self._edits(machine.changed, self.tree or machine.tree)
+
+    def save(self, name: str) -> Path:
+        """Write a state into a file of its name beside that of the session, and return its path; UserError where there is one."""
+        tree = self._state(name).changed
+        file = self.file.with_name(f"{name}.yaml")
+        if os.path.lexists(file):
+            raise refusal("There is a file of this name already. Keep the state under another name.", file)
+        write(file, as_file(tree, tree.text))
+        self._saved.add(name)
+        return file
+
+    def _state(self, name: str) -> LiveMachine:
+        if name not in self.states:
+            raise refusal("There is no state {name}.", name=repr(name))
+        return self.states[name]
 
     def write(self) -> None:
         """Write the changes into the file, all else in it as it stands; UserError where that is not possible, and nothing is lost.
@@ -135,7 +257,7 @@ class LiveSession:
         tree, text = self.tree, self._changed(self.tree).text
         if text != tree.text:
             write(self.file.resolve(), as_file(tree, text), instead_of=tree.sha256)
-        self.edits = {}
+        self.edits, self.past, self.future = {}, [], []
         self.read()
 
     def _is_moved(self, name: str) -> bool:
@@ -194,26 +316,34 @@ class LiveSession:
 
     def _changed(self, tree: Tree) -> Tree:
         """The file with the changes in it."""
-        edited = self._edited()
-        return rewritten(tree, edited, self.start.config.units(edited) if self.start else {})
+        return self._with(tree, self._edited())
+
+    def _with(self, tree: Tree, typed: Mapping[KeyPath, str]) -> Tree:
+        return rewritten(tree, typed, self.start.config.units(typed) if self.start else {})
 
     def _made(self, tree: Tree) -> LiveMachine:
-        config = Press.read(self._changed(tree), self.discovery).usable().config
+        changed = self._changed(tree)
+        config = Press.read(changed, self.discovery).usable().config
         run = self._press.calculate(config)
         for error in run.errors.values():
             raise error
         _require_shown(run)
-        given = [*given_numbers(config), *given_choices(config)]
-        return LiveMachine(tree, config, run, typed_in(tree, given))
+        return LiveMachine(tree, changed, config, run, changeable(config, changed))
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)
         self.serial += 1
 
 
-def typed_in(tree: Tree, inputs: Iterable[DesignInput]) -> dict[str, DesignInput]:
-    """Return by name the inputs that a file gives; those that the parts of its machine make are changed where the parts are described."""
-    return {each.name: each for each in inputs if tree.typed(each.stands) is not None}
+def changeable(config: Config, tree: Tree) -> dict[str, DesignInput]:
+    """Return by name the inputs that a file gives, and those at default whose block stands in it.
+
+    What the parts of its machine make is changed at the parts.
+    """
+    given = [each for each in (*given_numbers(config), *given_choices(config)) if tree.typed(each.stands) is not None]
+    at_default = (*numbers_at_default(config), *choices_at_default(config))
+    own = [each for each in at_default if isinstance(value_at(tree.data, each.stands[:-1]), dict)]
+    return {each.name: each for each in (*given, *own)}
 
 
 def _items(tree: Tree, place: KeyPath) -> list[object]:
@@ -279,7 +409,7 @@ REPORT_SECONDS = 900.0  # for a report; while one is made the next waits
 
 
 class LiveReports:
-    """Make reports, one at a time, in a language or in that of the project; ``folders`` are those of foreign plugins."""
+    """Make reports and comparisons, one at a time, in a language or in that of the project; ``folders`` are those of foreign plugins."""
 
     def __init__(self, folders: tuple[Path, ...], language: str | None) -> None:
         self.folders, self.language = folders, language
@@ -291,18 +421,28 @@ class LiveReports:
             raise refusal(
                 "{form} is not a format here; there are {known}.", form=repr(form), known=", ".join(MEDIA_TYPES)
             )
+        name = Path(config.tree.name).name
+        return await self._of_command({name: config}, ["report", name], form)
+
+    async def compared(self, machines: Mapping[str, Config]) -> bytes:
+        """Return the comparison of machines, by what they are called, as HTML; UserError in words where it cannot be made."""
+        configs = {f"{index}/{name}.yaml": config for index, (name, config) in enumerate(machines.items())}
+        return await self._of_command(configs, ["compare", *configs], "html")
+
+    async def _of_command(self, configs: Mapping[str, Config], command: list[str], form: str) -> bytes:
+        """Write configurations by their paths into a folder and return what the command makes of them."""
         async with self._one:
             with tempfile.TemporaryDirectory(prefix="diecut-report-") as folder:
-                _laid_out(Path(folder), config)
-                return await self._reported(Path(folder), Path(config.tree.name).name, form)
+                for path, config in configs.items():
+                    _laid_out(Path(folder) / path, config)
+                return await self._run(Path(folder), command, form)
 
-    async def _reported(self, folder: Path, name: str, form: str) -> bytes:
+    async def _run(self, folder: Path, command: list[str], form: str) -> bytes:
         options = [part for place in self.folders for part in ("--plugins", str(place.absolute()))]
         options += ["--language", self.language] if self.language else []
-        command = ["-P", "-m", "diecut_report", "report", name, "-o", "made", "--format", form, "--quiet"]
         process = await asyncio.create_subprocess_exec(
-            sys.executable, *command, *options, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
-            stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
+            sys.executable, "-P", "-m", "diecut_report", *command, "-o", "made", "--format", form, "--quiet", *options,
+            cwd=folder, stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE,
         )  # fmt: skip
         try:
             async with asyncio.timeout(REPORT_SECONDS):
@@ -321,12 +461,12 @@ class LiveReports:
         return files[0].read_bytes()
 
 
-def _laid_out(folder: Path, config: Config) -> None:
-    """Write a configuration as it is now into a folder, with the tables and the logo that it names beside it or below."""
-    files = {Path(config.tree.name).name: as_file(config.tree, config.tree.text)}
+def _laid_out(file: Path, config: Config) -> None:
+    """Write a configuration as it is now into a file, and the tables and the logo that it names beside it or below."""
+    files = {file.name: as_file(config.tree, config.tree.text)}
     files |= {name: as_file(table, table.text) for name, table in config.tables.items()}
     files |= {config.logo.name: config.logo.content} if config.logo else {}
     for name, content in files.items():
-        place = folder / name
+        place = file.parent / name
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)

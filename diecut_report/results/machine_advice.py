@@ -27,7 +27,7 @@ from diecut_report.results.advice import AdvisedCheck, Way, printed
 from diecut_report.results.checks import checks_of, verdicts
 from diecut_report.results.coherence import DRIVE_LINE, Machine, disagreements
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
-from diecut_report.results.press_run import Run, same_inputs
+from diecut_report.results.press_run import Run, Tell, same_inputs
 from diecut_report.results.record import Value
 from diecut_report.results.trials import parts_of
 from diecut_report.results.usual import outside
@@ -42,9 +42,14 @@ FOUNDED = "Say what {key} rests on, by its basis; without it the check is not ma
 Typed = dict[Node, tuple[Value, str]]  # values by the inputs that are typed, with their unit
 
 
-def advised(run: Run, checks: Mapping[str, list[CheckRecord]]) -> dict[str, list[CheckRecord]]:
-    """Return the checks of all mechanisms, of which the failing ones advise what the machine allows, where it is typed."""
-    machine = _WholeMachine(run)
+def advised(
+    run: Run, checks: Mapping[str, list[CheckRecord]], tell: Tell = lambda _: None
+) -> dict[str, list[CheckRecord]]:
+    """Return the checks of all mechanisms, of which the failing ones advise what the machine allows, where it is typed.
+
+    ``tell`` is called with the name of the mechanism before each value that is tried; what it raises ends the search.
+    """
+    machine = _WholeMachine(run, tell)
     return {name: [machine.advised(name, check) for check in own] for name, own in checks.items()}
 
 
@@ -53,6 +58,7 @@ class _WholeMachine:
     """A calculated machine in which the advice of its checks is tried."""
 
     run: Run
+    tell: Tell
 
     def advised(self, name: str, check: CheckRecord) -> CheckRecord:
         """Return a check with what can be followed of its advice."""
@@ -146,6 +152,7 @@ class _WholeMachine:
 
     def _suits(self, name: str, check: str, changes: Sequence[KeyChangeRecord], values: Sequence[Value]) -> bool:
         """Whether the parts of the machine agree with some values, and a check holds with them."""
+        self.tell(name)
         if not self._allows(name, changes, values):
             return False
         made = self._made_anew(self._typed(name, changes, values))

@@ -94,7 +94,8 @@ class Remembered:
 class WarmPress:
     """Remember the calculations of a press from one run to the next; see above.
 
-    With ``is_advised=False`` failing checks come without advice, which takes longer than all the rest; ``document`` has it all the same.
+    With ``is_advised=False`` failing checks come without advice, which takes longer than all the rest; ``document`` has it all the same,
+    and ``advised_checks`` gives it for one mechanism.
     """
 
     def __init__(self, *, is_advised: bool = True) -> None:
@@ -168,6 +169,13 @@ class WarmRun(Run):
         own = {name: known.get(name) or self.self_tests.get(name, []) for name in names}
         return advised(self, own)
 
+    def advised_checks(self, name: str, tell: Tell = lambda _: None) -> list[CheckRecord]:
+        """Return the checks of a mechanism, the failing ones with their advice; KeyError as below.
+
+        ``tell`` is called before each value that is tried in the machine; what it raises ends the search.
+        """
+        return advised(self, {name: self.remembered[name].of(check_results)}, tell)[name]
+
     @property
     def status(self) -> str:
         """Return the verdict on the whole: pass, warn, fail or error."""
@@ -180,12 +188,12 @@ class WarmRun(Run):
         """Return the check that governs, with its mechanism."""
         return governing(self.checks)
 
-    @property
+    @cached_property
     def summary(self) -> SummaryRecord:
         """Return the counts of the checks, the governing one, what is open, the verdict and the first line."""
         return run_summary(self, self.checks)
 
-    @property
+    @cached_property
     def drive_line(self) -> DriveLineRecord | None:
         """Return the parts of the machine as they stand; None where they are not modelled."""
         return drive_line(self, self.checks)

@@ -6,7 +6,7 @@
   var byId = function (id) { return document.getElementById(id); };
   var PAUSE = 250;  /* milliseconds */
   var MOST = 60;  /* inputs that a search shows */
-  var state = null, open = null, chosen = null, effect = null, sending = false, waiting = {}, flying = {}, shownFigures = {}, isLost = false;
+  var state = null, open = null, chosen = null, effect = null, sending = false, waiting = {}, stroke = "", flying = {}, shownFigures = {}, isLost = false;
 
   var FIGURES = new Intl.NumberFormat(document.documentElement.lang, { maximumSignificantDigits: 6 });
 
@@ -74,7 +74,7 @@
     sending = true;
     waiting = {};
     var answered = 0;
-    post("change", { changes: changes }).then(function (told) { answered = told.serial; wrong(changes, ""); }, function (fault) {
+    post("change", { changes: changes, stroke: stroke }).then(function (told) { answered = told.serial; wrong(changes, ""); }, function (fault) {
       failed(fault);
       wrong(changes, fault.refused || "");
     }).then(function () {
@@ -96,20 +96,14 @@
     return post(path, body).then(function () { return true; }, function (fault) { failed(fault); return false; }).then(function (isDone) { ready(); return isDone; });
   }
 
-  /* What is taken back can be put back again, until something else is said. */
-  function takeBack(names) {
-    var former = {};
-    names.forEach(function (name) { if (name in state.edits) { former[name] = flying[name] || state.edits[name]; } });
-    act("back", { names: names }).then(function (isDone) {
-      if (!isDone || !Object.keys(former).length) { return; }
-      var again = make("button", { type: "button" }, t("put_back"));
-      again.addEventListener("click", function () { Object.keys(former).forEach(function (name) { waiting[name] = former[name]; }); send(); });
-      say(t("taken_back", { n: Object.keys(former).length }) + " ", true);
-      byId("told").append(again);
-    });
+  /* A slider's way from where it is taken to where it is let go is one step for undo. */
+  var strokes = 0;
+  function change(name, typed, isMoving) {
+    waiting[name] = typed;
+    stroke = name + " " + strokes;
+    if (!isMoving) { strokes += 1; }
+    send();
   }
-
-  function change(name, typed) { waiting[name] = typed; send(); }
 
   function wrong(changes, text) {
     Object.keys(changes).forEach(function (name) {
@@ -137,6 +131,8 @@
     document.body.classList.toggle("stale-state", state.faults.length > 0);
     var count = Object.keys(state.edits).length;
     byId("write").disabled = byId("back").disabled = !count;
+    byId("undo").disabled = !state.can.undo;
+    byId("redo").disabled = !state.can.redo;
     byId("write").textContent = count ? t("write_n", { n: count }) : t("write");
     document.title = (MARKS[shown] || "") + " " + state.file;
     byId("title").textContent = machine ? machine.title : state.file;
@@ -180,6 +176,8 @@
     chosen = effect = null;
     byId("search").value = "";
     show();
+    askEffect();
+    askAdvice();
   }
 
   function current() { return state.machine.mechanisms.find(function (each) { return each.name === open; }); }
@@ -191,7 +189,7 @@
     if (there.join() !== names.join()) {
       rows.replaceChildren.apply(rows, own.map(inputRow));
     }
-    own.forEach(function (each, index) { fill(rows.children[index], each); });
+    own.forEach(function (each, index) { fill(rows.children[index], each, each.is_default && !(index && own[index - 1].is_default)); });
     if (!own.length) { rows.replaceChildren(make("p", { "class": "hint" }, sought() ? t("not_found") : t("no_inputs"))); }
   }
 
@@ -217,10 +215,10 @@
     var row = make("div", { "class": "input", "data-name": each.name }, [
       make("label", { "for": id }, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])), make("div", { "class": "key" }, sought() ? each.name : key(each)),
       make("div", { "class": "line" }, [slider || "", typed, back]), make("div", { "class": "was" }), make("div", { "class": "wrong", role: "alert" }), make("div", { "class": "fault" })]);
-    if (slider) { slider.addEventListener("input", function () { typed.value = slider.value + (row.unit ? " " + row.unit : ""); change(each.name, typed.value); }); }
+    if (slider) { slider.addEventListener("input", function () { typed.value = slider.value + (row.unit ? " " + row.unit : ""); change(each.name, typed.value, true); }); slider.addEventListener("change", function () { strokes += 1; }); }
     typed.addEventListener("change", function () { row.sent = typed.value; change(each.name, typed.value); });
     typed.addEventListener("keydown", function (event) { if (event.key === "Escape" && slider) { typed.value = row.typed; wrong(Object.fromEntries([[each.name, ""]]), ""); } });
-    back.addEventListener("click", function () { delete waiting[each.name]; takeBack([each.name]); });
+    back.addEventListener("click", function () { delete waiting[each.name]; act("back", { names: [each.name] }); });
     if (slider) { [slider, typed].forEach(function (field) { field.addEventListener("focus", function () { choose(each.name); }); }); }
     return row;
   }
@@ -237,7 +235,7 @@
     }
   }
 
-  function fill(row, each) {
+  function fill(row, each, isFirstDefault) {
     var slider = row.querySelector("input[type=range]"), typed = row.querySelector(".typed"), isEdited = each.name in state.edits;
     row.unit = each.unit;
     row.typed = each.typed;
@@ -254,6 +252,7 @@
     if (!isHeld && !isOnItsWay && typed.getAttribute("aria-invalid") !== "true") { typed.value = row.sent = each.typed; }
     row.querySelector(".fault").textContent = state.faults.filter(function (fault) { return isEdited && (fault.path === each.path || fault.path === each.path + ".value"); }).map(function (fault) { return fault.text; }).join(" ");
     row.classList.toggle("edited", isEdited);
+    row.dataset.heading = isFirstDefault ? t("at_default") : "";
     row.classList.toggle("chosen", each.name === chosen);
     row.querySelector("button").hidden = !isEdited;
     row.querySelector(".was").textContent = each.start && each.start !== each.typed ? t("before", { value: each.start }) : "";
@@ -272,30 +271,38 @@
     effect = null;
     document.querySelectorAll(".input").forEach(function (row) { row.classList.toggle("chosen", row.dataset.name === name); });
     checks();
-    asks();
+    askEffect();
   }
 
-  var asked = null, later = 0;
-  /* A moment after the last move of a hand: an effect is a run of many machines. */
-  function asks() {
-    clearTimeout(later);
-    if (asked) { asked.abort(); }
-    asked = null;
-    if (chosen && state.machine) { later = setTimeout(ask, PAUSE); }
+  var asked = {}, later = {}, advised = null;
+  /* A moment after the last move of a hand: effect and advice are runs of many machines. */
+  function askFor(what, address, take) {
+    clearTimeout(later[what]);
+    if (asked[what]) { asked[what].abort(); }
+    asked[what] = null;
+    if (!address) { return; }
+    later[what] = setTimeout(function () {
+      var own = asked[what] = new AbortController();
+      effectHead();
+      fetch(address, { signal: own.signal }).then(function (answer) { return answer.ok ? answer.json() : null; }).then(function (found) {
+        if (found && asked[what] === own) { take(found); }
+      }).catch(function (fault) { if (fault.name !== "AbortError") { failed(fault); } }).then(function () {
+        if (asked[what] === own) { asked[what] = null; checks(); }
+      });
+    }, PAUSE);
   }
 
-  function ask() {
-    var own = asked = new AbortController(), name = chosen;
-    effectHead();
-    fetch("effect?input=" + encodeURIComponent(name), { signal: own.signal }).then(function (answer) { return answer.ok ? answer.json() : null; }).then(function (found) {
-      if (found && found.input === chosen) { effect = found; }
-    }).catch(function (fault) { if (fault.name !== "AbortError") { failed(fault); } }).then(function () {
-      if (asked === own) { asked = null; checks(); }
-    });
+  function askEffect() { askFor("effect", chosen && state.machine ? "effect?input=" + encodeURIComponent(chosen) : "", function (found) { effect = found; }); }
+
+  /* What the failing checks of the mechanism that is shown advise. */
+  function askAdvice() {
+    var isFailing = state.machine && current().checks.some(function (check) { return check.status === "fail"; });
+    advised = null;
+    askFor("advice", isFailing ? "advice?mechanism=" + encodeURIComponent(open) : "", function (found) { advised = found; });
   }
 
   function effectHead() {
-    byId("effect-head").textContent = chosen ? t("effect_of", { input: chosen }) + (asked ? " …" : "") : t("effect");
+    byId("effect-head").textContent = chosen ? t("effect_of", { input: chosen }) + (asked.effect ? " …" : "") : t("effect");
   }
 
   function line(name, value) {
@@ -338,17 +345,19 @@
   }
 
   function checks() {
-    var every = byId("all-checks").checked, rows = [], input = chosen && everyInput().find(function (each) { return each.name === chosen; });
+    var every = byId("all-checks").checked, isPress = !current().checks.length, rows = [], input = chosen && everyInput().find(function (each) { return each.name === chosen; });
     state.machine.mechanisms.forEach(function (each) {
-      if (every || each.name === open) { each.checks.forEach(function (check) { rows.push([each, check]); }); }
+      each.checks.forEach(function (check) {
+        if (every || each.name === open || (isPress && /fail|warn/.test(check.status))) { rows.push([each, check]); }
+      });
     });
     var rank = { fail: 0, warn: 1, pass: 2, not_checked: 3 };
     rows.sort(function (a, b) { return rank[a[1].status] - rank[b[1].status] || (b[1].utilisation || 0) - (a[1].utilisation || 0); });
     effectHead();
     byId("checks").tBodies[0].replaceChildren.apply(byId("checks").tBodies[0], rows.map(function (row) {
-      var each = row[0], check = row[1], words = [check.message, check.advice].filter(Boolean).join(" ");
+      var each = row[0], check = row[1], words = (advised && advised.mechanism === each.name && advised.messages[check.id]) || check.message;
       var title = check.title, was = check.start_status;
-      var cell = make("td", {}, [place(each, every), words ? explained(each.name + "." + check.id, check.status === "fail", title, words) : title]);
+      var cell = make("td", {}, [place(each, every || isPress), words ? explained(each.name + "." + check.id, check.status === "fail", title, words) : title]);
       var isOther = was && (was !== check.status || percent(check.start_utilisation) !== percent(check.utilisation));
       return make("tr", { "data-check": each.name + "." + check.id }, [
         make("td", {}, [mark(check.status), " " + t("status_" + check.status)]), cell,
@@ -358,14 +367,74 @@
     }));
   }
 
+  var pins = JSON.parse(sessionStorage.getItem("pins") || "[]");  /* MECHANISM.OUTPUT */
+
+  function pin(name) {
+    pins = pins.indexOf(name) < 0 ? pins.concat(name) : pins.filter(function (each) { return each !== name; });
+    sessionStorage.setItem("pins", JSON.stringify(pins));
+    outputs();
+    var again = document.querySelector('[data-output="' + CSS.escape(name) + '"] button.pin');
+    if (again) { again.focus(); }
+  }
+
+  function outputRow(mechanism, each, isAmongPinned) {
+    var change = each.change === null ? "" : (each.change > 0 ? "+" : "−") + told(Math.abs(100 * each.change), Math.abs(each.change) < 0.0995 ? 1 : 0) + " %";
+    var name = mechanism.name + "." + each.id, isPinned = pins.indexOf(name) >= 0;
+    var button = make("button", { type: "button", "class": "pin", "aria-pressed": String(isPinned), title: t("pin"), "aria-label": t("pin_of", { quantity: each.text }) }, isPinned ? "★" : "☆");
+    button.addEventListener("click", function () { pin(name); });
+    var attributes = {};
+    attributes[isAmongPinned ? "data-pinned" : "data-output"] = name;
+    return make("tr", attributes, [
+      make("td", {}, [place(mechanism, isAmongPinned), each.text + " "].concat(each.symbol ? sign(each.symbol) : [])), make("td", { "class": "number" }, each.shown),
+      make("td", { "class": "number" }, each.start), make("td", { "class": "number" + (change ? " changed" : "") }, change), make("td", {}, button)]);
+  }
+
   function outputs() {
-    byId("outputs").tBodies[0].replaceChildren.apply(byId("outputs").tBodies[0], current().outputs.map(function (each) {
-      var change = each.change === null ? "" : (each.change > 0 ? "+" : "−") + told(Math.abs(100 * each.change), Math.abs(each.change) < 0.0995 ? 1 : 0) + " %";
-      return make("tr", { "data-output": open + "." + each.id }, [
-        make("td", {}, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])), make("td", { "class": "number" }, each.shown),
-        make("td", { "class": "number" }, each.start), make("td", { "class": "number" + (change ? " changed" : "") }, change)]);
+    var mechanism = current(), body = byId("pinned").querySelector("tbody"), rows = [];
+    byId("outputs").tBodies[0].replaceChildren.apply(byId("outputs").tBodies[0], mechanism.outputs.map(function (each) { return outputRow(mechanism, each, false); }));
+    byId("outputs").hidden = byId("outputs-title").hidden = !mechanism.outputs.length;
+    state.machine.mechanisms.forEach(function (own) {
+      own.outputs.forEach(function (each) { if (pins.indexOf(own.name + "." + each.id) >= 0) { rows.push(outputRow(own, each, true)); } });
+    });
+    body.replaceChildren.apply(body, rows);
+    byId("pinned").hidden = !rows.length;
+  }
+
+  /* What the verdict leaves open, beside the press. */
+  function openItems() {
+    var items = state.machine.open, isPress = !current().checks.length;
+    byId("open").hidden = !isPress || !items.length;
+    byId("open").querySelector("summary").textContent = t("open_n", { n: items.length });
+    byId("open").querySelector("tbody").replaceChildren.apply(byId("open").querySelector("tbody"), items.map(function (each) {
+      return make("tr", {}, [make("td", { "class": "key" }, each.path), make("td", {}, each.why), make("td", {}, each.owner)]);
     }));
-    byId("outputs").hidden = byId("outputs-title").hidden = !current().outputs.length;
+  }
+
+  /* ---- states that are kept, and compared ---- */
+  var compared = {};  /* by name, where a hand has chosen it; else the first and the last */
+
+  function states() {
+    var body = byId("states").querySelector("tbody"), last = state.states.length - 1;
+    body.replaceChildren.apply(body, state.states.map(function (each, index) {
+      var box = make("input", { type: "checkbox", "aria-label": t("compare_of", { state: each.name }) });
+      box.checked = each.name in compared ? compared[each.name] : index === 0 || index === last;
+      box.addEventListener("change", function () { compared[each.name] = box.checked; comparison(); });
+      var acts = each.is_kept ? ["return", "save", "forget"].map(function (name) {
+        var button = make("button", { type: "button" }, t("state_" + name));
+        button.addEventListener("click", function () {
+          act("state/" + name, { name: each.name }).then(function (isDone) { if (isDone && name === "save") { say(t("written", { file: each.name + ".yaml" }), true); } });
+        });
+        return button;
+      }) : [];
+      return make("tr", { "data-state": each.name }, [make("td", {}, box), make("td", {}, each.name),
+        make("td", {}, [mark(each.verdict), " " + t("verdict_" + each.verdict) + (each.fail ? ": " + each.fail : "")]), make("td", {}, each.governing), make("td", { "class": "acts" }, acts)]);
+    }));
+    comparison();
+  }
+
+  function comparison() {
+    var rows = Array.from(byId("states").querySelectorAll("tbody tr")).filter(function (row) { return row.querySelector("input").checked; });
+    byId("comparison").href = "comparison?" + rows.map(function (row) { return "state=" + encodeURIComponent(row.dataset.state); }).join("&");
   }
 
   /* ---- figures: made when they come into sight ---- */
@@ -467,6 +536,8 @@
     inputs();
     checks();
     outputs();
+    openItems();
+    states();
     figures(byId("figures"), "figure/" + open, current().figures);
     byId("views").hidden = !state.machine.views.length;
     figures(byId("views"), "view", state.machine.views);
@@ -478,14 +549,27 @@
     if (!sending) { ready(); }
     if (isLost || (saidAt !== null && saidAt !== state.serial)) { isLost = false; say(""); }
     show();
-    asks();
+    askEffect();
+    askAdvice();
     document.body.dataset.serial = state.serial;
   };
   source.addEventListener("busy", busy);
   source.onerror = function () { isLost = true; say(t("lost")); };
 
   byId("write").addEventListener("click", function () { act("write").then(function (isDone) { if (isDone) { say(t("written", { file: state.file }), true); } }); });
-  byId("back").addEventListener("click", function () { waiting = {}; takeBack(Object.keys(state.edits)); });
+  ["undo", "redo", "back"].forEach(function (name) { byId(name).addEventListener("click", function () { waiting = {}; act(name); }); });
+  document.addEventListener("keydown", function (event) {
+    var key = event.key.toLowerCase(), isTyping = event.target.matches("input[type=text], input[type=search]");
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || isTyping || (key !== "z" && key !== "y")) { return; }
+    event.preventDefault();
+    byId(key === "y" || event.shiftKey ? "redo" : "undo").click();
+  });
+  byId("states").querySelector("form").addEventListener("submit", function (event) {
+    event.preventDefault();
+    act("state/keep", { name: byId("state-name").value.trim() }).then(function (isDone) { if (isDone) { byId("state-name").value = ""; } });
+  });
+  /* What sticks below the header begins where it ends. */
+  new ResizeObserver(function () { document.documentElement.style.setProperty("--head", document.querySelector("header").offsetHeight + "px"); }).observe(document.querySelector("header"));
   document.querySelectorAll("a.button").forEach(function (link) { link.addEventListener("click", function () { say(t("making"), true); }); });
   /* A part of the drive line leads to its calculation, and the search gives way to it. */
   byId("views").addEventListener("click", function (event) {

@@ -152,7 +152,8 @@ def test_an_input_is_found_by_a_search_and_a_fault_stands_beside_what_gave_it(br
     expect(tab.page.locator("#faults")).to_be_hidden(timeout=SECONDS)
     tab.page.get_by_role("button", name="Undo all changes").click()
     expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("20 mm", timeout=SECONDS)
-    tab.page.get_by_role("button", name="Redo").click()
+    tab.page.locator("h1").click()
+    tab.page.keyboard.press("Control+z")
     expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("2.1 cm", timeout=SECONDS)
     tab.page.get_by_role("searchbox").fill("no such thing")
     expect(tab.page.locator("#inputs .rows")).to_contain_text("No input in the file")
@@ -203,3 +204,40 @@ def test_axe_finds_nothing_serious_and_all_fits(browser: Browser, live: Live, op
     assert told == [], json.dumps(told, indent=1)
     assert tab.page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
     assert not re.search("undefined|NaN|null", tab.page.locator("body").inner_text())
+
+
+def test_a_state_is_kept_and_numbers_stay_in_view(browser: Browser, live: Live) -> None:
+    tab = Tab(browser, live.address)
+    tab.page.locator('[data-output="knife.force_max"]').get_by_role("button").click()
+    tab.page.get_by_role("button", name="press").click()
+    pinned = tab.page.locator('[data-pinned="knife.force_max"] td').nth(1)
+    force = pinned.inner_text()
+    tab.page.get_by_role("searchbox").fill("shear_resistance")
+    tab.type("knife.shear_resistance", "50")
+    expect(pinned).not_to_have_text(force, timeout=SECONDS)
+    tab.page.locator("#states summary").click()
+    tab.page.get_by_role("textbox", name="Name of the present state").fill("tough board")
+    tab.page.get_by_role("button", name="Keep", exact=True).click()
+    kept = tab.page.locator('[data-state="tough board"]')
+    expect(kept).to_be_visible(timeout=SECONDS)
+    tab.page.get_by_role("button", name="Undo", exact=False).first.click()
+    expect(pinned).to_have_text(force, timeout=SECONDS)
+    kept.get_by_role("button", name="Return to").click()
+    expect(pinned).not_to_have_text(force, timeout=SECONDS)
+    kept.get_by_role("button", name="Save as file").click()
+    expect(tab.page.locator("#told")).to_have_text("Written to tough board.yaml.", timeout=SECONDS)
+    assert live.file.with_name("tough board.yaml").exists()
+    with tab.page.context.expect_page(timeout=SECONDS) as opened:
+        tab.page.get_by_role("link", name="Compare").click()
+    expect(opened.value.locator("body")).to_contain_text("knife.shear_resistance", timeout=SECONDS)
+    kept.get_by_role("button", name="Remove").click()
+    expect(kept).to_have_count(0, timeout=SECONDS)
+    assert tab.said == []
+
+
+def test_the_inputs_stay_in_view_beside_the_figures(browser: Browser, live: Live) -> None:
+    tab = Tab(browser, live.address)
+    tab.page.evaluate("window.scrollTo(0, document.body.scrollHeight)")
+    tab.page.wait_for_timeout(300)
+    top = tab.page.evaluate("document.getElementById('inputs').getBoundingClientRect().top")
+    assert 0 < top <= tab.page.evaluate("document.querySelector('header').getBoundingClientRect().bottom") + 1

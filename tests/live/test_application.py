@@ -75,6 +75,40 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     made.process.communicate(timeout=SECONDS)
 
 
+def test_states_are_kept_undone_saved_and_compared_by_whoever_has_the_secret(tmp_path: Path) -> None:
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    server = Server(file)
+    try:
+        own, changed = server.path, {"changes": {"knife.shear_resistance": "50 N/mm**2"}, "stroke": "one"}
+        acts = {
+            "change": changed, "state/keep": {"name": "soft"}, "undo": {}, "redo": {}, "state/save": {"name": "soft"},
+            "state/return": {"name": "soft"},
+        }  # fmt: skip
+        assert {act: server.asked("POST", f"{own}{act}", body)[0] for act, body in acts.items()} == dict.fromkeys(
+            acts, 200
+        )
+        assert "50 N/mm**2" in (tmp_path / "soft.yaml").read_text("utf-8")
+        wrong = [{"name": 3}, {}, [], {"name": ["soft"]}]
+        assert {server.asked("POST", f"{own}state/keep", body)[0] for body in wrong} == {400}
+        assert server.asked("POST", f"{own}state/rename", {"name": "soft"})[0] == 400
+        assert server.asked("POST", f"{own}change", {**changed, "stroke": 3})[0] == 400
+        assert server.asked("POST", f"{own}state/keep", {"name": "../soft"})[0] == 422
+        assert server.asked("GET", f"{own}state/save?name=soft")[0] == 405
+        status, compared = server.asked("GET", f"{own}comparison?state=Initially&state=soft&state=nothing")
+        assert (
+            status == 200
+            and "knife.shear_resistance" in compared
+            and compared.index('data-machine="Initially"') < compared.index('data-machine="soft"')
+        )
+        assert server.asked("GET", f"{own}comparison?state=nothing")[0] == 409
+        assert sorted(each.name for each in tmp_path.iterdir()) == ["knife.yaml", "soft.yaml"]
+    finally:
+        server.process.send_signal(signal.SIGINT)
+        _, told = server.process.communicate(timeout=SECONDS)
+    assert "changed on the page but not saved: knife.shear_resistance: 50 N/mm**2" in told and "Traceback" not in told
+
+
 def test_only_pages_of_its_own_with_the_secret_are_let_in(server: Server) -> None:
     own = server.path
     assert server.asked("GET", own)[0] == 200

@@ -17,15 +17,15 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import rewritten
 from diecut_report.config.yaml import Tree
-from diecut_report.design.inputs import given_choices, given_numbers
 from diecut_report.design.machines import UTILISATION, varied
 from diecut_report.errors import UserError
-from diecut_report.live.page import WORDS, Pictures, assets, effect, page, page_data, slider
-from diecut_report.live.session import LiveSession, typed_in
+from diecut_report.live.page import WORDS, Pictures, advice, assets, effect, page, page_data, slider
+from diecut_report.live.session import LiveMachine, LiveSession, changeable
 from diecut_report.press import Press
 from diecut_report.results.warm_press import WarmRun
 from diecut_report.text.translation import speaking
 from tests.configs import EXAMPLES
+from tests.examples import few
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 CYRILLIC = re.compile("[а-яіїєґ]")
@@ -40,7 +40,11 @@ def session(tmp_path: Path) -> LiveSession:
 
 def force(session: LiveSession) -> float:
     assert session.machine is not None
-    return float(session.machine.run.outputs("knife")["force_max"].value)
+    return force_of(session.machine)
+
+
+def force_of(machine: LiveMachine) -> float:
+    return float(machine.run.outputs("knife")["force_max"].value)
 
 
 def shown_of(session: LiveSession, mechanism: str) -> dict[str, Any]:
@@ -234,12 +238,134 @@ def test_a_change_stays_over_a_list_that_grows_behind_its_named_item(tmp_path: P
     assert "force_y: 3 kN, mass: 9 kg}" in session.file.read_text("utf-8") and session.edits == {}
 
 
+def test_steps_are_undone_and_redone_and_a_stroke_of_a_slider_is_one(session: LiveSession) -> None:
+    seen = [dict(session.edits)]
+    session.change({"knife.eccentricity": "21 mm"})
+    seen.append(dict(session.edits))
+    for typed in ("50 N/mm**2", "60 N/mm**2", "70 N/mm**2"):
+        session.change({"knife.shear_resistance": typed}, "knife.shear_resistance 1")
+    seen.append(dict(session.edits))
+    session.take_back()
+    seen.append(dict(session.edits))
+    for edits in reversed(seen[:-1]):
+        session.undo()
+        assert session.edits == edits and not session.faults
+    session.undo()  # nothing is left
+    for edits in seen[1:]:
+        session.redo()
+        assert session.edits == edits
+    session.undo()
+    session.change({"knife.eccentricity": "22 mm"})
+    session.redo()  # what was undone is another machine's now
+    assert session.edits == {**seen[2], "knife.eccentricity": "22 mm"}
+    session.write()
+    assert not session.past and not page_data(session)["can"]["undo"]
+
+
+def test_an_input_at_default_is_changed_where_it_stands_and_goes_into_its_block(tmp_path: Path) -> None:
+    file = tmp_path / "press.yaml"
+    file.write_bytes(next(path for path in EXAMPLES if path.stem == "elastic_transport").read_bytes())
+    session = LiveSession(file, Discovery([]))
+    assert session.machine is not None
+    own = [each for each in session.machine.inputs.values() if session.machine.tree.typed(each.stands) is None]
+    number = next(each for each in own if each.present and each.unit == "1" and not each.is_whole)
+    order = [each["name"] for each in shown_of(session, number.asked.instance)["inputs"]]
+    session.change({number.name: f"{0.9 * (number.present or 0):g}"})
+    shown = {each["name"]: each for each in shown_of(session, number.asked.instance)["inputs"]}
+    assert not session.faults and [*shown] == order and shown[number.name]["is_default"]
+    assert shown[number.name]["start"] == number.typed(number.present or 0)
+    session.write()
+    assert f"{number.key}: {0.9 * (number.present or 0):g}" in file.read_text("utf-8") and not session.faults
+
+
+@pytest.mark.parametrize("file", few(EXAMPLES, lambda path: path.stem in ("elastic_transport", "platen_press_zppt30")))
+def test_what_stands_at_default_may_be_typed_as_it_is(file: Path) -> None:
+    tree, config = yaml.read(file), load_config(file, Discovery([]))
+    at_default = [each for each in changeable(config, tree).values() if tree.typed(each.stands) is None]
+    at_default = [
+        each for each in at_default if each.name != "conveyor.motion_law"
+    ]  # of no use beside a motion's curve
+    typed = {each.stands: each.written or each.typed(each.present or 0.0) for each in at_default}
+    found = changeable(load_config(rewritten(tree, typed), Discovery([])), rewritten(tree, typed))
+    assert {each.name: each.present for each in at_default if each.asked.unit} == pytest.approx(
+        {name: found[name].present for name in (each.name for each in at_default) if found[name].asked.unit}
+    )
+    assert at_default or file.stem in ("circular_knife", "folding_knife")
+
+
+def test_advice_is_that_of_the_report_and_comes_when_it_is_asked_for() -> None:
+    session = LiveSession(KNIFE.parent / "flat_cylinder_mechanisms.yaml", Discovery([]))
+    assert session.machine is not None
+    results = Press.read(session.file, Discovery([])).calculate().results
+    advised = {}
+    for name in session.machine.run.calculations:
+        found = advice(session.machine, name)["messages"]
+        checks = {check.id: check for check in results.mechanisms[name].checks}
+        shown = {each["id"]: each["message"] for each in shown_of(session, name)["checks"]}
+        assert found.keys() == {id for id, check in checks.items() if check.advice}
+        assert all(text != shown[id] and text.split()[:3] == shown[id].split()[:3] for id, text in found.items())
+        advised |= found
+    assert advised["wall_at_flat"].endswith("Set bore_radius to at most 60 mm.")
+    with pytest.raises(UserError, match="no mechanism 'nife'"):
+        advice(session.machine, "nife")
+
+
+def test_a_state_is_kept_compared_returned_to_and_saved(session: LiveSession) -> None:
+    first = force(session)
+    session.change({"knife.shear_resistance": "84 N/mm**2"})
+    session.keep("stiff board")
+    session.change({"knife.eccentricity": "22 mm"})
+    assert [each["name"] for each in page_data(session)["states"]] == ["Initially", "stiff board", "Now"]
+    assert [force_of(each) for each in session.machines.values()] == [first, pytest.approx(2 * first), force(session)]
+    assert dict(session.unsaved) == {"": session.edits, "stiff board": {"knife.shear_resistance": "84 N/mm**2"}}
+    session.return_to("stiff board")
+    assert session.edits == {"knife.shear_resistance": "84 N/mm**2"} and force(session) == pytest.approx(2 * first)
+    session.undo()
+    assert session.edits["knife.eccentricity"] == "22 mm"
+    session.write()
+    session.return_to("stiff board")  # what was written meanwhile is taken back
+    assert session.edits == {"knife.eccentricity": "20 mm"} and not session.faults
+    saved = session.save("stiff board")
+    assert Press.read(saved, Discovery([])).calculate().results.mechanisms["knife"].outputs[
+        "force_max"
+    ].value == pytest.approx(2 * first)
+    assert dict(session.unsaved) == {"": session.edits}
+    with pytest.raises(UserError, match="There is a file of this name already"):
+        session.save("stiff board")
+    replaced(session, "thickness: 0.5 mm", "thickness: 0.55 mm")
+    with pytest.raises(UserError, match="changed since 'stiff board' was kept"):
+        session.return_to("stiff board")
+    session.forget("stiff board")
+    with pytest.raises(UserError, match="There is no state 'stiff board'"):
+        session.save("stiff board")
+
+
+@pytest.mark.parametrize(
+    "name", ["", "..", "a/b", "a\\b", ".hidden", "a.", " a", "a\nb", "a\u202eb", "x" * 41, "Initially", "Now"]
+)
+def test_a_state_has_a_name_that_a_file_may_have_and_no_other_state_has(session: LiveSession, name: str) -> None:
+    with pytest.raises(UserError, match="cannot be the name of a state|There is a state"):
+        session.keep(name)
+    assert not session.states
+
+
+def test_a_machine_that_cannot_be_calculated_is_not_kept_and_states_have_an_end(session: LiveSession) -> None:
+    for number in range(20):
+        session.keep(f"{number}")
+    with pytest.raises(UserError, match="At most 20 states"):
+        session.keep("one more")
+    replaced(session, "depth:", "depht:")
+    with pytest.raises(UserError, match="not kept"):
+        session.keep("broken")
+
+
 def test_of_a_machine_of_parts_it_offers_the_numbers_that_the_mechanisms_give() -> None:
     file = KNIFE.parent / "machines" / "flat_cylinder.yaml"
     tree, config = yaml.read(file), load_config(file, Discovery([]))
-    offered = typed_in(tree, [*given_numbers(config), *given_choices(config)])
-    assert "drive.crank_length" in offered and 20 < len(offered) < 100
-    given = {each.stands: str(each.written) for each in offered.values()}
+    offered = changeable(config, tree)
+    given = {each.stands: str(each.written) for each in offered.values() if tree.typed(each.stands) is not None}
+    assert "drive.crank_length" in offered and 20 < len(given) < 100
+    assert "drive.efficiency_sector" not in offered  # which its mesh makes
     assert rewritten(tree, given).text == tree.text
 
 
@@ -496,7 +622,11 @@ def test_what_breaks_only_where_results_are_shown_is_a_fault_and_the_last_machin
 
 FILE = "knife.yaml"
 SAME = {FILE, "PDF"}  # in each language
-BY_STATE = {"status_": {"pass", "warn", "fail", "not_checked"}}
+BY_STATE = {
+    "status_": {"pass", "warn", "fail", "not_checked"},
+    "verdict_": {"pass", "conditional", "fail"},
+    "state_": {"return", "save", "forget"},
+}
 
 
 class Read(HTMLParser):
