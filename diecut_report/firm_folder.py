@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import os
 from importlib import import_module
 from pathlib import Path
 
@@ -24,7 +25,7 @@ def house_style(folder: Path) -> HouseStyle:
     if len(files) > MOST_FILES:
         template = "The folder has {count} files; at most {most_files} are allowed."
         raise refusal(template, folder, count=len(files), most_files=MOST_FILES)
-    if outside := [path for path in files if not path.resolve().is_relative_to(folder.resolve())]:
+    if outside := [path for path in files if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))]:
         template = "This is a link out of the folder: what lies elsewhere would go into the report. Put the file itself into the folder."
         raise UserError([Problem(phrase(template), str(path)) for path in outside])
     templates = {path.name: _text(path) for path in files if path.name.endswith(ENDING)}

@@ -38,6 +38,7 @@ _OUTSIDE = re.compile(r"@import|@font-face|url\(\s*['\"]?(?!#)", re.IGNORECASE)
 PIXELS = {"": 1.0, "px": 1.0, "pt": 96 / 72, "pc": 16.0, "mm": 96 / 25.4, "cm": 960 / 25.4, "in": 96.0}
 """Of the units of CSS."""
 MAX_SIDE = 1e6  # pixels of a side that has a meaning
+MIN_SIDE = 1e-6
 _SIMPLE = re.compile(r"[\w.#*-]*")  # a selector: element, class, id
 _PARTED = re.compile(r"\s*(\d+\.?\d*|\.\d+)(px|pt|pc|mm|cm|in|)\s*")
 _LENGTH = re.compile(r"\s*(?:\d+\.?\d*|\.\d+)(?:px|pt|pc|mm|cm|in)?\s*")
@@ -75,7 +76,7 @@ def natural_size(content: bytes) -> tuple[float, float]:
     sides = [_pixels(found.get(key, "")) for key in ("width", "height")]
     if None in sides:
         sides = [_number(each) for each in found.get("viewBox", "").replace(",", " ").split()[2:]]
-    width, height = (side if side and 0 < side < MAX_SIDE else 1.0 for side in (*sides, None, None)[:2])
+    width, height = (side if side and MIN_SIDE < side < MAX_SIDE else 1.0 for side in (*sides, None, None)[:2])
     return width, height
 
 

@@ -151,6 +151,7 @@ def test_what_does_more_than_to_draw_is_refused(content: bytes, words: str) -> N
         ('width="100%" height="5" viewBox="-1 -1 3 2"', (3, 2)),
         ('viewBox="0 0 -4 0"', (1, 1)),
         ('viewBox="0 0 1e99 nan"', (1, 1)),
+        ('viewBox="0 0 1e-320 1e-320"', (1, 1)),
     ],
 )
 def test_an_svg_has_a_size(given: str, size: tuple[float, float]) -> None:

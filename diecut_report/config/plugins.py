@@ -13,6 +13,7 @@ before a configuration is read, to add to a registry (such as the motion laws).
 from __future__ import annotations
 
 import hashlib
+import os
 import re
 import sys
 import tomllib
@@ -256,7 +257,7 @@ class Discovery:
 
     def __init__(self, folders: Iterable[Path] = (), first: Iterable[Origin] = ()) -> None:
         self._first = {origin.kind: [origin] for origin in first}
-        self.folders = tuple({folder.resolve(): folder for folder in folders}.values())
+        self.folders = tuple({os.path.realpath(folder): folder for folder in folders}.values())
         self._loaded: dict[str, Mechanism | PluginError] = {}
         self.extended: dict[str, str] = {}  # the extensions that were run, with the hashes of their code
 

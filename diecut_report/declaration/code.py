@@ -76,8 +76,8 @@ END, ENDS = "end", {"_exit", "abort", "execv", "execve", "kill"}  # what ends th
 LEAVE, LEAVES = "leave", {"chdir", "fchdir", "chroot"}  # what leaves the working folder
 OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE, "numpy.random": CHANCE,
              "io": FILE, "_io": FILE, "linecache": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
-             "platform": AROUND, "socket": AROUND,
-             "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
+             "platform": AROUND, "socket": AROUND, "_socket": AROUND, "resource": AROUND, "ctypes": AROUND,
+             "getpass": AROUND, "email.utils": CLOCK, "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
 NOW = {"now", "today", "utcnow"}  # of a date
 # Of a path, known by their names alone.
 READERS = {"read_text", "read_bytes", "open", "exists", "is_file", "is_dir", "iterdir", "rglob"}
@@ -256,6 +256,10 @@ def _asked(node: ast.AST, scope: Scope) -> Iterator[Used]:
             yield node.func, CHANCE
         case ast.Call(func=func, keywords=given) if _is_search(_value(func, scope)) and not _begins(given):
             yield func, CHANCE
+        case ast.Call(func=func, args=[ast.Constant(value=text), *_]) if (
+            text in NOW and _value(func, scope) is np.datetime64
+        ):
+            yield func, CLOCK
         case ast.Call(func=func, args=[_, *_]) if getattr(_value(func, scope), "__name__", "") in SEEDED:
             return
         case ast.Attribute() | ast.Name() if found := _of(_value(node, scope)):

@@ -26,7 +26,7 @@ from diecut_report.declaration.inputs import of_input
 from diecut_report.declaration.names import short, subject
 from diecut_report.declaration.texts import PAPER, own_files, parsed, unlisted
 from diecut_report.formulas.formula import evaluate
-from diecut_report.formulas.tree import Node
+from diecut_report.formulas.tree import APPLY, GRAVITY, PI, Node, walk
 from diecut_report.mechanism.chapters import Chapter, form_keys, in_form, in_unit, taken
 from diecut_report.mechanism.inputs import Block, Inputs, fields, keys
 from diecut_report.mechanism.mechanism import Mechanism
@@ -171,16 +171,20 @@ def faults_of_formulas(mechanism: Mechanism) -> tuple[str, ...]:
 # What an author may mean, and often does not: a unit that a formula converts by hand, a chapter that nothing depends on.
 
 
-BY_HAND = {60, 3600, 100, 1000, 1e6, 0.001, 180, 360, 57.3, 9.8, 9.81, 9.80665, 3.14, 3.142, 3.1416, 25.4}
+POWERS = (1e-3, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9)
+BY_HAND = np.array([
+    *POWERS, 60, 3600, 180, 360, np.pi, 180 / np.pi, np.pi / 180, np.pi / 30, 30 / np.pi, 30000 / np.pi,
+    float(GRAVITY), 25.4, 4.448222, 6894.757, 735.5,
+])  # fmt: skip
+AS_TYPED = 1e-3  # relative: 57.3 is 180/π, and 9.8 the acceleration of gravity
 
 
 def doubts(mechanism: Mechanism) -> Iterator[str]:
     """Yield what may be a mistake, each with its place."""
     for step, _, link in formulas(mechanism):
-        for number in dict.fromkeys(_numbers(link.formula.tree)):
-            if float(number) in BY_HAND:
-                template = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
-                yield Phrase(template, place=short(step.at), id=step.id, number=number)
+        for number in _converting(link.formula.tree):
+            template = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
+            yield Phrase(template, place=short(step.at), id=step.id, number=number)
     for citing, name in unlisted(mechanism, PAPER):
         template = "{place}: {subject} cites {name}, which is not a source; list it: sources=(Source({id}, …),)"
         yield Phrase(template, place=short(citing.at), subject=subject(citing), name=name, id=repr(name))
@@ -201,14 +205,32 @@ def _exchanged(mechanism: Mechanism) -> Iterator[str]:
             )
 
 
-def _numbers(node: object) -> Iterator[str]:
+def _converting(tree: Node) -> list[str]:
+    """The numbers of a formula, typed or worked out of typed ones, that may stand for a unit: π and 30 together are turns a minute."""
+    found = dict(_numbers(tree))
+    known = {
+        text: value
+        for text, value in found.items()
+        if np.isclose(value, BY_HAND, rtol=AS_TYPED, atol=0).any() and text != "π"
+    }
+    return [*known, *(text for text, value in found.items() if value == 30 and "π" in found)]
+
+
+def _numbers(node: object) -> Iterator[tuple[str, float]]:
+    """Each number of a formula, and each product, quotient and power of numbers alone, with its value."""
     match node:
         case Node("num", (text,)):
-            yield text
-        case Node("^", (base, _)):  # an exponent has no unit
-            yield from _numbers(base)
-        case Node(_, parts) | tuple(parts):
-            for part in parts:
+            yield text, float(text)
+        case Node("sym", ("π",)):
+            yield "π", np.pi
+        case Node(op, parts):
+            if op in APPLY and all(each.op in APPLY or each.op == "num" or each == PI for each in walk(node)):
+                value = float(evaluate(node, lambda leaf: leaf))
+                yield f"{value:.7g}", value
+            for part in parts[:1] if op == "^" else parts:  # an exponent has no unit
+                yield from _numbers(part)
+        case tuple():
+            for part in node:
                 yield from _numbers(part)
 
 

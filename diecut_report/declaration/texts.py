@@ -221,11 +221,12 @@ def _sources(mechanism: Mechanism) -> Iterator[Fault]:
 
 def unlisted(mechanism: Mechanism, pattern: re.Pattern[str]) -> Iterator[tuple[Step | Check, str]]:
     """Yield the steps and checks that cite in this form what the mechanism does not list, with its name."""
-    known = tuple(source.id for source in mechanism.sources)
+    ids = "|".join(re.escape(source.id) for source in mechanism.sources)
+    known = re.compile(rf"[; ]*(?:{ids})(?!\w)") if ids else re.compile("(?!)")
     declared: list[Step | Check] = [*(step for _, step in mechanism.steps), *mechanism.checks]
     for citing in declared:
         for found in pattern.finditer(citing.source):
-            if not citing.source[found.start() :].lstrip("; ").startswith(known):
+            if not known.match(citing.source, found.start()):
                 yield citing, found[1] or found[2]
 
 

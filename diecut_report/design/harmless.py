@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
@@ -18,9 +19,12 @@ from diecut_report.design.inputs import DesignInput, standing_numbers
 from diecut_report.design.machines import MARGIN, SIZE, downstream, margins
 from diecut_report.errors import PluginError
 from diecut_report.formulas import Array
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.conclusion import VALUES
 from diecut_report.results.model import OpenRecord, ResultsRecord
 from diecut_report.results.open_items import UNPROVED
+from diecut_report.results.usual import usual_ends
+from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.standards.ranges import range_of
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
@@ -55,7 +59,8 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
     named = [each for each in tried if each.path in numbers.keys() - fixed]
     homes = {numbers[each.path].asked.instance for each in named}
     reached = {home: frozenset(downstream(config, home)) for home in homes}
-    trials = [Trial.of(config, each, numbers[each.path], reached) for each in named]
+    usual = _UsualEnds(config)
+    trials = [Trial.of(usual, each, numbers[each.path], reached) for each in named]
     machines = OpenValueTrials(config, [each for each in trials if not each.is_still])
     changes = dict(machines.harmful()) if machines.trials else {}
     changes |= {each.item.path: STANDS_ALONE for each in trials if each.is_still}
@@ -78,14 +83,11 @@ class Trial:
     has_range: bool = False
 
     @staticmethod
-    def of(config: Config, item: OpenRecord, design: DesignInput, reached: Mapping[str, frozenset[str]]) -> Trial:
+    def of(usual: _UsualEnds, item: OpenRecord, design: DesignInput, reached: Mapping[str, frozenset[str]]) -> Trial:
         """Return a trial of a value within what its declaration allows; of a whole number the whole numbers of its range."""
         home, present = design.asked.instance, design.present or 0.0
-        low, high = sorted((present * (1 - SHARE), present * (1 + SHARE)))
-        usual = range_of(config.kinds.get(home, PRESS), design.key)
-        has_range = usual is not None and not usual.of  # a ratio bounds no key by itself
-        if usual is not None and has_range:
-            low, high = usual.usual
+        known = usual.of(design)
+        low, high = known or sorted((present * (1 - SHARE), present * (1 + SHARE)))
         ends = np.clip([low, high], *design.bounds)
         ends = np.where(design.allows(ends), ends, (ends + present) / 2)  # an end that is not of the range
         if design.is_whole:
@@ -93,7 +95,7 @@ class Trial:
         if len(listed := design.listed):
             within = listed[(listed >= low) & (listed <= high)]
             ends = np.array([within.min(initial=present), within.max(initial=present)])
-        return Trial(item, design, float(ends[0]), float(ends[1]), reached[home], has_range)
+        return Trial(item, design, float(ends[0]), float(ends[1]), reached[home], known is not None)
 
     @property
     def present(self) -> float:
@@ -109,6 +111,29 @@ class Trial:
     def is_plain(self) -> bool:
         """Return whether no other value is usual, or nobody has said what is not there, such as a bore, or there once, such as a key."""
         return self.is_still and (self.has_range or (self.item.what == "default" and self.present in (0, 1)))
+
+
+@dataclass(frozen=True, eq=False)
+class _UsualEnds:
+    """Tell between which ends a value of a machine is usual."""
+
+    config: Config
+
+    def of(self, design: DesignInput) -> tuple[float, float] | None:
+        """Return the least and greatest usual value (SI); None where none is known."""
+        home = design.asked.instance
+        row = range_of(self.config.kinds.get(home, PRESS), design.key)
+        if row is None or not row.of:
+            return None if row is None else row.usual
+        instance = self.config.instances[home]
+        assert instance is not None, "a value of a broken plugin is not tried"
+        calculation, block = self.run.calculations[home], self.run.blocks[home]
+        return usual_ends(instance, design.asked.key, flatten(block), self.run.beside(instance), calculation.values)
+
+    @cached_property
+    def run(self) -> WarmRun:
+        """The machine as it is: what a ratio is of may be a result."""
+        return WarmPress(is_advised=False).calculate(self.config)
 
 
 def apart(sets: Iterable[frozenset[str]]) -> list[list[int]]:
@@ -343,7 +368,7 @@ class OpenValueTrials:
         if not felt or name not in effects.margins:
             return next(iter(felt), None)
         side = [int(values[i] == self.trials[i].high) for i in felt]
-        return felt[int(np.argmin(np.nan_to_num(effects.margins[name][felt, side])))]
+        return felt[int(np.argmin(np.nan_to_num(effects.margins[name][felt, side], nan=np.inf)))]
 
     def _changing(self, effects: Effects, corners: Mapping[K, Corner]) -> dict[K, bool]:
         """Whether the check of each corner changes its status there, or the machine cannot exist."""

@@ -26,6 +26,7 @@ PARTS, ZOOMS = 10, 6  # of the neighbourhood of the greatest value, and how ofte
 EIGHTHS, HALF = np.arange(1, 8) / 8, np.array([0.5])  # of a pair of neighbours
 HALVED = 5  # how often the distances of such neighbours are halved at most
 MOST_CELLS = 12  # such ends that are looked at closer
+SEARCH_ROUNDS = 4  # towards an end of what exists: to a 4096th of the distance between two numbers
 
 
 @dataclass(frozen=True)
@@ -111,7 +112,7 @@ def greatest(function: Function, x: Array, values: Array) -> tuple[float, float]
     return (float(place[0]), float(-depth[0])) if -depth[0] > values[best] else (float(x[best]), float(values[best]))
 
 
-def looked_closer(function: Function, x: Array, values: Array, rounds: int = 1) -> tuple[Array, Array]:
+def looked_closer(function: Function, x: Array, values: Array, rounds: int = SEARCH_ROUNDS) -> tuple[Array, Array]:
     """Return ascending numbers and values with more of them where a pair of roots, or the end of what exists, may hide.
 
     Towards each such end they stand closer with each round: much may happen there, and all that exists may lie between two of the numbers.
@@ -167,7 +168,6 @@ def _lows(values: Array) -> Array:
 
 
 SAME_PLACE = 1e-8  # relative: two roots that are no further apart are one
-ROOT_SEARCH_ROUNDS = 4  # towards an end of what exists: to a 4096th of the distance between two numbers
 NEARER = 60  # machines about today's value, as far as the nearest root that was found
 
 
@@ -178,7 +178,7 @@ def roots(
 
     It is searched between ascending numbers with their values, and closer about today's, so that the nearest root is not missed.
     """
-    x, values = looked_closer(function, x, values, ROOT_SEARCH_ROUNDS)
+    x, values = looked_closer(function, x, values)
     places, jumps = _crossed(function, x, values, present)
     more = _about(present, places, x, allows) if places else _about_the_nearest(function, x, values)
     if not len(more):

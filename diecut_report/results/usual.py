@@ -27,7 +27,7 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.quantities.formatting import given_shown, with_unit
 from diecut_report.quantities.plausible import ROUNDING
 from diecut_report.quantities.units import unit
-from diecut_report.standards.ranges import UsualRange, ranges_of
+from diecut_report.standards.ranges import UsualRange, range_of, ranges_of
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 USUAL = "usual_values"  # the check, and the number that it judges
@@ -121,6 +121,51 @@ def _outside(key: KeyPath, row: UsualRange, values: Array, reason: str, may_be_z
 def _within(size: Array, ends: tuple[float, float]) -> Array:
     held: Array = (size >= ends[0] * (1 - ROUNDING)) & (size <= ends[1] * (1 + ROUNDING))
     return held
+
+
+def usual_ends(
+    instance: Instance, key: KeyPath, inputs: Inputs, beside: Beside, results: Inputs
+) -> tuple[float, float] | None:
+    """Return the least and greatest value (SI) of a number with which what its row bounds is usual, all else as it is; None where that is not known.
+
+    What a row bounds is in proportion to the number, or differs by a constant from that.
+    """
+    path = ".".join(step for step in key if isinstance(step, str))
+    present = next(
+        (
+            given
+            for placed, _, given in _placed(path, list_inputs(instance.model).get(path, ""), inputs)
+            if placed == key
+        ),
+        None,
+    )
+    x = numbers_of(present)
+    row = range_of(_kind(instance), path)
+    if present is None or x is None or row is None or not x[0]:
+        return None
+    tried = [_with(inputs, path, key, factor * present) for factor in (1.0, 1.1, 1.2)]
+    found = [
+        float(values[0]) for each in tried for placed, own, values in _values(instance, each, beside.press, results)
+        if placed == key and own == row
+    ]  # fmt: skip
+    if len(found) != len(tried) or not np.isfinite(found).all():
+        return None
+    first, second, third = found
+    slope = (second - first) / (0.1 * x[0])
+    is_line = abs(third - 2 * second + first) <= ROUNDING * max(map(abs, found))
+    if not is_line or not slope:
+        return None
+    ends = sorted(float(x[0] + (end - first) / slope) for end in row.usual)
+    return ends[0], ends[1]
+
+
+def _with(inputs: Inputs, path: str, key: KeyPath, value: Any) -> Inputs:
+    """Inputs with another value at a key."""
+    index = next((step for step in key if isinstance(step, int)), None)
+    if index is None:
+        return {**inputs, path: value}
+    parts = inputs[path]
+    return {**inputs, path: (*parts[:index], value, *parts[index + 1 :])}
 
 
 def _values(

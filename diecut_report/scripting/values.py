@@ -171,11 +171,14 @@ class QuantityValue:
         return unit(self.unit).kind, self.si if is_number else self.value
 
     def _other(self, other: object) -> float:
-        """What it is compared with, SI: a quantity, a text such as ``400 N*m``, or a number in its own unit."""
+        """What it is compared with, SI: a quantity, a text such as ``400 N*m``, zero, or a number where it has no unit itself."""
         if isinstance(other, QuantityValue):
             other.m_as(self.unit)  # of the same dimension
             return other.si
         if isinstance(other, int | float | str) and not isinstance(other, bool):
+            if not isinstance(other, str) and other and pretty(self.unit):
+                template = "{value} has a unit, and {other} has none; compare it with a text, such as {example}"
+                raise TypeError(Phrase(template, value=self, other=other, example=repr(f"{other:g} {self.printed[1]}")))
             try:
                 return parse_quantity(other, self.unit)
             except UnitError as fault:

@@ -23,6 +23,7 @@ SOURCES = {
     "M": phrase("makers' catalogues"),
     "P": phrase("practice of die-cutting"),
     "G": phrase("the mass of a full steel disc"),
+    "I": phrase("the press itself"),
 }
 
 

@@ -36,7 +36,9 @@ def read(file: Path, language: str) -> Catalog:
     if any(int(count[:9]) > MAX_PLURAL_FORMS for count in _FORMS.findall(content)):  # Babel makes a list of so many
         template = "a language has at most {most_forms} forms of a word for a number"
         raise ValueError(Phrase(template, most_forms=MAX_PLURAL_FORMS))
-    for number, line in enumerate(map(str.strip, content.decode("utf-8").split("\n")), 1):
+    lines = [line.strip() for line in content.decode("utf-8").split("\n")]
+    _judge_words(lines)
+    for number, line in enumerate(lines, 1):
         if line and not line.startswith("#") and not _LINE.fullmatch(line):
             template = (
                 "line {number} is {line}; write msgid or msgstr, and a text that begins and ends with a quotation mark"
@@ -45,6 +47,19 @@ def read(file: Path, language: str) -> Catalog:
     found = _EachOnce(locale=language, charset="utf-8")
     PoFileParser(found, abort_invalid=True).parse(BytesIO(content))
     return found
+
+
+def _judge_words(lines: Iterable[str]) -> None:
+    """Raise ValueError where a text has a word twice, as two translations: Babel keeps one, and says nothing of the other."""
+    known: list[str] = []
+    for number, line in enumerate(lines, 1):
+        word = line.partition('"')[0].rstrip() if line.startswith("msg") else ""
+        known = [] if word in ("msgctxt", "msgid") and any(each.startswith("msgstr") for each in known) else known
+        if word in known:
+            raise ValueError(
+                Phrase("line {number} is a second {word} of one text; keep one of them", number=number, word=word)
+            )
+        known += [word] if word else []
 
 
 class _EachOnce(Catalog):
@@ -83,6 +98,9 @@ def _judge_filling(message: Message, said: Iterable[str]) -> None:
             template = "line {line}: the translation of {id} is filled with {there}, the text itself with {wanted}; write the same names"
             told = [", ".join(sorted(names)) or phrase("nothing") for names in (there, may)]
             raise ValueError(Phrase(template, line=message.lineno, id=repr(texts[0]), there=told[0], wanted=told[1]))
+        if set(_FILLED.sub("", text)) & set("{}") - set("".join(texts)):
+            template = "line {line}: the translation of {id} holds a brace that its text has not; take it away"
+            raise ValueError(Phrase(template, line=message.lineno, id=repr(texts[0])))
 
 
 def written(catalogue: Catalog) -> bytes:

@@ -528,6 +528,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(value("x", source="003 eq. 1"), sources=SOURCES),
         "step x: cites 003, which is not a source",
     ),
+    "a source whose name begins as a listed one": (
+        made(value("x", source=f"{SOURCES[0].id}2, eq. 1"), sources=SOURCES),
+        f"step x: cites {SOURCES[0].id}2, which is not a source",
+    ),
     "an erratum of no source": (
         made(errata=(Erratum("004", "wrong"),), sources=SOURCES),
         "erratum of 004: is of no listed source",

@@ -55,6 +55,11 @@ ASKED = {
     "arm = arm * date.today().year": "the clock (date.today)",
     "import time as clock; arm = arm * clock.monotonic()": "the clock (clock.monotonic)",
     "from time import time as now; arm = arm * now()": "the clock (now)",
+    "arm = arm * np.datetime64('today').astype(float)": "the clock (np.datetime64)",
+    "arm = arm * float(np.datetime64('now'))": "the clock (np.datetime64)",
+    "import socket; arm = arm * len(socket.gethostname())": "what is around the program (socket.gethostname)",
+    "import resource; arm = arm * resource.getpagesize()": "what is around the program (resource.getpagesize)",
+    "from email.utils import localtime; arm = arm * localtime().year": "the clock (localtime)",
     "arm = arm * random.random()": "chance (random.random)",
     "arm = arm * random.Random().random()": "chance (random.Random)",
     "arm = arm * np.random.rand()": "chance (np.random.rand)",
@@ -102,6 +107,7 @@ SOUND = (
     "arm = arm * len(TABLE)",
     "arm = arm * date(2026, 1, 1).year",
     "id = arm; arm = id.real",
+    "arm = arm * np.datetime64('2026-01-01').astype(float)",
     "import subprocess; arm = arm * len(subprocess.check_output('true'))",
 )
 

@@ -72,6 +72,34 @@ def test_an_assumed_number_of_keys_stays_open(tmp_path: Path, count: str, is_ope
     assert (known.get("mechanisms.k.key_count") == str(STANDS_ALONE)) is is_open
 
 
+def test_a_value_that_a_ratio_bounds_is_tried_at_the_ends_of_that(tmp_path: Path) -> None:
+    """Usual are 35 to 55 % of the tensile strength: n_f is 1.64 with 450 MPa, 1.146 with 315 MPa, and 1.2 is required."""
+    known = " basis: standard, note: EN 10083-3}"
+    text = (
+        HEAD
+        + f"""\
+  shaft:
+    kind: shaft
+    sections:
+      - {{length: 50 mm, diameter: 45 mm, fillet_radius: 1.5 mm}}
+      - {{length: 170 mm, diameter: 55 mm, fillet_radius: 2 mm}}
+      - {{length: 60 mm, diameter: 60 mm, fillet_radius: 2 mm}}
+      - {{length: 60 mm, diameter: 50 mm}}
+    bearing_a: 25 mm
+    bearing_b: 250 mm
+    loads:
+      - {{name: gear, position: 130 mm, torque: {{value: 500 N*m, basis: drawing}}, gear: {{pitch_radius: 120 mm, mesh_angle: 0 deg}}}}
+      - {{name: crank, position: 310 mm, force_y: {{value: 15 kN, basis: drawing}}, force_z: {{value: 5 kN, basis: drawing}}, torque: balance}}
+    tensile_strength: {{value: 900 MPa,{known}
+    yield_strength: {{value: 650 MPa,{known}
+    fatigue_strength: {{value: 450 MPa, basis: assumed}}
+    speed: 50 rpm
+"""
+    )
+    found = left(Press.read(saved(tmp_path, text), Discovery()))
+    assert found["mechanisms.shaft.fatigue_strength"] == "with 315 MPa the check shaft.fatigue turns from pass to fail"
+
+
 def test_an_assumed_direction_stays_open(tmp_path: Path) -> None:
     """Of nothing a tenth is nothing; the deflection is 73 % of what is allowed at 0°, and 120 % at 90°."""
     part = "{value: %s, basis: drawing, note: D1}"

@@ -94,6 +94,18 @@ def test_out_of_reach_tells_the_nearest(press: Path, capfd: Capture, tmp_path: P
     assert solve(press, "a.arm", "a.moment = 700 N*m", "--to", "0.4 m") == 0
 
 
+@pytest.mark.parametrize(
+    ("asked", "first", "last"),
+    [("knife.reach_greatest <= 42 mm", 99.269, 99.616), ("knife.cut_angle >= 23.69 deg", 99.269, 99.347)],
+)
+def test_values_close_to_the_end_of_what_can_be_built_are_found(
+    asked: str, first: float, last: float, capfd: Capture
+) -> None:
+    assert main(["solve", str(KNIFE), "--vary", "knife.edge_radius", "--for", asked, "--format", "json"]) == 0
+    (found,) = json.loads(capfd.readouterr().out)["ranges"]
+    assert [1e3 * each["value"] for each in found] == pytest.approx([first, last], abs=1e-3)
+
+
 BENDING = """\
 schema_version: 1
 project: {title: Test}

@@ -58,6 +58,11 @@ FAULTS = {
         b'msgid "is {force}"\nmsgstr "x"\n',
         "is filled with nothing, the text itself with {force}",
     ),
+    "two translations of one text": (
+        b'msgid "Force"\nmsgstr "F"\nmsgstr "G"\n',
+        "line 3 is a second msgstr of one text; keep one of them",
+    ),
+    "a brace too many": (b'msgid "Force"\nmsgstr "x {."\n', "holds a brace that its text has not; take it away"),
     "a name too many": (b'msgid "Force"\nmsgstr "x {y}"\n', "is filled with {y}, the text itself with nothing"),
     "rounded otherwise": (
         b'msgid "is {force:up}"\nmsgstr "x {force}"\n',

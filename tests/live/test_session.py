@@ -344,7 +344,7 @@ def test_a_state_is_kept_compared_returned_to_and_saved(session: LiveSession) ->
     "name", ["", "..", "a/b", "a\\b", ".hidden", "a.", " a", "a\nb", "a\u202eb", "x" * 41, "Initially", "Now"]
 )
 def test_a_state_has_a_name_that_a_file_may_have_and_no_other_state_has(session: LiveSession, name: str) -> None:
-    with pytest.raises(UserError, match="cannot be the name of a state|There is a state"):
+    with pytest.raises(UserError, match=r"cannot be the name of a state|There is a state"):
         session.keep(name)
     assert not session.states
 

@@ -11,6 +11,7 @@ import pytest
 from jinja2 import Environment, FileSystemLoader
 
 from diecut_report.cli.main import main
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.exchange.verification import other_templates
 from diecut_report.firm_folder import house_style
@@ -155,6 +156,15 @@ def test_a_link_out_of_the_folder_is_refused_and_one_within_is_not(tmp_path: Pat
     (tmp_path / "house" / name).symlink_to("../secret")
     with pytest.raises(UserError, match=f"{re.escape(name)}: This is a link out of the folder"):
         house_style(tmp_path / "house")
+
+
+def test_a_link_to_itself_is_told_in_words(tmp_path: Path) -> None:
+    (tmp_path / "house.css").symlink_to("house.css")
+    with pytest.raises(UserError, match=r"house\.css: The file cannot be read: Too many levels of symbolic links"):
+        house_style(tmp_path)
+    (tmp_path / "plugins").symlink_to("plugins")
+    with pytest.raises(UserError, match="There is no such folder of plugins"):
+        assert Discovery([tmp_path / "plugins"]).origins
 
 
 def test_loops_within_too_many_loops_are_told(brief: Data, tmp_path: Path) -> None:

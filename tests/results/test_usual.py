@@ -14,11 +14,15 @@ from diecut_report.config.loader import Config, load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import kind_schema
 from diecut_report.errors import UserError
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.press import Press
 from diecut_report.results.document import resolved
 from diecut_report.results.press_run import Run, compute, impossible
+from diecut_report.results.usual import _values, _with, usual_ends
+from diecut_report.standards.ranges import range_of
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
+from tests.configs import EXAMPLE
 from tests.results.blunders import PRESS
 
 CLUTCH = {
@@ -200,3 +204,54 @@ def test_a_value_that_is_written_into_the_file_keeps_the_reason(tmp_path: Path) 
     press = Press(loaded(tmp_path, clutch={"shoe_friction": beyond(0.7)}), Discovery(), lambda _: None)
     text = press.with_values({("mechanisms", "clutch", "shoe_friction", "value"): "0.65"}).config.tree.text
     assert REASON in text and "0.65" in text
+
+
+def test_a_mechanism_that_types_what_the_press_states_otherwise_is_warned_of(tmp_path: Path) -> None:
+    sizes = {
+        "crank_radius": "100 mm",
+        "rod_length": "600 mm",
+        "journal_radius": "50 mm",
+        "crank_pin_radius": "47 mm",
+        "platen_pin_radius": "58 mm",
+    }
+    platen = {
+        "kind": "platen_press",
+        "cutting_force_max": "450 kN",
+        "platen_mass": "300 kg",
+        "drive_deformation": "0.4 mm",
+        **sizes,
+    }
+    press = {"productivity": "4000 1/h", "sheet": {"length": "700 mm", "width": "500 mm", "thickness": "1.6 mm"}}
+    same = {"cycles_per_hour": "${press.productivity}", "material_thickness": "${press.sheet.thickness}"}
+    other = {"cycles_per_hour": "1500 1/h", "material_thickness": "0.6 mm"}
+    assert usual(run(tmp_path, press=press, platen={**platen, **same}), "platen") is None
+    told = usual(run(tmp_path, press=press, platen={**platen, **other}), "platen")
+    assert (told.status, told.demand) == ("warn", 2)
+    assert "cycles_per_hour / press.productivity = 0.375 (usual: 1 to 1" in str(told.message)
+    assert "material_thickness / press.sheet.thickness = 0.375" in str(told.message)
+    assert usual(run(tmp_path, platen={**platen, **other}), "platen") is None  # the press says nothing
+
+
+@pytest.mark.parametrize("name", ["flat_cylinder_press_mended", "flat_cylinder_elements"])
+def test_at_its_usual_ends_a_value_makes_a_ratio_that_is_one_end_of_its_row(name: str) -> None:
+    config = load_config(EXAMPLE.with_name(f"{name}.yaml"), Discovery())
+    machine, tried = compute(config, lambda _: None), 0
+    for home, calculation in machine.calculations.items():
+        instance, inputs = config.instances[home], flatten(machine.blocks[home])
+        beside = machine.beside(instance)
+        for key, row, values in _values(instance, inputs, beside.press, calculation.values):
+            path = ".".join(step for step in key if isinstance(step, str))
+            if not row.of or range_of(calculation.mechanism.kind, path) != row or not np.isfinite(values).all():
+                continue
+            ends = usual_ends(instance, key, inputs, beside, calculation.values)
+            assert (ends is None) is bool((values == 0).all())
+            for end in ends or ():
+                made = _with(inputs, path, key, end)
+                again = [
+                    each
+                    for placed, own, each in _values(instance, made, beside.press, calculation.values)
+                    if (placed, own) == (key, row)
+                ]
+                assert min(abs(float(again[0][0]) - each) for each in row.usual) < 1e-9 * max(row.usual)
+                tried += 1
+    assert tried > 10

@@ -31,13 +31,22 @@ def test_another_dimension_is_refused_in_words(other: str, words: str) -> None:
 
 def test_quantities_are_compared_by_what_they_are_not_by_their_units() -> None:
     assert dr.QuantityValue(0.5234, "kN*m") == TORQUE and hash(TORQUE) == hash(TORQUE.to("kN*m"))
-    assert "500 N*m" < TORQUE <= dr.QuantityValue(1, "kN*m") and TORQUE > 523 and TORQUE != 523.4
+    assert "500 N*m" < TORQUE <= dr.QuantityValue(1, "kN*m") and TORQUE > 0 and TORQUE != 523.4
     assert dr.QuantityValue(3) == 3 and dr.QuantityValue("steel") == "steel" and {dr.QuantityValue(3): 1}[3] == 1
     assert dr.QuantityValue(523.4, "J/rad") != TORQUE
     with pytest.raises(dr.ConfigError, match="a moment is needed"):
         assert TORQUE < "3 mm"
     with pytest.raises(TypeError, match="cannot be compared with"):
         assert TORQUE < []  # type: ignore[operator]
+
+
+@pytest.mark.parametrize("number", [523, 523.4, -1, float("inf")])
+def test_a_number_without_a_unit_is_not_compared_with_a_quantity(number: float) -> None:
+    with pytest.raises(TypeError, match=r"523\.4 N·m has a unit, and .* has none; compare it with a text, such as '"):
+        assert number > TORQUE
+    assert dr.QuantityValue(0.5, "1") < 1
+    with pytest.raises(TypeError, match="has none"):
+        assert dr.QuantityValue(2, "%") > 1
 
 
 def test_a_number_with_a_unit_is_no_plain_number() -> None:

@@ -121,6 +121,23 @@ DOUBTFUL = {
     "9.81": lambda rate: 9.81 * rate,
     "3.14": lambda rate: 2 * 3.14 * rate,
     "1e6": lambda rate: 1e6 * rate,
+    "30": lambda rate: np.pi * rate / 30,
+    "0.104719755": lambda rate: 0.104719755 * rate,
+    "57.29577951": lambda rate: 57.29577951 * rate,
+    "0.0174533": lambda rate: 0.0174533 * rate,
+    "9550": lambda rate: 9550 * rate,
+}
+NOT_DOUBTFUL = [
+    lambda rate: 2 * np.pi * rate,
+    lambda rate: 30 * rate - 12 * rate,  # of a polynomial
+    lambda rate: rate * np.pi / 4,
+    lambda rate: rate**100 / rate**99,
+    lambda rate: 1.5 * rate,
+]
+WORKED_OUT = {
+    "1000": lambda rate: rate * 10**3,
+    "60": lambda rate: (3 * 20) * rate,
+    "0.01745329": lambda rate: np.pi / 180 * rate,
 }
 
 
@@ -129,6 +146,18 @@ def test_a_number_that_may_stand_for_a_unit_is_noted(number: str) -> None:
     (note,) = doubts(made(DOUBTFUL[number], BOTH))
     assert f"found: holds {number}, a number without a unit; formulas are in SI and convert nothing" in note
     assert note.startswith("test_formulas_with_faults.py:")
+
+
+@pytest.mark.parametrize("number", WORKED_OUT)
+def test_a_number_worked_out_of_others_may_stand_for_a_unit_too(number: str) -> None:
+    assert any(
+        f"found: holds {number}, a number without a unit" in note for note in doubts(made(WORKED_OUT[number], BOTH))
+    )
+
+
+@pytest.mark.parametrize("formula", NOT_DOUBTFUL)
+def test_a_number_that_stands_for_none_is_not_noted(formula: Any) -> None:
+    assert [note for note in doubts(made(formula, BOTH)) if "without a unit" in note] == []
 
 
 def test_a_check_whose_sides_are_exchanged_is_noted() -> None:
