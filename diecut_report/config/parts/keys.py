@@ -151,6 +151,7 @@ class PartKeys(Block):
     width: Annotated[float | None, size("b", "Width of the body; of a bearing without a catalogue its own", gt=0)] = None
     bore: Annotated[float | None, size("d_i", "Bore of the body; of a bearing without a catalogue its own", ge=0)] = None
     outside: Annotated[float | None, size("D", "Outside diameter; of a bearing without a catalogue its own", gt=0)] = None
+    corner: Annotated[float | None, size("r_s", "Least corner of the inner ring of a bearing without a catalogue", gt=0)] = None
     fill: Annotated[float, Quantity("k_f", "1", "Share of a full disc", gt=0, le=1)] = 1
     accepted: Accepted | None = None
 

@@ -110,7 +110,7 @@ class ShaftPart:
 
     def size(self, column: Literal["d", "D", "B", "r"]) -> float | None:
         """Return a dimension of a bearing, m: as typed, else of the catalogue; r is the least corner of its inner ring."""
-        typed = {"d": self.keys.bore, "D": self.keys.outside, "B": self.keys.width}.get(column)
+        typed = {"d": self.keys.bore, "D": self.keys.outside, "B": self.keys.width, "r": self.keys.corner}[column]
         return typed if typed is not None or not self.keys.designation else catalogue_size(self.keys.designation, column)  # fmt: skip
 
     @property

@@ -18,7 +18,7 @@ from diecut_report.text.phrases import phrase
 PART_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 ON_MOTORS = ("pulley", "gear", "sprocket", "coupling", "flywheel")
 """Kinds of parts that a motor's shaft carries."""
-OF_BEARINGS = ("designation", "floating")
+OF_BEARINGS = ("designation", "floating", "corner")
 OF_HUBS = (
     "hub",
     "key",

@@ -249,7 +249,12 @@ def shoulder(parts: MachineParts) -> Iterator[Finding]:
     """A shoulder that a bearing rests on is as high as its ring needs, not as high as the other ring, and rounded less than its corner."""
     for shaft, part in hubs(parts):
         corner, outside = part.size("r"), part.size("D")
-        if part.kind != "bearing" or corner is None or outside is None:
+        if part.kind != "bearing" or outside is None:
+            continue
+        if corner is None:
+            if part.shoulders:
+                template = "rests on a shoulder, but its ring's corner is not known, so that neither height nor fillet is checked; give its corner"
+                yield finding(parts, "shoulder", "warning", part.path, template, (*shaft.path, "sections"))
             continue
         row = table_row("bearing_shoulders", corner)
         height = row["h0" if (part.keys.designation or "").startswith("60") else "h"]

@@ -298,7 +298,7 @@ class ShaftElements(Masses, LoadCases):
             self._add(shaft.bearing_calculation, "rolling_bearing", inputs, shaft.path)
 
     def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
-        home, designation = part.shaft.calculation, str(part.keys.designation)
+        home, designation = part.shaft.calculation, part.keys.designation or ""
         follows = OF_BEARING if catalogue_type(designation) is None else OF_BEARING | {"type"}
         forces = {"radial_force": f"${{{home}.reaction_{end}}}", "tilt": f"${{{home}.slope_{end}}}"}
         if not part.keys.floating and self._is_pushed(part.shaft):
@@ -315,7 +315,8 @@ class ShaftElements(Masses, LoadCases):
 
     def _catalogued(self, name: str, designation: str, more: dict[str, Any], path: KeyPath) -> dict[str, Any]:
         kind = catalogue_type(designation)  # of one that is not in the tables the type is typed
-        return {"name": name, **({"type": kind} if kind else {}), "designation": TypedValue(path)} | more
+        row: dict[str, Any] = {"name": name, **({"type": kind} if kind else {})}
+        return row | ({"designation": TypedValue(path)} if designation else {}) | more
 
     def _relative(self, shaft: MachineShaft) -> dict[str, Any]:
         """How the rings of a shaft's bearings turn."""

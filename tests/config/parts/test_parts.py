@@ -258,6 +258,31 @@ def test_what_is_doubtful_warns(old: str, new: str, rule: str, told: str) -> Non
     assert [each for each in found if told in str(each.message)], config.parts.findings
 
 
+@pytest.mark.parametrize(
+    ("corner", "level", "told"),
+    [
+        ("", "warning", "rests on a shoulder, but its ring's corner is not known"),
+        (", corner: 1.1", "", ""),
+        (
+            ", corner: 0.9",
+            "error",
+            "a fillet of 1 mm, too large for its ring with corners from 0.9 mm; take less than 0.85 mm",
+        ),
+        (", corner: 3", "warning", "a shoulder of 50 mm; its rings want"),
+    ],
+)
+def test_a_bearing_whose_sizes_are_typed_rests_on_its_shoulder_as_one_of_the_tables(
+    corner: str, level: str, told: str
+) -> None:
+    typed = "type: deep_groove, bore: 40, outside: 80, width: 18, dynamic_rating: 30.7 kN, static_rating: 19 kN, f0: 14, limiting_speed: 8500 rpm"
+    old = 'parts: [{bearing: a, at: 21, designation: "6208"}'
+    config, problems = changed(old, f"parts: [{{bearing: a, at: 21, {typed}{corner}}}")
+    findings = [each for each in (config.parts.findings if config.parts else ()) if each.rule == "shoulder"]
+    told_of = [(each.level, str(each.message)) for each in findings] + [("error", each) for each in problems]
+    assert [of for of, _ in told_of] == [level] * bool(level), told_of
+    assert not told or told in told_of[0][1]
+
+
 def test_a_shoulder_within_its_bounds_and_a_block_that_refers_to_a_part_are_not_doubtful() -> None:
     block = "  extra:\n    {kind: parallel_key, shaft_diameter: 40 mm, key_length: 36 mm, torque: '${shafts.far.parts.left.torque}'}\n"
     for old, new in (
