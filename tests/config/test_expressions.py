@@ -11,7 +11,7 @@ import pytest
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from tests.config.test_references import inputs, results
-from tests.configs import DISCOVERY, LEVER, loaded, problems, saved
+from tests.configs import DISCOVERY, EXAMPLE, LEVER, loaded, problems, saved
 
 # what stands at the key arm of a second lever, and its length in metres; the sheet is 700 mm, the first lever's arm 100 mm
 GIVES = [
@@ -143,3 +143,20 @@ def test_a_reference_alone_keeps_its_type(tmp_path: Path) -> None:
 def test_a_reference_without_quotes_within_braces_is_told(tmp_path: Path) -> None:
     found = problems(tmp_path, LEVER + "  b: {kind: lever, force: ${a.force}}\n")
     assert "YAML reads its brace as a map. Quote it" in found[0]
+
+
+def test_lengths_are_typed_in_place_of_the_ratios_of_a_linkage(tmp_path: Path) -> None:
+    file = EXAMPLE.with_name("flat_cylinder_mechanisms.yaml")
+    text = file.read_text("utf-8")
+    for name, ratio, length in (("frame", "5", 500), ("coupler", "5", 500), ("rocker", "2.05", 205)):
+        assert f"{name}_ratio: {ratio}\n" in text
+        text = text.replace(f"{name}_ratio: {ratio}\n", f"{name}_ratio: {length} mm / ${{drive.crank_length}}\n")
+    given, typed = (
+        Press.read(each, DISCOVERY).calculate().results.mechanisms["drive"].outputs
+        for each in (file, saved(tmp_path, text))
+    )
+    assert typed.keys() == given.keys()
+    for name, each in given.items():
+        assert typed[name].value == (
+            pytest.approx(each.value, rel=1e-9) if isinstance(each.value, float) else each.value
+        ), name
