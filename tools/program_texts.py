@@ -14,11 +14,13 @@ from jinja2 import Environment, nodes
 
 from diecut_report.cli.main import program
 from diecut_report.config.model import PressBlock, Project
+from diecut_report.config.parts.keys import MachineKeys
+from diecut_report.config.parts.reading import BODY, COORDINATE, MODELS
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.texts import inputs_texts, is_text
 from diecut_report.machine.printing import page
 from diecut_report.mechanics.motion_laws import LAWS
-from diecut_report.mechanism.inputs import fields
+from diecut_report.mechanism.inputs import Quantity, fields, keys
 from diecut_report.mechanism.steps import Accumulated, Derivative, pick, reduction, root, rows, table_steps
 from diecut_report.quantities.units import _table
 from diecut_report.report.text import COUNTED, ENGLISH, one
@@ -43,6 +45,7 @@ MAKING = dict.fromkeys(("Phrase", "phrase", "say", "refusal", "UnitError", "Cond
                        0) | {".problem": 1, ".absent": 1, ".fault": 1, "._fault": 1, "finding": 4}  # fmt: skip
 """What takes the template of a message, with the place of that argument."""
 JOINING = ("joined", "named")
+BEARINGS = ("parts.designation", "parts.pin.bearing")
 COUNTING = ("Counted", "say_counted")
 SOURCES = (*EQUATIONS.values(),
            "eq.", "Fig.", "table", "chart", "charts", "after", "before", "corrected", "solved", "exact", "input", "energy", "statics",
@@ -138,6 +141,12 @@ def _papers() -> Iterator[ProgramText]:
 
 def _press() -> Iterator[str]:
     yield from (text for text, _ in inputs_texts(PressBlock))
+    parts = {
+        path: each.meta for model in (MachineKeys, *MODELS.values()) for path, each in keys(model).items() if each.meta
+    }
+    # of the texts the live page shows those of bearings alone
+    yield from (meta.description for path, meta in parts.items() if isinstance(meta, Quantity) or path in BEARINGS)
+    yield from (meta.description for meta in (*BODY.values(), COORDINATE))
     yield from (meta.description for _, meta in fields(Project))
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.parts.reading import typed_text
 from diecut_report.design.inputs import DesignInput, require_untied
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
 from diecut_report.errors import refusal
@@ -21,7 +22,7 @@ from diecut_report.quantities.units import unit
 from diecut_report.report.chapters.drive_line import DriveLineFigure, drive_line_figures
 from diecut_report.report.pages.html import filled_page, folder
 from diecut_report.report.reader_data import figure_readings
-from diecut_report.report.text import Catalogue, figure_translated, quantity, tidy
+from diecut_report.report.text import Catalogue, figure_translated, quantity, tidy, value_in_words
 from diecut_report.results.checks import NOT_CHECKED
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import shown_figures
@@ -104,7 +105,7 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
         "skipped": mechanism is not None and not is_there,
         "inputs": [
             (_input if each.asked.unit is not None else _choice)(each, kind, start, edits)
-            | {"is_default": machine.tree.typed(each.stands) is None}
+            | {"is_default": typed_text(machine.tree, each.stands) is None}
             for each in _inputs(name, machine)
         ],
         "checks": [_check(each, kind, before.get(each.id)) for each in run.checks.get(name, ()) if each.check_class != "numerical"],
@@ -119,8 +120,12 @@ def _text(text: object, kind: str) -> str:
 
 def _inputs(name: str, machine: LiveMachine) -> list[DesignInput]:
     """Those of the file in its order, then those at default in that of their declaration, where they stay when they are changed."""
-    own = [each for each in machine.inputs.values() if each.asked.instance == name]
-    given = [each for each in own if machine.tree.typed(each.stands) is not None]
+    own = [
+        each
+        for each in machine.inputs.values()
+        if each.asked.instance == name or each.name in machine.of_parts.get(name, ())
+    ]
+    given = [each for each in own if typed_text(machine.tree, each.stands) is not None]
     instance = machine.config.instances[name]
     order = {slot.key: index for index, slot in enumerate(instance.slots if instance else ())}
     rest = sorted((each for each in own if each not in given), key=lambda each: order[each.asked.key])
@@ -206,13 +211,15 @@ def _outputs(name: str, kind: str, machine: LiveMachine, start: LiveMachine) -> 
             "id": key,
             "text": _text(output.description, kind),
             "symbol": output.symbol,
-            "shown": _shown(output),
-            "start": "" if first is None else _shown(first),
+            "shown": _shown(output, kind),
+            "start": "" if first is None else _shown(first, kind),
             "change": _change(output.value, first and first.value),
         }
 
 
-def _shown(output: QuantityRecord) -> str:
+def _shown(output: QuantityRecord, kind: str) -> str:
+    if isinstance(output.value, str):
+        return _text(value_in_words(output), kind)
     return localised(quantity(output.display.text, output.display.unit))
 
 

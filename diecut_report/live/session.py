@@ -15,15 +15,17 @@ from typing import Any
 
 from diecut_report.config import yaml
 from diecut_report.config.loader import Config
+from diecut_report.config.parts.reading import typed_changes, typed_text
 from diecut_report.config.plugins import Discovery, said
 from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.validation import value_at
-from diecut_report.config.yaml import KeyPath, Tree, YamlNode
+from diecut_report.config.yaml import KeyPath, Tree, YamlNode, plain_text
 from diecut_report.design.inputs import (
     DesignInput,
     choices_at_default,
     given_choices,
     given_numbers,
+    inputs_of_parts,
     numbers_at_default,
 )
 from diecut_report.errors import PluginError, Problem, UserError, own_fault, refusal
@@ -46,14 +48,17 @@ STATE_NAME = re.compile(r"\w(?:[\w .,+=-]{0,38}[\w])?")  # also the name of a fi
 
 @dataclass(frozen=True)
 class LiveMachine:
-    """Hold a machine that could be calculated: the file that it was read from, that with the changes of the page, its configuration, its run,
-    and its inputs by name."""
+    """Hold a machine that could be calculated: the file that it was read from, that with the changes of the page, its configuration and its run.
+
+    ``inputs`` are those that may be changed, by name; ``of_parts`` the names of those at the parts, by the mechanisms that are made of them.
+    """
 
     tree: Tree
     changed: Tree
     config: Config
     run: WarmRun
     inputs: Mapping[str, DesignInput]
+    of_parts: Mapping[str, frozenset[str]]
 
 
 class LiveSession:
@@ -78,6 +83,7 @@ class LiveSession:
         self._saved: set[str] = set()
         self._stroke = ""
         self._places: dict[str, KeyPath] = {}
+        self._texts: set[KeyPath] = set()
         self._items: dict[str, list[object]] = {}
         self._typed: dict[str, str | None] = {}
         self._press = WarmPress(is_advised=False)  # a hand does not wait for advice: the page asks for it
@@ -114,7 +120,7 @@ class LiveSession:
 
     def _forget_written(self) -> None:
         if self.tree is not None:
-            in_file = {name: self.tree.typed(self._places[name]) for name in self.edits}
+            in_file = {name: typed_text(self.tree, self._places[name]) for name in self.edits}
             self.edits = {
                 name: typed for name, typed in self.edits.items() if in_file[name] != typed or self._is_moved(name)
             }
@@ -143,6 +149,8 @@ class LiveSession:
         self._begin_step(stroke)
         for name, typed in taken.items():
             self._places[name] = machine.inputs[name].stands
+            if machine.inputs[name].is_text and typed not in ("true", "false"):  # 6017 is a number unless it has quotes
+                self._texts.add(self._places[name])
             self._edit(machine.tree, name, typed)
         self._forget_written()
         self._calculate()
@@ -176,7 +184,7 @@ class LiveSession:
     def _edit(self, tree: Tree, name: str, typed: str) -> None:
         if name not in self.edits:  # by what the page shows, which the file may not be any more
             self._items[name] = _items(tree, self._places[name])
-            self._typed[name] = tree.typed(self._places[name])
+            self._typed[name] = typed_text(tree, self._places[name])
         self.edits[name] = typed
 
     def keep(self, name: str) -> None:
@@ -219,8 +227,8 @@ class LiveSession:
 
     def _edits(self, kept: Tree, file: Tree) -> dict[str, str]:
         """The numbers changed on the page, now or before they were written, that stand otherwise in a state than in the file."""
-        typed = {each: kept.typed(place) or "" for each, place in self._places.items()}
-        return {each: text for each, text in typed.items() if text and text != file.typed(self._places[each])}
+        typed = {each: typed_text(kept, place) or "" for each, place in self._places.items()}
+        return {each: text for each, text in typed.items() if text and text != typed_text(file, self._places[each])}
 
     @property
     def unsaved(self) -> Iterator[tuple[str, dict[str, str]]]:
@@ -264,7 +272,7 @@ class LiveSession:
         """Whether something else stands in the file where a number was changed on the page: another item of its list, or another number."""
         if self.tree is None:
             return False
-        is_other = self.tree.typed(self._places[name]) not in (self._typed[name], self.edits.get(name))
+        is_other = typed_text(self.tree, self._places[name]) not in (self._typed[name], self.edits.get(name))
         return is_other or _items(self.tree, self._places[name]) != self._items[name]
 
     def _edited(self) -> dict[KeyPath, str]:
@@ -290,7 +298,7 @@ class LiveSession:
 
     def _in_its_unit(self, asked: DesignInput, number: str) -> str:
         """A bare number is in the unit that stands beside the input, which is the one that the file gives it in."""
-        stands = self.tree.typed(asked.stands) if self.tree else None
+        stands = typed_text(self.tree, asked.stands) if self.tree else None
         try:
             is_bare = stands is None or not number_and_unit(stands)[1]
         except UnitError:
@@ -319,7 +327,9 @@ class LiveSession:
         return self._with(tree, self._edited())
 
     def _with(self, tree: Tree, typed: Mapping[KeyPath, str]) -> Tree:
-        return rewritten(tree, typed, self.start.config.units(typed) if self.start else {})
+        told = {place: plain_text(text) if place in self._texts else text for place, text in typed.items()}
+        placed = {place: str(text) for place, text in typed_changes(tree, told).items()}
+        return rewritten(tree, placed, self.start.config.units(placed) if self.start else {})
 
     def _made(self, tree: Tree) -> LiveMachine:
         changed = self._changed(tree)
@@ -328,7 +338,10 @@ class LiveSession:
         for error in run.errors.values():
             raise error
         _require_shown(run)
-        return LiveMachine(tree, changed, config, run, changeable(config, changed))
+        at_parts = inputs_of_parts(config)
+        inputs = changeable(config, changed) | {each.name: each for own in at_parts.values() for each in own}
+        of_parts = {name: frozenset(each.name for each in own) for name, own in at_parts.items()}
+        return LiveMachine(tree, changed, config, run, inputs, of_parts)
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)
@@ -336,10 +349,7 @@ class LiveSession:
 
 
 def changeable(config: Config, tree: Tree) -> dict[str, DesignInput]:
-    """Return by name the inputs that a file gives, and those at default whose block stands in it.
-
-    What the parts of its machine make is changed at the parts.
-    """
+    """Return by name the inputs of the mechanisms that a file gives, and those at default whose block stands in it."""
     given = [each for each in (*given_numbers(config), *given_choices(config)) if tree.typed(each.stands) is not None]
     at_default = (*numbers_at_default(config), *choices_at_default(config))
     own = [each for each in at_default if isinstance(value_at(tree.data, each.stands[:-1]), dict)]
@@ -352,6 +362,9 @@ def _items(tree: Tree, place: KeyPath) -> list[object]:
     for depth, step in enumerate(place):
         if isinstance(step, int):
             items = tree.node(place[:depth]).children or {}
+            if not items:  # a text of several, such as sections
+                found.append((tree.typed(place[:depth]) or "").count(","))
+                break
             typed = {at: dict(_typed(item, ())) for at, item in items.items()}
             names = {at: {key: text for key, text in own.items() if _is_name(key, text)} for at, own in typed.items()}
             own, rest = names.get(step), place[depth + 1 :]

@@ -201,7 +201,10 @@
   function found() {
     var words = sought().split(/\s+/);
     if (!sought()) { return current().inputs; }
+    var seen = {};  /* what several mechanisms are made of stands at each */
     return everyInput().filter(function (each) {
+      if (seen[each.name]) { return false; }
+      seen[each.name] = true;
       var text = (each.name + " " + each.text + " " + each.symbol).toLowerCase();
       return words.every(function (word) { return text.indexOf(word) >= 0; });
     }).slice(0, MOST);
@@ -378,7 +381,7 @@
   }
 
   function outputRow(mechanism, each, isAmongPinned) {
-    var change = each.change === null ? "" : (each.change > 0 ? "+" : "−") + told(Math.abs(100 * each.change), Math.abs(each.change) < 0.0995 ? 1 : 0) + " %";
+    var change = each.change === null || Math.abs(each.change) < 0.0005 ? "" : (each.change > 0 ? "+" : "−") + told(Math.abs(100 * each.change), Math.abs(each.change) < 0.0995 ? 1 : 0) + " %";
     var name = mechanism.name + "." + each.id, isPinned = pins.indexOf(name) >= 0;
     var button = make("button", { type: "button", "class": "pin", "aria-pressed": String(isPinned), title: t("pin"), "aria-label": t("pin_of", { quantity: each.text }) }, isPinned ? "★" : "☆");
     button.addEventListener("click", function () { pin(name); });

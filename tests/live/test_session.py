@@ -14,9 +14,11 @@ import pytest
 
 from diecut_report.config import yaml
 from diecut_report.config.loader import load_config
+from diecut_report.config.parts.reading import typed_changes, typed_text
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import rewritten
-from diecut_report.config.yaml import Tree
+from diecut_report.config.yaml import Tree, plain_text
+from diecut_report.design.inputs import inputs_of_parts
 from diecut_report.design.machines import UTILISATION, varied
 from diecut_report.errors import UserError
 from diecut_report.live.page import WORDS, Pictures, advice, assets, effect, page, page_data, slider
@@ -359,14 +361,72 @@ def test_a_machine_that_cannot_be_calculated_is_not_kept_and_states_have_an_end(
         session.keep("broken")
 
 
+MACHINE = KNIFE.parent / "machines" / "flat_cylinder_corrected.yaml"
+
+
 def test_of_a_machine_of_parts_it_offers_the_numbers_that_the_mechanisms_give() -> None:
-    file = KNIFE.parent / "machines" / "flat_cylinder.yaml"
+    file = MACHINE.with_name("flat_cylinder.yaml")
     tree, config = yaml.read(file), load_config(file, Discovery([]))
     offered = changeable(config, tree)
     given = {each.stands: str(each.written) for each in offered.values() if tree.typed(each.stands) is not None}
     assert "drive.crank_length" in offered and 20 < len(given) < 100
     assert "drive.efficiency_sector" not in offered  # which its mesh makes
     assert rewritten(tree, given).text == tree.text
+
+
+def test_what_is_typed_at_the_parts_is_offered_beside_each_mechanism_that_is_made_of_it() -> None:
+    tree, config = yaml.read(MACHINE), load_config(MACHINE, Discovery([]))
+    found = inputs_of_parts(config)
+    names = {name: {each.name for each in own} for name, own in found.items()}
+    assert {"shafts.main.sections.1.diameter", "shafts.main.parts.wheel.at"} <= names["shafts_main"]
+    assert {"shafts.main.parts.wheel.key", "machine.gears.hub_yield"} <= names["shafts_main_wheel_key"]
+    assert "meshes.crank_drive.width" in names["meshes_crank_drive"]
+    every = {each.stands: each for own in found.values() for each in own}
+    typed = {place: str(each.written) for place, each in every.items()}
+    assert len(every) > 200 and {place: typed_text(tree, place) for place in typed} == typed
+    told = {place: plain_text(text) if every[place].is_text else text for place, text in typed.items()}
+    placed = {place: str(text) for place, text in typed_changes(tree, told).items()}
+    assert rewritten(tree, placed).data == tree.data
+    bearing = next(each for each in every.values() if each.name == "shafts.main.parts.a.designation")
+    assert {"NU217E", "6217", "NU218E"} <= {*bearing.options} and "6218" not in bearing.options
+
+
+def test_a_part_is_changed_in_its_place_with_all_that_is_made_of_it(tmp_path: Path) -> None:
+    file = tmp_path / "machine.yaml"
+    file.write_bytes(MACHINE.read_bytes())
+    session = LiveSession(file, Discovery([]))
+    session.change({"shafts.main.sections.1.diameter": "9 cm"})
+    assert "take a bearing of that bore" in str(session.faults[0].message)
+    session.change({"shafts.main.parts.a.designation": "NU218E", "shafts.main.sections.2.diameter": "95"})
+    session.change({"meshes.crank_drive.width": "60 mm"})
+    session.change({"shafts.main.parts.b.designation": "6017"})
+    assert not session.faults and 'designation: "6017", limiting' in session.machine.changed.text  # not a number
+    session.undo()
+    assert session.machine is not None
+    session.keep("larger seat")
+    shown = {each["name"]: each for each in shown_of(session, "shafts_main")["inputs"]}
+    assert shown["shafts.main.sections.1.diameter"]["start"] == "85 mm" and session.machine.run.outputs("shafts_main")
+    session.undo()
+    assert session.edits.keys() == {
+        "shafts.main.sections.1.diameter", "shafts.main.parts.a.designation", "shafts.main.sections.2.diameter",
+    }  # fmt: skip
+    session.write()
+    session.return_to("larger seat")
+    assert session.edits == {"meshes.crank_drive.width": "60 mm"}
+    text = MACHINE.read_text("utf-8")
+    new = text.replace("80x100 r2, 85x45 r2, 90x330 r2, 85x45", "80x100 r2, 90x45 r2, 95x330 r2, 85x45")
+    assert (
+        file.read_text("utf-8") == new.replace("at: 122, designation: NU217E", "at: 122, designation: NU218E") != text
+    )
+    saved = session.save("larger seat")
+    assert "module: 6, width: 60 mm," in saved.read_text("utf-8")
+    replaced(
+        session, "80x100 r2, 90x45 r2", "80x60 r2, 80x40 r2, 90x45 r2"
+    )  # another section: the number stands elsewhere
+    session.take_back()
+    session.change({"shafts.main.sections.2.diameter": "92"})
+    replaced(session, "80x60 r2, 80x40 r2, 90x45 r2", "80x30 r2, 80x30 r2, 80x40 r2, 90x45 r2")
+    assert "something else stands there in the file now" in str(session.faults[0].message)
 
 
 @pytest.mark.parametrize("spoilt", ["- 1\n", "schema_version: 1\nmechanisms: []\n", "mechanisms:\n  - knife: {}\n"])

@@ -50,6 +50,18 @@ def catalogue_type(designation: str) -> str | None:
     )
 
 
+def related_bearings(designation: str) -> tuple[str, ...]:
+    """Return the bearings of the tables that have the bore of this one, or are of its series; none where it is of no table."""
+    bore, series = catalogue_size(designation, "d"), _series(designation)
+    names = (name for table in BEARING_TABLES.values() for name in standard_table(table).names)
+    return tuple(name for name in names if bore and (catalogue_size(name, "d") == bore or _series(name) == series))
+
+
+def _series(designation: str) -> str:
+    """A designation without its last two digits, which stand for the bore: NU2 of NU217E."""
+    return "".join(designation.split()).upper().removesuffix("E")[:-2]
+
+
 @dataclass(frozen=True)
 class ShaftSection:
     """Hold a section of a shaft, m: where it begins and ends from the left end."""

@@ -15,6 +15,7 @@ from diecut_report.config.model import PressBlock
 from diecut_report.config.own_tables import OwnTables
 from diecut_report.config.parts.keys import (
     PART_KINDS,
+    WORDS,
     BeltKeys,
     ChainKeys,
     MachineKeys,
@@ -384,6 +385,15 @@ def typed_value(tree: Tree, path: KeyPath) -> Any:
         return None
     numbers = str(given).split("/")
     return numbers[pair.single.index(str(key)) if len(numbers) > 1 else 0].strip()
+
+
+def typed_text(tree: Tree, path: KeyPath) -> str | None:
+    """Return what is typed at a place of a file as it stands there, of the parts also within a text; None where nothing is."""
+    given = next((text for place in (path, (*path, "value")) if (text := tree.typed(place)) is not None), None)
+    if given is not None or path[0] not in WORDS:
+        return given
+    found = typed_value(tree, path)
+    return None if found is None else str(found)
 
 
 def _pair_of(path: KeyPath) -> _TwoNumbers | None:
