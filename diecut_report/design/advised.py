@@ -59,6 +59,8 @@ def _take(config: Config, found: Advised, path: str, change: KeyChangeRecord) ->
     values = change.value if isinstance(change.value, list) else [change.value]
     try:
         design = typed_input(config, path)
+        if design.asked.node in config.links:  # by default the press gives it, to all that follow from it
+            return False
         if design.asked.unit is None:
             texts = [str(each).lower() if isinstance(each, bool) else str(each) for each in values]
             known = [text for text in texts if text in design.options]

@@ -32,6 +32,7 @@ from diecut_report.study.execution.variant_rows import STATUS, verdicts
 from diecut_report.text.phrases import Phrase, phrase
 
 SHARE = 0.1  # of a value for which no range is known, downwards and upwards
+HALVED = 50  # how often the way to an end that is not allowed is halved
 STILL = 1e-9  # of the greater side of a check, by which rounding alone moves its margin
 # how many of those that change a check together are taken out, strongest first
 LEFT_OUT = tuple(2**k for k in range(8))
@@ -89,7 +90,7 @@ class Trial:
         known = usual.of(design)
         low, high = known or sorted((present * (1 - SHARE), present * (1 + SHARE)))
         ends = np.clip([low, high], *design.bounds)
-        ends = np.where(design.allows(ends), ends, (ends + present) / 2)  # an end that is not of the range
+        ends = np.array([_allowed(design, present, end) for end in ends])
         if design.is_whole:
             ends = np.array([np.ceil(low - STILL), np.floor(high + STILL)])
         if len(listed := design.listed):
@@ -111,6 +112,17 @@ class Trial:
     def is_plain(self) -> bool:
         """Return whether no other value is usual, or nobody has said what is not there, such as a bore, or there once, such as a key."""
         return self.is_still and (self.has_range or (self.item.what == "default" and self.present in (0, 1)))
+
+
+def _allowed(design: DesignInput, present: float, end: float) -> float:
+    """The value nearest to an end of what is usual that the declaration allows; what is allowed has no gaps."""
+    if design.allows(np.array(end)):
+        return end
+    inside, outside = present, end
+    for _ in range(HALVED):
+        middle = (inside + outside) / 2
+        inside, outside = (middle, outside) if design.allows(np.array(middle)) else (inside, middle)
+    return inside
 
 
 @dataclass(frozen=True, eq=False)

@@ -146,7 +146,7 @@ class _RangeSearch:
         x = searched_places(self.design, low, high)
         made = self.machines(x)
         y = made.values(self.question.quantity.column)
-        self._refuse_constant(made, y)
+        self._refuse_constant(made, y, x)
         self._keep(x, made)
         present = y[x == (math.nan if self.design.present is None else self.design.present)]
         today = float(present[0]) if len(present) else math.nan
@@ -164,8 +164,8 @@ class _RangeSearch:
         failing = [name for name in made.checks if (made.check(name)[made.exists] == "fail").all()]
         return replace(answer, nearest=self._nearest(x, made, y), always=tuple(failing) if self.passing else ())
 
-    def _refuse_constant(self, made: VariedMachines, y: Array) -> None:
-        known, file = y[np.isfinite(y)], self.config.tree.file
+    def _refuse_constant(self, made: VariedMachines, y: Array, x: Array) -> None:
+        known, places, file = y[np.isfinite(y)], x[np.isfinite(y)], self.config.tree.file
         name, asked = self.design.name, self.question.quantity
         if not made.exists.any():
             template = "no machine of the range of {input} can be calculated: {reason}"
@@ -173,7 +173,8 @@ class _RangeSearch:
             raise impossible(self.config, reason, Phrase(template, input=name, reason=reason))
         if not len(known):
             raise refusal("{asked} has no value in the whole range of {input}.", file, asked=asked.name, input=name)
-        if np.ptp(known) <= SAME * np.abs(known).max() and len(known) > 1:
+        # today's value may stand beside itself, but for rounding
+        if np.ptp(known) <= SAME * np.abs(known).max() and np.ptp(places) > SAME * np.abs(places).max():
             template = "{asked} does not vary with {input}: it is {value} in the whole range."
             raise refusal(template, file, asked=asked.name, input=name, value=told(float(known[0]), asked.unit, 6))
 
@@ -323,7 +324,7 @@ class _TextSearch(_RangeSearch):
         options, present = self.design.options, self.design.written
         made = self.machines(np.arange(len(options)))
         y = made.values(self.question.quantity.column)
-        self._refuse_constant(made, y)
+        self._refuse_constant(made, y, np.arange(len(options)))
         tried = [FoundValue(math.nan, text, float(y[i]), "today" if text == present else "choice", tuple(made.failing(i)))
                  for i, text in enumerate(options)]  # fmt: skip
         today = next((each.reached for each in tried if each.role == "today"), math.nan)

@@ -155,8 +155,9 @@ def usual_ends(
     is_line = abs(third - 2 * second + first) <= ROUNDING * max(map(abs, found))
     if not is_line or not slope:
         return None
-    ends = sorted(float(x[0] + (end - first) / slope) for end in row.usual)
-    return ends[0], ends[1]
+    ends = [float(x[0] + (end - first) / slope) for end in row.usual]
+    low, high = sorted(0.0 if abs(end) < ROUNDING * abs(x[0]) else end for end in ends)
+    return low, high
 
 
 def _with(inputs: Inputs, path: str, key: KeyPath, value: Any) -> Inputs:

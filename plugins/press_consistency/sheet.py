@@ -55,7 +55,8 @@ rate.value("turns_a_sheet", "i_o", "1", "Revolutions of the output per sheet: as
     source="input", needs=("output_turns_per_sheet",))
 rate.choice("turns_a_sheet", "i_o", "1", "Revolutions of the output per sheet",
     case(lambda: 1, "the output is closer in speed to the main shaft than to the crank", turns_like_main_shaft),
-    case(lambda crank_speed, productivity: crank_speed / (2 * np.pi * productivity), "the output turns with the crank"), source="kinematics",
+    case(lambda crank_speed, productivity: np.maximum(np.round(as_number(crank_speed) / as_number(np.pi * productivity)), 1) / 2,
+        "the output turns with the crank, whole half turns for a sheet"), source="kinematics",
     needs=("crank_speed",), lacks=("output_turns_per_sheet",))
 rate.value("rate_asked", "n_0", "1/h", "Required sheet rate", lambda required_rate: required_rate, source="input", output=False,
     needs=("required_rate",))

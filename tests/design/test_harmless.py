@@ -100,6 +100,17 @@ def test_a_value_that_a_ratio_bounds_is_tried_at_the_ends_of_that(tmp_path: Path
     assert found["mechanisms.shaft.fatigue_strength"] == "with 315 MPa the check shaft.fatigue turns from pass to fail"
 
 
+def test_an_end_that_may_not_be_typed_gives_way_to_the_nearest_that_may(tmp_path: Path) -> None:
+    """Usual are 0.5 to 50 µm, a hundred-thousandth to a thousandth of the span; 1 µm and more may be typed; the pin bends by 2.6 µm."""
+    pin = (
+        "sections: [{length: 70 mm, diameter: 30 mm}], bearing_a: 10 mm, bearing_b: 60 mm, speed: 50 rpm, material: 42CrMo4+QT, "
+        "loads: [{name: pull, position: 35 mm, force_y: 8 kN, seat: none}], allowable_deflection: {value: 0.05 mm, basis: assumed}"
+    )
+    found = left(Press.read(saved(tmp_path, HEAD + f"  pin: {{kind: shaft, {pin}}}\n"), Discovery()))
+    told = found["mechanisms.pin.allowable_deflection"]
+    assert re.fullmatch(r"with (1|0\.001) .?m+ the check pin.deflection turns from pass to fail", told), told
+
+
 def test_an_assumed_direction_stays_open(tmp_path: Path) -> None:
     """Of nothing a tenth is nothing; the deflection is 73 % of what is allowed at 0°, and 120 % at 90°."""
     part = "{value: %s, basis: drawing, note: D1}"

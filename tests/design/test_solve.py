@@ -106,6 +106,14 @@ def test_values_close_to_the_end_of_what_can_be_built_are_found(
     assert [1e3 * each["value"] for each in found] == pytest.approx([first, last], abs=1e-3)
 
 
+@pytest.mark.nightly
+def test_where_only_the_present_value_can_be_nothing_is_said_of_others(capfd: Capture) -> None:
+    asked = "meshes_main_drive.pitting_safety_1 >= 2"
+    assert main(["solve", str(PARTS), "--vary", "meshes.main_drive.module", "--for", asked]) == 1
+    told = capfd.readouterr().out
+    assert "does not vary" not in told and "nearest: meshes.main_drive.module = 5 mm" in told
+
+
 BENDING = """\
 schema_version: 1
 project: {title: Test}

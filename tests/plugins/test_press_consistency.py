@@ -135,6 +135,15 @@ def test_the_shafts_of_pinion_and_rocker_count_at_the_crank_and_in_the_clutch() 
         assert number(within, name) > 1.05 * number(bare, name)
 
 
+@pytest.mark.parametrize(("share", "sheets"), [(1, 1), (0.5, 0.5), (0.97, 0.97), (2, 1)])
+def test_sheets_are_those_of_whole_half_turns_of_the_crank(share: float, sheets: float) -> None:
+    """At half its speed it makes half the sheets; one that turns twice as often as at two sheets a turn makes one."""
+    bare = the_example()
+    slower = {key: share * number(bare, f"inputs.{key}") for key in ("crank_speed", "output_speed")}
+    turned = consistency(example_keys() | {key: f"{speed} rad/s" for key, speed in slower.items()})
+    assert number(turned, "actual_rate") == pytest.approx(sheets * number(bare, "actual_rate"), rel=1e-9)
+
+
 @pytest.mark.parametrize("ratio", [2, 9.7])
 def test_a_clutch_on_a_faster_shaft_makes_the_same_heat_with_as_much_less_torque(ratio: float) -> None:
     """Its inertia of equal heat is less by the square of the ratio."""

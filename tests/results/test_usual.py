@@ -232,6 +232,20 @@ def test_a_mechanism_that_types_what_the_press_states_otherwise_is_warned_of(tmp
     assert usual(run(tmp_path, platen={**platen, **other}), "platen") is None  # the press says nothing
 
 
+@pytest.mark.parametrize(("rate", "status"), [("6000 1/h", None), ("3000 1/h", "warn")])
+def test_a_crank_that_turns_otherwise_than_once_a_sheet_is_warned_of(
+    tmp_path: Path, rate: str, status: str | None
+) -> None:
+    cross = {
+        "kind": "geneva_transport", "center_distance": "240 mm", "roller_radius": "16 mm", "roller_width": "25 mm", "gear_ratio": 6,
+        "sprocket_teeth": 30, "chain_pitch": "19.05 mm", "driven_inertia": "8.8 kg*m**2", "crank_speed": "100 rpm",
+    }  # fmt: skip
+    press = {"productivity": rate, "sheet": {"length": "700 mm", "width": "500 mm", "thickness": "0.6 mm"}}
+    found = usual(run(tmp_path, press=press, cross=cross), "cross")
+    assert (found and found.status) == status
+    assert found is None or "crank_speed / (press.productivity * 1 revolution) = 2 (usual: 1 to 1" in str(found.message)
+
+
 @pytest.mark.parametrize("name", ["flat_cylinder_press_mended", "flat_cylinder_elements"])
 def test_at_its_usual_ends_a_value_makes_a_ratio_that_is_one_end_of_its_row(name: str) -> None:
     config = load_config(EXAMPLE.with_name(f"{name}.yaml"), Discovery())
