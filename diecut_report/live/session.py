@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from diecut_report.config import yaml
 from diecut_report.config.loader import Config
@@ -19,7 +19,7 @@ from diecut_report.config.parts.reading import typed_changes, typed_text
 from diecut_report.config.plugins import Discovery, said
 from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.validation import value_at
-from diecut_report.config.yaml import KeyPath, Tree, YamlNode, plain_text
+from diecut_report.config.yaml import KeyPath, Tree, YamlNode, dotted, plain_text
 from diecut_report.design.inputs import (
     DesignInput,
     choices_at_default,
@@ -61,6 +61,20 @@ class LiveMachine:
     of_parts: Mapping[str, frozenset[str]]
 
 
+class _Found(NamedTuple):
+    """Hold what stood in the file where a number was changed on the page: what tells its items of lists from others, and its text."""
+
+    items: list[object]
+    typed: str | None
+
+
+class _Step(NamedTuple):
+    """Hold the changes of the page at a time, with what stood there."""
+
+    edits: dict[str, str]
+    found: dict[str, _Found]
+
+
 class LiveSession:
     """Keep a configuration calculated while it is changed. Not for several threads at a time.
 
@@ -76,16 +90,15 @@ class LiveSession:
         self.start: LiveMachine | None = None
         self.faults: list[Problem] = []
         self.edits: dict[str, str] = {}
-        self.past: list[dict[str, str]] = []
-        self.future: list[dict[str, str]] = []
+        self.past: list[_Step] = []
+        self.future: list[_Step] = []
         self.states: dict[str, LiveMachine] = {}
         self.serial = 0
         self._saved: set[str] = set()
         self._stroke = ""
         self._places: dict[str, KeyPath] = {}
         self._texts: set[KeyPath] = set()
-        self._items: dict[str, list[object]] = {}
-        self._typed: dict[str, str | None] = {}
+        self._found: dict[str, _Found] = {}
         self._press = WarmPress(is_advised=False)  # a hand does not wait for advice: the page asks for it
         self._read: dict[Path, object] = {}
         self.read()
@@ -113,6 +126,7 @@ class LiveSession:
         try:
             self.tree = yaml.read(self.file)
         except UserError as error:
+            self.tree = None  # what the page changes then is calculated when the file can be read again
             self._failed(error.problems)
             return
         self._forget_written()
@@ -170,21 +184,25 @@ class LiveSession:
         """Go forward again by a step that was undone; nothing where there is none."""
         self._go(self.future, self.past)
 
-    def _go(self, steps: list[dict[str, str]], others: list[dict[str, str]]) -> None:
+    def _go(self, steps: list[_Step], others: list[_Step]) -> None:
         if steps:
-            others.append(self.edits)
-            self.edits, self._stroke = steps.pop(), ""
+            others.append(self._step)
+            (self.edits, self._found), self._stroke = steps.pop(), ""
             self._calculate()
+
+    @property
+    def _step(self) -> _Step:
+        return _Step(dict(self.edits), dict(self._found))
 
     def _begin_step(self, stroke: str = "") -> None:
         if not stroke or stroke != self._stroke:
-            self.past = [*self.past, dict(self.edits)][-MAX_STEPS:]
+            self.past = [*self.past, self._step][-MAX_STEPS:]
         self.future, self._stroke = [], stroke
 
     def _edit(self, tree: Tree, name: str, typed: str) -> None:
         if name not in self.edits:  # by what the page shows, which the file may not be any more
-            self._items[name] = _items(tree, self._places[name])
-            self._typed[name] = typed_text(tree, self._places[name])
+            place = self._places[name]
+            self._found[name] = _Found(_items(tree, place), typed_text(tree, place))
         self.edits[name] = typed
 
     def keep(self, name: str) -> None:
@@ -194,6 +212,10 @@ class LiveSession:
         if not STATE_NAME.fullmatch(name):
             template = "{name} cannot be the name of a state, which may become that of a file: use up to 40 letters, digits, spaces and .,+=-_"
             raise refusal(template, name=repr(name))
+        if f"{name}.yaml" in _beside(self.machine.config):
+            raise refusal(
+                "The configuration names a file {name}. Keep the state under another name.", name=repr(f"{name}.yaml")
+            )
         if name in self.machines:
             raise refusal("There is a state {name} already; remove it first.", name=repr(name))
         if len(self.states) == MAX_STATES:
@@ -209,8 +231,9 @@ class LiveSession:
         self.serial += 1
 
     def return_to(self, name: str) -> None:
-        """Make the changes those of a state; UserError where the file has been changed since in other places."""
+        """Make the changes those of a state; UserError where the file, or one that it names, has been changed since in other places."""
         kept, file = self._state(name).changed, self.tree
+        self._require_same_beside(name)
         if file is None:
             raise refusal("Nothing can be changed before the file can be calculated.", self.file)
         edits = self._edits(kept, file)
@@ -230,17 +253,34 @@ class LiveSession:
         typed = {each: typed_text(kept, place) or "" for each, place in self._places.items()}
         return {each: text for each, text in typed.items() if text and text != typed_text(file, self._places[each])}
 
+    def _require_same_beside(self, name: str) -> None:
+        """Raise UserError where the tables or the logo of a state are not those that lie there now."""
+        for beside, content in _beside(self._state(name).config).items():
+            place = self.file.with_name(beside)
+            if not place.is_file() or place.read_bytes() != content:
+                template = "This file has been changed since {name} was kept; with it the state is another machine."
+                raise refusal(template, place, name=repr(name))
+
     @property
     def unsaved(self) -> Iterator[tuple[str, dict[str, str]]]:
-        """Yield the changes of the page, and of each state that was not saved, that are not in the file, by its name; empty for the page's."""
+        """Yield the changes of the page, and by its name what is otherwise than in the file in each state that was not saved."""
         yield "", self.edits
         for name, machine in self.states.items():
             if name not in self._saved:
-                yield name, self._edits(machine.changed, self.tree or machine.tree)
+                file = dict(_typed(self.tree.root, ())) if self.tree else {}
+                kept = dict(_typed(machine.changed.root, ()))
+                yield (
+                    name,
+                    {_told(path): kept.get(path, "–") for path in kept | file if kept.get(path) != file.get(path)},
+                )
 
     def save(self, name: str) -> Path:
-        """Write a state into a file of its name beside that of the session, and return its path; UserError where there is one."""
+        """Write a state into a file of its name beside that of the session, and return its path.
+
+        UserError where there is one, or a table or the logo is not as it was.
+        """
         tree = self._state(name).changed
+        self._require_same_beside(name)
         file = self.file.with_name(f"{name}.yaml")
         if os.path.lexists(file):
             raise refusal("There is a file of this name already. Keep the state under another name.", file)
@@ -265,15 +305,16 @@ class LiveSession:
         tree, text = self.tree, self._changed(self.tree).text
         if text != tree.text:
             write(self.file.resolve(), as_file(tree, text), instead_of=tree.sha256)
-        self.edits, self.past, self.future = {}, [], []
+        self.edits, self.past, self.future, self._stroke = {}, [], [], ""
         self.read()
 
     def _is_moved(self, name: str) -> bool:
         """Whether something else stands in the file where a number was changed on the page: another item of its list, or another number."""
         if self.tree is None:
             return False
-        is_other = typed_text(self.tree, self._places[name]) not in (self._typed[name], self.edits.get(name))
-        return is_other or _items(self.tree, self._places[name]) != self._items[name]
+        place, found = self._places[name], self._found[name]
+        is_other = typed_text(self.tree, place) not in (found.typed, self.edits.get(name))
+        return is_other or _items(self.tree, place) != found.items
 
     def _edited(self) -> dict[KeyPath, str]:
         if moved := [name for name in self.edits if self._is_moved(name)]:
@@ -297,16 +338,17 @@ class LiveSession:
         return plain if number_and_unit(plain)[1] else self._in_its_unit(asked, plain)
 
     def _in_its_unit(self, asked: DesignInput, number: str) -> str:
-        """A bare number is in the unit that stands beside the input, which is the one that the file gives it in."""
-        stands = typed_text(self.tree, asked.stands) if self.tree else None
+        """A bare number is in the unit that stands beside the input: of what was typed there before, else of the file."""
+        before = self.edits.get(asked.name) or (typed_text(self.tree, asked.stands) if self.tree else None)
         try:
-            is_bare = stands is None or not number_and_unit(stands)[1]
+            own = number_and_unit(before)[1] if before else ""
         except UnitError:
-            is_bare = True
-        return number if is_bare or asked.unit == "1" else f"{number} {asked.unit}"
+            own = ""
+        return f"{number} {own}" if own else number
 
     def _calculate(self) -> None:
         if self.tree is None:
+            self.serial += 1
             return
         try:
             with in_time(self.file):
@@ -372,6 +414,11 @@ def _items(tree: Tree, place: KeyPath) -> list[object]:
             beside = {key: text for key, text in typed.get(step, {}).items() if key[: len(rest)] != rest}
             found.append(own if is_alone else (len(items), beside))
     return found
+
+
+def _told(path: KeyPath) -> str:
+    """What a place of the file is called on the page."""
+    return dotted(path).removeprefix("mechanisms.").removesuffix(".value")
 
 
 def _is_name(key: KeyPath, text: str) -> bool:
@@ -474,12 +521,15 @@ class LiveReports:
         return files[0].read_bytes()
 
 
+def _beside(config: Config) -> dict[str, bytes]:
+    """The tables and the logo that a configuration names, by their paths from its folder."""
+    files = {name: as_file(table, table.text) for name, table in config.tables.items()}
+    return files | ({config.logo.name: config.logo.content} if config.logo else {})
+
+
 def _laid_out(file: Path, config: Config) -> None:
     """Write a configuration as it is now into a file, and the tables and the logo that it names beside it or below."""
-    files = {file.name: as_file(config.tree, config.tree.text)}
-    files |= {name: as_file(table, table.text) for name, table in config.tables.items()}
-    files |= {config.logo.name: config.logo.content} if config.logo else {}
-    for name, content in files.items():
+    for name, content in {file.name: as_file(config.tree, config.tree.text), **_beside(config)}.items():
         place = file.parent / name
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(content)

@@ -97,10 +97,10 @@
   }
 
   /* A slider's way from where it is taken to where it is let go is one step for undo. */
-  var strokes = 0;
+  var strokes = 0, tab = Math.random().toString(36);
   function change(name, typed, isMoving) {
     waiting[name] = typed;
-    stroke = name + " " + strokes;
+    stroke = [tab, name, strokes].join(" ");
     if (!isMoving) { strokes += 1; }
     send();
   }
@@ -414,7 +414,7 @@
   }
 
   /* ---- states that are kept, and compared ---- */
-  var compared = {};  /* by name, where a hand has chosen it; else the first and the last */
+  var compared = Object.create(null);  /* by name, where a hand has chosen it; else the first and the last */
 
   function states() {
     var body = byId("states").querySelector("tbody"), last = state.states.length - 1;
@@ -551,6 +551,7 @@
     state = JSON.parse(event.data);
     if (!sending) { ready(); }
     if (isLost || (saidAt !== null && saidAt !== state.serial)) { isLost = false; say(""); }
+    advised = null;  /* of the machine before */
     show();
     askEffect();
     askAdvice();

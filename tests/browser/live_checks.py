@@ -241,3 +241,15 @@ def test_the_inputs_stay_in_view_beside_the_figures(browser: Browser, live: Live
     tab.page.wait_for_timeout(300)
     top = tab.page.evaluate("document.getElementById('inputs').getBoundingClientRect().top")
     assert 0 < top <= tab.page.evaluate("document.querySelector('header').getBoundingClientRect().bottom") + 1
+
+
+def test_the_words_of_a_check_are_those_of_the_machine_that_is_shown(browser: Browser, live: Live) -> None:
+    config = CONFIG.with_name("flat_cylinder_mechanisms.yaml").read_text("utf-8")
+    live.file.write_text(config, encoding="utf-8")
+    tab = Tab(browser, live.address)
+    tab.page.get_by_role("button", name="cylinder", exact=False).first.click()
+    wall = tab.page.locator('[data-check="cylinder.wall_at_flat"]')
+    expect(wall).to_contain_text("Set bore_radius to at most 60 mm", timeout=SECONDS)  # the advice, which comes later
+    live.file.write_text(config.replace("bore_radius: 70 mm", "bore_radius: 50 mm"), encoding="utf-8")
+    expect(wall).to_contain_text("pass", timeout=SECONDS)
+    expect(wall).not_to_contain_text("Set bore_radius", timeout=SECONDS)

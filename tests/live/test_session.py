@@ -45,6 +45,9 @@ def force(session: LiveSession) -> float:
     return force_of(session.machine)
 
 
+TABLE = "source: Works standard 12\ngear_materials: {own: {sigma_h_lim: 1500 MPa, sigma_f_lim: 500 MPa}}\n"
+
+
 def force_of(machine: LiveMachine) -> float:
     return float(machine.run.outputs("knife")["force_max"].value)
 
@@ -349,6 +352,82 @@ def test_a_state_has_a_name_that_a_file_may_have_and_no_other_state_has(session:
     with pytest.raises(UserError, match=r"cannot be the name of a state|There is a state"):
         session.keep(name)
     assert not session.states
+
+
+@pytest.mark.parametrize(("file", "before"), [("20 mm", "2.2 cm"), ("20", "2.2 cm"), ("2 cm", "22 mm")])
+def test_a_bare_number_is_in_the_unit_that_is_shown(session: LiveSession, file: str, before: str) -> None:
+    replaced(session, "eccentricity: {value: 20 mm", f"eccentricity: {{value: {file}")
+    session.change({"knife.eccentricity": before})
+    shown = next(each for each in shown_of(session, "knife")["inputs"] if each["name"] == "knife.eccentricity")
+    number, unit = before.split()
+    assert (shown["typed"], shown["unit"]) == (before, unit)
+    session.change({"knife.eccentricity": f"{0.95 * float(number):.6g}"})
+    assert session.edits == {"knife.eccentricity": f"{0.95 * float(number):.6g} {unit}"} and not session.faults
+
+
+@pytest.mark.parametrize("act", ["change", "undo", "take_back"])
+def test_a_fault_of_the_file_stands_until_it_is_mended_whatever_the_page_does(session: LiveSession, act: str) -> None:
+    session.change({"knife.eccentricity": "22 mm"})
+    right = session.file.read_text("utf-8")
+    for spoil in (lambda: session.file.write_text("a: [", "utf-8"), session.file.unlink):
+        spoil()
+        session.read()
+        serial = session.serial
+        {
+            "change": lambda: session.change({"knife.eccentricity": "21 mm"}),
+            "undo": session.undo,
+            "take_back": session.take_back,
+        }[act]()
+        assert session.faults and session.serial >= serial
+        with pytest.raises(UserError, match="not kept"):
+            session.keep("x")
+    session.file.write_text(right, "utf-8")
+    session.read()
+    assert not session.faults and session.edits == ({"knife.eccentricity": "21 mm"} if act == "change" else {})
+
+
+def test_undo_takes_a_change_to_no_other_item_of_a_list(tmp_path: Path) -> None:
+    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
+    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session.change({"s.loads.1.mass": "9 kg"})
+    session.take_back()
+    replaced(session, "[{name: gear,", "[{name: new, position: 50 mm, mass: 1 kg}, {name: gear,")
+    session.change({"s.loads.1.mass": "3 kg"})  # of another load, which stands there now
+    session.undo()
+    assert not session.faults
+    session.undo()
+    assert "something else stands there in the file now" in str(session.faults[0].message)
+    with pytest.raises(UserError, match="Nothing is saved"):
+        session.write()
+
+
+def test_of_a_state_that_was_not_saved_all_that_the_file_has_otherwise_is_told(session: LiveSession) -> None:
+    session.keep("good")
+    replaced(session, "{value: 20 mm", "{value: 20.4 mm")
+    replaced(session, "thickness: 0.5 mm", "thickness: 0.55 mm")
+    assert dict(session.unsaved)["good"] == {"press.sheet.thickness": "0.5 mm", "knife.eccentricity": "20 mm"}
+
+
+def test_a_state_is_that_of_the_tables_that_it_was_made_with(tmp_path: Path) -> None:
+    table, file = tmp_path / "own.yaml", tmp_path / "knife.yaml"
+    table.write_text(TABLE, "utf-8")
+    file.write_text(
+        KNIFE.read_text("utf-8").replace("schema_version: 1\n", "schema_version: 1\nmaterials: own.yaml\n"), "utf-8"
+    )
+    session = LiveSession(file, Discovery([]))
+    with pytest.raises(UserError, match=r"names a file 'own\.yaml'"):
+        session.keep("own")
+    session.keep("A")
+    table.write_text(TABLE.replace("1500", "1400"), "utf-8")
+    session.read()
+    for act in (session.return_to, session.save):
+        with pytest.raises(UserError, match=r"own\.yaml: This file has been changed since 'A' was kept"):
+            act("A")
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["knife.yaml", "own.yaml"]
+    table.write_text(TABLE, "utf-8")
+    session.read()
+    session.return_to("A")
+    assert session.save("A").exists()
 
 
 def test_a_machine_that_cannot_be_calculated_is_not_kept_and_states_have_an_end(session: LiveSession) -> None:
