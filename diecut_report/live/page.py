@@ -13,7 +13,7 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.parts.reading import typed_text
-from diecut_report.design.inputs import DesignInput, require_untied
+from diecut_report.design.inputs import DesignInput
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
 from diecut_report.errors import refusal
 from diecut_report.live.session import LiveMachine, LiveSession
@@ -28,7 +28,7 @@ from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import shown_figures
 from diecut_report.results.mechanism_record import CheckRecord, QuantityRecord
 from diecut_report.results.press_run import Tell
-from diecut_report.study.definition.base_inputs import MECHANISMS
+from diecut_report.study.definition.base_inputs import MECHANISMS, is_of_parts
 from diecut_report.study.execution.press_batch import untold
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import catalogues_spoken, localised, said, say, spoken_language
@@ -378,6 +378,7 @@ def page(file: str) -> bytes:
 
 
 POINTS = 25  # of a line: fine enough for its size, and quick enough for a hand on a slider
+FEW_POINTS = 9  # where the parts of the machine are made anew at each
 
 
 def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
@@ -389,9 +390,9 @@ def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
     asked = machine.inputs.get(name)
     if asked is None or asked.asked.unit is None:
         raise refusal("{name} is not a number that the file gives.", name=repr(name))
-    require_untied(machine.config, asked)
-    places = _places(asked)
-    moved = narrowed(machine.config, downstream(machine.config, asked.asked.instance))
+    is_part = is_of_parts(machine.config, asked.asked)
+    places = _places(asked, FEW_POINTS if is_part else POINTS)
+    moved = machine.config if is_part else narrowed(machine.config, downstream(machine.config, asked.asked.instance))
     found = varied(moved, {asked.asked: places}, len(places), tell=tell)
     own = unit(asked.unit)
     return {
@@ -419,11 +420,11 @@ def _effects_told(ratio: float | None) -> float | None:
     return float(f"{ratio:.4g}") if ratio is not None and math.isfinite(ratio) else None
 
 
-def _places(asked: DesignInput) -> np.ndarray:
+def _places(asked: DesignInput, count: int) -> np.ndarray:
     low, high = slider(asked)
     if asked.is_whole:
         return np.arange(round(low), round(high) + 1, dtype=float)
-    return np.linspace(low, high, POINTS)
+    return np.linspace(low, high, count)
 
 
 def _line(found: VariedMachines, check: str) -> Data:

@@ -470,6 +470,17 @@ def test_what_is_typed_at_the_parts_is_offered_beside_each_mechanism_that_is_mad
     assert {"NU217E", "6217", "NU218E"} <= {*bearing.options} and "6218" not in bearing.options
 
 
+@pytest.mark.nightly
+def test_the_effect_of_what_is_typed_at_a_part_is_that_of_machines_made_anew() -> None:
+    session = LiveSession(MACHINE, Discovery([]))
+    assert session.machine is not None
+    found = effect(session.machine, "meshes.crank_drive.width")
+    session.change({"meshes.crank_drive.width": f"{found['places'][0]} mm"})
+    check = next(each for each in session.machine.run.checks["meshes_crank_drive"] if each.id == "root_2")
+    line = found["checks"]["meshes_crank_drive.root_2"]["utilisation"]
+    assert len(line) == 9 and line[0] == pytest.approx(check.utilisation, rel=1e-3) and line[0] > line[-1]
+
+
 def test_a_part_is_changed_in_its_place_with_all_that_is_made_of_it(tmp_path: Path) -> None:
     file = tmp_path / "machine.yaml"
     file.write_bytes(MACHINE.read_bytes())
