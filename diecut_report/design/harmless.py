@@ -23,9 +23,9 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.conclusion import VALUES
 from diecut_report.results.model import OpenRecord, ResultsRecord
 from diecut_report.results.open_items import UNPROVED
-from diecut_report.results.usual import usual_ends
+from diecut_report.results.usual import USUAL, usual_ends
 from diecut_report.results.warm_press import WarmPress, WarmRun
-from diecut_report.standards.ranges import range_of
+from diecut_report.standards.ranges import UsualRange, ranges_of
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
 from diecut_report.study.execution.variant_rows import STATUS, verdicts
@@ -132,15 +132,20 @@ class _UsualEnds:
     config: Config
 
     def of(self, design: DesignInput) -> tuple[float, float] | None:
-        """Return the least and greatest usual value (SI); None where none is known."""
+        """Return the least and greatest value (SI) that all its rows call usual, else its first row; None where none is known."""
+        rows = ranges_of(self.config.kinds.get(design.asked.instance, PRESS)).get(design.key, ())
+        known = [ends for row in rows if (ends := self._of_ratio(design, row) if row.of else row.usual)]
+        if not known:
+            return None
+        low, high = max(low for low, _ in known), min(high for _, high in known)
+        return (low, high) if low <= high else known[0]
+
+    def _of_ratio(self, design: DesignInput, row: UsualRange) -> tuple[float, float] | None:
         home = design.asked.instance
-        row = range_of(self.config.kinds.get(home, PRESS), design.key)
-        if row is None or not row.of:
-            return None if row is None else row.usual
         instance = self.config.instances[home]
         assert instance is not None, "a value of a broken plugin is not tried"
-        calculation, block = self.run.calculations[home], self.run.blocks[home]
-        return usual_ends(instance, design.asked.key, flatten(block), self.run.beside(instance), calculation.values)
+        calculation, inputs = self.run.calculations[home], flatten(self.run.blocks[home])
+        return usual_ends(instance, design.asked.key, row, inputs, self.run.beside(instance), calculation.values)
 
     @cached_property
     def run(self) -> WarmRun:
@@ -178,7 +183,8 @@ class TriedOpenValues:
         for calc in made.calculations.values():
             calc.unfounded = {}
         found, own = verdicts(made.calculations, made.count), margins(made)
-        for name, codes in zip(found.names, found.codes, strict=True):
+        judged = (each for each in zip(found.names, found.codes, strict=True) if not each[0].endswith(f".{USUAL}"))
+        for name, codes in judged:  # what is tried is usual; that another value beside it is not is nobody's harm
             self.codes.setdefault(name, np.zeros(count, dtype=int))[rows] = codes
             for what, kept in ((MARGIN, self.margins), (SIZE, self.sizes)):
                 if name + what in own:

@@ -27,9 +27,10 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.quantities.formatting import given_shown, with_unit
 from diecut_report.quantities.plausible import ROUNDING
 from diecut_report.quantities.units import unit
-from diecut_report.standards.ranges import UsualRange, range_of, ranges_of
+from diecut_report.standards.ranges import UsualRange, ranges_of
 from diecut_report.text.phrases import Phrase, joined, phrase
 
+MORE = 1.1  # times a number, by which it is seen whether a ratio is in proportion to it
 USUAL = "usual_values"  # the check, and the number that it judges
 Inputs = Mapping[str, Any]
 
@@ -124,39 +125,25 @@ def _within(size: Array, ends: tuple[float, float]) -> Array:
 
 
 def usual_ends(
-    instance: Instance, key: KeyPath, inputs: Inputs, beside: Beside, results: Inputs
+    instance: Instance, key: KeyPath, row: UsualRange, inputs: Inputs, beside: Beside, results: Inputs
 ) -> tuple[float, float] | None:
-    """Return the least and greatest value (SI) of a number with which what its row bounds is usual, all else as it is; None where that is not known.
+    """Return the least and greatest value (SI) of a number with which what a row bounds is usual, all else as it is.
 
-    What a row bounds is in proportion to the number, or differs by a constant from that.
+    None where that is not known, or what it bounds is not in proportion to the number, such as a slip or a distance between places.
     """
     path = ".".join(step for step in key if isinstance(step, str))
-    present = next(
-        (
-            given
-            for placed, _, given in _placed(path, list_inputs(instance.model).get(path, ""), inputs)
-            if placed == key
-        ),
-        None,
-    )
+    home = list_inputs(instance.model).get(path, "")
+    present = next((given for placed, _, given in _placed(path, home, inputs) if placed == key), None)
     x = numbers_of(present)
-    row = range_of(_kind(instance), path)
-    if present is None or x is None or row is None or not x[0]:
+    if present is None or x is None or not x[0]:
         return None
-    tried = [_with(inputs, path, key, factor * present) for factor in (1.0, 1.1, 1.2)]
     found = [
-        float(values[0]) for each in tried for placed, own, values in _values(instance, each, beside.press, results)
-        if placed == key and own == row
+        float(values[0]) for each in (inputs, _with(inputs, path, key, MORE * present))
+        for placed, own, values in _values(instance, each, beside.press, results) if (placed, own) == (key, row)
     ]  # fmt: skip
-    if len(found) != len(tried) or not np.isfinite(found).all():
+    if len(found) != 2 or not found[0] or not abs(found[1] - MORE * found[0]) <= ROUNDING * abs(found[1]):
         return None
-    first, second, third = found
-    slope = (second - first) / (0.1 * x[0])
-    is_line = abs(third - 2 * second + first) <= ROUNDING * max(map(abs, found))
-    if not is_line or not slope:
-        return None
-    ends = [float(x[0] + (end - first) / slope) for end in row.usual]
-    low, high = sorted(0.0 if abs(end) < ROUNDING * abs(x[0]) else end for end in ends)
+    low, high = sorted(float(x[0]) * end / found[0] for end in row.usual)
     return low, high
 
 

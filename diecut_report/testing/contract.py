@@ -40,7 +40,7 @@ from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
 from diecut_report.testing.machines import Keys, MachineCase, configured, one_of, picks, unlike
 from diecut_report.testing.new_processes import unlike_again
 from diecut_report.testing.plugin_words import PluginWords
-from diecut_report.text.catalogues import SOURCE_LANGUAGE, built_in, file_beside, languages
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, TextCatalogue, built_in, file_beside, languages
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 from diecut_report.text.po_files import ChangedCatalogue, changed
 from diecut_report.time_limit import Overran, limited
@@ -444,11 +444,16 @@ MAX_CATALOGUE_BYTES = 10_000_000  # bytes of a catalogue
 
 
 def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatalogue]:
-    """Write the entries that a plugin's catalogues lack, and mark those as obsolete that nothing says; what was changed, by the file."""
+    """Write the entries that a plugin's catalogues lack, and mark those as obsolete that nothing says; what was changed, by the file.
+
+    UserError where a catalogue cannot be read; then nothing is written.
+    """
     found, words = {}, test.words
     for language in (each for each in languages() if each != SOURCE_LANGUAGE):
         file = file_beside(origin.file(), language)
         there = content(file, MAX_CATALOGUE_BYTES, phrase("a catalogue of texts")) if file.is_file() else None
+        if there is not None:
+            TextCatalogue(file, language)  # which tells in words what cannot be read
         made = changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language))
         if made.added or made.obsolete:
             found[file] = made

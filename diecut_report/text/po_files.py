@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF8
 from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from io import BytesIO
@@ -10,7 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from babel.messages.catalog import Catalog, Message
-from babel.messages.pofile import PoFileParser, read_po, write_po
+from babel.messages.pofile import PoFileParser, write_po
 
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -21,6 +22,7 @@ _FORMS = re.compile(rb"nplurals\s*=\s*(\d+)")
 _HIDDEN = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
 _LINE = re.compile(r'(?:(?:msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)\s*)?"(?:[^"\\]|\\.)*"')
 _FILLED = re.compile(r"\{[\w.]+(?::\w+)?\}")
+_FORMER = re.compile(rb"^#~\|.*$", re.MULTILINE)
 UNSAID = (b'"Generated-By', b'"Report-Msgid-Bugs-To', b'"Last-Translator', b'"Language-Team')  # lines of the head
 
 
@@ -32,7 +34,12 @@ def empty(language: str, project: str, holder: str = "the authors of diecut-repo
 
 def read(file: Path, language: str) -> Catalog:
     """Return the catalogue of a file; ValueError, or another exception of Babel's, where it is none."""
-    content = file.read_bytes()
+    return _parsed(file.read_bytes(), language)
+
+
+def _parsed(content: bytes, language: str) -> Catalog:
+    # what an obsolete text was before its last change, which gettext writes and Babel cannot read
+    content = _FORMER.sub(b"", content.removeprefix(BOM_UTF8))
     if any(int(count[:9]) > MAX_PLURAL_FORMS for count in _FORMS.findall(content)):  # Babel makes a list of so many
         template = "a language has at most {most_forms} forms of a word for a number"
         raise ValueError(Phrase(template, most_forms=MAX_PLURAL_FORMS))
@@ -131,7 +138,7 @@ def changed(
     if there is None:
         _add(found, texts)
         return ChangedCatalogue(written(found), len(found))
-    known = read_po(BytesIO(there), locale=language, charset="utf-8", abort_invalid=True)
+    known = _parsed(there, language)
     lacking, idle = [(text, of) for text, of in texts if text not in known], list(unused)
     if idle or any(text in known.obsolete for text, _ in lacking):
         return _made_anew(there, known, lacking, idle)

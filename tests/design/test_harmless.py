@@ -111,6 +111,18 @@ def test_an_end_that_may_not_be_typed_gives_way_to_the_nearest_that_may(tmp_path
     assert re.fullmatch(r"with (1|0\.001) .?m+ the check pin.deflection turns from pass to fail", told), told
 
 
+def test_values_whose_partners_are_usual_and_places_on_a_shaft_are_harmless_where_no_check_depends_on_them(
+    tmp_path: Path,
+) -> None:
+    """Poisson's number of 215 GPa beside 79.3 GPa is above its range; a twelfth of the diameter to twelve of them is no place of a bearing."""
+    pin = (
+        "sections: [{length: 180 mm, diameter: 60 mm}], bearing_a: 20 mm, bearing_b: {value: 160 mm, basis: assumed}, speed: 50 rpm, "
+        "material: 42CrMo4+QT, loads: [{name: pull, position: 90 mm, force_y: 2 kN, seat: none}]"
+    )
+    found = left(Press.read(saved(tmp_path, HEAD + f"  pin: {{kind: shaft, {pin}}}\n"), Discovery()))
+    assert not {f"mechanisms.pin.{key}" for key in ("elastic_modulus", "shear_modulus", "bearing_b")} & found.keys()
+
+
 def test_an_assumed_direction_stays_open(tmp_path: Path) -> None:
     """Of nothing a tenth is nothing; the deflection is 73 % of what is allowed at 0°, and 120 % at 90°."""
     part = "{value: %s, basis: drawing, note: D1}"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+from codecs import BOM_UTF8
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,7 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
+from diecut_report.errors import UserError
 from diecut_report.testing import extreme_inputs
 from diecut_report.testing.contract import TITLES, ContractTest, check_contract, write_missing
 from diecut_report.testing.plugin_page import meant
@@ -280,6 +283,38 @@ def test_the_texts_that_a_catalogue_lacks_are_written_into_it(tmp_path: Path, ca
     assert list(write_missing(test, origin)) == [file]
     assert 'msgid "Diameter of the wire"\nmsgstr ""' in file.read_text("utf-8")
     assert all(not message.string for message in read(file, "uk") if message.id)
+
+
+FORMER = b'\n#~| msgid "older"\n#~ msgid "old"\n#~ msgstr "\xd1\x81\xd1\x82"\n'
+
+
+@pytest.mark.parametrize(
+    ("spoil", "told"),
+    [
+        (lambda text: BOM_UTF8 + text, ""),
+        (lambda text: text + FORMER, ""),
+        (lambda text: text.decode().encode("cp1251", "replace"), "cannot be read"),
+        (lambda text: text.replace(b"msgid", b"msgidd", 1), "cannot be read"),
+        (lambda text: text.replace(b"charset=utf-8", b"charset=CHARSET"), "cannot be read"),
+    ],
+    ids=["mark", "former", "other letters", "misspelt", "placeholder"],
+)
+def test_a_catalogue_that_cannot_be_read_is_told_and_stays(
+    spoil: Callable[[bytes], bytes], told: str, tmp_path: Path, capfd: Capture
+) -> None:
+    home = toggle(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"'))
+    file = home / "plugins" / "toggle.uk.po"
+    before = spoil(file.read_bytes())
+    file.write_bytes(before)
+    known = Discovery([home / "plugins"])
+    test, origin = ContractTest(known.mechanism("toggle"), known), known.origins["toggle"][0]
+    if told:
+        with pytest.raises(UserError, match=told):
+            write_missing(test, origin)
+        assert file.read_bytes() == before
+    else:
+        assert list(write_missing(test, origin)) == [file] and b"Springs that eject" in file.read_bytes()
+    catalogue.cache_clear()
 
 
 def test_catalogues_of_the_program_are_not_written(capfd: Capture) -> None:
