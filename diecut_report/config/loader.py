@@ -190,10 +190,10 @@ class Config:
         known = {path: meta.unit for path, meta in slots if isinstance(meta, Quantity)}
         return {path: known[path] for path in places if path in known}
 
-    def with_parts(self, changes: Mapping[KeyPath, Scalar]) -> tuple[Config, list[Problem]]:
-        """Return the machine with these values in the places of its parts, and what is wrong with it."""
-        assert self.parts is not None, "without parts nothing follows them"
-        config, problems = examined(retyped(self.parts, changes), self.discovery, find=self.find)
+    def retyped(self, changes: Mapping[KeyPath, Scalar]) -> tuple[Config, list[Problem]]:
+        """Return the machine with these values in their places, its parts made anew, and what is wrong with it."""
+        tree = self.parts.reader.tree if self.parts else self.tree
+        config, problems = examined(retyped(tree, changes), self.discovery, find=self.find)
         return config, in_order(problems)
 
     @property

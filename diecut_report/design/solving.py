@@ -95,7 +95,7 @@ def solved(
 
 def _with_value(config: Config, design: DesignInput, value: float) -> tuple[Config, list[Problem]]:
     if is_of_parts(config, design.asked):
-        return config.with_parts({design.stands: typed_data(design.asked, value)})
+        return config.retyped({design.stands: typed_data(design.asked, value)})
     return with_values(config, {design.asked: SI(value, design.meta.parsed_unit.si, design.name)})
 
 

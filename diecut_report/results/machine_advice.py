@@ -111,7 +111,7 @@ class _WholeMachine:
     def _holds(self, name: str, check: str, made: Typed) -> bool:
         """Whether a check holds in the machine with these values at its parts."""
         texts = {path: resolved(text) for path, text in self._texts(made).items()}
-        config, problems = self.run.config.with_parts(texts)
+        config, problems = self.run.config.retyped(texts)
         if problems:
             return False
         changed = _ChangedRun(self.run, config, name)
@@ -155,7 +155,8 @@ class _WholeMachine:
         self.tell(name)
         if not self._allows(name, changes, values):
             return False
-        made = self._made_anew(self._typed(name, changes, values))
+        typed = self._typed(name, changes, values)
+        made = self._made_anew(typed) | self._felt(name, typed)
         return not made or self._holds(name, check, made)
 
     def _allows(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> bool:
@@ -179,6 +180,13 @@ class _WholeMachine:
         parts = self.run.config.parts
         return {node: given for node, given in typed.items() if parts and parts.follows(node)}
 
+    def _felt(self, name: str, typed: Typed) -> Typed:
+        """Those that a mechanism feels by another way, too: what it, or a mechanism that it follows from, refers to them for."""
+        links = self.run.config.links
+        within = upstream(links, [name])
+        sources = {each.node for (home, *_), target in links.items() if home in within for each in target.single}
+        return {node: given for node, given in typed.items() if node in sources}
+
     def _contradicts(self, parts: MachineParts, made: Typed) -> bool:
         """Whether parts do not fit each other with these values, or one of them is nowhere in the file."""
         if None in map(parts.typed_at, made):
@@ -188,10 +196,17 @@ class _WholeMachine:
         return refused(parts, self._texts(made), kinds)
 
     def _texts(self, made: Typed) -> dict[KeyPath, str]:
-        """How values are typed at the parts."""
-        parts = self.run.config.parts
-        places = {node: parts.typed_at(node) for node in made} if parts else {}
+        """How values are typed in the file."""
+        places = {node: self._place(node) for node in made}
         return {path: printed(*made[node]) for node, path in places.items() if path is not None}
+
+    def _place(self, node: Node) -> KeyPath | None:
+        """Where an input is typed, at the parts or in its own block; None where that is in a table, or several."""
+        parts, instance = self.run.config.parts, self.run.config.instances.get(str(node[0]))
+        if parts and parts.follows(node):
+            return parts.typed_at(node)
+        tree, place = instance.place.stands(node[1:]) if instance else (None, None)
+        return place if tree is self.run.config.tree else None
 
     def _disagrees(self, typed: Typed) -> bool:
         """Whether mechanisms contradict each other that take these values, each calculated with them alone, or one has what none has."""

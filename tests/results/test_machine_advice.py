@@ -207,3 +207,22 @@ chains: {two: {teeth: 30, to: [b.left]}, one: {teeth: 27}}
     assert part == ("shafts", "a", "parts", 0)
     assert typed_changes(tree, {(*part, "pin", "span_end"): "70 mm"}) == {(*part, "pin", "span", 1): "70 mm"}
     assert typed_changes(tree, {(*part, "hub"): "70 mm"}) == {(*part, "hub", "value"): "70 mm"}
+
+
+@pytest.mark.nightly
+def test_advice_holds_where_a_mechanism_refers_to_the_value_itself(tmp_path: Path) -> None:
+    """The gear ratio and the inertia of the mended press follow the slots of its cross: with 7 of them the sheets still fly off."""
+    text = PUBLISHED.with_name("flat_cylinder_press_mended.yaml").read_text("utf-8")
+    assert "gear_ratio: ${cross.slots}" in text and "  productivity: 6090 1/h" in text
+    (tmp_path / "press.yaml").write_text(text.replace("  productivity: 6090 1/h", "  productivity: 7500 1/h"), "utf-8")
+    press = Press.read(tmp_path / "press.yaml", DISCOVERY)
+    found = {each.id: each for each in WarmPress().calculate(press.config).advised_checks("cross")}
+    for name in ("sheet_acceleration", "torque"):
+        (slots,) = (change.value for way in found[name].advice for change in way if change.key == "slots")
+        assert slots == [8, 9]
+        for value in slots:
+            changed = press.with_values({("mechanisms", "cross", "slots"): f"{value}"})
+            after = {
+                each.id: each.status for each in WarmPress(is_advised=False).calculate(changed.config).checks["cross"]
+            }
+            assert after[name] == "pass", (name, value)

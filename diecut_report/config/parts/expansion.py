@@ -122,9 +122,8 @@ def _sources(node: KeyPath, given: Any) -> Iterator[tuple[KeyPath, KeyPath | Non
         yield from _sources((*node, key), part)
 
 
-def retyped(parts: MachineParts, changes: Mapping[KeyPath, Scalar]) -> Tree:
+def retyped(tree: Tree, changes: Mapping[KeyPath, Scalar]) -> Tree:
     """Return the file with these values in the places of what is typed."""
-    tree = parts.reader.tree
     for path, value in typed_changes(tree, changes).items():
         tree = with_value(tree, path, value)
     return tree
@@ -135,7 +134,7 @@ def with_parts(parts: MachineParts, changes: Mapping[KeyPath, Scalar], kinds: Ma
 
     What is wrong with it names a second place by its line in the base, wherever that is read from.
     """
-    tree = retyped(parts, changes)
+    tree = retyped(parts.reader.tree, changes)
     return expanded(Tree(tree.root, "base", tree.text, tree.sha256, tree.name, tree.problems), kinds.get)
 
 

@@ -288,7 +288,7 @@ def _with_stand_ins(base: Config, values: Mapping[Input, Any]) -> tuple[Config, 
     """Return the base with other texts and stand-ins for numbers; the parts keep their numbers, by which they are made."""
     tied = {asked: value for asked, value in values.items() if is_of_parts(base, asked)}
     texts = {typed_place(base, asked): typed_data(asked, str(value)) for asked, value in tied.items() if not asked.unit}
-    config, problems = base.with_parts(texts) if texts else (base, [])
+    config, problems = base.retyped(texts) if texts else (base, [])
     if problems:  # which are the reason of such machines
         config = base
     return with_values(config, {asked: value for asked, value in values.items() if asked not in tied})

@@ -390,7 +390,7 @@ def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list
         group[1].extend(alike)
     own = {each.name for each in columns_of(base)}
     for structure, (numbers_of, chosen) in found.items():
-        config, problems = base.with_parts(first[structure]) if structure else (base, [])
+        config, problems = base.retyped(first[structure]) if structure else (base, [])
         reason = _reason(problems[0]) if problems else ""
         if not problems and not {each.name for each in columns_of(config)} <= own:
             reason = phrase(

@@ -287,7 +287,7 @@ def test_drawn_numbers_of_one_section_stand_in_its_text_and_a_condition_on_them_
             typed_place(study.base, study.inputs[path]): typed_data(study.inputs[path], float(values[row]))
             for path, values in given.items()
         }
-        text = retyped(parts, own).data["shafts"]["main"]["sections"].split(", ")[2]
+        text = retyped(parts.reader.tree, own).data["shafts"]["main"]["sections"].split(", ")[2]
         matched = SECTION.fullmatch(text)
         assert matched is not None, text
         for name, values in zip(("diameter", "bore"), given.values(), strict=True):
