@@ -224,7 +224,10 @@ def _tell_changed(found: CheckedPlugin) -> None:
     for file, made in found.changed.items():
         added = Counted(made.added, "{n} text to be translated", "{n} texts to be translated")
         obsolete = Counted(made.obsolete, "{n} text is obsolete", "{n} texts are obsolete")
-        told = joined([each for each in (added, obsolete) if each.number], ", ")
+        returned = Counted(
+            made.returned, "{n} text has its translation again", "{n} texts have their translations again"
+        )
+        told = joined([each for each in (added, obsolete, returned) if each.number], ", ")
         inform([Phrase("written: {file}: {told}", file=file, told=told)])
 
 

@@ -11,12 +11,12 @@ import sys
 from collections import ChainMap
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import partial
+from functools import cached_property, partial
 from importlib import import_module
 from inspect import getclosurevars
 from pathlib import Path
 from threading import get_ident
-from types import FunctionType, MethodType, ModuleType
+from types import CodeType, FunctionType, MethodType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -109,7 +109,8 @@ OF_SYSTEM = {
 }
 SYSTEM = ("os", "posix", "nt", "posixpath", "ntpath", "genericpath")
 FUNCTIONS = ("function", "joints", "lines")
-METHODS = (FunctionType, staticmethod, classmethod, property)
+CALLED = (FunctionType, partial, MethodType)
+METHODS = (FunctionType, staticmethod, classmethod, property, cached_property)
 Scope = ChainMap[str, Any]
 Used = tuple[ast.expr, str]  # where something is asked for, and what it is
 
@@ -170,8 +171,17 @@ def _functions(mechanism: Mechanism, files: set[str]) -> Iterator[FunctionType]:
             continue
         known.add(function)
         yield function
-        named = [_scope(function).get(name) for name in function.__code__.co_names]
+        named = [_scope(function).get(name) for name in _names(function.__code__)]
         waiting += [own for each in named for own in _behind(each)]
+
+
+def _names(code: CodeType) -> Iterator[str]:
+    """The names that a function asks for, in its lambdas, comprehensions and own functions, too."""
+    yield from code.co_names
+    yield from code.co_freevars
+    for inner in code.co_consts:
+        if isinstance(inner, CodeType):
+            yield from _names(inner)
 
 
 def _behind(value: Any) -> Iterator[FunctionType]:
@@ -186,9 +196,18 @@ def _behind(value: Any) -> Iterator[FunctionType]:
             yield from _behind(inner)
         case ModuleType() | None:
             return
+        case dict() | tuple() | list():
+            for each in value.values() if isinstance(value, dict) else value:
+                yield from _behind(each) if isinstance(each, CALLED) else ()
+        case cached_property(func=inner):
+            yield from _behind(inner)
+        case _ if isinstance(getattr(value, "__wrapped__", None), FunctionType):  # what functools.cache makes
+            yield from _behind(value.__wrapped__)
         case _:
             own = value if isinstance(value, type) else type(value)
             bases = [vars(base) for base in own.__mro__ if base.__module__ != "builtins"]
+            for each in getattr(value, "__dict__", {}).values() if own is not value else ():
+                yield from _behind(each) if isinstance(each, CALLED) else ()
             methods = (method for base in bases for name, method in base.items() if name != "__hash__")
             yield from (found for each in methods if isinstance(each, METHODS) for found in _behind(each))
 

@@ -119,7 +119,7 @@ class _WholeMachine:
         return (
             calc is not None
             and not changed.problems
-            and all(each.status != "fail" for each in verdicts(calc) if each.id == check)
+            and all(each.status not in ("fail", "warn") for each in verdicts(calc) if each.id == check)
         )
 
     def _not_alone(self, name: str, ways: Iterable[Way]) -> frozenset[str]:
@@ -156,7 +156,10 @@ class _WholeMachine:
         if not self._allows(name, changes, values):
             return False
         typed = self._typed(name, changes, values)
-        made = self._made_anew(typed) | self._felt(name, typed)
+        # over what calculates a key, too, its value may be typed
+        own = {(name, *_path(change.key)): (value, change.unit) for change, value in zip(changes, values, strict=True)}
+        over = {node: given for node, given in own.items() if self._beginning(node) is None}
+        made = self._made_anew(typed) | self._felt(name, typed | over)
         return not made or self._holds(name, check, made)
 
     def _allows(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> bool:

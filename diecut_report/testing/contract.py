@@ -455,7 +455,7 @@ def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatal
         if there is not None:
             TextCatalogue(file, language)  # which tells in words what cannot be read
         made = changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language))
-        if made.added or made.obsolete:
+        if made.content != there:
             found[file] = made
     write_all({file: made.content for file, made in found.items()}, keep=None)
     return found

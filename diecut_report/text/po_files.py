@@ -119,11 +119,12 @@ def written(catalogue: Catalog) -> bytes:
 
 
 class ChangedCatalogue(NamedTuple):
-    """Hold a catalogue's file, how many texts of it wait to be translated since, and how many are obsolete since."""
+    """Hold a catalogue's file, and how many texts of it since wait to be translated, are obsolete, and have their translation again."""
 
     content: bytes
     added: int = 0
     obsolete: int = 0
+    returned: int = 0
 
 
 def changed(
@@ -155,11 +156,14 @@ def _add(catalogue: Catalog, texts: Iterable[tuple[str, str]]) -> None:
 
 def _made_anew(there: bytes, known: Catalog, lacking: list[tuple[str, str]], idle: list[str]) -> ChangedCatalogue:
     """A catalogue as gettext writes it: what is obsolete stands at its end behind #~, what was never translated is dropped."""
-    waiting = len(lacking)
+    returned = 0
     for text, of in lacking:
         before = known.obsolete.pop(text, None)
-        waiting -= before is not None
-        known.add(text, before.string if before else None, auto_comments=[of], flags=before.flags if before else ())
+        said = (
+            before.string if before and isinstance(before.string, str) else None
+        )  # one for a number is of another text
+        returned += said is not None
+        known.add(text, said, auto_comments=[of], flags=before.flags if before and said else ())
     for text in idle:
         message = known.get(text)
         if message is not None:
@@ -169,4 +173,5 @@ def _made_anew(there: bytes, known: Catalog, lacking: list[tuple[str, str]], idl
     is_kept = head.count(b"msgid") == 1 and b'msgid ""\n' in head
     stream = BytesIO()
     write_po(stream, known, width=WIDTH, omit_header=is_kept)
-    return ChangedCatalogue((head + b"\n\n") * is_kept + stream.getvalue(), waiting, len(idle))
+    content = (head + b"\n\n") * is_kept + stream.getvalue()
+    return ChangedCatalogue(content, len(lacking) - returned, len(idle), returned)

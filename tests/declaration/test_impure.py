@@ -83,6 +83,17 @@ ASKED = {
     "arm = arm * id(arm)": "chance (id)",
     "arm = (lambda: arm * time.time())()": "the clock (time.time)",
 }
+HELPERS = {
+    "of a comprehension": "arm = arm * sum(helper(k) for k in (1,))",
+    "of a lambda": "arm = (lambda k: helper(k))(arm)",
+    "of a search": "from scipy.optimize import brentq; arm = arm * brentq(lambda x: x - helper(1), 0, 9)",
+    "of an own function": "inner = [helper(k) for k in (1, 2)]; arm = arm * inner[0]",
+}
+KEPT = {
+    "a cache": "@cache\ndef table(k):\n    return float(open('n').read())",
+    "a memory": "@lru_cache(maxsize=3)\ndef table(k):\n    return float(open('n').read())",
+    "a table of functions": "def read(k):\n    return float(open('n').read())\n\n\nWAYS = {'a': read}\ntable = lambda k: WAYS['a'](k)",
+}
 ENDING = ("os._exit(0)", "os.abort()", "os.kill(os.getppid(), 9)")
 LOOPS = {
     "a lambda": 'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")',
@@ -120,6 +131,20 @@ def judged(folder: Path, **code: str) -> list[str]:
     except PluginError as error:
         return str(error).splitlines()
     return []
+
+
+@pytest.mark.parametrize("body", HELPERS)
+def test_a_helper_is_followed_out_of_what_stands_within_a_function(body: str, tmp_path: Path) -> None:
+    (line,) = judged(tmp_path, body=HELPERS[body], helper="return float(open('n').read())")
+    assert "function helper: uses a file (open)" in line
+
+
+@pytest.mark.parametrize("kept", KEPT)
+def test_a_function_is_followed_into_what_keeps_it(kept: str, tmp_path: Path) -> None:
+    lines = judged(
+        tmp_path, module=f"from functools import cache, lru_cache\n\n\n{KEPT[kept]}", body="arm = arm * table(1)"
+    )
+    assert any("uses a file (open)" in line for line in lines), lines
 
 
 @pytest.mark.parametrize("code", ASKED)

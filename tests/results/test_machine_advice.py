@@ -226,3 +226,47 @@ def test_advice_holds_where_a_mechanism_refers_to_the_value_itself(tmp_path: Pat
                 each.id: each.status for each in WarmPress(is_advised=False).calculate(changed.config).checks["cross"]
             }
             assert after[name] == "pass", (name, value)
+
+
+CLUTCH = """\
+schema_version: 1
+project: {{title: T}}
+press: {{name: P, productivity: 6000 1/h, sheet: {{length: 700 mm, width: 500 mm, thickness: 0.4 mm}}}}
+mechanisms:
+  clutch:
+    kind: clutch
+    torque: 300 N*m
+    wedge_angle: 10 deg
+    allowable_pressure: 0.2 MPa
+    shoe_radius: {radius}
+    shoe_width: 3600 mm**2 / ${{clutch.shoe_radius}}
+"""
+
+
+@pytest.mark.parametrize("radius", ["120 mm", "1.5 * ${press.sheet.thickness} * 200"])
+def test_a_way_that_what_follows_undoes_is_not_advised_whether_its_key_is_a_number_or_calculated(
+    radius: str, tmp_path: Path
+) -> None:
+    """The pressure goes with one over radius squared and width, and so with one over the radius alone: 284 mm are needed, 185 were told."""
+    (tmp_path / "press.yaml").write_text(CLUTCH.format(radius=radius), "utf-8")
+    found = WarmPress().calculate(Press.read(tmp_path / "press.yaml", DISCOVERY).config).checks["clutch"]
+    (pressure,) = (each for each in found if each.id == "pressure")
+    assert pressure.status == "fail" and keys(pressure) == [["shoe_width"]]
+
+
+def test_a_warning_that_no_value_mends_advises_none(tmp_path: Path) -> None:
+    """The rule needs 0.6 of what the board resists, and is calculated with half of it, whatever that is."""
+    text = PUBLISHED.with_name("circular_knife.yaml").read_text("utf-8")
+    (line,) = (
+        (each for each in text.splitlines() if each.lstrip().startswith("rule_force:"))
+        if "rule_force:" in text
+        else [""]
+    )
+    rule = "    rule_force: 0.6 mm * ${knife.shear_resistance}"
+    text = (
+        text.replace(line, rule) if line else text.replace("    shear_resistance:", f"{rule}\n    shear_resistance:", 1)
+    )
+    (tmp_path / "knife.yaml").write_text(text, "utf-8")
+    found = WarmPress().calculate(Press.read(tmp_path / "knife.yaml", DISCOVERY).config).checks["knife"]
+    (resistance,) = (each for each in found if each.id == "shear_resistance")
+    assert resistance.status == "warn" and not resistance.advice

@@ -368,11 +368,30 @@ def test_a_text_that_nothing_says_any_more_becomes_obsolete_and_comes_back(tmp_p
     assert text.rstrip().endswith(obsolete.rstrip())
     assert text.partition("\n\n")[0] == before.partition("\n\n")[0]  # its head stays as it was written
     again = changed(file.read_bytes(), "uk", "toggle", [("Springs of an ejector", "mechanism")], ["Springs that eject"])
-    assert (again.added, again.obsolete) == (0, 1)
+    assert (again.added, again.obsolete, again.returned) == (0, 1, 1)
     file.write_bytes(again.content)
     known = read(file, "uk")
     assert known["Springs of an ejector"].string == "Пружини виштовхувача" and not known.obsolete
     assert "Springs that eject" not in known  # it was never translated
+
+
+def test_a_text_that_is_said_again_has_its_translation_again_and_a_plural_one_is_of_another(tmp_path: Path) -> None:
+    home = toggle(tmp_path)
+    file, known = home / "plugins" / "toggle.uk.po", Discovery([home / "plugins"])
+    before = file.read_text("utf-8")
+    entry = 'msgid "Springs of an ejector"\nmsgstr "Пружини виштовхувача"\n'
+    assert entry in before
+    test, origin = ContractTest(known.mechanism("toggle"), known), known.origins["toggle"][0]
+    former = '\n#~ msgid "Springs of an ejector"\n#~ msgstr "Пружини виштовхувача"\n'
+    plural = '\n#~ msgid "Springs of an ejector"\n#~ msgid_plural "Springs"\n#~ msgstr[0] "x"\n#~ msgstr[1] "y"\n#~ msgstr[2] "z"\n'
+    for end, counts in ((former, (0, 0, 1)), (plural, (1, 0, 0))):
+        file.write_text(before.replace(entry, "") + end, "utf-8")
+        catalogue.cache_clear()
+        test = ContractTest(known.mechanism("toggle"), known)
+        made = write_missing(test, origin)[file]
+        assert (made.added, made.obsolete, made.returned) == counts
+        assert ("Пружини виштовхувача" in file.read_text("utf-8")) is (counts[2] == 1)
+    catalogue.cache_clear()
 
 
 def test_sources_in_words_that_no_catalogue_has_are_told(tmp_path: Path) -> None:
