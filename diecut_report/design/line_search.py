@@ -112,13 +112,13 @@ def greatest(function: Function, x: Array, values: Array) -> tuple[float, float]
     return (float(place[0]), float(-depth[0])) if -depth[0] > values[best] else (float(x[best]), float(values[best]))
 
 
-def looked_closer(function: Function, x: Array, values: Array, rounds: int = SEARCH_ROUNDS) -> tuple[Array, Array]:
+def looked_closer(function: Function, x: Array, values: Array) -> tuple[Array, Array]:
     """Return ascending numbers and values with more of them where a pair of roots, or the end of what exists, may hide.
 
     Towards each such end they stand closer with each round: much may happen there, and all that exists may lie between two of the numbers.
     """
     cells = np.unique(np.concatenate([_edges(values), _lows(values)])).astype(int)
-    for _ in range(rounds):
+    for _ in range(SEARCH_ROUNDS):
         if not len(cells):
             break
         x, values = _with_more(function, x, values, cells)

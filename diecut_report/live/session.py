@@ -8,7 +8,7 @@ import re
 import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -33,6 +33,7 @@ from diecut_report.files import write
 from diecut_report.press import Press
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity, with_point
 from diecut_report.results.warm_press import WarmPress, WarmRun
+from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import say
 from diecut_report.time_limit import MECHANISM_SECONDS, Overran, limited
@@ -61,7 +62,7 @@ class LiveMachine:
     of_parts: Mapping[str, frozenset[str]]
 
 
-class _Found(NamedTuple):
+class _PlaceBefore(NamedTuple):
     """Hold what stood in the file where a number was changed on the page: what tells its items of lists from others, and its text."""
 
     items: list[object]
@@ -72,7 +73,7 @@ class _Step(NamedTuple):
     """Hold the changes of the page at a time, with what stood there."""
 
     edits: dict[str, str]
-    found: dict[str, _Found]
+    found: dict[str, _PlaceBefore]
 
 
 class LiveSession:
@@ -98,7 +99,7 @@ class LiveSession:
         self._stroke = ""
         self._places: dict[str, KeyPath] = {}
         self._texts: set[KeyPath] = set()
-        self._found: dict[str, _Found] = {}
+        self._found: dict[str, _PlaceBefore] = {}
         self._press = WarmPress(is_advised=False)  # a hand does not wait for advice: the page asks for it
         self._read: dict[Path, object] = {}
         self.read()
@@ -202,7 +203,7 @@ class LiveSession:
     def _edit(self, tree: Tree, name: str, typed: str) -> None:
         if name not in self.edits:  # by what the page shows, which the file may not be any more
             place = self._places[name]
-            self._found[name] = _Found(_items(tree, place), typed_text(tree, place))
+            self._found[name] = _PlaceBefore(_items(tree, place), typed_text(tree, place))
         self.edits[name] = typed
 
     def keep(self, name: str) -> None:
@@ -257,9 +258,11 @@ class LiveSession:
         """Raise UserError where the tables or the logo of a state are not those that lie there now."""
         for beside, content in _beside(self._state(name).config).items():
             place = self.file.with_name(beside)
-            if not place.is_file() or place.read_bytes() != content:
-                template = "This file has been changed since {name} was kept; with it the state is another machine."
-                raise refusal(template, place, name=repr(name))
+            with suppress(OSError):  # what cannot be read is not the same either
+                if place.read_bytes() == content:
+                    continue
+            template = "This file has been changed since {name} was kept; with it the state is another machine."
+            raise refusal(template, place, name=repr(name))
 
     @property
     def unsaved(self) -> Iterator[tuple[str, dict[str, str]]]:
@@ -381,7 +384,7 @@ class LiveSession:
             raise error
         _require_shown(run)
         at_parts = inputs_of_parts(config)
-        inputs = changeable(config, changed) | {each.name: each for own in at_parts.values() for each in own}
+        inputs = shown_inputs(config, changed) | {each.name: each for own in at_parts.values() for each in own}
         of_parts = {name: frozenset(each.name for each in own) for name, own in at_parts.items()}
         return LiveMachine(tree, changed, config, run, inputs, of_parts)
 
@@ -390,7 +393,7 @@ class LiveSession:
         self.serial += 1
 
 
-def changeable(config: Config, tree: Tree) -> dict[str, DesignInput]:
+def shown_inputs(config: Config, tree: Tree) -> dict[str, DesignInput]:
     """Return by name the inputs of the mechanisms that a file gives, and those at default whose block stands in it."""
     given = [each for each in (*given_numbers(config), *given_choices(config)) if tree.typed(each.stands) is not None]
     at_default = (*numbers_at_default(config), *choices_at_default(config))
@@ -418,7 +421,7 @@ def _items(tree: Tree, place: KeyPath) -> list[object]:
 
 def _told(path: KeyPath) -> str:
     """What a place of the file is called on the page."""
-    return dotted(path).removeprefix("mechanisms.").removesuffix(".value")
+    return dotted(path).removeprefix(f"{MECHANISMS}.").removesuffix(".value")
 
 
 def _is_name(key: KeyPath, text: str) -> bool:

@@ -182,6 +182,11 @@
 
   function current() { return state.machine.mechanisms.find(function (each) { return each.name === open; }); }
 
+  /* The press stands first; other mechanisms may have no checks either. */
+  function onPress() { return current() === state.machine.mechanisms[0]; }
+
+  function isUnmet(check) { return check.status === "fail" || check.status === "warn"; }
+
   /* ---- inputs: rows are kept while a hand is on them ---- */
   function inputs() {
     var rows = byId("inputs").querySelector(".rows"), own = found(), names = own.map(function (each) { return each.name; });
@@ -297,11 +302,11 @@
 
   function askEffect() { askFor("effect", chosen && state.machine ? "effect?input=" + encodeURIComponent(chosen) : "", function (found) { effect = found; }); }
 
-  /* What the failing checks of the mechanism that is shown advise. */
+  /* What the checks of the mechanism that is shown advise, as far as they do not hold. */
   function askAdvice() {
-    var isFailing = state.machine && current().checks.some(function (check) { return check.status === "fail"; });
+    var isAsked = state.machine && current().checks.some(isUnmet);
     advised = null;
-    askFor("advice", isFailing ? "advice?mechanism=" + encodeURIComponent(open) : "", function (found) { advised = found; });
+    askFor("advice", isAsked ? "advice?mechanism=" + encodeURIComponent(open) : "", function (found) { advised = found; });
   }
 
   function effectHead() {
@@ -348,10 +353,10 @@
   }
 
   function checks() {
-    var every = byId("all-checks").checked, isPress = !current().checks.length, rows = [], input = chosen && everyInput().find(function (each) { return each.name === chosen; });
+    var every = byId("all-checks").checked, isPress = onPress(), rows = [], input = chosen && everyInput().find(function (each) { return each.name === chosen; });
     state.machine.mechanisms.forEach(function (each) {
       each.checks.forEach(function (check) {
-        if (every || each.name === open || (isPress && /fail|warn/.test(check.status))) { rows.push([each, check]); }
+        if (every || each.name === open || (isPress && isUnmet(check))) { rows.push([each, check]); }
       });
     });
     var rank = { fail: 0, warn: 1, pass: 2, not_checked: 3 };
@@ -405,8 +410,8 @@
 
   /* What the verdict leaves open, beside the press. */
   function openItems() {
-    var items = state.machine.open, isPress = !current().checks.length;
-    byId("open").hidden = !isPress || !items.length;
+    var items = state.machine.open;
+    byId("open").hidden = !onPress() || !items.length;
     byId("open").querySelector("summary").textContent = t("open_n", { n: items.length });
     byId("open").querySelector("tbody").replaceChildren.apply(byId("open").querySelector("tbody"), items.map(function (each) {
       return make("tr", {}, [make("td", { "class": "key" }, each.path), make("td", {}, each.why), make("td", {}, each.owner)]);

@@ -253,3 +253,16 @@ def test_the_words_of_a_check_are_those_of_the_machine_that_is_shown(browser: Br
     live.file.write_text(config.replace("bore_radius: 70 mm", "bore_radius: 50 mm"), encoding="utf-8")
     expect(wall).to_contain_text("pass", timeout=SECONDS)
     expect(wall).not_to_contain_text("Set bore_radius", timeout=SECONDS)
+
+
+def test_beside_the_press_alone_stands_what_of_the_whole_machine_does_not_hold(browser: Browser, live: Live) -> None:
+    """The loads of a shaft have no checks either."""
+    live.file.write_bytes((CONFIG.parent / "machines" / "flat_cylinder_corrected.yaml").read_bytes())
+    tab = Tab(browser, live.address)
+    rows, told = tab.page.locator("#checks tbody tr"), tab.page.locator("#open")
+    tab.page.locator('[data-mechanism="press"]').click()
+    expect(told).to_be_visible(timeout=SECONDS)
+    expect(rows).not_to_have_count(0)
+    tab.page.locator('[data-mechanism="shafts_main_loads"]').click()
+    expect(told).to_be_hidden()
+    expect(rows).to_have_count(0)

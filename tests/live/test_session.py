@@ -22,7 +22,7 @@ from diecut_report.design.inputs import inputs_of_parts
 from diecut_report.design.machines import UTILISATION, varied
 from diecut_report.errors import UserError
 from diecut_report.live.page import WORDS, Pictures, advice, assets, effect, page, page_data, slider
-from diecut_report.live.session import LiveMachine, LiveSession, changeable
+from diecut_report.live.session import LiveMachine, LiveSession, shown_inputs
 from diecut_report.press import Press
 from diecut_report.results.warm_press import WarmRun
 from diecut_report.text.translation import speaking
@@ -286,12 +286,12 @@ def test_an_input_at_default_is_changed_where_it_stands_and_goes_into_its_block(
 @pytest.mark.parametrize("file", few(EXAMPLES, lambda path: path.stem in ("elastic_transport", "platen_press_zppt30")))
 def test_what_stands_at_default_may_be_typed_as_it_is(file: Path) -> None:
     tree, config = yaml.read(file), load_config(file, Discovery([]))
-    at_default = [each for each in changeable(config, tree).values() if tree.typed(each.stands) is None]
+    at_default = [each for each in shown_inputs(config, tree).values() if tree.typed(each.stands) is None]
     at_default = [
         each for each in at_default if each.name != "conveyor.motion_law"
     ]  # of no use beside a motion's curve
     typed = {each.stands: each.written or each.typed(each.present or 0.0) for each in at_default}
-    found = changeable(load_config(rewritten(tree, typed), Discovery([])), rewritten(tree, typed))
+    found = shown_inputs(load_config(rewritten(tree, typed), Discovery([])), rewritten(tree, typed))
     assert {each.name: each.present for each in at_default if each.asked.unit} == pytest.approx(
         {name: found[name].present for name in (each.name for each in at_default) if found[name].asked.unit}
     )
@@ -446,7 +446,7 @@ MACHINE = KNIFE.parent / "machines" / "flat_cylinder_corrected.yaml"
 def test_of_a_machine_of_parts_it_offers_the_numbers_that_the_mechanisms_give() -> None:
     file = MACHINE.with_name("flat_cylinder.yaml")
     tree, config = yaml.read(file), load_config(file, Discovery([]))
-    offered = changeable(config, tree)
+    offered = shown_inputs(config, tree)
     given = {each.stands: str(each.written) for each in offered.values() if tree.typed(each.stands) is not None}
     assert "drive.crank_length" in offered and 20 < len(given) < 100
     assert "drive.efficiency_sector" not in offered  # which its mesh makes
