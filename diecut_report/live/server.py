@@ -38,6 +38,7 @@ from diecut_report.text.translation import said, say
 
 Found = TypeVar("Found")
 SETTLED, STEP = 60, 20  # milliseconds: an editor may write a file in several steps
+MAX_LOOKS = 20  # at a file that is written all the time, before it is read as it is
 ALIVE = 15.0  # seconds after which a silent stream says that it is there
 LOOK = 0.1  # seconds between looks whether a page still waits for what is calculated
 AGAIN = 1.0  # seconds between looks at the files beside what the watch tells
@@ -123,6 +124,7 @@ class LiveApplication:
     async def _read_where_changed(self) -> None:
         # beside the one thread, on which an effect would give way to each look
         if await asyncio.to_thread(self.session.is_stale):
+            await self._settled()
             self._is_reading = True
             self._tell()
             try:
@@ -130,6 +132,14 @@ class LiveApplication:
             finally:
                 self._is_reading = False
                 self._tell()
+
+    async def _settled(self) -> None:
+        """Wait until what is being written is written: a look now and then may meet a file between emptied and filled."""
+        seen = None
+        for _ in range(MAX_LOOKS):
+            if seen == (seen := await asyncio.to_thread(self.session.marks)):
+                break
+            await asyncio.sleep(SETTLED / 1000)
 
     def _tell(self) -> None:
         for changed in self._streams:

@@ -119,11 +119,11 @@ class LiveSession:
 
     def is_stale(self) -> bool:
         """Return whether the files are others than those that were read. Any thread may ask."""
-        return self._read != self._marks()
+        return self._read != self.marks()
 
     def read(self) -> None:
         """Read the file again and calculate; changes of the page stay over it, but those that stand in it now."""
-        self._read = self._marks()  # before the reading: what is saved meanwhile is another
+        self._read = self.marks()  # before the reading: what is saved meanwhile is another
         try:
             self.tree = yaml.read(self.file)
         except UserError as error:
@@ -140,7 +140,8 @@ class LiveSession:
                 name: typed for name, typed in self.edits.items() if in_file[name] != typed or self._is_moved(name)
             }
 
-    def _marks(self) -> dict[Path, object]:
+    def marks(self) -> dict[Path, object]:
+        """Return by what each file is known to be another. Any thread may ask."""
         found: dict[Path, object] = {}
         for file in self.files:
             try:

@@ -49,6 +49,27 @@ def test_a_page_is_told_that_a_saved_file_is_being_calculated(tmp_path: Path, mo
     assert found[1] == b"event: busy\ndata: 1\n\n" and found[-1].startswith(b"data: ")
 
 
+def test_a_file_that_is_emptied_and_filled_is_read_when_it_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    session = LiveSession(file, Discovery([]))
+    made, marks, looks = LiveApplication(session, (), None), session.marks, 0
+
+    def filled_at_the_third_look() -> dict[Path, object]:
+        nonlocal looks
+        if (looks := looks + 1) == 3:
+            file.write_bytes(KNIFE.read_bytes() + b"\n")
+        return marks()
+
+    file.write_bytes(b"")
+    monkeypatch.setattr(session, "marks", filled_at_the_third_look)
+    monkeypatch.setattr(server, "SETTLED", 1)
+    asyncio.run(asyncio.wait_for(made._read_where_changed(), 60))
+    assert looks > 3 and not session.faults
+
+
 @pytest.mark.nightly
 def test_a_table_in_another_folder_is_read_again_when_it_changes(tmp_path: Path) -> None:
     file, table = tmp_path / "knife.yaml", tmp_path / "tables" / "own.yaml"
