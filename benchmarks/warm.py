@@ -1,9 +1,9 @@
 """How long a change of the full press takes on the live page, in one process, against ``calc`` of the same in the same process:
 the calculation (at most 0.12 s is asked), and then what the page gets.
 
-    python benchmarks/warm.py [ROUNDS]
+    python benchmarks/warm.py [ROUNDS [FILE INPUT ...]]
 
-What is changed is taken by all mechanisms (the productivity), by one that others follow (the crank's length), and by one alone
+of another machine with the inputs that are named. What is changed is taken by all mechanisms (the productivity), by one that others follow (the crank's length), and by one alone
 (a friction). Processor seconds are compared, the least of the rounds; they run in turns, so that the machine's state counts alike.
 """
 
@@ -20,7 +20,7 @@ from functools import partial
 from importlib import import_module
 from pathlib import Path
 
-from diecut_report.cli.main import COLLECTED
+from diecut_report.__main__ import COLLECTED
 from diecut_report.config.plugins import Discovery
 from diecut_report.live.page import page_data
 from diecut_report.live.session import LiveSession
@@ -32,12 +32,12 @@ CHANGED = ("press.productivity", "drive.crank_length", "clutch.shoe_friction")
 
 
 @contextmanager
-def copied() -> Iterator[Path]:
-    """Give the full press as a file of its own, with what it names beside it."""
+def copied(machine: Path) -> Iterator[Path]:
+    """Give a machine as a file of its own, with what may be named beside it."""
     with tempfile.TemporaryDirectory() as name:
-        for file in CONFIGS.glob("*.yaml"):
+        for file in machine.parent.glob("*.yaml"):
             shutil.copy(file, name)
-        yield Path(name) / "flat_cylinder_press.yaml"
+        yield Path(name) / machine.name
 
 
 def seconds(work: Callable[[], object]) -> float:
@@ -49,7 +49,7 @@ def seconds(work: Callable[[], object]) -> float:
 
 def updated(session: LiveSession, name: str, share: float) -> tuple[float, float]:
     """Change an input by a share, and make what the page gets: the seconds of both."""
-    first = session.start.inputs[name] if session.start else None
+    first = session.machine.inputs[name] if session.machine else None
     assert first is not None and first.present is not None, "the full press gives it as a number"
     calculated = seconds(partial(session.change, {name: first.typed(first.present * (1 + share))}))
     if session.faults:
@@ -57,17 +57,18 @@ def updated(session: LiveSession, name: str, share: float) -> tuple[float, float
     return calculated, seconds(partial(page_data, session))
 
 
-def main(rounds: int) -> None:
+def main(rounds: int = 8, machine: str = str(CONFIGS / "flat_cylinder_press.yaml"), *changed: str) -> None:
     """Run all in turns and print the least times and their ratios."""
+    changed = changed or CHANGED
     gc.set_threshold(COLLECTED)
-    with copied() as file, one_thread():  # as the program's own processes
+    with copied(Path(machine)) as file, one_thread():  # as the program's own processes
         session = LiveSession(file, Discovery([]))
         gc.collect()
         gc.freeze()  # as the server of the page does
-        calc, least = float("inf"), dict.fromkeys(CHANGED, (float("inf"), float("inf")))
+        calc, least = float("inf"), dict.fromkeys(changed, (float("inf"), float("inf")))
         for number in range(rounds + 1):
             taken = seconds(lambda: Press.read(file, Discovery([])).calculate())
-            times = {name: updated(session, name, 1e-3 * (number + 1)) for name in CHANGED}
+            times = {name: updated(session, name, 1e-3 * (number + 1)) for name in changed}
             if number:  # the first one fills what is kept from run to run
                 calc = min(calc, taken)
                 least = {name: min(value, times[name], key=sum) for name, value in least.items()}
@@ -77,4 +78,4 @@ def main(rounds: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 8)
+    main(*map(int, sys.argv[1:2]), *sys.argv[2:])

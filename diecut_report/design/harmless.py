@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.conclusion import VALUES
 from diecut_report.results.model import OpenRecord, ResultsRecord
 from diecut_report.results.open_items import UNPROVED
-from diecut_report.results.usual import USUAL, usual_ends
+from diecut_report.results.usual import USUAL, usual_ends, with_value
 from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.standards.ranges import UsualRange, ranges_of
 from diecut_report.study.definition.base_inputs import Input
@@ -33,6 +33,7 @@ from diecut_report.text.phrases import Phrase, phrase
 
 SHARE = 0.1  # of a value for which no range is known, downwards and upwards
 HALVED = 50  # how often the way to an end that is not allowed is halved
+TWICE = 2.0  # what a value is multiplied by to see with which power of it another one grows
 STILL = 1e-9  # of the greater side of a check, by which rounding alone moves its margin
 # how many of those that change a check together are taken out, strongest first
 LEFT_OUT = tuple(2**k for k in range(8))
@@ -60,9 +61,9 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
     named = [each for each in tried if each.path in numbers.keys() - fixed]
     homes = {numbers[each.path].asked.instance for each in named}
     reached = {home: frozenset(downstream(config, home)) for home in homes}
-    usual = _UsualEnds(config)
+    usual = UsualEnds(config)
     trials = [Trial.of(usual, each, numbers[each.path], reached) for each in named]
-    machines = OpenValueTrials(config, [each for each in trials if not each.is_still])
+    machines = OpenValueTrials(config, usual.following([each for each in trials if not each.is_still]))
     changes = dict(machines.harmful()) if machines.trials else {}
     changes |= {each.item.path: STANDS_ALONE for each in trials if each.is_still}
     harmless = {each.item.path for each in trials if each.is_plain}
@@ -74,7 +75,11 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """Hold an open value, its least and greatest usual one (SI), the mechanisms that follow from it, and whether its range is known."""
+    """Hold an open value, its least and greatest usual one (SI), the mechanisms that follow from it, and whether its range is known.
+
+    ``follows`` are exponents by the paths of other open values with whose powers its usual ones by a ``ratio`` grow, such as a strength with
+    the tensile strength: it is tried at the ends that these leave it, but not beyond ``outermost``.
+    """
 
     item: OpenRecord
     design: DesignInput
@@ -82,9 +87,12 @@ class Trial:
     high: float
     reached: frozenset[str]
     has_range: bool = False
+    follows: Mapping[str, float] = field(default_factory=dict)
+    ratio: tuple[float, float] = (-np.inf, np.inf)
+    outermost: tuple[float, float] = (-np.inf, np.inf)
 
     @staticmethod
-    def of(usual: _UsualEnds, item: OpenRecord, design: DesignInput, reached: Mapping[str, frozenset[str]]) -> Trial:
+    def of(usual: UsualEnds, item: OpenRecord, design: DesignInput, reached: Mapping[str, frozenset[str]]) -> Trial:
         """Return a trial of a value within what its declaration allows; of a whole number the whole numbers of its range."""
         home, present = design.asked.instance, design.present or 0.0
         known = usual.of(design)
@@ -126,7 +134,7 @@ def _allowed(design: DesignInput, present: float, end: float) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class _UsualEnds:
+class UsualEnds:
     """Tell between which ends a value of a machine is usual."""
 
     config: Config
@@ -140,17 +148,66 @@ class _UsualEnds:
         low, high = max(low for low, _ in known), min(high for _, high in known)
         return (low, high) if low <= high else known[0]
 
-    def _of_ratio(self, design: DesignInput, row: UsualRange) -> tuple[float, float] | None:
+    def _of_ratio(
+        self, design: DesignInput, row: UsualRange, other: DesignInput | None = None, times: float = 1.0
+    ) -> tuple[float, float] | None:
+        """What a ratio calls usual; with an ``other`` value so many times what it is."""
         home = design.asked.instance
         instance = self.config.instances[home]
         assert instance is not None, "a value of a broken plugin is not tried"
-        calculation, inputs = self.run.calculations[home], flatten(self.run.blocks[home])
-        return usual_ends(instance, design.asked.key, row, inputs, self.run.beside(instance), calculation.values)
+        inputs: Mapping[str, Any] = flatten(self.run.blocks[home])
+        beside = self.run.beside(instance)
+        if other is not None:
+            value = times * (other.present or 0.0)
+            if other.asked.instance == home:
+                inputs = with_value(inputs, other.key, other.asked.key, value)
+            else:
+                beside = beside._replace(press={**beside.press, _named(other, home): value})
+        return usual_ends(instance, design.asked.key, row, inputs, beside, self.run.calculations[home].values)
+
+    def following(self, trials: Sequence[Trial]) -> list[Trial]:
+        """Return trials that know which others they follow, by the ratio that bounds them."""
+        found = [self._following(each, trials) for each in trials]
+        return [
+            replace(each, reached=each.reached.union(*(o.reached for o in found if each.item.path in o.follows)))
+            for each in found
+        ]
+
+    def _following(self, trial: Trial, trials: Sequence[Trial]) -> Trial:
+        others = {each.item.path: each.design for each in trials if each is not trial}
+        for row in ranges_of(self.config.kinds.get(trial.design.asked.instance, PRESS)).get(trial.design.key, ()):
+            powers = {path: self._power(trial.design, row, other) for path, other in others.items()}
+            follows = {path: power for path, power in powers.items() if power}
+            if follows and (ends := self._of_ratio(trial.design, row)):
+                return replace(trial, follows=follows, ratio=ends, outermost=self._outermost(trial.design))
+        return trial
+
+    def _outermost(self, design: DesignInput) -> tuple[float, float]:
+        """Between which ends a value lies, whatever others are: what its declaration allows, and is usual without them."""
+        rows = ranges_of(self.config.kinds.get(design.asked.instance, PRESS)).get(design.key, ())
+        ends = [design.bounds, *(row.usual for row in rows if not row.of)]
+        return max(low for low, _ in ends), min(high for _, high in ends)
+
+    def _power(self, design: DesignInput, row: UsualRange, other: DesignInput) -> float:
+        """The power of another value with which what a row calls usual grows; 0 where it does not, or otherwise."""
+        if not other.present or f"${{{_named(other, design.asked.instance)}}}" not in row.of:
+            return 0.0
+        ends = [self._of_ratio(design, row, other, TWICE**k) for k in range(3)]
+        grown = [max(map(abs, each)) for each in ends if each is not None]
+        if len(grown) < 3 or min(grown) == 0:
+            return 0.0
+        once, twice = (float(np.log2(grown[k] / grown[0])) for k in (1, 2))
+        return once if abs(twice - 2 * once) <= STILL else 0.0
 
     @cached_property
     def run(self) -> WarmRun:
         """The machine as it is: what a ratio is of may be a result."""
         return WarmPress(is_advised=False).calculate(self.config)
+
+
+def _named(design: DesignInput, home: str) -> str:
+    """How a row of a mechanism's kind names a value; empty for one of another mechanism."""
+    return {home: design.key, PRESS: f"{PRESS}.{design.key}"}.get(design.asked.instance, "")
 
 
 def apart(sets: Iterable[frozenset[str]]) -> list[list[int]]:
@@ -227,7 +284,7 @@ class Effects:
                     if name in self.margins:
                         self.margins[name][trial] = tried.margins[name][rows] if name in tried.margins else np.nan
 
-    def change(self, trial: int, values: Sequence[str]) -> Phrase | None:
+    def change(self, trial: int, values: Sequence[Phrase | str]) -> Phrase | None:
         """Return what changes with a trial at its ends, whose values are these; None where nothing does."""
         for end, value in enumerate(values):
             if self.impossible[trial, end]:
@@ -292,7 +349,7 @@ class OpenValueTrials:
         """Yield the paths of the values that are not harmless, each with what changes."""
         effects, harmful = self._alone(), set[int]()
         for index, trial in enumerate(self.trials):
-            why = effects.change(index, [trial.design.told(end) for end in (trial.low, trial.high)])
+            why = effects.change(index, self._told(index))
             if why is not None:
                 harmful.add(index)
                 yield trial.item.path, why
@@ -300,6 +357,15 @@ class OpenValueTrials:
         for index, name in (together | self._scattered(effects, {*harmful, *together})).items():
             template = "together with other assumed and default values it changes the check {check}"
             yield self.trials[index].item.path, Phrase(template, check=_check(name))
+
+    def _told(self, index: int) -> list[Phrase | str]:
+        """Both ends of a trial as people read them, with what cannot stay what it is there."""
+        found, ends, design = list[Phrase | str](), self._ends([[index]]), self.trials[index].design
+        for value, moved in zip(ends, self._followed(ends), strict=True):
+            others = ", ".join(self.trials[int(i)].design.name for i in np.flatnonzero(moved != value))
+            told = design.told(value[index])
+            found.append(Phrase("{value} (and {others} with it)", value=told, others=others) if others else told)
+        return found
 
     @property
     def present(self) -> Array:
@@ -419,8 +485,33 @@ class OpenValueTrials:
             rows.append(row)
         return np.where(np.isnan(machines), self.present, machines), rows
 
+    def _followed(self, values: Array) -> Array:
+        """Values with those that follow others where these let them be, shape (machines, trials): ends move, others keep within them."""
+        low, high = np.array([(each.low, each.high) for each in self.trials]).T
+        outermost, ratio = (
+            np.array([getattr(each, name) for each in self.trials]).T for name in ("outermost", "ratio")
+        )
+        found = values
+        for _ in self.trials:  # what is followed may follow others
+            with np.errstate(divide="ignore", invalid="ignore"):
+                grown = np.exp(np.nan_to_num(np.log(found / self.present), nan=0.0, neginf=0.0) @ self._powers.T)
+            least, most = (np.clip(ends * grown, *outermost) for ends in ratio)
+            moved = np.select(
+                [grown == 1, values == low, values == high], [values, least, most], np.clip(values, least, most)
+            )
+            if np.array_equal(moved, found):
+                break
+            found = moved
+        return found
+
+    @cached_property
+    def _powers(self) -> Array:
+        paths = [each.item.path for each in self.trials]
+        return np.array([[each.follows.get(path, 0.0) for path in paths] for each in self.trials])
+
     def _tried(self, values: Array) -> TriedOpenValues:
         """Machines with these values, shape (machines, trials)."""
+        values = self._followed(values)
         while True:
             made = TriedOpenValues()
             try:

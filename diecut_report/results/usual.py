@@ -138,7 +138,7 @@ def usual_ends(
     if present is None or x is None or not x[0]:
         return None
     found = [
-        float(values[0]) for each in (inputs, _with(inputs, path, key, MORE * present))
+        float(values[0]) for each in (inputs, with_value(inputs, path, key, MORE * present))
         for placed, own, values in _values(instance, each, beside.press, results) if (placed, own) == (key, row)
     ]  # fmt: skip
     if len(found) != 2 or not found[0] or not abs(found[1] - MORE * found[0]) <= ROUNDING * abs(found[1]):
@@ -147,8 +147,8 @@ def usual_ends(
     return low, high
 
 
-def _with(inputs: Inputs, path: str, key: KeyPath, value: Any) -> Inputs:
-    """Inputs with another value at a key."""
+def with_value(inputs: Inputs, path: str, key: KeyPath, value: Any) -> Inputs:
+    """Return inputs with another value at a key, whose ``path`` has no places in lists."""
     index = next((step for step in key if isinstance(step, int)), None)
     if index is None:
         return {**inputs, path: value}

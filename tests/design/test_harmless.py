@@ -10,11 +10,11 @@ import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.findings import decided, with_findings
-from diecut_report.design.harmless import STANDS_ALONE, UNTRIED, Effects, Trial, apart, without_harmless
+from diecut_report.design.harmless import STANDS_ALONE, UNTRIED, Effects, Trial, UsualEnds, apart, without_harmless
 from diecut_report.design.inputs import design_input
 from diecut_report.press import Press
 from diecut_report.results.model import OpenRecord
-from tests.configs import GOOD, HEAD, saved
+from tests.configs import EXAMPLE, GOOD, HEAD, saved
 
 FORCE, ARM, TEETH = "mechanisms.a.force", "mechanisms.a.arm", "mechanisms.a.teeth"
 MOMENT = "the check a.moment turns from pass to fail"
@@ -72,9 +72,8 @@ def test_an_assumed_number_of_keys_stays_open(tmp_path: Path, count: str, is_ope
     assert (known.get("mechanisms.k.key_count") == str(STANDS_ALONE)) is is_open
 
 
-def test_a_value_that_a_ratio_bounds_is_tried_at_the_ends_of_that(tmp_path: Path) -> None:
-    """Usual are 35 to 55 % of the tensile strength: n_f is 1.64 with 450 MPa, 1.146 with 315 MPa, and 1.2 is required."""
-    known = " basis: standard, note: EN 10083-3}"
+def strong_shaft(folder: Path, tensile: str, yields: str, fatigue: str) -> Press:
+    """A shaft with these strengths, each a value in MPa with its basis."""
     text = (
         HEAD
         + f"""\
@@ -90,14 +89,56 @@ def test_a_value_that_a_ratio_bounds_is_tried_at_the_ends_of_that(tmp_path: Path
     loads:
       - {{name: gear, position: 130 mm, torque: {{value: 500 N*m, basis: drawing}}, gear: {{pitch_radius: 120 mm, mesh_angle: 0 deg}}}}
       - {{name: crank, position: 310 mm, force_y: {{value: 15 kN, basis: drawing}}, force_z: {{value: 5 kN, basis: drawing}}, torque: balance}}
-    tensile_strength: {{value: 900 MPa,{known}
-    yield_strength: {{value: 650 MPa,{known}
-    fatigue_strength: {{value: 450 MPa, basis: assumed}}
+    tensile_strength: {{value: {tensile}}}
+    yield_strength: {{value: {yields}}}
+    fatigue_strength: {{value: {fatigue}}}
     speed: 50 rpm
 """
     )
-    found = left(Press.read(saved(tmp_path, text), Discovery()))
+    return Press.read(saved(folder, text), Discovery())
+
+
+KNOWN, ASSUMED = " MPa, basis: standard, note: EN 10083-3", " MPa, basis: assumed"
+
+
+def test_a_value_that_a_ratio_bounds_is_tried_at_the_ends_of_that(tmp_path: Path) -> None:
+    """Usual are 35 to 55 % of the tensile strength: n_f is 1.64 with 450 MPa, 1.146 with 315 MPa, and 1.2 is required."""
+    found = left(strong_shaft(tmp_path, f"900{KNOWN}", f"650{KNOWN}", f"450{ASSUMED}"))
     assert found["mechanisms.shaft.fatigue_strength"] == "with 315 MPa the check shaft.fatigue turns from pass to fail"
+
+
+def test_a_strength_is_tried_with_the_tensile_strength_that_bounds_it(tmp_path: Path) -> None:
+    """With 450 for 900 MPa the yield strength is 325 MPa: the shaft is safe against it alone, and not with 225 MPa against fatigue."""
+    found = left(strong_shaft(tmp_path, f"900{ASSUMED}", f"650{ASSUMED}", f"450{ASSUMED}"))
+    follow = "with 450 MPa (and shaft.yield_strength, shaft.fatigue_strength in proportion)"
+    assert found["mechanisms.shaft.tensile_strength"] == f"{follow} the check shaft.fatigue turns from pass to fail"
+
+
+def test_a_value_that_the_press_states_too_is_tried_with_that(tmp_path: Path) -> None:
+    """Board of 0.5 mm asks 2.33 N·m; 0.51 mm, typed at both places, asks 2.41 N·m, and 2.4 N·m are allowed."""
+    text = (
+        EXAMPLE.with_name("circular_knife.yaml")
+        .read_text("utf-8")
+        .replace("basis: assumed", "basis: drawing, note: D1")
+    )
+    text = re.sub(r"(  +thickness:) .*", r"\1 {value: 0.5 mm, basis: assumed}", text)
+    text = re.sub(r"(allowable_torque:) .*", r"\1 {value: 2.4 N*m, basis: drawing, note: D1}", text)
+    known = left(Press.read(saved(tmp_path, text), Discovery()))
+    assert known.keys() == {"press.sheet.thickness"}
+    assert known["press.sheet.thickness"].startswith("with 0.2 mm (and knife.thickness in proportion) the check knife.")
+
+
+def test_what_a_ratio_bounds_follows_the_powers_of_what_is_open_beside_it(tmp_path: Path) -> None:
+    """A cylinder's inertia is a share of m·r²; the angle of a mesh is none of anything."""
+    damper = "{kind: damper, mass: 300 kg, rolling_radius: 150 mm, inertia: 5 kg*m**2, velocity: 1 m/s}"
+    config = Press.read(saved(tmp_path, HEAD + f"  d: {damper}\n"), Discovery()).config
+    trials = [
+        Trial(OpenRecord(what="assumed", path=f"mechanisms.d.{key}", owner="", why=""), design_input(config, f"d.{key}"), 1.0, 2.0, frozenset())
+        for key in ("inertia", "mass", "rolling_radius", "velocity")
+    ]  # fmt: skip
+    inertia, mass, radius, velocity = UsualEnds(config).following(trials)
+    assert inertia.follows == pytest.approx({mass.item.path: 1, radius.item.path: 2})
+    assert mass.following == radius.following == ("d.inertia",) and not velocity.following
 
 
 def test_an_end_that_may_not_be_typed_gives_way_to_the_nearest_that_may(tmp_path: Path) -> None:
