@@ -65,9 +65,7 @@ def test_a_rough_place_is_refused_with_its_place(name: str, place: float) -> Non
     with pytest.raises(Unproven) as caught:
         curves(calculated(*ROUGH[name], place))
     told = str(caught.value)
-    assert told.startswith(
-        "Rough (rough, test_rough_places.py:57) jumps or has a pole inside a smooth piece, near φ = "
-    )
+    assert told.startswith("Rough (rough, test_rough_places.py:57) jumps or has a pole inside a smooth piece, ")
     found = float(told.partition("φ = ")[2].partition("°")[0])
     assert np.tan(np.radians(found)) == pytest.approx(
         np.tan(place), abs=0.01
@@ -92,6 +90,51 @@ def test_a_pole_of_what_is_not_printed_is_refused_where_its_extreme_is_asked() -
     asked = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
     with pytest.raises(Unproven, match="pole"):
         curves(calculate(asked, given))
+
+
+ENDLESS: dict[str, tuple[str, Any]] = {
+    "a tangent whose pole is a place of the grid": ("max", lambda arm, angle: -arm * np.tan(angle)),
+    "a secant on its high side": ("min", lambda arm, angle, place: arm / np.cos(angle - place)),
+    "a pole of a hundredth": ("abs_max", lambda arm, angle, place: arm * (1 + 0.01 / np.cos(angle - place))),
+    "a pole of a ten-thousandth": ("max", lambda arm, angle, place: arm * (np.sin(angle) + 1e-4 / np.cos(angle - place))),
+    "a pole that touches": ("max", lambda arm, angle, place: arm * (1 + 0.001 / (1 - np.cos(angle - place)))),
+    "a power": ("max", lambda arm, angle, place: arm * np.cos(angle - place) ** -2),
+}  # fmt: skip
+WHOLE: dict[str, tuple[str, Any]] = {
+    "a hole that is filled": ("max", lambda arm, angle, place: arm * np.sin(2 * (angle - place)) / np.sin(angle - place)),
+    "a double hole": ("max", lambda arm, angle, place: arm * (1 - np.cos(angle - place)) / np.sin(angle - place) ** 2 * np.cos((angle - place) / 2) ** 2),
+    "a wrap that the sine undoes": ("max", lambda arm, angle, place: arm * np.sin(np.arctan2(np.sin(angle - place), -np.cos(angle - place)))),
+    "a narrow peak": ("max", lambda arm, angle, place: arm / (1e-10 + as_number(angle - place) ** 2)),
+    "near a pole": ("max", lambda arm, angle, place: arm / (1.0001 - np.cos(angle - place))),
+}  # fmt: skip
+
+
+def reduced(reduction: str, formula: Any, places: list[float]) -> Calculation:
+    chapter = Chapter("Turn")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.value("rough", "R", "mm", "Rough", formula)
+    chapter.reduction("most", "R_m", "mm", "Most", reduction, of="rough")
+    mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
+    given = {"arm": 0.05, "place": np.array(places) if len(places) > 1 else places[0], "n_points": 36}
+    return calculate(mechanism, given, len(places))
+
+
+PLACES = [1e-5, 0.3, 0.7853981633974483, 1.0, 2.2, np.pi, 4.014, 5.9]
+
+
+@pytest.mark.parametrize("name", ENDLESS)
+def test_an_extreme_of_what_has_a_pole_is_refused_of_one_machine_and_of_many(name: str) -> None:
+    for place in PLACES:
+        with pytest.raises(Unproven, match="pole.*, (at|near) φ = |near φ = .*pole"):
+            reduced(*ENDLESS[name], [place])
+    assert sorted(reduced(*ENDLESS[name], PLACES).flaws) == list(range(len(PLACES)))
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_what_is_divided_by_nothing_and_stays_finite_passes(name: str) -> None:
+    assert not reduced(*WHOLE[name], PLACES).flaws
+    for place in PLACES:
+        assert np.isfinite(reduced(*WHOLE[name], [place])["most"]).all()
 
 
 def test_what_is_not_proved_tells_where_the_curve_bends() -> None:

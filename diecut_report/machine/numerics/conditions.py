@@ -46,7 +46,7 @@ class BranchCondition:
     def meaning(self) -> Hashable:
         """Return what conditions of several formulas that change together have in common."""
         known = {**self.link.formula.constants, **self.link.names}
-        return self.node, tuple(known.get(symbol) for symbol in symbols(self.node))
+        return type(self), self.node, tuple(known.get(symbol) for symbol in symbols(self.node))
 
     @cached_property
     def gap(self) -> Node:
@@ -87,6 +87,25 @@ class BranchCondition:
         return known(name) if isinstance(name, str) else name
 
 
+@dataclass(frozen=True, eq=False)
+class Singularity(BranchCondition):
+    """Hold a part of a formula where it is zero the curve may have a pole, or an angle may wrap."""
+
+    @property
+    def gap(self) -> Node:
+        """Return what is zero there."""
+        return self.node
+
+    def arguments(self, varies: Callable[[str], bool]) -> tuple[Node, ...]:
+        """Return nothing: what is zero is looked at itself."""
+        return ()
+
+    def sides(self, known: Known, x: Array) -> tuple[Array, Array]:
+        """Return at places whether it is above zero, and what it is."""
+        gap = self.value(self.node, known, x)
+        return gap > 0, gap
+
+
 def _taken_by(node: Node) -> Iterator[Node]:
     """What a function takes, or by how much two of its arguments differ: where they are equal is a corner."""
     match node:
@@ -103,12 +122,14 @@ def _taken_by(node: Node) -> Iterator[Node]:
 class CurveConditions(NamedTuple):
     """Hold the conditions that a curve follows from and that may change within a smooth piece.
 
-    ``of_flags`` are those on which flags of its pieces rest, ``names`` the curves that all of them and the flags take.
+    ``of_flags`` are those on which flags of its pieces rest, ``singular`` where it may have a pole or wrap, ``names`` the curves that all of
+    them and the flags take.
     ``varies_by_flag``: a flag takes over what varies; ``is_opaque``: the curve follows from what has no formula to be read.
     """
 
     direct: tuple[BranchCondition, ...]
     of_flags: tuple[BranchCondition, ...]
+    singular: tuple[Singularity, ...]
     names: tuple[str, ...]
     varies_by_flag: bool
     is_opaque: bool
@@ -124,6 +145,7 @@ def conditions_of(curves: tuple[tuple[str, Step], ...], axis: str, curve: str) -
     """Return the conditions that a curve follows from. What is under an integral or a derivative is a curve of its own."""
     steps, varying = dict(curves), _varying(curves, axis)
     found: dict[bool, list[BranchCondition]] = {False: [], True: []}
+    singular = list[Singularity]()
     names, by_flag, is_opaque = set[str](), False, False
     for name, by in _followed(steps, curve):
         step = steps[name]
@@ -133,10 +155,14 @@ def conditions_of(curves: tuple[tuple[str, Step], ...], axis: str, curve: str) -
             own = [each for each in _conditions(step) if varying.intersection(each.names)]
             found[by] += own
             by_flag |= step.per_piece and name in varying
+            if not by:
+                zeros = [each for each in _singular(step) if varying.intersection(each.names)]
+                singular += zeros
+                own = [*own, *zeros]
             names.update(*(each.names for each in own), taken(step) if step.per_piece else ())
     taken_names = tuple(name for name in steps if name in names and not is_flag(steps[name]))
     direct, of_flags = (tuple(dict.fromkeys(found[by])) for by in (False, True))
-    return CurveConditions(direct, of_flags, taken_names, by_flag, is_opaque)
+    return CurveConditions(direct, of_flags, tuple(dict.fromkeys(singular)), taken_names, by_flag, is_opaque)
 
 
 def is_flag(step: Step) -> bool:
@@ -199,6 +225,49 @@ def _conditions(step: Formulas) -> tuple[BranchCondition, ...]:
     return tuple(
         BranchCondition(step, link, node) for link, tree in trees if tree for node in walk(tree) if _decides(node)
     )
+
+
+@lru_cache(maxsize=4096)
+def _singular(step: Formulas) -> tuple[Singularity, ...]:
+    trees = ((link, _tree(link)) for link in _links(step))
+    found = ((link, part) for link, tree in trees if tree for node in walk(tree) for part in _zeros(node))
+    return tuple(Singularity(step, link, part) for link, part in dict.fromkeys(found) if symbols(part))
+
+
+def _zeros(node: Node) -> Iterator[Node]:
+    """Parts of what a function may have a pole, or wrap, where they are zero."""
+    match node:
+        case Node("/", (_, below)):
+            yield from _factors(below)
+        case Node("^", (base, Node("neg", _) | Node("num", _) as power)) if evaluate(power, _none) < 0:
+            yield from _factors(base)
+        case Node("call", ("tan", inner)):
+            yield Node("call", ("cos", inner))
+        case Node("call", ("arctan2", above, _)):
+            yield above
+
+
+def _none(leaf: Node) -> Any:
+    return np.nan if leaf.op == "sym" else float(leaf.args[0])
+
+
+def _factors(node: Node) -> Iterator[Node]:
+    """What is zero where a product is."""
+    match node:
+        case Node("*", parts):
+            for part in parts:
+                yield from _factors(part)
+        case (
+            Node("/", (part, _))
+            | Node("neg", (part,))
+            | Node("call", ("abs" | "sqrt", part))
+            | Node("^", (part, Node("num", _)))
+        ):
+            yield from _factors(part)
+        case Node("num" | "qty"):
+            return
+        case _:
+            yield node
 
 
 @lru_cache(maxsize=4096)

@@ -18,7 +18,13 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.numerics.conditions import BranchCondition, CurveConditions, conditions_of, is_flag
+from diecut_report.machine.numerics.conditions import (
+    BranchCondition,
+    CurveConditions,
+    Singularity,
+    conditions_of,
+    is_flag,
+)
 from diecut_report.machine.numerics.curves import BLOCK, MANY, CurveSampler, flags_of
 from diecut_report.machine.numerics.domain import shares
 from diecut_report.mechanics import numerics
@@ -30,6 +36,16 @@ FLAT = 0.1  # of a gap: where it moves by less about its least value, it does no
 NEAR = 5  # points of the grid that tell how a gap runs from the end of its piece to the next point
 BETWEEN = np.array([1 / 16, 1 / 4, 1 / 2])  # places from the end to the next point where it is looked at
 ALIKE = 0.01  # of a gap: where the points beside the end tell it by so much, there is no bend between
+
+# shares of its piece by which a curve is looked at before and behind a zero of what it is divided by
+LOOKS = np.array([-1e-3, 1e-3, -1e-5, 1e-5, -1e-7, 1e-7])
+INSIDE = 500.0  # times the way to the end of the piece: so far it may be wide for these
+STAYS, TORN = (
+    0.5,
+    1e-6,
+)  # times: nearer by a hundredth a jump keeps its height, a slope a hundredth of it; and of the greatest size
+GROWS = 5.0  # times: nearer by a hundredth a pole grows by ten or more
+TOUCHES = 1e-14  # of the greatest size of a gap: what comes so near to zero is zero
 
 Brackets = tuple[Array, Array, Array]  # rows, and the two places (rows,) between which a condition changes
 
@@ -85,7 +101,7 @@ class _Search:
     def faults(self, curve: str) -> Iterator[tuple[int, JumpFault]]:
         """Give the first jump of a curve of each machine that has one."""
         known = self.conditions(curve)
-        if known.direct or known.of_flags or known.varies_by_flag:
+        if known.direct or known.of_flags or known.varies_by_flag or known.singular:
             self._prepare(curve)
             for machines in self.machines:
                 yield from machines.faults(curve, known).items()
@@ -120,7 +136,8 @@ class _Machines:
 
     def faults(self, curve: str, known: CurveConditions) -> dict[int, JumpFault]:
         """Return the first jump of a curve of each machine that has one."""
-        changes = {condition: self.where_changes(condition) for condition in (*known.direct, *known.of_flags)}
+        every = *known.direct, *known.of_flags, *known.singular
+        changes = {condition: self.where_changes(condition) for condition in every}
         changes = {condition: brackets for condition, brackets in changes.items() if len(brackets[0])}
         varying = self.varying(known)
         found: dict[int, JumpFault] = {}
@@ -138,6 +155,10 @@ class _Machines:
         np.fmax.at(greatest, self.variant, np.fmax.reduce(np.abs(heights), axis=1))
         moves = JUMP * greatest[self.variant]  # by how much the curve of each piece's machine moves at a jump
         for condition, (row, low, high) in changes.items():
+            if isinstance(condition, Singularity):
+                for i in np.flatnonzero(self._is_torn(curve, row, high, greatest[self.variant[row]])):
+                    yield row[i], condition, float(high[i])
+                continue
             before, after = (self.at(x[:, None], row, [curve]).over(curve)[:, 0] for x in (low, high))
             reported = condition if any(map(self.search.varies, condition.names)) else None
             for i in np.flatnonzero(np.abs(after - before) > moves[row]):
@@ -148,6 +169,18 @@ class _Machines:
             apart &= (x - self.left[varying, None] > near) & (self.right[varying, None] - x > near)
             for i, k in np.argwhere(apart):
                 yield varying[i], None, float(x[i, k])
+
+    def _is_torn(self, curve: str, row: Array, place: Array, greatest: Array) -> Array:
+        """Whether a curve stays apart on both sides of places (rows,), or grows towards them, however near they are."""
+        room = np.minimum(place - self.left[row], self.right[row] - place)
+        reach = np.minimum((self.right - self.left)[row], INSIDE * room)[:, None] * LOOKS
+        with np.errstate(all="ignore"):
+            values = self.at(place[:, None] + reach, row, [curve]).over(curve)
+            far, near, nearest = np.split(values, 3, axis=1)
+            apart, before = (np.abs(np.diff(each, axis=1)[:, 0]) for each in (near, far))
+            grows = np.abs(nearest).max(axis=1) > GROWS * np.abs(near).max(axis=1)
+        found: Array = grows | ((apart > TORN * greatest) & (apart > STAYS * before)) | ~np.isfinite(values).all(axis=1)
+        return found
 
     def _with_own_flags(self, curve: str, x: Array, row: Array) -> Array:
         """A curve at places with the flags of the very places, computed together with those that will be asked for."""
@@ -183,11 +216,14 @@ class _Machines:
     def _hidden(self, condition: BranchCondition, side: Array, gap: Array) -> Iterator[Brackets]:
         """Where a condition changes and changes back between two points of the grid: it is asked where that may be."""
         for row, k, place in filter(lambda asked: len(asked[0]), self._asked(condition, side, gap)):
-            here = self._side(condition, place[:, None], row)[:, 0]
+            here, least = (each[:, 0] for each in self._sides(condition, place[:, None], row))
             for beside in self._neighbours(k):
                 other = np.flatnonzero(here != side[row, beside])
                 ends = np.sort([place[other], self.x[row[other], beside[other]]], axis=0)
                 yield row[other], ends[0], ends[1]
+            if isinstance(condition, Singularity):  # which touches zero and turns
+                touches = np.abs(least) <= TOUCHES * np.abs(gap[row]).max(axis=1)
+                yield row[touches], place[touches], place[touches]
 
     def _asked(self, condition: BranchCondition, side: Array, gap: Array) -> Iterator[tuple[Array, Array, Array]]:
         """Rows, points of the grid and a place near each: where the gap is nearest to zero, and the arguments of functions that level off
@@ -218,7 +254,10 @@ class _Machines:
         return np.maximum(k - 1, 0), np.minimum(k + 1, self.x.shape[1] - 1)
 
     def _side(self, condition: BranchCondition, x: Array, row: Array) -> Array:
-        return condition.sides(self._known(condition, x, row), x)[0]
+        return self._sides(condition, x, row)[0]
+
+    def _sides(self, condition: BranchCondition, x: Array, row: Array) -> tuple[Array, Array]:
+        return condition.sides(self._known(condition, x, row), x)
 
     def _known(self, condition: BranchCondition, x: Array, row: Array) -> Callable[[str], Array]:
         return self.at(x, row, [name for name in condition.names if name in self.calc.curves]).__getitem__

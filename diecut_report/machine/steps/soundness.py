@@ -12,7 +12,7 @@ from diecut_report.formulas import Array
 from diecut_report.formulas.tree import Node, substitute, written
 from diecut_report.machine.calculation import Calculation, Side, Unproven
 from diecut_report.machine.numerics import extremes, jumps
-from diecut_report.machine.numerics.conditions import BranchCondition
+from diecut_report.machine.numerics.conditions import BranchCondition, Singularity
 from diecut_report.machine.numerics.domain import shares
 from diecut_report.machine.numerics.jumps import JumpFault
 from diecut_report.mechanics.common import difference
@@ -52,6 +52,12 @@ def _words(calc: Calculation, found: JumpFault) -> str:
     decided = written(_in_symbols(calc, found.condition))
     of: str = Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
     of = phrase("its formula") if step.id == curve.id else of
+    if isinstance(found.condition, Singularity):
+        fix = Phrase("{fix}, or require what keeps away from it", fix=fix)
+        template = (
+            "{where} jumps or has a pole inside a smooth piece, at {place}, where {decided} is zero in {of}; {fix}"
+        )
+        return Phrase(template, where=where, place=place, decided=decided, of=of, fix=fix)
     template = "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
     return Phrase(template, where=where, place=place, decided=decided, of=of, fix=fix)
 
