@@ -126,8 +126,9 @@ def test_a_value_that_the_press_states_too_is_tried_with_that(tmp_path: Path) ->
 
 def test_what_a_ratio_bounds_follows_the_powers_of_what_is_open_beside_it(tmp_path: Path) -> None:
     """A cylinder's inertia is a share of m·r²; the angle of a mesh is none of anything."""
-    damper = "{kind: damper, mass: 300 kg, rolling_radius: 150 mm, inertia: 5 kg*m**2, velocity: 1 m/s, shore_hardness: 70, ring_width: 60 mm, pad_height: 60 mm}"
-    config = Press.read(saved(tmp_path, HEAD + f"  d: {damper}\n"), Discovery()).config
+    body = "mass: 300 kg, rolling_radius: 150 mm, inertia: 5 kg*m**2, velocity: 1 m/s"
+    text = HEAD + f"  d: {{kind: damper, {body}, shore_hardness: 70, ring_width: 60 mm, pad_height: 60 mm}}\n"
+    config = Press.read(saved(tmp_path, text), Discovery()).config
     trials = [
         Trial(OpenRecord(what="assumed", path=f"mechanisms.d.{key}", owner="", why=""), design_input(config, f"d.{key}"), 1.0, 2.0, frozenset())
         for key in ("inertia", "mass", "rolling_radius", "velocity")

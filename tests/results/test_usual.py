@@ -18,7 +18,7 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.press import Press
 from diecut_report.results.document import resolved
 from diecut_report.results.press_run import Run, compute, impossible
-from diecut_report.results.usual import _values, _with, usual_ends
+from diecut_report.results.usual import _values, usual_ends, with_value
 from diecut_report.standards.ranges import range_of
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
@@ -261,7 +261,7 @@ def test_at_its_usual_ends_a_value_makes_a_ratio_that_is_one_end_of_its_row(name
                 continue
             ends = usual_ends(instance, key, row, inputs, beside, calculation.values)
             for end in ends or ():
-                made = _with(inputs, path, key, end)
+                made = with_value(inputs, path, key, end)
                 again = [
                     each
                     for placed, own, each in _values(instance, made, beside.press, calculation.values)
