@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -71,9 +72,20 @@ def test_of_a_large_sample_pieces_are_looked_at_that_lie_evenly(
 
 
 def test_rates_are_those_of_a_further_variant() -> None:
-    assert module._rates([(10, 1.5, 1100), (110, 6.5, 2100)]) == pytest.approx((0.05, 10.0, 1000.0))
-    assert module._rates([(4, 2.0, 400)]) == pytest.approx((0.5, 100.0, 0.0))
-    assert module._rates([(10, 3.0, 100), (20, 2.0, 90)]) == pytest.approx((0.1, 0.0, 90.0))  # a disturbed clock
+    assert module._rates([(10, 1.5, 1100), (110, 6.5, 2100)], 3.0) == pytest.approx((0.05, 1.0, 3.0, 10.0, 1000.0))
+    assert module._rates([(4, 2.0, 400)], 3.0) == pytest.approx((0.5, 0.0, 3.0, 100.0, 0.0))
+    disturbed = module._rates([(10, 3.0, 100), (20, 2.0, 90)], 3.0)
+    assert disturbed == pytest.approx((0.1, 0.0, 3.0, 0.0, 90.0))
+
+
+def test_the_time_is_that_of_the_variants_of_the_part_files_and_of_a_process(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = dry_run(study(tmp_path, varied("{from: 1 kN, to: 9 kN, count: 8000}")))
+    measured = replace(found.measured, seconds=0.01, seconds_of_part=0.5, seconds_once=3.0)
+    monkeypatch.setattr(module.os, "cpu_count", lambda: 2)
+    parts = -(-found.parts // 2)
+    assert replace(found, measured=measured).seconds == pytest.approx(3 + 0.5 * parts + 0.01 * found.variants / 2)
 
 
 def test_people_are_told_it_line_by_line_and_nothing_is_written(tmp_path: Path, capfd: Capture) -> None:

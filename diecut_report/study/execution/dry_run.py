@@ -31,12 +31,17 @@ FEW, MORE, ENOUGH = 32, 256, 2.0  # variants that are measured, and seconds afte
 
 @dataclass(frozen=True)
 class Measured:
-    """Hold what a few variants took: seconds and bytes for each further one and for a part file, and their verdicts."""
+    """Hold what a few variants took: seconds and bytes for each further one and for a part file, and their verdicts.
+
+    ``seconds_once`` is what a process takes before it calculates.
+    """
 
     variants: int
     statuses: Mapping[str, int]
     dropped: int  # by constraints on outputs
     seconds: float
+    seconds_of_part: float
+    seconds_once: float
     bytes_: float
     bytes_of_part: float
     slow: tuple[str, ...]
@@ -76,8 +81,10 @@ class DryRun:
 
     @property
     def seconds(self) -> float:
-        """Return how long the variants take together."""
-        return self.variants * self.measured.seconds / self.processes
+        """Return how long the variants take together, with what each process and each part file takes once."""
+        found, parts_of_one = self.measured, -(-self.parts // self.processes)
+        each = self.variants * found.seconds / self.processes
+        return found.seconds_once + parts_of_one * found.seconds_of_part + each
 
     @property
     def bytes_(self) -> float:
@@ -139,30 +146,39 @@ def _first(study: Study) -> int:
 
 
 def _measured(study: Study, known: Description, first: int) -> Measured:
-    """Calculate one variant, a few and more of them, so that what they share is told from what each takes."""
+    """Calculate one variant, a few and more of them, so that what they share is told from what each takes.
+
+    None is calculated twice where there are enough: a second time takes less.
+    """
     calculate(study, Chunk(0, first, first + 1))  # what is made once for all
+    once, start = time.process_time(), first
     found: list[tuple[int, float, int]] = []
     for wanted in (FEW, MORE):
-        stop = min(first + wanted, study.sample.count)
+        start = start if start + wanted <= study.sample.count else first
+        stop = min(start + wanted, study.sample.count)
         began = time.process_time()
-        done = calculate(study, Chunk(0, first, stop))
+        done = calculate(study, Chunk(0, start, stop))
         seconds = time.process_time() - began
-        kept = int(np.sum(judged(study, study.sample.rows(first, stop), stop - first).holds))
+        kept = int(np.sum(judged(study, study.sample.rows(start, stop), stop - start).holds))
         table = table_of(schema_of(known), done.columns, len(done.columns["variant"]))
         found.append((kept, seconds, len(part_content(table))))
         if seconds > ENOUGH or stop == study.sample.count:
             break
+        start = stop
     status = done.columns["status"]
-    return Measured(kept, Counter(map(str, status)), kept - len(status), *_rates(found), tuple(done.slow), done.broken)
+    return Measured(
+        kept, Counter(map(str, status)), kept - len(status), *_rates(found, once), tuple(done.slow), done.broken
+    )
 
 
-def _rates(found: list[tuple[int, float, int]]) -> tuple[float, float, float]:
-    """Return seconds and bytes of a further variant, and the bytes of a file without one."""
+def _rates(found: list[tuple[int, float, int]], once: float) -> tuple[float, float, float, float, float]:
+    """Return seconds of a further variant, of a part file without one and of a process, bytes of a further variant and of a file."""
     (few, some_seconds, some_bytes), (many, seconds, size) = found[0], found[-1]
     if many == few:
-        return seconds / max(many, 1), size / max(many, 1), 0.0
+        return seconds / max(many, 1), 0.0, once, size / max(many, 1), 0.0
     slope, each = (seconds - some_seconds) / (many - few), max(size - some_bytes, 0) / (many - few)
-    return (slope if slope > 0 else seconds / many), each, max(size - each * many, 0.0)
+    slope = slope if slope > 0 else seconds / many
+    return slope, max(seconds - slope * many, 0.0), once, each, max(size - each * many, 0.0)
 
 
 # --- as lines for people, in the language that is spoken, and as plain data --------------------------------------------
