@@ -197,9 +197,16 @@ class Chart(Figure):
     build: Callable[[View], list[Shape]]
 
 
-def polyline(points: Sequence[Point], role: str = "outline", *, closed: bool = False) -> Shape:
-    """Return straight lines from point to point."""
-    return {"shape": "polyline", "points": [list(p) for p in points], "closed": closed, "role": role}
+def polyline(
+    points: Sequence[Point], role: str = "outline", *, closed: bool = False, grip: tuple[str, float] | None = None
+) -> Shape:
+    """Return straight lines from point to point.
+
+    ``grip`` names the number that they stand for where it can be changed by dragging them on the live page (``"lines.0.offset"``), and by
+    how much, in its unit, it grows with a metre to the right.
+    """
+    shape = {"shape": "polyline", "points": [list(p) for p in points], "closed": closed, "role": role}
+    return shape | ({"grip": dict(zip(("input", "per_metre"), grip, strict=True))} if grip else {})
 
 
 def region(outer: Sequence[Point], holes: Sequence[Sequence[Point]] = (), role: str = "section") -> Shape:

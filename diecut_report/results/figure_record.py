@@ -142,6 +142,13 @@ DURING = "Between which places of the abscissa it is filled."
 During = Annotated[list[float], Field(strict=False, min_length=2, max_length=2)]  # an author may type a tuple
 
 
+class GripRecord(Record):
+    """A number of the machine that is changed where a shape is dragged."""
+
+    input: str = always("The key in the mechanism, with the places in lists.")
+    per_metre: float = always("By how much it grows, in its unit, with a metre of the drawing to the right.")
+
+
 class PolylineRecord(Record):
     """Straight lines from point to point."""
 
@@ -150,6 +157,7 @@ class PolylineRecord(Record):
     closed: bool = always("true: the last point is joined to the first.")
     role: str = always(ROLE)
     during: During | None = sometimes(DURING)
+    grip: GripRecord | None = sometimes("The number that changes where it is dragged on the live page.")
 
 
 class RegionRecord(Record):

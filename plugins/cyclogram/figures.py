@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
+from math import degrees, pi
 from typing import Any
 
 import numpy as np
@@ -46,11 +46,12 @@ def _pieces(intervals: Intervals, period: float) -> Iterator[tuple[float, float]
                 yield a / period, b / period
 
 
-def _bars(intervals: Intervals, period: float, y: float, role: str) -> list[Shape]:
-    """Bars of a row."""
+def _bars(intervals: Intervals, period: float, y: float, role: str, line: int | None = None) -> list[Shape]:
+    """Bars of a row; those of a line are moved with its offset."""
     low, high = y - BAR / 2, y + BAR / 2
     ends = [(a * WIDTH, b * WIDTH) for a, b in _pieces(intervals, period)]
-    return [polyline([(a, low), (b, low), (b, high), (a, high)], role, closed=True) for a, b in ends]
+    grip = None if line is None else (f"lines.{line}.offset", degrees(period) / WIDTH)
+    return [polyline([(a, low), (b, low), (b, high), (a, high)], role, closed=True, grip=grip) for a, b in ends]
 
 
 def _brackets(intervals: Intervals, period: float, y: float) -> list[Shape]:
@@ -82,12 +83,12 @@ def rows(view: View) -> list[Shape]:
     """A row of bars for each phase over the common period, and one for each interlock with its margins."""
     timing: Timing = view.prepared("timing")
     shapes, y, period = [], 0.0, view["main_period"]
-    for each in timing.lines:
+    for number, each in enumerate(timing.lines):
         shapes.append(label((-0.2, y), Phrase("{name}:", name=each.name), "right"))
         y -= HIGH
         for name in each.told:
             shapes.append(label((-0.2, y), each.words[name], "right"))
-            shapes += _bars(each.on_main_shaft(name, timing.common, None), period, y, "outline")
+            shapes += _bars(each.on_main_shaft(name, timing.common, None), period, y, "outline", number)
             y -= HIGH
         y -= HIGH / 2
     for interlock, pair in zip(timing.final, timing.worst, strict=True):

@@ -487,12 +487,43 @@
     if (found.svg) {
       var drawing = document.importNode(new DOMParser().parseFromString(found.svg, "image/svg+xml").documentElement, true);
       box.replaceChildren(drawing);
+      grips(drawing, figure.dataset.figure.split("/")[1], figure.querySelector("figcaption"));
     } else if (found.plot) {
       box.replaceChildren();
       figure.charts = found.plot.panels.map(function (panel) { return chart(box, panel, found.plot.rows, figure.dataset.figure.split("/")[1]); });
     } else {
       box.textContent = found.refused || "";
     }
+  }
+
+  /* What stands for a number that may be changed is dragged, with all that stands for the same; the number is sent where it is let go. */
+  function grips(drawing, mechanism, caption) {
+    delete caption.dataset.moved;
+    var all = Array.from(drawing.querySelectorAll("g[data-grip]"));
+    all.forEach(function (bar) {
+      var parts = bar.dataset.grip.split(" "), name = mechanism + "." + parts[0], point = parts[1] / 1e6, from = null, typed = null;
+      var input = everyInput().find(function (each) { return each.name === name && !each.options; });
+      var same = all.filter(function (each) { return each.dataset.grip.split(" ")[0] === parts[0]; });
+      if (!input) { return; }
+      bar.classList.add("grip");
+      function shift(way) { same.forEach(function (each) { each.setAttribute("transform", "translate(" + way + " 0)"); }); }
+      function end(isMeant) {
+        if (from === null) { return; }
+        from = null;
+        if (isMeant && typed !== null) { change(name, typed); } else { shift(0); delete caption.dataset.moved; }
+      }
+      bar.addEventListener("pointerdown", function (event) { from = event.clientX; typed = null; bar.setPointerCapture(event.pointerId); event.preventDefault(); });
+      bar.addEventListener("pointermove", function (event) {
+        if (from === null) { return; }
+        var scale = drawing.getScreenCTM().a, way = (event.clientX - from) / scale, step = round(Math.abs(point) / scale);
+        var value = Number((Math.round((input.value + way * point) / step) * step).toPrecision(9));
+        typed = value + (input.unit ? " " + input.unit : "");
+        shift(way);
+        caption.dataset.moved = name + ": " + typed;
+      });
+      bar.addEventListener("pointerup", function () { end(true); });
+      bar.addEventListener("pointercancel", function () { end(false); });
+    });
   }
 
   /* A colour of the style sheet as the drawing surface takes it. */

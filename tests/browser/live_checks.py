@@ -266,3 +266,28 @@ def test_beside_the_press_alone_stands_what_of_the_whole_machine_does_not_hold(b
     tab.page.locator('[data-mechanism="shafts_main_loads"]').click()
     expect(told).to_be_hidden()
     expect(rows).to_have_count(0)
+
+
+def test_a_bar_of_the_cyclogram_is_dragged_with_its_offset(browser: Browser, live: Live) -> None:
+    live.file.write_bytes((CONFIG.parent / "flat_cylinder_press.yaml").read_bytes())
+    tab = Tab(browser, live.address)
+    tab.page.locator('[data-mechanism="timing"]').click()
+    tab.page.locator('[data-figure="figure/timing/0"]').scroll_into_view_if_needed()
+    bar = tab.page.locator(".grip").first
+    expect(bar).to_be_attached(timeout=SECONDS)
+    bar.scroll_into_view_if_needed()
+    box = bar.bounding_box()
+    assert box is not None
+    at = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    tab.page.mouse.move(*at)
+    tab.page.mouse.down()
+    tab.page.mouse.move(at[0] + 40, at[1], steps=5)
+    caption = tab.page.locator('[data-figure="figure/timing/0"] figcaption')
+    expect(caption).to_have_attribute("data-moved", re.compile(r"timing\.lines\.0\.offset: \d+ deg"))
+    told = (caption.get_attribute("data-moved") or "").partition(": ")[2]
+    tab.page.mouse.up()
+    expect(tab.page.locator('.input[data-name="timing.lines.0.offset"] .typed')).to_have_value(told, timeout=SECONDS)
+    expect(caption).not_to_have_attribute(
+        "data-moved", re.compile(".+"), timeout=SECONDS
+    )  # with the figure of the new machine
+    assert float(told.split()[0]) > 0 and tab.said == []

@@ -73,6 +73,25 @@ def test_a_line_across_all_rows_follows_the_angle_and_the_bars_that_it_passes_ar
     ]
 
 
+def test_bars_are_dragged_with_the_offset_of_their_line_and_by_as_much(tmp_path: Path) -> None:
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+
+    def bars(offset: str) -> list[PolylineRecord]:
+        text = HEAD + LINES.replace("{mechanism: feeder}", f"{{mechanism: feeder, offset: {offset}}}")
+        [figure] = [
+            each
+            for each in document(compute(load_config(saved(tmp_path, text), Discovery([tmp_path])), lambda _: None))
+            .mechanisms["cyc"]
+            .figures
+            if each.id == "cyclogram"
+        ]
+        return [each for each in figure.shapes if isinstance(each, PolylineRecord) and each.grip]
+
+    (before, *_), (after, *_) = bars("0 deg"), bars("45 deg")
+    assert before.grip is not None and before.grip.input == "lines.0.offset"
+    assert (after.points[0][0] - before.points[0][0]) * before.grip.per_metre == pytest.approx(45)
+
+
 def test_a_cyclogram_of_lines_at_other_rates_than_the_press_stands_still(tmp_path: Path) -> None:
     saved(tmp_path, PLUGIN, "small_feeder.py")
     config = load_config(

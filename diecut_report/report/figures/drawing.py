@@ -41,6 +41,7 @@ from diecut_report.results.figure_record import (
     CircleRecord,
     DimensionRecord,
     FigureRecord,
+    GripRecord,
     LabelRecord,
     PointRecord,
     PolylineRecord,
@@ -414,10 +415,15 @@ class Shapes:
         if shape.role in ("body", "shade"):
             self.axes.fill(points[:, 0], points[:, 1], color=BODY, linewidth=0, zorder=1)
         if shape.role != "shade":
-            self._line(points, **_look(shape))
+            gid = {"gid": self._grip(shape.grip)} if shape.grip else {}
+            self._line(points, **_look(shape), **gid)
         if shape.role == "ground":  # short strokes below a line that stands still
             feet = sampled(points, 6.0)[1:-1]
             self.axes.plot(*strokes(feet, feet - 4.5).T, **THIN_LINE)
+
+    def _grip(self, grip: GripRecord) -> str:
+        """What the live page knows of a shape that is dragged: the number, and how many millionths of its unit a point to the right is."""
+        return f"grip {grip.input} {round(1e6 * grip.per_metre / self.scale.across)}"
 
     def _circle(self, shape: CircleRecord) -> None:
         bow = self._bow(shape, 0.0, 2 * np.pi)

@@ -222,7 +222,7 @@ def written(figure: Figure, title: str) -> Svg:
     body = buffer.getvalue().rpartition("</metadata>")[2]
     body = body[body.index("<defs>") if "<defs>" in body[:400] else 0 :]
     body = re.sub(r"<style[^>]*>.*?</style>", "", body, count=1, flags=re.DOTALL)
-    body = re.sub(r'<g id="[^"]*"', "<g", body)
+    body = re.sub(r'<g id="(?!grip )[^"]*"', "<g", body).replace('<g id="grip ', '<g data-grip="')
     body = re.sub(r"<!--.*?-->\s*", "", body, flags=re.DOTALL)
     shorter = partial(re.sub, r"-?\d+\.\d{3,}", lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."))
     body = re.sub(r'="[^"]*\d\.\d{3}[^"]*"', lambda found: shorter(found[0]), body)
