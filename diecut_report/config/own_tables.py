@@ -99,6 +99,16 @@ class OwnTables:
             known.setdefault(entry.name, entry)
 
 
+def table_faults(raw: bytes, file: str) -> list[Problem]:
+    """Return what is wrong with a file of tables of that name."""
+    tables = OwnTables()
+    try:
+        tables._add(file, yaml.load(Path(file), raw))
+    except UserError as error:
+        return list(error.problems)
+    return tables.problems
+
+
 def _named_file(name: str, fault: str, place: ConfigPlace, key: KeyPath, find: Find | None, missing: str) -> Path:
     """Return where a file is that the configuration names; UserError where it cannot be one or is ``missing``."""
     if fault:
@@ -173,10 +183,13 @@ def place_fault(name: str, lie: str) -> str:
             "is {name}; {lie} beside the configuration or in a folder below it: give a name without a folder above"
         )
         return Phrase(template, name=quoted(name), lie=lie)
+    if any(part.startswith(".") for part in windows.parts):  # shells and tools load such files by themselves
+        return Phrase("is {name}; a name that begins with a dot is hidden: give another one", name=quoted(name))
     return ""
 
 
 KEY = ("report", "logo")
+PICTURES = (".png", ".svg")
 
 
 class Logo(NamedTuple):
@@ -213,4 +226,8 @@ def logo_fault(name: object) -> str:
     """Return what is wrong with the name of a logo; "" where it leads to a file beside the configuration or below."""
     if not isinstance(name, str) or not name.strip():
         return Phrase("is {name}; the name of a PNG or SVG file is needed, such as logo.svg", name=quoted(name))
-    return place_fault(name, phrase("a logo lies"))
+    if fault := place_fault(name, phrase("a logo lies")):
+        return fault
+    if PurePosixPath(name).suffix.lower() not in PICTURES:
+        return Phrase("is {name}; the name of a PNG or SVG file is needed, such as logo.svg", name=quoted(name))
+    return ""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Literal
 
-from diecut_report.config.own_tables import logo_fault, name_fault
+from diecut_report.config.own_tables import logo_fault, name_fault, table_faults
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.exchange.results_form import results_of
 from diecut_report.files import content, write_all
@@ -160,6 +160,9 @@ def extract(report: Path, folder: Path) -> list[Path]:
     if doubled := sorted(contents.keys() & found.tables.keys()):
         template = "The configuration names a file {doubled}, and would be called so itself. Rename the report."
         raise refusal(template, report, doubled=doubled[0])
+    tables = (table.file for table in found.results.config.materials)
+    if faults := [fault for name in tables for fault in table_faults(found.tables[name], name)]:
+        raise UserError(faults)
     files = {folder / name: each for name, each in (contents | found.tables).items()}
     if problems := list(_refused(files, folder)):
         raise UserError(problems)

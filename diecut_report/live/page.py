@@ -149,6 +149,7 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
     first = start.inputs.get(asked.name)
     return _named(asked, kind) | {
         "unit": "" if asked.unit == "1" else asked.unit,
+        "si": own.factor,
         "value": _plain(own.from_si(asked.present)),
         "typed": edits.get(asked.name) or asked.typed(asked.present),
         "start": first.typed(first.present) if first is not None and first.present is not None else "",

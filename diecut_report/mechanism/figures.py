@@ -203,7 +203,7 @@ def polyline(
     """Return straight lines from point to point.
 
     ``grip`` names the number that they stand for where it can be changed by dragging them on the live page (``"lines.0.offset"``), and by
-    how much, in its unit, it grows with a metre to the right.
+    how much (SI) it grows with a metre to the right.
     """
     shape = {"shape": "polyline", "points": [list(p) for p in points], "closed": closed, "role": role}
     return shape | ({"grip": dict(zip(("input", "per_metre"), grip, strict=True))} if grip else {})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Discriminator, Field, Tag
+from pydantic.json_schema import SkipJsonSchema
 
 from diecut_report.results.record import DrawnError, DrawnText, Record, always, sometimes
 
@@ -143,10 +144,11 @@ During = Annotated[list[float], Field(strict=False, min_length=2, max_length=2)]
 
 
 class GripRecord(Record):
-    """A number of the machine that is changed where a shape is dragged."""
+    """A number of the machine that is changed where a shape is dragged: its key in the mechanism, with the places in lists, and by how
+    much (SI) it grows with a metre of the drawing to the right."""
 
-    input: str = always("The key in the mechanism, with the places in lists.")
-    per_metre: float = always("By how much it grows, in its unit, with a metre of the drawing to the right.")
+    input: str
+    per_metre: float
 
 
 class PolylineRecord(Record):
@@ -157,7 +159,7 @@ class PolylineRecord(Record):
     closed: bool = always("true: the last point is joined to the first.")
     role: str = always(ROLE)
     during: During | None = sometimes(DURING)
-    grip: GripRecord | None = sometimes("The number that changes where it is dragged on the live page.")
+    grip: SkipJsonSchema[GripRecord | None] = Field(default=None, exclude=True)  # for the live page alone
 
 
 class RegionRecord(Record):

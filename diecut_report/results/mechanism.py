@@ -15,7 +15,7 @@ from diecut_report.machine.calculation import Calculation, Unproven, declared_un
 from diecut_report.machine.mechanism import intervals, period_of, phases_of, speed_of
 from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps import soundness
-from diecut_report.machine.steps.soundness import require_whole
+from diecut_report.machine.steps.soundness import NO_VALUE, require_whole
 from diecut_report.mechanics.timing.intervals import Interval, composed
 from diecut_report.mechanism.chapters import MISSING, Chapter
 from diecut_report.mechanism.figures import Spectrum, SpectrumLine
@@ -94,8 +94,7 @@ def _spectrum(spectrum: Spectrum) -> Data:
 
 def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
     if not np.isfinite(np.asarray(values, dtype=float)).all():
-        template = "{description} ({id}) is a curve that has no value at some of its places"
-        raise Unproven(Phrase(template, description=step.description, id=step.id), step.at)
+        raise Unproven(Phrase(NO_VALUE, description=step.description, id=step.id), step.at)
     return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
             "description": step.description, "display_unit": display, "source": step.source,
             **({"source_symbol": step.source_symbol} if isinstance(step, Step) and step.source_symbol else {})}  # fmt: skip

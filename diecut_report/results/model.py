@@ -409,6 +409,7 @@ class _WithoutDefaults(GenerateJsonSchema):
     def default_schema(self, schema: core_schema.WithDefaultSchema) -> Schema:
         """Return the schema of the value, which is not null where null says nothing."""
         inner = schema["schema"]
+        self.generate_inner(inner)  # what is not written says so here
         return self.generate_inner(inner["schema"] if inner["type"] == "nullable" else inner)
 
 

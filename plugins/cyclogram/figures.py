@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import degrees, pi
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -50,7 +50,7 @@ def _bars(intervals: Intervals, period: float, y: float, role: str, line: int | 
     """Bars of a row; those of a line are moved with its offset."""
     low, high = y - BAR / 2, y + BAR / 2
     ends = [(a * WIDTH, b * WIDTH) for a, b in _pieces(intervals, period)]
-    grip = None if line is None else (f"lines.{line}.offset", degrees(period) / WIDTH)
+    grip = None if line is None else (f"lines.{line}.offset", period / WIDTH)
     return [polyline([(a, low), (b, low), (b, high), (a, high)], role, closed=True, grip=grip) for a, b in ends]
 
 

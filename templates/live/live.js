@@ -501,10 +501,11 @@
     delete caption.dataset.moved;
     var all = Array.from(drawing.querySelectorAll("g[data-grip]"));
     all.forEach(function (bar) {
-      var parts = bar.dataset.grip.split(" "), name = mechanism + "." + parts[0], point = parts[1] / 1e6, from = null, typed = null;
+      var parts = bar.dataset.grip.split(" "), name = mechanism + "." + parts[0], from = null, typed = null;
       var input = everyInput().find(function (each) { return each.name === name && !each.options; });
-      var same = all.filter(function (each) { return each.dataset.grip.split(" ")[0] === parts[0]; });
       if (!input) { return; }
+      var point = parts[1] / 1e6 / input.si;
+      var same = all.filter(function (each) { return each.dataset.grip.split(" ")[0] === parts[0]; });
       bar.classList.add("grip");
       function shift(way) { same.forEach(function (each) { each.setAttribute("transform", "translate(" + way + " 0)"); }); }
       function end(isMeant) {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import hashlib
 import json
 import os
 from pathlib import Path
@@ -122,7 +123,21 @@ def test_the_users_own_tables_come_back_and_are_used_again(tmp_path: Path, capfd
     assert "shaft.yaml, data/steels.yaml, SHA-256" in capfd.readouterr().out
 
 
-@pytest.mark.parametrize("name", ["", ".", "../up.yaml", "/tmp/up.yaml", "C:\\up.yaml", "up.py", f"{300 * 'a'}.yaml"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "",
+        ".",
+        "../up.yaml",
+        "/tmp/up.yaml",
+        "C:\\up.yaml",
+        "up.py",
+        ".hidden.yaml",
+        ".github/workflows/x.yml",
+        "a/.b/c.yaml",
+        f"{300 * 'a'}.yaml",
+    ],
+)
 def test_the_name_of_a_table_leads_nowhere_else(small_report: Path, tmp_path: Path, name: str) -> None:
     def change(data: dict[str, Any]) -> None:
         data["config"]["materials"] = [{"file": name, "sha256": "", "source_text": "x"}]
@@ -132,6 +147,17 @@ def test_the_name_of_a_table_leads_nowhere_else(small_report: Path, tmp_path: Pa
     for command in ("extract", "verify", "render"):
         assert run(command, report, *(["-o", tmp_path / "in" / "out"] if command != "verify" else [])) == 2
     assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["a.json"]
+
+
+@pytest.mark.parametrize("text", ["x", "on: push\njobs: {}\n", "steels: {own: {strengths: []}}\n", "a: [\n"])
+def test_what_is_no_table_is_not_written(small_report: Path, tmp_path: Path, text: str) -> None:
+    def change(data: dict[str, Any]) -> None:
+        digest = hashlib.sha256(text.encode()).hexdigest()
+        data["config"]["materials"] = [{"file": "compose.yml", "sha256": digest, "source_text": text}]
+
+    report = changed(small_report / "small.json", tmp_path / "a.json", change)
+    assert run("extract", report, "-o", tmp_path / "out") == 2
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_link_to_another_folder_is_not_followed(tmp_path: Path, capfd: Capture) -> None:

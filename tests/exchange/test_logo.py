@@ -63,6 +63,9 @@ HOSTILE = [
     ({"base64": base64.b64encode(png()).decode()}, "the logo is not image/svg+xml"),
     ({"media_type": "text/html"}, "the logo is not text/html"),
     ({"file": "../a.svg"}, "The name of the logo is “../a.svg”; a logo lies beside"),
+    ({"file": ".bash_aliases"}, "a name that begins with a dot is hidden"),
+    ({"file": ".ssh/a.svg"}, "a name that begins with a dot is hidden"),
+    ({"file": "a.desktop"}, "the name of a PNG or SVG file is needed"),
 ]
 
 
@@ -77,13 +80,17 @@ def test_a_strangers_logo_is_judged_as_ones_own(
 
 def test_a_wrong_logo_is_told_with_its_place(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(b"GIF89a")
-    (tmp_path / "folder").mkdir()
-    told = {name: problems(tmp_path, with_logo(name)) for name in ("a.png", "b.png", "folder", "../a.png", "[1]", "''")}
+    (tmp_path / "folder.png").mkdir()
+    told = {
+        name: problems(tmp_path, with_logo(name))
+        for name in ("a.png", "b.png", "a.sh", ".a.svg", "folder.png", "../a.png", "[1]", "''")
+    }
     assert told["a.png"] == [
         "3:16: report.logo: “a.png” is neither a PNG nor an SVG picture, whatever its name ends in"
     ]
     assert "there is no file" in told["b.png"][0] and "3:16: report.logo" in told["b.png"][0]
-    assert told["folder"] == [f"{tmp_path / 'folder'}: This is a folder. Give a PNG or SVG picture."]
+    assert told["folder.png"] == [f"{tmp_path / 'folder.png'}: This is a folder. Give a PNG or SVG picture."]
+    assert "the name of a PNG or SVG file is needed" in told["a.sh"][0] and "hidden" in told[".a.svg"][0]
     assert "without a folder above" in told["../a.png"][0]
     assert "the name of a PNG or SVG file is needed" in " ".join(told["[1]"])
     assert "the name of a PNG or SVG file is needed" in told["''"][0]

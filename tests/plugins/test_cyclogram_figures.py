@@ -89,7 +89,7 @@ def test_bars_are_dragged_with_the_offset_of_their_line_and_by_as_much(tmp_path:
 
     (before, *_), (after, *_) = bars("0 deg"), bars("45 deg")
     assert before.grip is not None and before.grip.input == "lines.0.offset"
-    assert (after.points[0][0] - before.points[0][0]) * before.grip.per_metre == pytest.approx(45)
+    assert (after.points[0][0] - before.points[0][0]) * before.grip.per_metre == pytest.approx(np.pi / 4)
 
 
 def test_a_cyclogram_of_lines_at_other_rates_than_the_press_stands_still(tmp_path: Path) -> None:

@@ -239,16 +239,16 @@ def _zeros(node: Node) -> Iterator[Node]:
     match node:
         case Node("/", (_, below)):
             yield from _factors(below)
-        case Node("^", (base, Node("neg", _) | Node("num", _) as power)) if evaluate(power, _none) < 0:
+        case Node("^", (base, power)) if power.op != "num" or float(power.args[0]) < 0:
             yield from _factors(base)
         case Node("call", ("tan", inner)):
             yield Node("call", ("cos", inner))
         case Node("call", ("arctan2", above, _)):
             yield above
-
-
-def _none(leaf: Node) -> Any:
-    return np.nan if leaf.op == "sym" else float(leaf.args[0])
+        case Node("call", ("log" | "log10", inner)):
+            yield from _factors(inner)
+        case Node("call", ("arctanh", inner)):
+            yield from (Node(sign, (Node("num", ("1",)), inner)) for sign in ("+", "-"))
 
 
 def _factors(node: Node) -> Iterator[Node]:

@@ -37,25 +37,28 @@ NEAR = 5  # points of the grid that tell how a gap runs from the end of its piec
 BETWEEN = np.array([1 / 16, 1 / 4, 1 / 2])  # places from the end to the next point where it is looked at
 ALIKE = 0.01  # of a gap: where the points beside the end tell it by so much, there is no bend between
 
-# shares of its piece by which a curve is looked at before and behind a zero of what it is divided by
-LOOKS = np.array([-1e-3, 1e-3, -1e-5, 1e-5, -1e-7, 1e-7])
-INSIDE = 500.0  # times the way to the end of the piece: so far it may be wide for these
-STAYS, TORN = (
-    0.5,
-    1e-6,
-)  # times: nearer by a hundredth a jump keeps its height, a slope a hundredth of it; and of the greatest size
-GROWS = 5.0  # times: nearer by a hundredth a pole grows by ten or more
-TOUCHES = 1e-14  # of the greatest size of a gap: what comes so near to zero is zero
+# shares of its piece by which a curve is looked at beside a zero of what it is divided by, nearer by a tenth each time
+LOOKS = np.array([1e-3, 1e-4, 1e-5])
+INSIDE = 500.0  # times the way to the end of the piece: so far it may be wide for both sides of a jump
+# times what was seen before: a jump keeps its height, and a logarithm or a pole moves by as much or more; a slope by a tenth of it
+STAYS, GOES_ON = 0.85, 0.9
+TORN = 1e-6  # of the size of a curve beside a place: what is no rounding of what cancels there
+# of the greatest size of a gap: what comes so near to zero is zero, or may be so at the end of its piece, and is so there
+TOUCHES, NEAR_END, AT_END = 1e-14, 1e-7, 1e-12
 
 Brackets = tuple[Array, Array, Array]  # rows, and the two places (rows,) between which a condition changes
 
 
 class JumpFault(NamedTuple):
-    """Hold a curve that jumps: the condition that changes there (None where a flag of the piece varies without a jump), and the place (SI)."""
+    """Hold a curve that jumps: the condition that changes there (None where a flag of the piece varies without a jump), and the place (SI).
+
+    ``is_pole``: it does not jump there, but has no end.
+    """
 
     curve: str
     condition: BranchCondition | None
     place: float
+    is_pole: bool = False
 
 
 def faults(calc: Calculation, curve: str) -> Iterator[tuple[int, JumpFault]]:
@@ -67,6 +70,13 @@ def faults(calc: Calculation, curve: str) -> Iterator[tuple[int, JumpFault]]:
     if curve not in search.searched:
         search.searched.add(curve)
         yield from ((variant, found) for variant, found in search.faults(curve) if variant not in calc.flaws)
+
+
+def without_value(calc: Calculation, curve: str) -> list[int]:
+    """Return the machines (variants) of which a curve has no value at some place of the search grid, and that are not impossible already."""
+    table = calc.table(calc.axis[curve])
+    lacks = ~np.isfinite(table.on_grid([curve])[0]).all(axis=1)
+    return [int(each) for each in np.unique(table.pieces().variant[lacks]) if each not in calc.flaws]
 
 
 class _Search:
@@ -136,8 +146,7 @@ class _Machines:
 
     def faults(self, curve: str, known: CurveConditions) -> dict[int, JumpFault]:
         """Return the first jump of a curve of each machine that has one."""
-        every = *known.direct, *known.of_flags, *known.singular
-        changes = {condition: self.where_changes(condition) for condition in every}
+        changes = {condition: self.where_changes(condition) for condition in (*known.direct, *known.of_flags)}
         changes = {condition: brackets for condition, brackets in changes.items() if len(brackets[0])}
         varying = self.varying(known)
         found: dict[int, JumpFault] = {}
@@ -145,6 +154,9 @@ class _Machines:
             heights = self.calc.table(self.axis).on_grid([curve])[0][self.own]
             for row, condition, place in self._moved(curve, changes, varying, heights):
                 found.setdefault(int(self.variant[row]), JumpFault(curve, condition, place))
+        for singular in known.singular:
+            for row, place, is_pole in self._torn(curve, singular):
+                found.setdefault(int(self.variant[row]), JumpFault(curve, singular, place, is_pole))
         return found
 
     def _moved(
@@ -155,10 +167,6 @@ class _Machines:
         np.fmax.at(greatest, self.variant, np.fmax.reduce(np.abs(heights), axis=1))
         moves = JUMP * greatest[self.variant]  # by how much the curve of each piece's machine moves at a jump
         for condition, (row, low, high) in changes.items():
-            if isinstance(condition, Singularity):
-                for i in np.flatnonzero(self._is_torn(curve, row, high, greatest[self.variant[row]])):
-                    yield row[i], condition, float(high[i])
-                continue
             before, after = (self.at(x[:, None], row, [curve]).over(curve)[:, 0] for x in (low, high))
             reported = condition if any(map(self.search.varies, condition.names)) else None
             for i in np.flatnonzero(np.abs(after - before) > moves[row]):
@@ -170,17 +178,50 @@ class _Machines:
             for i, k in np.argwhere(apart):
                 yield varying[i], None, float(x[i, k])
 
-    def _is_torn(self, curve: str, row: Array, place: Array, greatest: Array) -> Array:
-        """Whether a curve stays apart on both sides of places (rows,), or grows towards them, however near they are."""
-        room = np.minimum(place - self.left[row], self.right[row] - place)
-        reach = np.minimum((self.right - self.left)[row], INSIDE * room)[:, None] * LOOKS
-        with np.errstate(all="ignore"):
-            values = self.at(place[:, None] + reach, row, [curve]).over(curve)
-            far, near, nearest = np.split(values, 3, axis=1)
-            apart, before = (np.abs(np.diff(each, axis=1)[:, 0]) for each in (near, far))
-            grows = np.abs(nearest).max(axis=1) > GROWS * np.abs(near).max(axis=1)
-        found: Array = grows | ((apart > TORN * greatest) & (apart > STAYS * before)) | ~np.isfinite(values).all(axis=1)
+    def _torn(self, curve: str, zero: Singularity) -> Iterator[tuple[int, float, bool]]:
+        """Give where a curve stays apart on both sides of a zero, and where it goes on without an end towards one: there alone at the ends
+        of pieces, too."""
+        row, _, place = self.where_changes(zero)
+        width = self.right - self.left
+        if len(row):
+            far, near, nearest = self._beside(
+                curve, row, place, np.minimum(width[row], INSIDE * self._room(row, place))
+            )
+            least = TORN * np.abs(far).max(axis=1)
+            before, apart = (np.abs(np.diff(each, axis=1)[:, 0]) for each in (near, nearest))
+            stays = (apart > least) & (apart > STAYS * before) & (before > STAYS * apart)
+            yield from ((row[i], float(place[i]), False) for i in np.flatnonzero(stays))
+        at_end = self._zero_at_ends(zero)
+        row, place = np.concatenate([row, at_end[0]]), np.concatenate([place, at_end[1]])
+        if len(row):
+            looks = self._beside(curve, row, place, width[row])
+            is_there = np.stack([place - self.left[row], self.right[row] - place], axis=1) > LOOKS[0] * width[row, None]
+            far, near, nearest = (np.where(is_there, each, 0.0) for each in looks)
+            moved, earlier = np.abs(nearest - near), np.abs(near - far)
+            goes_on = (moved > TORN * np.abs(far)) & (moved > GOES_ON * earlier)
+            is_pole = (goes_on | ~np.isfinite(nearest)).any(axis=1)
+            yield from ((row[i], float(place[i]), True) for i in np.flatnonzero(is_pole))
+
+    def _room(self, row: Array, place: Array) -> Array:
+        found: Array = np.minimum(place - self.left[row], self.right[row] - place)
         return found
+
+    def _beside(self, curve: str, row: Array, place: Array, width: Array) -> tuple[Array, Array, Array]:
+        """A curve before and behind places, nearer each time, shape (rows, 2); within the pieces."""
+        reach = width[:, None] * np.repeat(LOOKS, 2) * np.tile([-1, 1], len(LOOKS))
+        x = np.clip(place[:, None] + reach, self.left[row, None], self.right[row, None])
+        with np.errstate(all="ignore"):
+            far, near, nearest = np.split(self.at(x, row, [curve]).over(curve), len(LOOKS), axis=1)
+        return far, near, nearest
+
+    def _zero_at_ends(self, zero: Singularity) -> tuple[Array, Array]:
+        """Rows, and the end of the piece, where what a curve is divided by is zero there."""
+        gap = np.abs(zero.sides(self.on_grid.__getitem__, self.x)[1])
+        greatest = gap.max(axis=1)
+        row, end = np.nonzero(gap[:, [0, -1]] <= NEAR_END * greatest[:, None])
+        place = np.where(end == 0, self.left[row], self.right[row])
+        is_zero = np.abs(self._sides(zero, place[:, None], row)[1][:, 0]) <= AT_END * greatest[row]
+        return row[is_zero], place[is_zero]
 
     def _with_own_flags(self, curve: str, x: Array, row: Array) -> Array:
         """A curve at places with the flags of the very places, computed together with those that will be asked for."""

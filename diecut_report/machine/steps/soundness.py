@@ -26,6 +26,9 @@ from diecut_report.text.phrases import Phrase, phrase
 # Refuses what would be reported of a curve that jumps inside a smooth piece: its extremes and integrals could be any numbers.
 
 
+NO_VALUE = phrase("{description} ({id}) is a curve that has no value at some of its places")
+
+
 def require(calc: Calculation, asking: str, curve: str) -> None:
     """Refuse a single machine whose curve jumps elsewhere than at its breakpoints; mark such variants. ``asking`` asks for the curve."""
     if curve not in calc.curves:
@@ -35,6 +38,9 @@ def require(calc: Calculation, asking: str, curve: str) -> None:
         if calc.count == 1:
             raise Unproven(words, calc.curves[curve].at)
         calc.flaws[variant] = asking, words
+    if calc.count > 1 and (step := calc.curves[curve]).output:  # of a single one that is told where it is written
+        for variant in jumps.without_value(calc, curve):
+            calc.flaws[variant] = asking, Phrase(NO_VALUE, description=step.description, id=curve)
 
 
 def _words(calc: Calculation, found: JumpFault) -> str:
@@ -52,11 +58,12 @@ def _words(calc: Calculation, found: JumpFault) -> str:
     decided = written(_in_symbols(calc, found.condition))
     of: str = Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
     of = phrase("its formula") if step.id == curve.id else of
+    if found.is_pole:
+        template = "{where} has a pole at {place}, where {decided} is zero in {of}; require what keeps away from it"
+        return Phrase(template, where=where, place=place, decided=decided, of=of)
     if isinstance(found.condition, Singularity):
         fix = Phrase("{fix}, or require what keeps away from it", fix=fix)
-        template = (
-            "{where} jumps or has a pole inside a smooth piece, at {place}, where {decided} is zero in {of}; {fix}"
-        )
+        template = "{where} jumps inside a smooth piece, at {place}, where {decided} is zero in {of}; {fix}"
         return Phrase(template, where=where, place=place, decided=decided, of=of, fix=fix)
     template = "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
     return Phrase(template, where=where, place=place, decided=decided, of=of, fix=fix)

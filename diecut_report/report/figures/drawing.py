@@ -422,7 +422,7 @@ class Shapes:
             self.axes.plot(*strokes(feet, feet - 4.5).T, **THIN_LINE)
 
     def _grip(self, grip: GripRecord) -> str:
-        """What the live page knows of a shape that is dragged: the number, and how many millionths of its unit a point to the right is."""
+        """What the live page knows of a shape that is dragged: the number, and how many millionths of SI a point to the right is."""
         return f"grip {grip.input} {round(1e6 * grip.per_metre / self.scale.across)}"
 
     def _circle(self, shape: CircleRecord) -> None:

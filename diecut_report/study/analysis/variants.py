@@ -46,7 +46,8 @@ if TYPE_CHECKING:
 DISPLAY = {"m": "mm", "rad": "deg", "rad/s": "rpm", "Pa": "MPa", "1/s": "1/h"}
 FIXED = (VARIANT.name, JUDGED.name, *(column.name for column in VERDICT))
 UTILISATION, STATUS = ".utilisation", ".status"  # ends of the columns of a check
-MEMORY = "400MB"  # of DuckDB
+MEMORY, OF_COLUMN = 400, 0.15  # MB for DuckDB, and for each column, of which each thread holds a piece
+MOST_COLUMNS = 1000  # that several threads read at a time
 
 
 @dataclass(frozen=True)
@@ -126,8 +127,13 @@ def opened(folder: Path) -> Iterator[Stored]:
     if not paths:
         command = continuing(folder, [column.name for column in store.description.columns])
         raise refusal("No variants are stored here yet. Continue the run with: {continued}", folder, continued=command)
-    config: dict[str, str | bool | int | float | list[str]]
-    config = {"memory_limit": MEMORY, "temp_directory": tempfile.gettempdir(), "preserve_insertion_order": "false"}
+    columns = len(store.description.columns)
+    config: dict[str, str | bool | int | float | list[str]] = {
+        "memory_limit": f"{MEMORY + OF_COLUMN * columns:.0f}MB",
+        "temp_directory": tempfile.gettempdir(),
+        "preserve_insertion_order": "false",
+        **({"threads": 1} if columns > MOST_COLUMNS else {}),
+    }
     with duckdb.connect(":memory:", config=config) as connection:
         try:
             files = [str(path.absolute()) for path in paths]
