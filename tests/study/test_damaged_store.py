@@ -17,7 +17,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.errors import UserError
-from diecut_report.study.analysis import variants
+from diecut_report.study.analysis import variants as stored_variants
 from diecut_report.study.analysis.variants import opened
 from diecut_report.study.execution.study_run import Where, run_study
 from diecut_report.study.storage import parts, state
@@ -177,8 +177,8 @@ def test_of_many_columns_one_thread_holds_a_piece_each(folder: Path, monkeypatch
         return int(threads), round(float(str(memory).split()[0]))
 
     few = settings()
-    monkeypatch.setattr(variants, "MOST_COLUMNS", 3)
-    monkeypatch.setattr(variants, "OF_COLUMN", 100)
+    monkeypatch.setattr(stored_variants, "MOST_COLUMNS", 3)
+    monkeypatch.setattr(stored_variants, "OF_COLUMN", 100)
     threads, memory = settings()
     assert threads == 1 and memory > 2 * few[1]
 
