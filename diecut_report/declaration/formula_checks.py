@@ -171,7 +171,7 @@ def faults_of_formulas(mechanism: Mechanism) -> tuple[str, ...]:
 # What an author may mean, and often does not: a unit that a formula converts by hand, a chapter that nothing depends on.
 
 
-POWERS = (1e-3, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9)
+POWERS = (1e-9, 1e-6, 1e-4, 1e-3, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9)
 BY_HAND = np.array([
     *POWERS, 60, 3600, 180, 360, np.pi, 180 / np.pi, np.pi / 180, np.pi / 30, 30 / np.pi, 30000 / np.pi,
     float(GRAVITY), 25.4, 4.448222, 6894.757, 735.5,

@@ -146,6 +146,11 @@ def _function_faults(step: Step) -> Iterator[str]:
         asked = [p for p in parameters.parameters.values() if p.default is p.empty and p.kind is not p.VAR_POSITIONAL]
         named = called.words or Phrase("takes names {given}: each is given by its position", given=called.arguments)
         yield Phrase("its function takes {count}, and {named}", count=len(asked), named=named)
+        return
+    own, given = [*parameters.parameters], getattr(step, "takes", ())
+    if any(given[i] != each and each in given for i, each in enumerate(own[: len(given)])):
+        template = "its function has the parameters {own}, and takes names {given}: each is given by its position"
+        yield Phrase(template, own=", ".join(own), given=", ".join(given))
 
 
 # What steps take: a curve where a curve is wanted, a row where a row is, an abscissa, a text with allowed values.

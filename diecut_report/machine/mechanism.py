@@ -90,12 +90,17 @@ def intervals(calc: Calculation, name: str, row: int = 0) -> Intervals:
     held = [each for other in (*step.union, *step.rest_of) for each in intervals(calc, other, row)]
     if step.rest_of:
         return complement(merged(held, period), period) if held else ()
+    return merged([*held, *own_spans(calc, step, period, row)], period)
+
+
+def own_spans(calc: Calculation, step: Phase, period: float, row: int = 0) -> list[Interval]:
+    """Return the spans that a phase declares itself for one variant, SI, each from its start onwards."""
 
     def place(end: str | float) -> float:
         return _of_row(calc[end], row) if isinstance(end, str) else float(end)
 
-    spans = [(place(start), place(end)) for start, end in step.spans]
-    return merged([*held, *(_counted_on(span, period) for span in spans if not np.isnan(span).any())], period)
+    spans = ((place(start), place(end)) for start, end in step.spans)
+    return [_counted_on(span, period) for span in spans if not np.isnan(span).any()]
 
 
 def _counted_on(span: Interval, period: float) -> Interval:

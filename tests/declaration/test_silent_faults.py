@@ -204,6 +204,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(Words(id="w", function=lambda one, two: "", takes=("arm",))),
         "step w: its function takes 2, and takes names 1",
     ),
+    "parameters in another order than what is taken": (
+        made(Words(id="w", function=lambda force, arm: "", takes=("arm", "force"))),
+        "step w: its function has the parameters force, arm, and takes names arm, force: each is given by its position",
+    ),
     "an erratum that touches an unknown": (made(errata=(Erratum("1", "e", touches=("momnt",)),), sources=(Source("1", "a"),)), "touches momnt"),
     "a field of a block without its need": (
         made(value("x", formula=bind(same, value="extra.rate")), inputs=with_input(Annotated[Spring | None, Text("Spring")], None)),

@@ -1,0 +1,43 @@
+"""A phase is not longer than its period: ends that plain code gives in degrees would make it all of the turn."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+import pytest
+
+from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.machine.calculation import Calculation, Unproven
+from diecut_report.machine.steps.run import calculate
+from diecut_report.results.mechanism import phases
+
+
+class Cam(Inputs):
+    rise: Annotated[float, Quantity("φ_r", "deg", "Rise", gt=0)]
+    n_points: Annotated[int, POINTS] = 36
+
+
+def cam(rise: float, start: float) -> Calculation:
+    chapter = Chapter("Turn")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.computed("start", "φ_1", "deg", "Start", lambda rise: 0 * rise + start, ("rise",), "it is so")
+    chapter.value("end", "φ_2", "deg", "End", lambda start, rise: start + rise)
+    chapter.phase("rising", "working", "The follower rises", "angle", ("start", "end"))
+    mechanism = Mechanism(kind="cam", version="1", title="Cam", summary="", inputs=Cam, chapters=(chapter,))
+    return calculate(mechanism, {"rise": rise, "n_points": 36})
+
+
+@pytest.mark.parametrize("rise", [0.5, np.pi, 2 * np.pi])
+@pytest.mark.parametrize("start", [0.0, 1.0, 100.0])
+def test_a_phase_up_to_a_whole_turn_is_one(rise: float, start: float) -> None:
+    ((begin, end),) = phases(cam(rise, start))["rising"].intervals
+    assert end - begin == pytest.approx(rise) and 0 <= begin < 2 * np.pi
+
+
+def test_a_longer_one_is_refused() -> None:
+    with pytest.raises(
+        Unproven,
+        match=r"The follower rises \(rising\) lasts 8594°, longer than its period of 360°; its ends are in SI",
+    ):
+        phases(cam(150.0, 0.0))
