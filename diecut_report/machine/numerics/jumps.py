@@ -75,7 +75,10 @@ def faults(calc: Calculation, curve: str) -> Iterator[tuple[int, JumpFault]]:
 def without_value(calc: Calculation, curve: str) -> list[int]:
     """Return the machines (variants) of which a curve has no value at some place of the search grid, and that are not impossible already."""
     table = calc.table(calc.axis[curve])
-    lacks = ~np.isfinite(table.on_grid([curve])[0]).all(axis=1)
+    values = table.on_grid([curve])[0]
+    if np.isfinite(values.sum()):  # as nearly always
+        return []
+    lacks = ~np.isfinite(values).all(axis=1)
     return [int(each) for each in np.unique(table.pieces().variant[lacks]) if each not in calc.flaws]
 
 
@@ -141,6 +144,10 @@ class _Machines:
         self.x = pieces.grid(own)
         self.x[:, [0, -1]] = search.ends[own]
         self.changes: dict[Hashable, Brackets] = {}
+        self.zeros: dict[Hashable, tuple[Array, Array, Array]] = {}
+        self.ends_of: dict[
+            Hashable, tuple[Array, Array]
+        ] = {}  # sizes of what is divided by at the ends of the pieces, and the greatest
         self.by_own_flags: dict[bytes, dict[str, Array]] = {}  # for rows, curves at the inner points of the grid
         self.on_grid = _GridSampler(self)
 
@@ -181,46 +188,47 @@ class _Machines:
     def _torn(self, curve: str, zero: Singularity) -> Iterator[tuple[int, float, bool]]:
         """Give where a curve stays apart on both sides of a zero, and where it goes on without an end towards one: there alone at the ends
         of pieces, too."""
-        row, _, place = self.where_changes(zero)
-        width = self.right - self.left
-        if len(row):
-            far, near, nearest = self._beside(
-                curve, row, place, np.minimum(width[row], INSIDE * self._room(row, place))
-            )
-            least = TORN * np.abs(far).max(axis=1)
-            before, apart = (np.abs(np.diff(each, axis=1)[:, 0]) for each in (near, nearest))
-            stays = (apart > least) & (apart > STAYS * before) & (before > STAYS * apart)
-            yield from ((row[i], float(place[i]), False) for i in np.flatnonzero(stays))
-        at_end = self._zero_at_ends(zero)
-        row, place = np.concatenate([row, at_end[0]]), np.concatenate([place, at_end[1]])
-        if len(row):
-            looks = self._beside(curve, row, place, width[row])
-            is_there = np.stack([place - self.left[row], self.right[row] - place], axis=1) > LOOKS[0] * width[row, None]
-            far, near, nearest = (np.where(is_there, each, 0.0) for each in looks)
-            moved, earlier = np.abs(nearest - near), np.abs(near - far)
-            goes_on = (moved > TORN * np.abs(far)) & (moved > GOES_ON * earlier)
-            is_pole = (goes_on | ~np.isfinite(nearest)).any(axis=1)
-            yield from ((row[i], float(place[i]), True) for i in np.flatnonzero(is_pole))
+        row, place, is_inside = self._zeros(zero)
+        if not len(row):
+            return
+        width, room = (self.right - self.left)[row], np.minimum(place - self.left[row], self.right[row] - place)
+        (far, near, nearest), looks = self._beside(curve, row, place, [np.minimum(width, INSIDE * room), width])
+        before, apart = (np.abs(np.diff(each, axis=1)[:, 0]) for each in (near, nearest))
+        stays = (apart > TORN * np.abs(far).max(axis=1)) & (apart > STAYS * before) & (before > STAYS * apart)
+        yield from ((row[i], float(place[i]), False) for i in np.flatnonzero(is_inside & stays))
+        is_there = np.stack([place - self.left[row], self.right[row] - place], axis=1) > LOOKS[0] * width[:, None]
+        far, near, nearest = (np.where(is_there, each, 0.0) for each in looks)
+        moved, earlier = np.abs(nearest - near), np.abs(near - far)
+        goes_on = (moved > TORN * np.abs(far)) & (moved > GOES_ON * earlier)
+        is_pole = (goes_on | ~np.isfinite(nearest)).any(axis=1)
+        yield from ((row[i], float(place[i]), True) for i in np.flatnonzero(is_pole))
 
-    def _room(self, row: Array, place: Array) -> Array:
-        found: Array = np.minimum(place - self.left[row], self.right[row] - place)
-        return found
+    def _zeros(self, zero: Singularity) -> tuple[Array, Array, Array]:
+        """Rows and places where what curves are divided by is zero, and which of them lie inside their pieces, not at an end."""
+        if zero.meaning not in self.zeros:
+            row, _, place = self.where_changes(zero)
+            at_end, end = self._zero_at_ends(zero)
+            is_inside = np.arange(len(row) + len(at_end)) < len(row)
+            self.zeros[zero.meaning] = np.concatenate([row, at_end]), np.concatenate([place, end]), is_inside
+        return self.zeros[zero.meaning]
 
-    def _beside(self, curve: str, row: Array, place: Array, width: Array) -> tuple[Array, Array, Array]:
-        """A curve before and behind places, nearer each time, shape (rows, 2); within the pieces."""
-        reach = width[:, None] * np.repeat(LOOKS, 2) * np.tile([-1, 1], len(LOOKS))
-        x = np.clip(place[:, None] + reach, self.left[row, None], self.right[row, None])
+    def _beside(self, curve: str, row: Array, place: Array, widths: Sequence[Array]) -> list[list[Array]]:
+        """A curve before and behind places, nearer each time, shape (rows, 2), by shares of each of some widths; within the pieces."""
+        sides = np.repeat(LOOKS, 2) * np.tile([-1, 1], len(LOOKS))
+        x = place[:, None] + np.concatenate([width[:, None] * sides for width in widths], axis=1)
+        x = np.clip(x, self.left[row, None], self.right[row, None])
         with np.errstate(all="ignore"):
-            far, near, nearest = np.split(self.at(x, row, [curve]).over(curve), len(LOOKS), axis=1)
-        return far, near, nearest
+            values = self.at(x, row, [curve]).over(curve)
+        return [np.split(each, len(LOOKS), axis=1) for each in np.split(values, len(widths), axis=1)]
 
     def _zero_at_ends(self, zero: Singularity) -> tuple[Array, Array]:
         """Rows, and the end of the piece, where what a curve is divided by is zero there."""
-        gap = np.abs(zero.sides(self.on_grid.__getitem__, self.x)[1])
-        greatest = gap.max(axis=1)
-        row, end = np.nonzero(gap[:, [0, -1]] <= NEAR_END * greatest[:, None])
+        ends, greatest = self.ends_of[zero.meaning]
+        row, end = np.nonzero(ends <= NEAR_END * greatest[:, None])
         place = np.where(end == 0, self.left[row], self.right[row])
-        is_zero = np.abs(self._sides(zero, place[:, None], row)[1][:, 0]) <= AT_END * greatest[row]
+        is_zero = (
+            np.abs(self._sides(zero, place[:, None], row)[1][:, 0]) <= AT_END * greatest[row] if len(row) else row > 0
+        )
         return row[is_zero], place[is_zero]
 
     def _with_own_flags(self, curve: str, x: Array, row: Array) -> Array:
@@ -243,6 +251,8 @@ class _Machines:
         """Return where a condition changes inside a piece: neighbouring places before and after."""
         if condition.meaning not in self.changes:
             side, gap = condition.sides(self.on_grid.__getitem__, self.x)
+            if isinstance(condition, Singularity):
+                self.ends_of[condition.meaning] = np.abs(gap[:, [0, -1]]), np.abs(gap).max(axis=1)
             row, k = _nonzero(side[:, 1:] != side[:, :-1])
             found = [(row, self.x[row, k], self.x[row, k + 1]), *self._hidden(condition, side, gap)]
             row, low, high = (np.concatenate(columns) for columns in zip(*found, strict=True))
