@@ -116,6 +116,10 @@ WHOLE: dict[str, tuple[str, Any]] = {
     "a wrap that the sine undoes": ("max", lambda arm, angle, place: arm * np.sin(np.arctan2(np.sin(angle - place), -np.cos(angle - place)))),
     "an upright turn": ("max", lambda arm, angle, place: arm * as_number(angle - place) / np.abs(as_number(angle - place)) ** 0.9),
     "a logarithm that is drowned": ("max", lambda arm, angle, place: arm * np.sin((angle - place) / 2) * np.log(np.abs(np.sin((angle - place) / 2)))),
+    "a turn beside the end": (
+        "max",
+        lambda arm, angle: arm * (7 + 30 * as_number(angle - 0.00345) ** 2 + 0 * as_number(np.arctan2(np.sin(angle), 2 + np.cos(angle)))),
+    ),
     "a narrow peak": ("max", lambda arm, angle, place: arm / (1e-10 + as_number(angle - place) ** 2)),
     "near a pole": ("max", lambda arm, angle, place: arm / (1.0001 - np.cos(angle - place))),
 }  # fmt: skip

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from functools import cache
+from itertools import pairwise
 from typing import NamedTuple
 from weakref import proxy
 
@@ -38,9 +39,10 @@ BETWEEN = np.array([1 / 16, 1 / 4, 1 / 2])  # places from the end to the next po
 ALIKE = 0.01  # of a gap: where the points beside the end tell it by so much, there is no bend between
 
 # shares of its piece by which a curve is looked at beside a zero of what it is divided by, nearer by a tenth each time
-LOOKS = np.array([1e-3, 1e-4, 1e-5])
+LOOKS = np.array([1e-3, 1e-4, 1e-5, 1e-6])
 INSIDE = 500.0  # times the way to the end of the piece: so far it may be wide for both sides of a jump
-# times what was seen before: a jump keeps its height, and a logarithm or a pole moves by as much or more; a slope by a tenth of it
+# times what was seen before: a jump keeps its height, and a logarithm or a pole moves by as much or more; a slope by a tenth of it, but for
+# once, beside where it turns: it is seen twice
 STAYS, GOES_ON = 0.85, 0.9
 TORN = 1e-6  # of the size of a curve beside a place: what is no rounding of what cancels there
 # of the greatest size of a gap: what comes so near to zero is zero, or may be so at the end of its piece, and is so there
@@ -192,15 +194,16 @@ class _Machines:
         if not len(row):
             return
         width, room = (self.right - self.left)[row], np.minimum(place - self.left[row], self.right[row] - place)
-        (far, near, nearest), looks = self._beside(curve, row, place, [np.minimum(width, INSIDE * room), width])
-        before, apart = (np.abs(np.diff(each, axis=1)[:, 0]) for each in (near, nearest))
-        stays = (apart > TORN * np.abs(far).max(axis=1)) & (apart > STAYS * before) & (before > STAYS * apart)
-        yield from ((row[i], float(place[i]), False) for i in np.flatnonzero(is_inside & stays))
+        both, each = self._beside(curve, row, place, [np.minimum(width, INSIDE * room), width])
+        least = TORN * np.abs(both[0]).max(axis=1)
+        apart = [np.abs(np.diff(sides, axis=1)[:, 0]) for sides in both[1:]]
+        stays = [(b > least) & (b > STAYS * a) & (a > STAYS * b) for a, b in pairwise(apart)]
+        yield from ((row[i], float(place[i]), False) for i in np.flatnonzero(is_inside & np.all(stays, axis=0)))
         is_there = np.stack([place - self.left[row], self.right[row] - place], axis=1) > LOOKS[0] * width[:, None]
-        far, near, nearest = (np.where(is_there, each, 0.0) for each in looks)
-        moved, earlier = np.abs(nearest - near), np.abs(near - far)
-        goes_on = (moved > TORN * np.abs(far)) & (moved > GOES_ON * earlier)
-        is_pole = (goes_on | ~np.isfinite(nearest)).any(axis=1)
+        looks = [np.where(is_there, sides, 0.0) for sides in each]
+        moved = [np.abs(b - a) for a, b in pairwise(looks)]
+        goes_on = np.all([(b > TORN * np.abs(looks[0])) & (b > GOES_ON * a) for a, b in pairwise(moved)], axis=0)
+        is_pole = (goes_on | ~np.isfinite(looks[-1])).any(axis=1)
         yield from ((row[i], float(place[i]), True) for i in np.flatnonzero(is_pole))
 
     def _zeros(self, zero: Singularity) -> tuple[Array, Array, Array]:
