@@ -287,7 +287,7 @@ def _drawn(machine: LiveMachine, figure: FigureRecord, mechanism: str, index: in
     try:
         if figure.type in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
             return {"plot": readings}
-        return {"svg": render(figure, curves, words, f"{mechanism}-{index}").text}
+        return {"svg": render(figure, curves, words, f"{mechanism}-{index}", grips=True).text}
     except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
         raise refusal("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}") from cause
 

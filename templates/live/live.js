@@ -481,6 +481,7 @@
 
   function put(figure, found) {
     var box = figure.querySelector(".picture"), text = JSON.stringify(found);
+    box.querySelectorAll("g[data-grip]").forEach(function (bar) { bar.removeAttribute("transform"); });  /* dropped where no machine can be */
     if (text === figure.known) { return; }
     figure.known = text;
     clear(figure);
@@ -504,7 +505,7 @@
       var parts = bar.dataset.grip.split(" "), name = mechanism + "." + parts[0], from = null, typed = null;
       var input = everyInput().find(function (each) { return each.name === name && !each.options; });
       if (!input) { return; }
-      var point = parts[1] / 1e6 / input.si;
+      var point = parts[1] / 1e9 / input.si;
       var same = all.filter(function (each) { return each.dataset.grip.split(" ")[0] === parts[0]; });
       bar.classList.add("grip");
       function shift(way) { same.forEach(function (each) { each.setAttribute("transform", "translate(" + way + " 0)"); }); }

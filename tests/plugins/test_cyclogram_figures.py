@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,8 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
+from diecut_report.live.page import Pictures
+from diecut_report.live.session import LiveSession
 from diecut_report.results.document import document
 from diecut_report.results.figure_record import MovedRecord, PolylineRecord
 from diecut_report.results.press_run import compute
@@ -90,6 +93,31 @@ def test_bars_are_dragged_with_the_offset_of_their_line_and_by_as_much(tmp_path:
     (before, *_), (after, *_) = bars("0 deg"), bars("45 deg")
     assert before.grip is not None and before.grip.input == "lines.0.offset"
     assert (after.points[0][0] - before.points[0][0]) * before.grip.per_metre == pytest.approx(np.pi / 4)
+
+
+def test_what_can_be_dragged_is_told_to_the_live_page_alone(tmp_path: Path) -> None:
+    """A report carries no grips, and is the page that is made of what it carries."""
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+    config, plugins = saved(tmp_path, HEAD + LINES), ["--plugins", str(tmp_path)]
+    assert main(["report", str(config), *plugins, "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]) == 0
+    page = tmp_path / "out" / "press.html"
+    assert "data-grip" not in page.read_text("utf-8")
+    assert main(["verify", str(page), *plugins]) == 0
+    session = LiveSession(config, Discovery([tmp_path]))
+    assert session.machine is not None
+    assert 'data-grip="lines.0.offset ' in Pictures().figure(session.machine, "cyc", 0)["svg"]
+
+
+def test_a_grip_in_a_results_file_is_refused(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+    config, file = saved(tmp_path, HEAD + LINES), tmp_path / "press.json"
+    assert main(["calc", str(config), "--plugins", str(tmp_path), "-o", str(file), "--quiet"]) == 0
+    data = json.loads(file.read_text("utf-8"))
+    [figure] = [each for each in data["mechanisms"]["cyc"]["figures"] if each["id"] == "cyclogram"]
+    next(each for each in figure["shapes"] if each["shape"] == "polyline")["grip"] = {"input": "x", "per_metre": 1.0}
+    file.write_text(json.dumps(data), "utf-8")
+    assert main(["render", str(file), "--plugins", str(tmp_path), "-o", str(tmp_path / "out")]) == 2
+    assert "no shape has a grip" in capfd.readouterr().err
 
 
 def test_a_cyclogram_of_lines_at_other_rates_than_the_press_stands_still(tmp_path: Path) -> None:

@@ -167,6 +167,31 @@ def test_a_question_that_the_database_refuses_is_told_in_words(folder: Path) -> 
         stored.rows("SELECT variant * 9223372036854775807 * 9 FROM v")
 
 
+@pytest.mark.parametrize("noted", [5, 200_000])
+def test_a_part_of_more_rows_than_it_may_have_is_not_read(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, noted: int
+) -> None:
+    """A few megabytes may hold millions of rows that are alike, each of which takes room when it is read."""
+    _rewritten(lambda table: table.take([0] * 200_000))(folder)
+    known, path = state.read_state(folder), folder / "variants/part-00001.parquet"
+    known["part_files"][path.name] = {"sha256": _sha256(path), "variants": noted}
+    state.write_state(folder, known)
+    read = pq.ParquetFile.read
+
+    def only_few(part: pq.ParquetFile, *args: object, **more: object) -> object:
+        assert part.metadata.num_rows < 10
+        return read(part, *args, **more)
+
+    monkeypatch.setattr(pq.ParquetFile, "read", only_few)
+    refused(folder)
+
+
+@pytest.mark.parametrize("name", ["base.yaml", "study.yaml"])
+def test_a_copy_that_grew_is_refused_before_it_is_read(folder: Path, name: str) -> None:
+    os.truncate(folder / name, 30 * 2**30)  # it takes no room on the disk
+    assert "too large" in refused(folder)
+
+
 def test_of_many_columns_one_thread_holds_a_piece_each(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """DuckDB keeps 60 kB for each column and thread: 3400 columns did not fit 400 MB."""
 

@@ -422,8 +422,8 @@ class Shapes:
             self.axes.plot(*strokes(feet, feet - 4.5).T, **THIN_LINE)
 
     def _grip(self, grip: GripRecord) -> str:
-        """What the live page knows of a shape that is dragged: the number, and how many millionths of SI a point to the right is."""
-        return f"grip {grip.input} {round(1e6 * grip.per_metre / self.scale.across)}"
+        """What the live page knows of a shape that is dragged: the number, and how many billionths of SI a point to the right is."""
+        return f"grip {grip.input} {round(1e9 * grip.per_metre / self.scale.across)}"
 
     def _circle(self, shape: CircleRecord) -> None:
         bow = self._bow(shape, 0.0, 2 * np.pi)

@@ -125,11 +125,24 @@ def readable(path: Path) -> Iterator[None]:
         raise UserError(Problem(words, str(path))) from error
 
 
-def columns_of_part(path: Path, schema: pa.Schema, names: Sequence[str]) -> pa.Table | None:
-    """Return some columns of a part, nothing where it is none or of another origin or other columns than the schema."""
+MOST_PART, MOST_UNPACKED = 2_000_000_000, 200_000_000  # bytes of a part, and of the columns that are read of it
+
+
+def _unpacked(part: pq.ParquetFile, names: Sequence[str]) -> int:
+    """How many bytes columns of a part have by its own words."""
+    groups = (part.metadata.row_group(i) for i in range(part.metadata.num_row_groups))
+    chunks = (group.column(k) for group in groups for k in range(group.num_columns))
+    return sum(each.total_uncompressed_size for each in chunks if each.path_in_schema.split(".")[0] in names)
+
+
+def columns_of_part(path: Path, schema: pa.Schema, names: Sequence[str], rows: int | None = None) -> pa.Table | None:
+    """Return some columns of a part, nothing where it is none or of another origin, other columns than the schema or other ``rows``."""
     try:
         with pq.ParquetFile(path) as part:
-            return part.read(columns=list(names)) if part.schema_arrow.equals(schema, check_metadata=True) else None
+            is_meant = part.schema_arrow.equals(schema, check_metadata=True) and _unpacked(part, names) <= MOST_UNPACKED
+            if not is_meant or part.metadata.num_rows != (part.metadata.num_rows if rows is None else rows):
+                return None
+            return part.read(columns=list(names))
     except pa.ArrowException:
         return None
     except OSError as error:
@@ -219,9 +232,11 @@ class PartChecks:
         return part
 
     def _read(self, index: int, path: Path, entry: Mapping[str, Any]) -> CheckedPart:
+        if path.stat().st_size > MOST_PART or entry["variants"] > len(self._description.part_rows(index)):
+            return CheckedPart(DAMAGED, {})
         with path.open("rb") as file:
             is_whole = hashlib.file_digest(file, "sha256").hexdigest() == entry["sha256"]
-        read = columns_of_part(path, self._schema, [VARIANT.name, STATUS]) if is_whole else None
+        read = columns_of_part(path, self._schema, [VARIANT.name, STATUS], entry["variants"]) if is_whole else None
         if read is None:
             return CheckedPart(DAMAGED, {})
         numbers, rows = read[VARIANT.name].to_numpy(), self._description.part_rows(index)

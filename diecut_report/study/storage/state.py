@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from diecut_report.config.yaml import printable
+from diecut_report.config.yaml import MAX_BYTES, printable
 from diecut_report.errors import Problem, UserError, nearest, refusal
 from diecut_report.files import content, in_words, refuse_unreadable_name, write
 from diecut_report.study.storage.description import (
@@ -264,12 +264,8 @@ def copies(folder: Path, description: Description) -> dict[Path, StudySource]:
 
 
 def _with_copy(source: StudySource, path: Path) -> StudySource:
-    try:
-        content = path.read_bytes() if path.is_file() else b""
-    except OSError as error:
-        template = "This copy of {file} cannot be read: {strerror}. Check its permissions."
-        raise refusal(template, path, file=source.file, strerror=error.strerror or error) from error
-    return replace(source, content=content) if sha256(content).hexdigest() == source.sha256 else source
+    found = content(path, MAX_BYTES, Phrase("the copy of {file}", file=source.file)) if path.is_file() else b""
+    return replace(source, content=found) if sha256(found).hexdigest() == source.sha256 else source
 
 
 def refuse_sources(folder: Path, target: Path) -> None:
@@ -277,7 +273,8 @@ def refuse_sources(folder: Path, target: Path) -> None:
     if not target.is_file():
         return
     for source in copies(folder, read_description(folder, sealed=False)).values():
-        if source.content is not None and source.content == target.read_bytes():
+        is_alike = source.content is not None and len(source.content) == target.stat().st_size
+        if is_alike and source.content == target.read_bytes():
             template = (
                 "This is {file}, of which the study was made, and would be overwritten. Choose another place with -o."
             )

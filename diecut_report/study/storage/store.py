@@ -23,7 +23,7 @@ import pyarrow.parquet as pq
 from filelock import FileLock, Timeout
 
 from diecut_report.errors import Problem, UserError, refusal
-from diecut_report.files import in_words, refuse_special, refuse_unreadable_name, remove_stale, write
+from diecut_report.files import content, in_words, refuse_special, refuse_unreadable_name, remove_stale, write
 from diecut_report.study.storage import state
 from diecut_report.study.storage.description import VARIANT, Description, as_data, changes, libraries
 from diecut_report.study.storage.parts import (
@@ -40,6 +40,7 @@ from diecut_report.study.storage.parts import (
 from diecut_report.text.phrases import Phrase, phrase
 
 LOCK, HOLDER = ".lock", ".lock.json"
+MOST_HOLDER = 10_000  # bytes
 PARTS = "variants"
 FOLDERS = (PARTS, state.TABLES, "reports")
 PART_NAME = re.compile(r"part-(\d+)\.parquet")
@@ -117,9 +118,9 @@ class Store:
         """Return who holds it, as far as that is known: the run may just be writing or removing its name."""
         template = ": process {process} on {host}. Wait for its end, or choose another folder with -o"
         try:
-            found = json.loads((self.directory / HOLDER).read_text("utf-8"))
+            found = json.loads(content(self.directory / HOLDER, MOST_HOLDER, phrase("the note of a run")))
             return Phrase(template, process=found["process"], host=found["host"])
-        except (OSError, ValueError, KeyError, TypeError):
+        except (UserError, ValueError, KeyError, TypeError):
             return phrase(", and has not given its name. Wait for its end, or choose another folder with -o")
 
     # --- study.json --------------------------------------------------------------------------------------------------
