@@ -147,9 +147,13 @@ def _function_faults(step: Step) -> Iterator[str]:
         named = called.words or Phrase("takes names {given}: each is given by its position", given=called.arguments)
         yield Phrase("its function takes {count}, and {named}", count=len(asked), named=named)
         return
-    own, given = [*parameters.parameters], getattr(step, "takes", ())
+    own = [name for name, each in parameters.parameters.items() if each.kind is not each.VAR_POSITIONAL]
+    given = getattr(step, "takes", ())
     if any(given[i] != each and each in given for i, each in enumerate(own[: len(given)])):
-        template = "its function has the parameters {own}, and takes names {given}: each is given by its position"
+        template = (
+            "its function has the parameters {own}, and takes names {given}: each is given by its position; "
+            "where that is meant, write a lambda"
+        )
         yield Phrase(template, own=", ".join(own), given=", ".join(given))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from types import MappingProxyType
@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation, CurveHandle, TakenOfMachines
+from diecut_report.machine.calculation import Calculation, CurveHandle, TakenOfMachines, declared_unit
 from diecut_report.mechanics.timing.intervals import TOUCHING, Interval, Intervals, complement, merged
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps import PREFIX, Abscissa, Cell, ListedColumn, Listing, Phase
-from diecut_report.quantities.formatting import listed_text, number_text
+from diecut_report.quantities.formatting import listed_text, number_text, told
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -90,17 +90,34 @@ def intervals(calc: Calculation, name: str, row: int = 0) -> Intervals:
     held = [each for other in (*step.union, *step.rest_of) for each in intervals(calc, other, row)]
     if step.rest_of:
         return complement(merged(held, period), period) if held else ()
-    return merged([*held, *own_spans(calc, step, period, row)], period)
-
-
-def own_spans(calc: Calculation, step: Phase, period: float, row: int = 0) -> list[Interval]:
-    """Return the spans that a phase declares itself for one variant, SI, each from its start onwards."""
 
     def place(end: str | float) -> float:
         return _of_row(calc[end], row) if isinstance(end, str) else float(end)
 
-    spans = ((place(start), place(end)) for start, end in step.spans)
-    return [_counted_on(span, period) for span in spans if not np.isnan(span).any()]
+    spans = [(place(start), place(end)) for start, end in step.spans]
+    return merged([*held, *(_counted_on(span, period) for span in spans if not np.isnan(span).any())], period)
+
+
+def overlong(calc: Calculation) -> Iterator[tuple[Phase, int, Phrase]]:
+    """Yield each phase that is longer than its period, with the variant and why: it would be all of it, whatever its ends are."""
+    for step in phases_of(calc).values():
+        periods = np.broadcast_to(
+            calc[step.period] if step.period else calc.domains[step.abscissa].period[:, :1], (calc.count, 1)
+        )
+        for span in step.spans:
+            start, end = (calc[each] if isinstance(each, str) else each for each in span)
+            lengths = np.broadcast_to(end - start, (calc.count, 1))
+            for row in np.flatnonzero(lengths > periods * (1 + TOUCHING)):
+                yield step, int(row), _overlong(calc, step, float(lengths[row, 0]), float(periods[row, 0]))
+
+
+def _overlong(calc: Calculation, step: Phase, length: float, period: float) -> Phrase:
+    display = declared_unit(calc, step.abscissa, calc.steps[step.abscissa].unit)
+    template = (
+        "{description} ({id}) lasts {length}, longer than its period of {period}; ends that plain code gives are in SI"
+    )
+    sides = {"length": told(length, display), "period": told(period, display)}
+    return Phrase(template, description=step.description, id=step.id.removeprefix(PREFIX), **sides)
 
 
 def _counted_on(span: Interval, period: float) -> Interval:

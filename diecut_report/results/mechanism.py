@@ -12,11 +12,11 @@ import numpy as np
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.machine import mechanism as listings
 from diecut_report.machine.calculation import Calculation, Unproven, declared_unit, unit_for
-from diecut_report.machine.mechanism import intervals, own_spans, period_of, phases_of, speed_of
+from diecut_report.machine.mechanism import intervals, period_of, phases_of, speed_of
 from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps import soundness
 from diecut_report.machine.steps.soundness import NO_VALUE, require_whole
-from diecut_report.mechanics.timing.intervals import TOUCHING, Interval, composed
+from diecut_report.mechanics.timing.intervals import Interval, composed
 from diecut_report.mechanism.chapters import MISSING, Chapter
 from diecut_report.mechanism.figures import Spectrum, SpectrumLine
 from diecut_report.mechanism.inputs import list_titles
@@ -34,7 +34,7 @@ from diecut_report.mechanism.steps import (
     place_name,
     result_names,
 )
-from diecut_report.quantities.formatting import author_digits, place_shown, shown, told
+from diecut_report.quantities.formatting import author_digits, place_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of, missing_checks
 from diecut_report.results.conclusion import RANK, SELF_TEST, cited_sources, counts, exports
@@ -125,7 +125,6 @@ def phases(calc: Calculation) -> dict[str, PhaseRecord]:
     found: dict[str, PhaseRecord] = {}
     for name, step in phases_of(calc).items():
         held = intervals(calc, name)
-        _require_within_period(calc, step)
         if held:
             axis = calc.steps[step.abscissa]
             display, more = declared_unit(calc, axis.id, axis.unit), _more_digits(calc, step.abscissa)
@@ -145,19 +144,6 @@ def phases(calc: Calculation) -> dict[str, PhaseRecord]:
     }
     whole = composed(sets)  # what is nothing but others together
     return {name: each.with_(parts=list(whole[name])) if name in whole else each for name, each in found.items()}
-
-
-def _require_within_period(calc: Calculation, step: Phase) -> None:
-    """Raise Unproven where a phase is longer than what it comes again after: it would be all of it, whatever its ends are."""
-    period = period_of(calc, step)
-    longest = max((end - start for start, end in own_spans(calc, step, period)), default=0.0)
-    if longest > period * (1 + TOUCHING):
-        display = declared_unit(calc, step.abscissa, calc.steps[step.abscissa].unit)
-        template = "{description} ({id}) lasts {length}, longer than its period of {period}; its ends are in SI, also those that code gives"
-        sides = {"length": told(longest, display), "period": told(period, display)}
-        raise Unproven(
-            Phrase(template, description=step.description, id=step.id.removeprefix(PREFIX), **sides), step.at
-        )
 
 
 def _shown(interval: Interval, display: str, more: int) -> dict[str, str]:

@@ -206,7 +206,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     "parameters in another order than what is taken": (
         made(Words(id="w", function=lambda force, arm: "", takes=("arm", "force"))),
-        "step w: its function has the parameters force, arm, and takes names arm, force: each is given by its position",
+        "step w: its function has the parameters force, arm, and takes names arm, force: each is given by its position; where",
     ),
     "an erratum that touches an unknown": (made(errata=(Erratum("1", "e", touches=("momnt",)),), sources=(Source("1", "a"),)), "touches momnt"),
     "a field of a block without its need": (

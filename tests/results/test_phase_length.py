@@ -18,14 +18,15 @@ class Cam(Inputs):
     n_points: Annotated[int, POINTS] = 36
 
 
-def cam(rise: float, start: float) -> Calculation:
+def cam(rise: float | list[float], start: float) -> Calculation:
     chapter = Chapter("Turn")
     chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
     chapter.computed("start", "φ_1", "deg", "Start", lambda rise: 0 * rise + start, ("rise",), "it is so")
     chapter.value("end", "φ_2", "deg", "End", lambda start, rise: start + rise)
     chapter.phase("rising", "working", "The follower rises", "angle", ("start", "end"))
     mechanism = Mechanism(kind="cam", version="1", title="Cam", summary="", inputs=Cam, chapters=(chapter,))
-    return calculate(mechanism, {"rise": rise, "n_points": 36})
+    count = len(rise) if isinstance(rise, list) else 1
+    return calculate(mechanism, {"rise": np.array(rise) if isinstance(rise, list) else rise, "n_points": 36}, count)
 
 
 @pytest.mark.parametrize("rise", [0.5, np.pi, 2 * np.pi])
@@ -38,6 +39,8 @@ def test_a_phase_up_to_a_whole_turn_is_one(rise: float, start: float) -> None:
 def test_a_longer_one_is_refused() -> None:
     with pytest.raises(
         Unproven,
-        match=r"The follower rises \(rising\) lasts 8594°, longer than its period of 360°; its ends are in SI",
+        match=r"The follower rises \(rising\) lasts 8594°, longer than its period of 360°; ends that plain code gives are in SI",
     ):
-        phases(cam(150.0, 0.0))
+        cam(150.0, 0.0)
+    made = cam([1.0, 150.0, 2.0, 40.0], 0.0)
+    assert sorted(made.flaws) == [1, 3] and "lasts 2292°" in made.flaws[3][1]

@@ -11,7 +11,7 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible, ImpossibleTogether, Unproven, of_rows
-from diecut_report.machine.mechanism import MechanismHandle, PhaseHandle
+from diecut_report.machine.mechanism import MechanismHandle, PhaseHandle, overlong
 from diecut_report.machine.numerics import extremes, roots_integrals
 from diecut_report.machine.numerics.curves import SampledCurve
 from diecut_report.machine.numerics.domain import Domain
@@ -285,6 +285,8 @@ def calculate(
             calc.name_row(step)
         for stand_in, residual in soundness.searched(calc) if only is None else ():
             calc.prove(stand_in, residual)
+        for phase, variant, words in overlong(calc) if only is None else ():
+            calc.mark(phase, np.arange(calc.count) == variant, words)
     return calc
 
 
