@@ -107,7 +107,9 @@ def overlong(calc: Calculation) -> Iterator[tuple[Phase, int, Phrase]]:
         for span in step.spans:
             start, end = (calc[each] if isinstance(each, str) else each for each in span)
             lengths = np.broadcast_to(end - start, (calc.count, 1))
-            for row in np.flatnonzero(lengths > periods * (1 + TOUCHING)):
+            for row in np.flatnonzero((lengths > periods * (1 + TOUCHING)) & np.isfinite(lengths)):
+                if row in calc.flaws:  # impossible already
+                    continue
                 yield step, int(row), _overlong(calc, step, float(lengths[row, 0]), float(periods[row, 0]))
 
 
