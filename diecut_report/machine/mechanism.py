@@ -99,14 +99,14 @@ def intervals(calc: Calculation, name: str, row: int = 0) -> Intervals:
 
 
 def overlong(calc: Calculation) -> Iterator[tuple[Phase, int, Phrase]]:
-    """Yield each phase that is longer than its period, with the variant and why: it would be all of it, whatever its ends are."""
+    """Yield each phase whose ends are farther apart than its period, with the variant and why: it would be all of it, or nothing."""
     for step in phases_of(calc).values():
         periods = np.broadcast_to(
             calc[step.period] if step.period else calc.domains[step.abscissa].period[:, :1], (calc.count, 1)
         )
         for span in step.spans:
             start, end = (calc[each] if isinstance(each, str) else each for each in span)
-            lengths = np.broadcast_to(end - start, (calc.count, 1))
+            lengths = np.abs(np.broadcast_to(end - start, (calc.count, 1)))
             for row in np.flatnonzero((lengths > periods * (1 + TOUCHING)) & np.isfinite(lengths)):
                 if row in calc.flaws:  # impossible already
                     continue
@@ -115,9 +115,7 @@ def overlong(calc: Calculation) -> Iterator[tuple[Phase, int, Phrase]]:
 
 def _overlong(calc: Calculation, step: Phase, length: float, period: float) -> Phrase:
     display = declared_unit(calc, step.abscissa, calc.steps[step.abscissa].unit)
-    template = (
-        "{description} ({id}) lasts {length}, longer than its period of {period}; ends that plain code gives are in SI"
-    )
+    template = "{description} ({id}) has ends {length} apart, more than its period of {period}; ends that plain code gives are in SI"
     sides = {"length": told(length, display), "period": told(period, display)}
     return Phrase(template, description=step.description, id=step.id.removeprefix(PREFIX), **sides)
 

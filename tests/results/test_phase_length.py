@@ -18,11 +18,11 @@ class Cam(Inputs):
     n_points: Annotated[int, POINTS] = 36
 
 
-def cam(rise: float | list[float], start: float) -> Calculation:
+def cam(rise: float | list[float], start: float, way: float = 1.0) -> Calculation:
     chapter = Chapter("Turn")
     chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
     chapter.computed("start", "φ_1", "deg", "Start", lambda rise: 0 * rise + start, ("rise",), "it is so")
-    chapter.value("end", "φ_2", "deg", "End", lambda start, rise: start + rise)
+    chapter.value("end", "φ_2", "deg", "End", lambda start, rise: start + way * rise)
     chapter.phase("rising", "working", "The follower rises", "angle", ("start", "end"))
     mechanism = Mechanism(kind="cam", version="1", title="Cam", summary="", inputs=Cam, chapters=(chapter,))
     count = len(rise) if isinstance(rise, list) else 1
@@ -39,8 +39,16 @@ def test_a_phase_up_to_a_whole_turn_is_one(rise: float, start: float) -> None:
 def test_a_longer_one_is_refused() -> None:
     with pytest.raises(
         Unproven,
-        match=r"The follower rises \(rising\) lasts 8594°, longer than its period of 360°; ends that plain code gives are in SI",
+        match=r"The follower rises \(rising\) has ends 8594° apart, more than its period of 360°; ends that plain code gives are in SI",
     ):
         cam(150.0, 0.0)
     made = cam([1.0, 150.0, 2.0, 40.0], 0.0)
-    assert sorted(made.flaws) == [1, 3] and "lasts 2292°" in made.flaws[3][1]
+    assert sorted(made.flaws) == [1, 3] and "2292° apart" in made.flaws[3][1]
+
+
+def test_ends_in_degrees_over_the_seam_are_refused_as_well() -> None:
+    """From 350 to 10 it would have no length at all, and be no phase."""
+    with pytest.raises(Unproven, match="has ends 19481° apart"):
+        cam(340.0, 350.0, -1.0)
+    ((begin, end),) = phases(cam(np.radians(340), np.radians(350), -1.0))["rising"].intervals
+    assert np.degrees([begin, end]) == pytest.approx([350, 370])
