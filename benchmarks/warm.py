@@ -3,9 +3,9 @@ the calculation (at most 0.12 s is asked), and then what the page gets.
 
     python benchmarks/warm.py [ROUNDS [FILE INPUT ...]]
 
-of another machine with the inputs that are named. What is changed of the full press is taken by all mechanisms (the productivity), by
-one that others follow (the crank's length), and by one alone (a friction). Processor seconds are compared, the least of the rounds; they
-run in turns, so that the machine's state counts alike.
+FILE is another machine, of which each INPUT is changed. Of the full press that is one that all mechanisms take (the productivity), one that
+others follow (the crank's length), and one of a mechanism alone (a friction). Processor seconds are compared, the least of the rounds;
+they run in turns, so that the machine's state counts alike.
 """
 
 from __future__ import annotations

@@ -89,9 +89,6 @@ def results_of(content: bytes, file: str) -> ResultsRecord:
         problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults]
         why = other_form(found)
         raise UserError([*([Problem(why, file)] if why else []), *problems]) from None
-    shapes = (shape for own in results.calculated.values() for figure in own.figures for shape in figure.shapes)
-    if any(getattr(shape, "grip", None) for shape in shapes):  # which is for the live page alone, and not written
-        raise UserError(Problem(_unlike(phrase("no shape has a grip")), file, path="mechanisms"))
     governing = results.governing
     known = results.calculated.get(governing.mechanism) if governing else None
     if governing and not (known and any(each.id == governing.check for each in known.checks)):

@@ -197,6 +197,14 @@ class Chart(Figure):
     build: Callable[[View], list[Shape]]
 
 
+@dataclass(frozen=True)
+class Grip:
+    """Hold the number that changes where a shape is dragged: its key in the mechanism, and by how much (SI) it grows with a metre to the right."""
+
+    input: str
+    per_metre: float
+
+
 def polyline(
     points: Sequence[Point], role: str = "outline", *, closed: bool = False, grip: tuple[str, float] | None = None
 ) -> Shape:
@@ -206,7 +214,7 @@ def polyline(
     how much (SI) it grows with a metre to the right.
     """
     shape = {"shape": "polyline", "points": [list(p) for p in points], "closed": closed, "role": role}
-    return shape | ({"grip": dict(zip(("input", "per_metre"), grip, strict=True))} if grip else {})
+    return shape | ({"grip": Grip(*grip)} if grip else {})
 
 
 def region(outer: Sequence[Point], holes: Sequence[Sequence[Point]] = (), role: str = "section") -> Shape:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, InstanceOf, Tag
 from pydantic.json_schema import SkipJsonSchema
 
+from diecut_report.mechanism.figures import Grip
 from diecut_report.results.record import DrawnError, DrawnText, Record, always, sometimes
 
 Point = Annotated[list[float], Field(min_length=2, max_length=2)]
@@ -143,14 +144,6 @@ DURING = "Between which places of the abscissa it is filled."
 During = Annotated[list[float], Field(strict=False, min_length=2, max_length=2)]  # an author may type a tuple
 
 
-class GripRecord(Record):
-    """A number of the machine that is changed where a shape is dragged: its key in the mechanism, with the places in lists, and by how
-    much (SI) it grows with a metre of the drawing to the right."""
-
-    input: str
-    per_metre: float
-
-
 class PolylineRecord(Record):
     """Straight lines from point to point."""
 
@@ -159,7 +152,9 @@ class PolylineRecord(Record):
     closed: bool = always("true: the last point is joined to the first.")
     role: str = always(ROLE)
     during: During | None = sometimes(DURING)
-    grip: SkipJsonSchema[GripRecord | None] = Field(default=None, exclude=True)  # for the live page alone
+    grip: SkipJsonSchema[InstanceOf[Grip] | None] = Field(
+        default=None, exclude=True
+    )  # for the live page: no file holds it
 
 
 class RegionRecord(Record):

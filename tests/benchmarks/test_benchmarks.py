@@ -1,7 +1,8 @@
-"""The benchmark of reports runs: its commands are those of the program as it is."""
+"""The benchmarks run: what they take of the program is there, and their commands are those of the program as it is."""
 
 from __future__ import annotations
 
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,12 @@ import pytest
 from tests.configs import EXAMPLE
 
 BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "report.py"
+
+
+@pytest.mark.parametrize("name", ["batch", "calc", "drive_kernel", "report", "same_results", "warm"])
+def test_a_benchmark_finds_what_it_takes_of_the_program(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(BENCHMARK.parent)
+    runpy.run_path(str(BENCHMARK.with_stem(name)))
 
 
 @pytest.mark.nightly

@@ -117,7 +117,7 @@ def test_a_grip_in_a_results_file_is_refused(tmp_path: Path, capfd: pytest.Captu
     next(each for each in figure["shapes"] if each["shape"] == "polyline")["grip"] = {"input": "x", "per_metre": 1.0}
     file.write_text(json.dumps(data), "utf-8")
     assert main(["render", str(file), "--plugins", str(tmp_path), "-o", str(tmp_path / "out")]) == 2
-    assert "no shape has a grip" in capfd.readouterr().err
+    assert "shapes" in (told := capfd.readouterr().err) and "grip" in told
 
 
 def test_a_cyclogram_of_lines_at_other_rates_than_the_press_stands_still(tmp_path: Path) -> None:

@@ -4,6 +4,9 @@ A condition is held as its gap, which changes its sign where the condition chang
 grid, or the gap comes near to zero between them, the place is found; a condition on the abscissa itself has a straight gap, so that no
 window is too narrow. Here the flags of pieces are taken at each place, not at the middle of its piece: a curve is sound where it does
 not move as a condition changes, and is the same with the flags of the very place. A change at the end of a piece is no fault.
+
+Zeros of what a formula divides by, and the like, are found in the same way; there a curve is looked at nearer and nearer: it may jump, as an
+angle that wraps, or go on without an end, as a pole, which is a fault at the end of a piece as well.
 """
 
 from __future__ import annotations
@@ -149,7 +152,7 @@ class _Machines:
         self.zeros: dict[Hashable, tuple[Array, Array, Array]] = {}
         self.ends_of: dict[
             Hashable, tuple[Array, Array]
-        ] = {}  # sizes of what is divided by at the ends of the pieces, and the greatest
+        ] = {}  # of what is divided by: sizes at both ends, and greatest
         self.by_own_flags: dict[bytes, dict[str, Array]] = {}  # for rows, curves at the inner points of the grid
         self.on_grid = _GridSampler(self)
 
@@ -229,9 +232,9 @@ class _Machines:
         ends, greatest = self.ends_of[zero.meaning]
         row, end = np.nonzero(ends <= NEAR_END * greatest[:, None])
         place = np.where(end == 0, self.left[row], self.right[row])
-        is_zero = (
-            np.abs(self._sides(zero, place[:, None], row)[1][:, 0]) <= AT_END * greatest[row] if len(row) else row > 0
-        )
+        if not len(row):
+            return row, place
+        is_zero = np.abs(self._sides(zero, place[:, None], row)[1][:, 0]) <= AT_END * greatest[row]
         return row[is_zero], place[is_zero]
 
     def _with_own_flags(self, curve: str, x: Array, row: Array) -> Array:

@@ -140,9 +140,7 @@ def columns_of_part(path: Path, schema: pa.Schema, names: Sequence[str], rows: i
     try:
         with pq.ParquetFile(path) as part:
             is_meant = part.schema_arrow.equals(schema, check_metadata=True) and _unpacked(part, names) <= MOST_UNPACKED
-            if not is_meant or part.metadata.num_rows != (part.metadata.num_rows if rows is None else rows):
-                return None
-            return part.read(columns=list(names))
+            return part.read(columns=list(names)) if is_meant and rows in (None, part.metadata.num_rows) else None
     except pa.ArrowException:
         return None
     except OSError as error:
