@@ -520,85 +520,12 @@
     box.append(make("label", { "class": "r-slide" }, [make("span", {}, [across.title + " "].concat(said(across.symbol))), input, output]));
   }
 
-  /* A drawing that moves with the cursor: its shapes between the two nearest places for which the report has them. */
-  function svg(name, attributes) {
-    var node = document.createElementNS("http://www.w3.org/2000/svg", name);
-    Object.keys(attributes).forEach(function (key) { node.setAttribute(key, attributes[key]); });
-    return node;
-  }
+  /* A drawing that moves with the cursor. */
+  function mover(moving, box) { follows(window.movingDrawing(moving, data.rows), moving, box); }
 
-  /* The frame: a line, and short strokes below it as in the drawing on paper. */
-  function grounded(points, dot) {
-    var way = "", at, k;
-    for (at = 0; at + 3 < points.length; at += 2) {
-      var x = points[at], y = -points[at + 1], across = points[at + 2] - x, down = -points[at + 3] - y, count = Math.floor(Math.hypot(across, down) / (2.8 * dot));
-      way += "M" + x + " " + y + "l" + across + " " + down;
-      for (k = 1; k < count; k += 1) { way += "M" + (x + across * k / count) + " " + (y + down * k / count) + "l" + -2 * dot + " " + 2 * dot; }
-    }
-    return way;
-  }
-
-  function placed(shape, node, now, dot) {
-    if (shape.role === "ground" && shape.shape === "polyline") { node.setAttribute("d", grounded(now, dot)); return; }
-    if (shape.shape === "label") { node.setAttribute("x", now[0]); node.setAttribute("y", -now[1]); return; }
-    if (shape.shape === "rigid") { node.setAttribute("transform", "translate(" + now[0] + " " + -now[1] + ") rotate(" + -now[2] + ")"); return; }
-    if (shape.shape === "polyline") { node.setAttribute("points", now.map(function (value, at) { return at % 2 ? -value : value; }).join(" ")); return; }
-    node.setAttribute("cx", now[0]); node.setAttribute("cy", -now[1]); node.setAttribute("r", shape.shape === "circle" ? now[2] : dot);
-  }
-
-  /* The nodes of shapes, drawn where they stand still; those that move are told to ``moves``. */
-  function drawn(shapes, sheet, dot, moves, letter) {
-    shapes.forEach(function (shape) {
-      var name = shape.shape === "rigid" ? "g" : shape.shape === "label" ? "text" : shape.role === "ground" && shape.shape === "polyline" ? "path" : shape.shape === "polyline" ? (shape.closed ? "polygon" : "polyline") : "circle";
-      var node = svg(name, shape.role ? { "class": "m-" + shape.role } : {});
-      sheet.append(node);
-      if (shape.text) { node.setAttribute("class", "m-label " + shape.anchor); node.setAttribute("font-size", letter); node.append(shape.text); }
-      if (shape.shapes) { drawn(shape.shapes, node, dot, moves); }
-      if (shape.numbers) { placed(shape, node, shape.numbers, dot); } else { moves.push([shape, node]); }
-    });
-  }
-
-  function mover(moving, box) {
-    var places = data.rows[moving.places], dot = Math.max(moving.room[2], moving.room[3]) / 90, moves = [];
-    var sheet = svg("svg", { viewBox: moving.room.join(" "), role: "img", "aria-label": moving.title, "class": "moving" });
-    drawn(moving.shapes, sheet, dot, moves, moving.letter);
-    box.append(sheet);
-    var timed = moving.shapes.map(function (shape, at) { return [shape.during, sheet.children[at]]; }).filter(function (pair) { return pair[0]; });
-    if (moving.shapes.some(function (shape) { return shape.text; })) { sheet.classList.add("labelled"); }
-    groups[moving.group].members.push({ range: moving.across.range, at: function (x) {
-      var k = 1;
-      timed.forEach(function (pair) { pair[1].classList.toggle("m-on", x >= pair[0][0] && x < pair[0][1]); });
-      while (k < places.length - 1 && places[k] < x) { k += 1; }
-      var share = Math.max(0, Math.min(1, (x - places[k - 1]) / (places[k] - places[k - 1] || 1)));
-      moves.forEach(function (pair) {
-        placed(pair[0], pair[1], pair[0].rows.map(function (number) {
-          var row = data.rows[number];
-          return row.length === 1 ? row[0] : row[k - 1] + share * (row[k] - row[k - 1]);
-        }), dot);
-      });
-    } });
-  }
-
-  /* A turn on its own, from where the cursor is, in six seconds. */
-  function player(group, span, box) {
-    var button = make("button", { type: "button", "class": "r-play", "aria-pressed": "false" }, words.play), started = null, from = 0;
-    function step(now) {
-      if (started === null || !box.isConnected) { return; }
-      started = started || now;
-      var share = (now - started) / 6000;
-      if (share >= 1) { stop(); move(group, from); return; }
-      move(group, span[0] + (from - span[0] + share * (span[1] - span[0])) % (span[1] - span[0]));
-      window.requestAnimationFrame(step);
-    }
-    function stop() { started = null; button.setAttribute("aria-pressed", "false"); }
-    button.addEventListener("click", function () {
-      if (started !== null) { stop(); return; }
-      started = 0;
-      from = within(group.place, span, group.turn);
-      button.setAttribute("aria-pressed", "true");
-      window.requestAnimationFrame(step);
-    });
-    box.append(button);
+  function follows(drawing, moving, box) {
+    box.append(drawing.node);
+    groups[moving.group].members.push({ range: moving.across.range, at: drawing.at });
   }
 
   function beside(group, box) {
@@ -613,8 +540,10 @@
     figure.querySelector(".fig").after(box);
     mover(moving, box);
     if (moving.shapes.some(function (shape) { return shape.text; })) { inPlace(figure, box); } // with all its words it says what the printed one does
+    var driven = window.drivenDrawings(moving, data.moving, data.rows), span = moving.across.range;
+    if (driven) { follows(driven, moving, box); }
     slider(moving, box);
-    player(group, moving.across.range, box);
+    box.append(window.turnPlayer(words.play, span, function () { return within(group.place, span, group.turn); }, function (x) { move(group, x); }));
     move(group, group.place);
   }
 

@@ -266,6 +266,12 @@ def given_numbers(config: Config) -> list[DesignInput]:
     ]
 
 
+def given_words(config: Config) -> list[DesignInput]:
+    """Return all inputs for whose number a word stands in the file, as ``auto``, in its order."""
+    own = (each for each in _own(config, Quantity, given=True) if each.present is None and _stands_there(config, each))
+    return [each for each in own if each.written in each.meta.words]
+
+
 def numbers_at_default(config: Config) -> list[DesignInput]:
     """Return all inputs that are not given and stand at a number that their declaration has as default."""
     return [each for each in _own(config, Quantity, given=False) if each.present is not None]

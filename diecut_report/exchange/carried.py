@@ -7,6 +7,7 @@ import binascii
 import os
 import re
 import zlib
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path, PurePath
@@ -157,7 +158,7 @@ def extract(report: Path, folder: Path) -> list[Path]:
     found = carried_results(report)
     config = source_content(found.results.config)
     contents = {f"{report.stem}.yaml": config, f"{report.stem}.json": found.results_content}
-    if doubled := sorted(contents.keys() & found.tables.keys()):
+    if doubled := [name for name, times in Counter(map(PurePath, (*contents, *found.tables))).items() if times > 1]:
         template = "The configuration names a file {doubled}, and would be called so itself. Rename the report."
         raise refusal(template, report, doubled=doubled[0])
     tables = (table.file for table in found.results.config.materials)

@@ -17,11 +17,12 @@ from diecut_report.design.inputs import DesignInput
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
 from diecut_report.errors import refusal
 from diecut_report.live.session import LiveMachine, LiveSession
+from diecut_report.mechanism.figures import Drawing
 from diecut_report.quantities.plausible import plausible
 from diecut_report.quantities.units import unit
 from diecut_report.report.chapters.drive_line import DriveLineFigure, drive_line_figures
 from diecut_report.report.pages.html import filled_page, folder
-from diecut_report.report.reader_data import figure_readings
+from diecut_report.report.reader_data import Shown, figure_readings, moving_readings
 from diecut_report.report.text import Catalogue, figure_translated, quantity, tidy, value_in_words
 from diecut_report.results.checks import NOT_CHECKED
 from diecut_report.results.figure_record import FigureRecord
@@ -92,6 +93,15 @@ def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str])
     }
 
 
+def _driving(machine: LiveMachine) -> tuple[str, int] | None:
+    """The figure with which the drawings of other mechanisms move: of which mechanism, and which of its figures."""
+    for name, calc in machine.run.calculations.items():
+        for index, figure in enumerate(shown_figures(calc)):
+            if isinstance(figure, Drawing) and figure.drives:
+                return name, index
+    return None
+
+
 def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str]) -> Data:
     instance = machine.config.instances[name]
     assert instance is not None, "a machine with a broken plugin is not shown"
@@ -110,8 +120,15 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
         ],
         "checks": [_check(each, kind, before.get(each.id)) for each in run.checks.get(name, ()) if each.check_class != "numerical"],
         "outputs": list(_outputs(name, kind, machine, start)) if is_there else [],
-        "figures": [_text(title, kind) for title in run.figure_titles(name)] if is_there else [],
+        "figures": _figures(name, kind, machine),
     }  # fmt: skip
+
+
+def _figures(name: str, kind: str, machine: LiveMachine) -> list[str]:
+    """The titles of a mechanism's figures; the press has that in which all move."""
+    if name == PRESS:
+        return [said(phrase("Press in motion"))] if _driving(machine) else []
+    return [_text(title, kind) for title in machine.run.figure_titles(name)] if name in machine.run.calculations else []
 
 
 def _text(text: object, kind: str) -> str:
@@ -143,20 +160,23 @@ def _choice(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[st
 
 
 def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
-    assert asked.present is not None, "a number that the file gives has a value"
-    low, high = slider(asked)
-    own = unit(asked.unit)
+    own, present = unit(asked.unit), asked.present  # none where a word stands for it
+    low, high = (None, None) if present is None else (_plain(own.from_si(end)) for end in slider(asked))
     first = start.inputs.get(asked.name)
     return _named(asked, kind) | {
         "unit": "" if asked.unit == "1" else asked.unit,
         "si": own.factor,
-        "value": _plain(own.from_si(asked.present)),
-        "typed": edits.get(asked.name) or asked.typed(asked.present),
-        "start": first.typed(first.present) if first is not None and first.present is not None else "",
-        "low": _plain(own.from_si(low)),
-        "high": _plain(own.from_si(high)),
+        "value": None if present is None else _plain(own.from_si(present)),
+        "typed": edits.get(asked.name) or _as_typed(asked),
+        "start": _as_typed(first) if first else "",
+        "low": low,
+        "high": high,
         "whole": asked.is_whole,
     }
+
+
+def _as_typed(asked: DesignInput) -> str:
+    return (asked.written or "") if asked.present is None else asked.typed(asked.present)
 
 
 def _named(asked: DesignInput, kind: str) -> Data:
@@ -249,7 +269,7 @@ class Pictures:
     """Draw the figures of machines; what was drawn of an unchanged mechanism is kept."""
 
     def __init__(self) -> None:
-        self._drawn: dict[tuple[str, int], tuple[Any, Data]] = {}
+        self._drawn: dict[tuple[str, int], tuple[list[FigureRecord], Data]] = {}
 
     @staticmethod
     def view(machine: LiveMachine, index: int) -> Data:
@@ -262,7 +282,12 @@ class Pictures:
         return {"svg": render(views[index], {}, views[index].words, f"view-{index}").text}
 
     def figure(self, machine: LiveMachine, mechanism: str, index: int) -> Data:
-        """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
+        """Return a figure: ``plot`` with its panels and rows of numbers, ``moving`` with what moves with it and their rows, or ``svg``.
+
+        UserError where there is none, or it cannot be drawn.
+        """
+        if mechanism == PRESS and not index and (driving := _driving(machine)):
+            mechanism, index = driving
         if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figure_titles(mechanism)):
             raise refusal("There is no figure {n} of {name}.", n=index, name=repr(mechanism))
         declared = shown_figures(machine.run.calculations[mechanism])[index]
@@ -270,26 +295,54 @@ class Pictures:
         figure = next((each for each in machine.run.figures(mechanism) if each.id == declared.id), None)
         if figure is None:
             raise refusal("{title}: nothing to show for this machine.", title=declared.title)
-        known = self._drawn.get((mechanism, index))
-        if known is None or known[0] is not figure:
-            known = figure, _drawn(machine, figure, mechanism, index)
+        driven = _driven(machine, figure)
+        used, known = [figure, *driven.values()], self._drawn.get((mechanism, index))
+        if known is None or list(map(id, known[0])) != list(map(id, used)):
+            known = used, _drawn(machine, figure, mechanism, index, driven)
             self._drawn[mechanism, index] = known
         return known[1]
 
 
-def _drawn(machine: LiveMachine, figure: FigureRecord, mechanism: str, index: int) -> Data:
+def _driven(machine: LiveMachine, figure: FigureRecord) -> dict[str, FigureRecord]:
+    """The first moving drawing of each mechanism that moves with a figure."""
+    names = {each.mechanism for each in figure.moving.drives} if figure.moving else {}
+    moving = (
+        (name, each)
+        for name in machine.run.calculations
+        if name in names
+        for each in machine.run.figures(name)
+        if each.moving
+    )
+    return dict(reversed(list(moving)))
+
+
+def _drawn(
+    machine: LiveMachine, figure: FigureRecord, mechanism: str, index: int, driven: Mapping[str, FigureRecord]
+) -> Data:
     from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
-    words, curves = Catalogue(spoken_language()), machine.run.curves(mechanism)
+    words, first = Catalogue(spoken_language()), _said(machine, mechanism, figure)
+    _, figure, curves = first
+    key = f"{mechanism}-{index}"
+    try:
+        if figure.moving:
+            made = moving_readings(first, [_said(machine, *each) for each in driven.items()])
+            has_words = any(shape.shape == "label" for shape in figure.moving.shapes)  # it says what the still one does
+            return made if has_words else made | {"svg": render(figure, curves, words, key).text}
+        if figure.type in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
+            return {"plot": readings}
+        return {"svg": render(figure, curves, words, key).text}
+    except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
+        raise refusal("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}") from cause
+
+
+def _said(machine: LiveMachine, mechanism: str, figure: FigureRecord) -> Shown:
+    """A figure and its curves in the language that is spoken."""
+    curves = machine.run.curves(mechanism)
     if catalogues := catalogues_spoken():
         kind = machine.run.calculations[mechanism].mechanism.kind
         figure, curves = figure_translated(figure, curves, kind, catalogues)
-    try:
-        if figure.type in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
-            return {"plot": readings}
-        return {"svg": render(figure, curves, words, f"{mechanism}-{index}", grips=True).text}
-    except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
-        raise refusal("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}") from cause
+    return mechanism, figure, curves
 
 
 # The words that the script of the live page says, by the names that it has for them; they come with the page as data.
@@ -330,6 +383,7 @@ WORDS = {
     "effect_line": phrase("utilisation from {first} to {last}"),
     "absent_before": phrase("not there"),
     "drawing": phrase("drawing …"),
+    "play": phrase("Animate one revolution"),
     "refused": phrase("The program rejected this ({status})."),
     "no_answer": phrase("The program does not respond; is it still running?"),
     "making": phrase("The report is being generated; it opens in a new tab."),
@@ -346,7 +400,9 @@ def words() -> str:
 FONTS = ("report-sans-regular", "report-sans-bold", "report-sans-italic", "report-symbols")
 FILES = {  # place in the folder of the templates: what it is
     "live/live.css": "text/css; charset=utf-8",
+    "moving.css": "text/css; charset=utf-8",
     "level_names.js": "text/javascript; charset=utf-8",
+    "moving.js": "text/javascript; charset=utf-8",
     "live/live.js": "text/javascript; charset=utf-8",
     "uplot/uPlot.min.css": "text/css; charset=utf-8",
     "uplot/uPlot.iife.min.js": "text/javascript; charset=utf-8",
@@ -389,7 +445,7 @@ def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
     the name of each mechanism before it is calculated; what it raises ends the run.
     """
     asked = machine.inputs.get(name)
-    if asked is None or asked.asked.unit is None:
+    if asked is None or asked.asked.unit is None or asked.present is None:
         raise refusal("{name} is not a number that the file gives.", name=repr(name))
     is_part = is_of_parts(machine.config, asked.asked)
     places = _places(asked, FEW_POINTS if is_part else POINTS)

@@ -25,6 +25,7 @@ from diecut_report.design.inputs import (
     choices_at_default,
     given_choices,
     given_numbers,
+    given_words,
     inputs_of_parts,
     numbers_at_default,
 )
@@ -332,6 +333,8 @@ class LiveSession:
             raise refusal("{name} is not a number that the file gives.", name=repr(name))
         if asked.asked.unit is None:
             return _chosen(asked, typed)
+        if typed in asked.meta.words:
+            return typed
         try:
             if len(typed) > MAX_TYPED_LENGTH:
                 raise UnitError("has more than {n} letters", n=MAX_TYPED_LENGTH)
@@ -396,7 +399,8 @@ class LiveSession:
 
 def shown_inputs(config: Config, tree: Tree) -> dict[str, DesignInput]:
     """Return by name the inputs of the mechanisms that a file gives, and those at default whose block stands in it."""
-    given = [each for each in (*given_numbers(config), *given_choices(config)) if tree.typed(each.stands) is not None]
+    every = (*given_numbers(config), *given_words(config), *given_choices(config))
+    given = [each for each in every if tree.typed(each.stands) is not None]
     at_default = (*numbers_at_default(config), *choices_at_default(config))
     own = [each for each in at_default if isinstance(value_at(tree.data, each.stands[:-1]), dict)]
     return {each.name: each for each in (*given, *own)}

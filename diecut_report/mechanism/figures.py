@@ -168,6 +168,15 @@ class BarGroup:
     range: Range | None = None
 
 
+@dataclass(frozen=True)
+class Driven:
+    """Hold a mechanism whose drawing moves with another's: where the abscissa of that one is at its zero, and how far it goes in its period (SI)."""
+
+    mechanism: str
+    offset: float
+    period: float
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Drawing(Figure):
     """Declare a drawing to scale: ``build`` gives its shapes from the calculated machine, in metres.
@@ -177,6 +186,7 @@ class Drawing(Figure):
     ``moving`` gives polylines, circles, points and what is ``rigid`` at a place of the curves' abscissa ``over``, always the same ones
     in the same order: on a screen they move with the cursor of the curves. Labels may stand among them; a shape
     with ``"during": [start, end]`` is filled while the cursor is between these places. A machine without that abscissa has the drawing alone.
+    ``drives`` gives the mechanisms that move with it: on a screen their drawings stand below it on one sheet.
     """
 
     build: Callable[[View], list[Shape]]
@@ -185,6 +195,7 @@ class Drawing(Figure):
     schematic: bool = False
     moving: Callable[[View, float], list[Shape]] | None = None
     over: str = ""
+    drives: Callable[[View], Sequence[Driven]] | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -199,22 +210,22 @@ class Chart(Figure):
 
 @dataclass(frozen=True)
 class Grip:
-    """Hold the number that changes where a shape is dragged: its key in the mechanism, and by how much (SI) it grows with a metre to the right."""
+    """Hold the number that a shape stands for: its key, by how much it grows where the shape is dragged a metre to the right, its value (SI)."""
 
     input: str
     per_metre: float
+    value: float
 
 
 def polyline(
-    points: Sequence[Point], role: str = "outline", *, closed: bool = False, grip: tuple[str, float] | None = None
+    points: Sequence[Point], role: str = "outline", *, closed: bool = False, grip: Grip | None = None
 ) -> Shape:
     """Return straight lines from point to point.
 
-    ``grip`` names the number that they stand for where it can be changed by dragging them on the live page (``"lines.0.offset"``), and by
-    how much (SI) it grows with a metre to the right.
+    ``grip`` tells of what moves which number they stand for, where dragging them on the live page changes it.
     """
     shape = {"shape": "polyline", "points": [list(p) for p in points], "closed": closed, "role": role}
-    return shape | ({"grip": Grip(*grip)} if grip else {})
+    return shape | ({"grip": grip} if grip else {})
 
 
 def region(outer: Sequence[Point], holes: Sequence[Sequence[Point]] = (), role: str = "section") -> Shape:

@@ -92,19 +92,26 @@ LETTER, WIDE = 0.024, 0.56  # the size of labels, of that side; how wide a lette
 
 
 def moving_data(
-    chapter: str, number: str, title: str, moving: MovingRecord, curves: Mapping[str, CurveRecord], pool: ReaderRows
+    chapter: str,
+    number: str,
+    figure: FigureRecord,
+    moving: MovingRecord,
+    curves: Mapping[str, CurveRecord],
+    pool: ReaderRows,
 ) -> dict[str, Any]:
-    """Return a moving drawing: its abscissa, the room that it takes, and each shape with its numbers at each place."""
+    """Return a moving drawing: its abscissa, the room that it takes, each shape with its numbers at each place, and what moves with it."""
     over = curves[moving.over]
     shown, places = over.display_unit, np.array(moving.places)
     ends = [to_display(float(places[end]), shown) for end in (0, -1)]
     return {
-        "figure": number, "group": pool.over(chapter, over, shown), "title": tidy(title),
+        "figure": number, "mechanism": chapter, "group": pool.over(chapter, over, shown), "title": tidy(figure.title),
+        "scaled": figure.unit != "1",
         "across": {"title": tidy(over.description), "symbol": over.symbol, "unit": pretty(shown), "range": ends},
         "places": pool.row(places / unit(shown).factor, X_DIGITS),
         "room": _room(moving.shapes),
         "letter": rounded([_letter(moving.shapes)])[0],
         "shapes": [_shape(shape, pool, shown) for shape in moving.shapes],
+        "drives": [each.data() | {key: getattr(each, key) / unit(shown).factor for key in ("offset", "period")} for each in moving.drives],
     }  # fmt: skip
 
 
@@ -195,7 +202,7 @@ def reader_data(material: Material) -> str:
         if figure.type in READ and (made := _figure(name, figure, curves, material.words, pool)):
             figures[number] = made
     moving = [
-        moving_data(name, number, figure.title, figure.moving, curves, pool)
+        moving_data(name, number, figure, figure.moving, curves, pool)
         for curves, name, number, figure in drawn
         if figure.moving
     ]
@@ -207,6 +214,24 @@ def reader_data(material: Material) -> str:
         "moving": moving,
     }
     return json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":")).translate(SAFE)
+
+
+Shown = tuple[str, FigureRecord, Mapping[str, CurveRecord]]  # a figure with its mechanism and that one's curves
+
+
+def moving_readings(first: Shown, others: Sequence[Shown]) -> dict[str, Any]:
+    """Return a moving drawing with what can be dragged in it, those that may move with it, and the rows of numbers that they name."""
+    pool = ReaderRows()
+
+    def made(name: str, figure: FigureRecord, curves: Mapping[str, CurveRecord]) -> dict[str, Any]:
+        assert figure.moving is not None
+        return moving_data(name, "", figure, figure.moving, curves, pool)
+
+    main = made(*first)
+    for shape, own in zip(main["shapes"], first[1].moving.shapes if first[1].moving else (), strict=True):
+        if grip := getattr(own, "grip", None):
+            shape["grip"] = vars(grip)
+    return {"moving": main, "driven": [made(*each) for each in others], "rows": pool.rows}
 
 
 def figure_readings(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import Discriminator, Field, InstanceOf, Tag
+from pydantic import Discriminator, Field, InstanceOf, PositiveFloat, Tag
 from pydantic.json_schema import SkipJsonSchema
 
 from diecut_report.mechanism.figures import Grip
@@ -292,12 +292,21 @@ MovingShape = Annotated[
 ]
 
 
+class DrivenRecord(Record):
+    """A mechanism whose drawing moves with another's."""
+
+    mechanism: str = always("Its name.")
+    offset: float = always("Where the abscissa of that one is at its zero.")
+    period: PositiveFloat = always("How far that abscissa goes in its period.")
+
+
 class MovingRecord(Record):
     """What moves in a drawing with the cursor of the curves."""
 
     over: str = always("The abscissa.")
     places: list[float] = always("The places of it at which it is drawn.")
     shapes: list[MovingShape] = always("The shapes, back to front.")
+    drives: list[DrivenRecord] = sometimes("The mechanisms whose drawings move with it.", [])
 
 
 class FigureRecord(Record):

@@ -389,7 +389,8 @@ def _moving(calc: Calculation, drawing: Drawing) -> Data:
     view = MachineView(calc, places)
     moving = drawing.moving
     frames = [_listed(partial(lambda place, view: moving(view, place), place), view) for place in places]
-    return {"moving": {"over": drawing.over, "places": list(places), "shapes": moving_shapes(drawing.title, frames)}}
+    made = {"over": drawing.over, "places": list(places), "shapes": moving_shapes(drawing.title, frames)}
+    return {"moving": made | ({"drives": [vars(each) for each in drawing.drives(view)]} if drawing.drives else {})}
 
 
 def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:

@@ -11,6 +11,8 @@ import numpy as np
 from diecut_report.api import (
     Chart,
     Drawing,
+    Driven,
+    Grip,
     Phrase,
     Shape,
     View,
@@ -46,11 +48,10 @@ def _pieces(intervals: Intervals, period: float) -> Iterator[tuple[float, float]
                 yield a / period, b / period
 
 
-def _bars(intervals: Intervals, period: float, y: float, role: str, line: int | None = None) -> list[Shape]:
+def _bars(intervals: Intervals, period: float, y: float, role: str, grip: Grip | None = None) -> list[Shape]:
     """Bars of a row; those of a line are moved with its offset."""
     low, high = y - BAR / 2, y + BAR / 2
     ends = [(a * WIDTH, b * WIDTH) for a, b in _pieces(intervals, period)]
-    grip = None if line is None else (f"lines.{line}.offset", period / WIDTH)
     return [polyline([(a, low), (b, low), (b, high), (a, high)], role, closed=True, grip=grip) for a, b in ends]
 
 
@@ -85,10 +86,11 @@ def rows(view: View) -> list[Shape]:
     shapes, y, period = [], 0.0, view["main_period"]
     for number, each in enumerate(timing.lines):
         shapes.append(label((-0.2, y), Phrase("{name}:", name=each.name), "right"))
+        grip = Grip(f"lines.{number}.offset", period / WIDTH, each.line.offset)
         y -= HIGH
         for name in each.told:
             shapes.append(label((-0.2, y), each.words[name], "right"))
-            shapes += _bars(each.on_main_shaft(name, timing.common, None), period, y, "outline", number)
+            shapes += _bars(each.on_main_shaft(name, timing.common, None), period, y, "outline", grip)
             y -= HIGH
         y -= HIGH / 2
     for interlock, pair in zip(timing.final, timing.worst, strict=True):
@@ -106,6 +108,12 @@ def at_angle(view: View, angle: float) -> list[Shape]:
     heights = [y for shape in still if shape["shape"] == "polyline" for _, y in shape["points"]]
     shapes = [shape | {"during": _ends(shape, scale)} if shape.get("role") == "outline" else shape for shape in still]
     return [*shapes, polyline([(angle / scale, max(heights)), (angle / scale, min(heights))], "mark")]
+
+
+def driven(view: View) -> list[Driven]:
+    """The lines, each with its final offset."""
+    lines = view.prepared("timing").lines
+    return [Driven(each.name, each.line.offset, TURN * float(each.line.period_turns())) for each in lines]
 
 
 def _ends(bar: Shape, scale: float) -> list[float]:
@@ -223,6 +231,7 @@ FIGURES = (
         build=rows,
         moving=at_angle,
         over="main_angle",
+        drives=driven,
         schematic=True,
     ),
     Drawing(

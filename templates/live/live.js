@@ -189,8 +189,8 @@
 
   /* ---- inputs: rows are kept while a hand is on them ---- */
   function inputs() {
-    var rows = byId("inputs").querySelector(".rows"), own = found(), names = own.map(function (each) { return each.name; });
-    var there = Array.from(rows.children).map(function (row) { return row.dataset.name; });
+    var rows = byId("inputs").querySelector(".rows"), own = found(), names = own.map(function (each) { return each.name + (each.value === null); });
+    var there = Array.from(rows.children).map(function (row) { return row.dataset.name + row.dataset.isWord; });
     if (there.join() !== names.join()) {
       rows.replaceChildren.apply(rows, own.map(inputRow));
     }
@@ -217,10 +217,10 @@
 
   function inputRow(each) {
     var id = "in-" + each.name.replace(/\W/g, "-");
-    var slider = each.options ? null : make("input", { type: "range", "aria-label": t("slider", { input: each.text }) });
+    var slider = each.options || each.value === null ? null : make("input", { type: "range", "aria-label": t("slider", { input: each.text }) });
     var typed = each.options ? make("select", { id: id, "class": "typed" }) : make("input", { type: "text", id: id, "class": "typed", autocomplete: "off", spellcheck: "false", maxlength: "100" });
     var back = make("button", { type: "button", title: t("take_back"), "aria-label": t("take_back_of", { input: each.text }) }, "↺");
-    var row = make("div", { "class": "input", "data-name": each.name }, [
+    var row = make("div", { "class": "input", "data-name": each.name, "data-is-word": each.value === null }, [
       make("label", { "for": id }, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])), make("div", { "class": "key" }, sought() ? each.name : key(each)),
       make("div", { "class": "line" }, [slider || "", typed, back]), make("div", { "class": "was" }), make("div", { "class": "wrong", role: "alert" }), make("div", { "class": "fault" })]);
     if (slider) { slider.addEventListener("input", function () { typed.value = slider.value + (row.unit ? " " + row.unit : ""); change(each.name, typed.value, true); }); slider.addEventListener("change", function () { strokes += 1; }); }
@@ -481,32 +481,54 @@
 
   function put(figure, found) {
     var box = figure.querySelector(".picture"), text = JSON.stringify(found);
-    box.querySelectorAll("g[data-grip]").forEach(function (bar) { bar.removeAttribute("transform"); });  /* dropped where no machine can be */
+    box.querySelectorAll("[data-grip]").forEach(function (bar) { bar.removeAttribute("transform"); });  /* dropped where no machine can be */
     if (text === figure.known) { return; }
     figure.known = text;
     clear(figure);
+    var isPlaying = box.querySelector('.r-play[aria-pressed="true"]');
+    box.replaceChildren();
     if (found.svg) {
       var drawing = document.importNode(new DOMParser().parseFromString(found.svg, "image/svg+xml").documentElement, true);
-      box.replaceChildren(drawing);
-      grips(drawing, figure.dataset.figure.split("/")[1], figure.querySelector("figcaption"));
+      box.append(drawing);
+    }
+    if (found.moving) {
+      motion(figure, box, found);
+      if (isPlaying) { box.querySelector(".r-play").click(); }
     } else if (found.plot) {
-      box.replaceChildren();
       figure.charts = found.plot.panels.map(function (panel) { return chart(box, panel, found.plot.rows, figure.dataset.figure.split("/")[1]); });
-    } else {
+    } else if (!found.svg) {
       box.textContent = found.refused || "";
     }
+  }
+
+  /* A drawing that moves, with what it drives, and the slider that moves them; a new machine goes on where the one before stood. */
+  function motion(figure, box, found) {
+    var across = found.moving.across, span = across.range, drawing = window.movingDrawing(found.moving, found.rows), driven = window.drivenDrawings(found.moving, found.driven, found.rows);
+    var parts = !driven ? [drawing] : onPress() ? [driven, drawing] : [drawing, driven], output = make("output"), input = make("input", { type: "range", min: span[0], max: span[1], step: (span[1] - span[0]) / 720, "aria-label": across.title });
+    function go(x) {
+      var text = FIGURES.format(Number(x.toPrecision(4))) + (across.unit ? " " + across.unit : "");
+      figure.place = input.value = x;
+      output.textContent = text;
+      input.setAttribute("aria-valuetext", text);
+      parts.forEach(function (each) { each.at(x); });
+    }
+    input.addEventListener("input", function () { go(Number(input.value)); });
+    box.append(make("label", { "class": "r-slide" }, [make("span", {}, [across.title + " "].concat(across.symbol ? sign(across.symbol) : [])), input, output]));
+    box.append.apply(box, [window.turnPlayer(t("play"), span, function () { return figure.place; }, go)].concat(parts.map(function (each) { return each.node; })));
+    grips(drawing.node, found.moving.mechanism, figure.querySelector("figcaption"));
+    go(Math.max(span[0], Math.min(figure.place || 0, span[1])));
   }
 
   /* What stands for a number that may be changed is dragged, with all that stands for the same; the number is sent where it is let go. */
   function grips(drawing, mechanism, caption) {
     delete caption.dataset.moved;
-    var all = Array.from(drawing.querySelectorAll("g[data-grip]"));
+    var all = Array.from(drawing.querySelectorAll("[data-grip]"));
     all.forEach(function (bar) {
-      var parts = bar.dataset.grip.split(" "), name = mechanism + "." + parts[0], from = null, typed = null;
+      var grip = bar.grip, name = mechanism + "." + grip.input, from = null, typed = null;
       var input = everyInput().find(function (each) { return each.name === name && !each.options; });
       if (!input) { return; }
-      var point = parts[1] / 1e9 / input.si;
-      var same = all.filter(function (each) { return each.dataset.grip.split(" ")[0] === parts[0]; });
+      var point = grip.per_metre / input.si;
+      var same = all.filter(function (each) { return each.grip.input === grip.input; });
       bar.classList.add("grip");
       function shift(way) { same.forEach(function (each) { each.setAttribute("transform", "translate(" + way + " 0)"); }); }
       function end(isMeant) {
@@ -518,7 +540,7 @@
       bar.addEventListener("pointermove", function (event) {
         if (from === null) { return; }
         var scale = drawing.getScreenCTM().a, way = (event.clientX - from) / scale, step = round(Math.abs(point) / scale);
-        var value = Number((Math.round((input.value + way * point) / step) * step).toPrecision(9));
+        var value = Number((Math.round((grip.value / input.si + way * point) / step) * step).toPrecision(9));
         typed = value + (input.unit ? " " + input.unit : "");
         shift(way);
         caption.dataset.moved = name + ": " + typed;

@@ -268,6 +268,30 @@ def test_beside_the_press_alone_stands_what_of_the_whole_machine_does_not_hold(b
     expect(rows).to_have_count(0)
 
 
+def test_the_whole_press_moves_and_stays_where_it_is_when_a_number_changes(browser: Browser, live: Live) -> None:
+    live.file.write_bytes((CONFIG.parent / "flat_cylinder_press.yaml").read_bytes())
+    tab = Tab(browser, live.address)
+    tab.page.locator('[data-mechanism="press"]').click()
+    figure = tab.page.locator('[data-figure="figure/press/0"]')
+    figure.scroll_into_view_if_needed()
+    expect(figure.locator(".driven > .moving")).to_have_count(2, timeout=SECONDS)
+    slider, crank = figure.locator("input[type=range]"), figure.locator(".driven .m-link").first
+    before = crank.get_attribute("points")
+    slider.evaluate("e => { e.value = 180; e.dispatchEvent(new Event('input')); }")
+    assert crank.get_attribute("points") != before
+    tab.page.locator("#search").fill("drive.crank_length")
+    field = tab.page.locator('.input[data-name="drive.crank_length"] .typed')
+    moved = crank.get_attribute("points")
+    field.fill("150 mm")
+    field.press("Enter")
+    figure.scroll_into_view_if_needed()
+    expect(crank).not_to_have_attribute("points", moved or "", timeout=SECONDS)
+    expect(figure.locator("output")).to_have_text("180 °")
+    figure.locator(".r-play").click()
+    expect(figure.locator("output")).not_to_have_text("180 °")
+    assert tab.said == []
+
+
 def test_a_bar_of_the_cyclogram_is_dragged_with_its_offset(browser: Browser, live: Live) -> None:
     live.file.write_bytes((CONFIG.parent / "flat_cylinder_press.yaml").read_bytes())
     tab = Tab(browser, live.address)

@@ -357,6 +357,27 @@ def test_the_drawings_of_a_mechanism_move_with_the_cursor_as_the_results_tell(br
             assert numbers == pytest.approx([s * n for s, n in zip(signs, expected, strict=False)], abs=1e-3 * greatest)
 
 
+def test_the_lines_of_a_cyclogram_move_on_one_sheet_as_in_their_own_drawings(browser: Browser, report: Path) -> None:
+    """At a main-shaft angle each stands as its own drawing does at the angle that follows from the line's offset and rate."""
+    opened = Opened(browser, report)
+    opened.scrolled()
+    every, angle = list(_moving(report)), 4.0
+    mechanisms = _results(report)["mechanisms"]
+    for title, moving in every:
+        for index, drive in enumerate(moving.get("drives", ())):
+            own = next(each for each in mechanisms[drive["mechanism"]]["figures"] if "moving" in each)
+            figure, alone = _figure_of(opened.page, title), _figure_of(opened.page, own["title"])
+            _set(opened.page, figure, angle * 57.29577951308232)
+            together = opened.page.evaluate(POSES, figure)[2 + index]
+            share = (angle - drive["offset"]) / drive["period"] % 1
+            _set(opened.page, alone, share * own["moving"]["places"][-1] * 57.29577951308232)
+            apart = opened.page.evaluate(POSES, alone)[0]
+            numbers = [
+                [float(n) for n in re.findall(r"-?[\d.]+(?:e-?\d+)?", " ".join(texts))] for texts in (together, apart)
+            ]
+            assert numbers[0] == pytest.approx(numbers[1], abs=1e-3 * max(map(abs, numbers[1])))
+
+
 def test_a_turn_plays_and_stops_and_the_curves_go_with_it(browser: Browser, report: Path) -> None:
     opened = Opened(browser, report)
     opened.scrolled()

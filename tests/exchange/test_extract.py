@@ -160,6 +160,18 @@ def test_what_is_no_table_is_not_written(small_report: Path, tmp_path: Path, tex
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.parametrize("name", ["a.yaml", "./a.yaml", ".//a.yaml"])
+def test_a_table_does_not_take_the_place_of_the_configuration(
+    small_report: Path, tmp_path: Path, capfd: Capture, name: str
+) -> None:
+    def change(data: dict[str, Any]) -> None:
+        data["config"]["materials"] = [{"file": name, "sha256": hashlib.sha256(b"x").hexdigest(), "source_text": "x"}]
+
+    report = changed(small_report / "small.json", tmp_path / "a.json", change)
+    assert run("extract", report, "-o", tmp_path / "out") == 2
+    assert "would be called so itself" in capfd.readouterr().err and not (tmp_path / "out").exists()
+
+
 def test_a_link_to_another_folder_is_not_followed(tmp_path: Path, capfd: Capture) -> None:
     report = with_tables(tmp_path / "in")
     (tmp_path / "elsewhere").mkdir()

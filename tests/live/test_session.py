@@ -298,6 +298,56 @@ def test_what_stands_at_default_may_be_typed_as_it_is(file: Path) -> None:
     assert at_default or file.stem in ("circular_knife", "folding_knife")
 
 
+PRESS_OF_LINES = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press")
+
+
+def test_a_word_that_stands_for_a_number_is_offered_and_gives_way_to_one(tmp_path: Path) -> None:
+    """``offset: auto`` has no slider and no effect; a number takes its place, and the word comes back."""
+    file, name = tmp_path / "press.yaml", "timing.lines.1.offset"
+    file.write_bytes(PRESS_OF_LINES.read_bytes())
+    session = LiveSession(file, Discovery([]))
+
+    def shown() -> dict[str, Any]:
+        return next(each for each in shown_of(session, "timing")["inputs"] if each["name"] == name)
+
+    assert (shown()["typed"], shown()["value"], shown()["low"]) == ("auto", None, None)
+    assert session.machine is not None
+    with pytest.raises(UserError, match="not a number"):
+        effect(session.machine, name)
+    session.change({name: "45 deg"})
+    assert (shown()["typed"], shown()["value"], shown()["start"]) == ("45 deg", 45, "auto")
+    session.write()
+    assert "offset: 45 deg" in file.read_text("utf-8")
+    session.change({name: "auto"})
+    assert shown()["value"] is None and not session.faults
+    with pytest.raises(UserError):
+        session.change({name: "automatic"})
+
+
+def test_the_press_moves_as_a_whole_with_its_cyclogram() -> None:
+    """The sheet shows the lines in their own drawings, which are drawn again where the line is another one."""
+    session, pictures = LiveSession(PRESS_OF_LINES, Discovery([])), Pictures()
+    assert session.machine is not None and shown_of(session, "press")["figures"] == ["Press in motion"]
+    made = pictures.figure(session.machine, "press", 0)
+    assert made["moving"]["mechanism"] == "timing" and [each["mechanism"] for each in made["driven"]] == [
+        "drive",
+        "feeder",
+    ]
+    assert pictures.figure(session.machine, "timing", 0) is made
+    session.change({"drive.crank_length": "150 mm"})
+    again = pictures.figure(session.machine, "press", 0)
+    assert again["driven"][0] != made["driven"][0]
+    with pytest.raises(UserError):
+        pictures.figure(session.machine, "press", 1)
+
+
+def test_a_press_without_a_cyclogram_has_no_figure_of_its_own(session: LiveSession) -> None:
+    assert shown_of(session, "press")["figures"] == []
+    assert session.machine is not None
+    with pytest.raises(UserError):
+        Pictures().figure(session.machine, "press", 0)
+
+
 def test_advice_is_that_of_the_report_and_comes_when_it_is_asked_for() -> None:
     session = LiveSession(KNIFE.parent / "flat_cylinder_mechanisms.yaml", Discovery([]))
     assert session.machine is not None

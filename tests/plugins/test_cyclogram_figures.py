@@ -105,7 +105,29 @@ def test_what_can_be_dragged_is_told_to_the_live_page_alone(tmp_path: Path) -> N
     assert main(["verify", str(page), *plugins]) == 0
     session = LiveSession(config, Discovery([tmp_path]))
     assert session.machine is not None
-    assert 'data-grip="lines.0.offset ' in Pictures().figure(session.machine, "cyc", 0)["svg"]
+    assert "lines.0.offset" in str(Pictures().figure(session.machine, "cyc", 0)["moving"]["shapes"])
+    assert "lines.0.offset" not in page.read_text("utf-8").partition('id="reader-data"')[2]
+
+
+def test_the_lines_move_with_the_cyclogram_by_their_offsets_and_rates(tmp_path: Path) -> None:
+    """A line of two turns a sheet runs through its period in half of one; an offset that is found is the one that is told."""
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+    lines = "[{mechanism: feeder, turns_per_sheet: 2, offset: 40 deg}, {mechanism: other, turns_per_sheet: 1/2, offset: auto}]"
+    text = LINES.replace("[{mechanism: feeder}]", lines).replace(
+        "apart_from: feeder.carrying", "apart_from: other.carrying"
+    )
+    text = "  other: {kind: small_feeder, end: 20 deg, rate: 3000}\n" + text.replace(
+        "small_feeder}", "small_feeder, rate: 12000}"
+    )
+    config = load_config(saved(tmp_path, HEAD + text), Discovery([tmp_path]))
+    told = document(compute(config, lambda _: None)).mechanisms["cyc"]
+    [moving] = [figure.moving for figure in told.figures if figure.moving]
+    drives = [(each.mechanism, each.offset, each.period) for each in moving.drives]
+    found = told.outputs["offset_found"].value
+    assert found and drives == [
+        ("feeder", pytest.approx(np.radians(40)), pytest.approx(np.pi)),
+        ("other", found, pytest.approx(4 * np.pi)),
+    ]
 
 
 def test_a_grip_in_a_results_file_is_refused(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

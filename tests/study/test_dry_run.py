@@ -74,8 +74,16 @@ def test_of_a_large_sample_pieces_are_looked_at_that_lie_evenly(
 def test_rates_are_those_of_a_further_variant() -> None:
     assert module._rates([(10, 1.5, 1100), (110, 6.5, 2100)], 3.0) == pytest.approx((0.05, 1.0, 3.0, 10.0, 1000.0))
     assert module._rates([(4, 2.0, 400)], 3.0) == pytest.approx((0.5, 0.0, 3.0, 100.0, 0.0))
+    assert module._rates([(0, 1.0, 50), (3, 1.0, 80)], 3.0)[0] == pytest.approx(1 / 3)
     disturbed = module._rates([(10, 3.0, 100), (20, 2.0, 90)], 3.0)
     assert disturbed == pytest.approx((0.1, 0.0, 3.0, 0.0, 90.0))
+
+
+def test_variants_that_lie_among_the_first_rows_alone_are_counted(tmp_path: Path) -> None:
+    """Of 300 rows the first three satisfy the constraint: they are those that are measured, whatever comes behind them."""
+    text = varied("{from: 1 kN, to: 300 kN, count: 300}", rest="constraints: [mechanisms.a.force <= '3 kN']\n")
+    found = dry_run(study(tmp_path, text)).measured
+    assert (found.variants, found.statuses.total(), found.dropped) == (3, 3, 0) and found.seconds > 0
 
 
 def test_the_time_is_that_of_the_variants_of_the_part_files_and_of_a_process(

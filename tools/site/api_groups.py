@@ -46,8 +46,8 @@ GROUPS = (
     )),
     Group("figures", "Figures", "Diagrams and drawings; [shapes and roles](drawings.md) has each shape and role as a picture.", (
         "Plot", "Panel", "Series", "Level", "Mark", "Span", "Polar", "Bars", "BarGroup", "Chart", "chart_panel", "line", "fill", "mark", "level",
-        "vertical", "Drawing", "View", "Shape", "Point", "polyline", "region", "circle", "arc", "dimension", "radius_dimension", "label", "arrow",
-        "box", "point", "rigid",
+        "vertical", "Drawing", "View", "Driven", "Grip", "Shape", "Point", "polyline", "region", "circle", "arc", "dimension", "radius_dimension",
+        "label", "arrow", "box", "point", "rigid",
     )),
     Group("texts", "Texts and numbers", "Texts that code makes, and numbers in them.", (
         "Phrase", "phrase", "joined", "named", "worded", "told", "si", "outward", "below",

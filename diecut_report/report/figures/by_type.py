@@ -33,14 +33,9 @@ def render(
     words: Catalogue,
     key: str,
     size: SizesSize = SizesSize.LARGE,
-    *,
-    grips: bool = False,
 ) -> Svg:
-    """A figure of the results, so large as its place lets it be; ``key`` keeps its ids apart from those of the report's others.
-
-    ``grips``: shapes that can be dragged tell by ``data-grip`` what they change, for the live page.
-    """
-    made = drawn(partial(DRAW[figure.type], figure, curves, words, size), figure.title, key, grips=grips)
+    """A figure of the results, so large as its place lets it be; ``key`` keeps its ids apart from those of the report's others."""
+    made = drawn(partial(DRAW[figure.type], figure, curves, words, size), figure.title, key)
     return linked(made, figure) if isinstance(figure, DriveLineFigure) else made
 
 

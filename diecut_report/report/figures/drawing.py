@@ -414,16 +414,10 @@ class Shapes:
         if shape.role in ("body", "shade"):
             self.axes.fill(points[:, 0], points[:, 1], color=BODY, linewidth=0, zorder=1)
         if shape.role != "shade":
-            self._line(points, **_look(shape), **self._grip(shape))
+            self._line(points, **_look(shape))
         if shape.role == "ground":  # short strokes below a line that stands still
             feet = sampled(points, 6.0)[1:-1]
             self.axes.plot(*strokes(feet, feet - 4.5).T, **THIN_LINE)
-
-    def _grip(self, shape: PolylineRecord) -> dict[str, str]:
-        """What the live page knows of a shape that is dragged: the number, and how many billionths of SI a point to the right is."""
-        if shape.grip is None:
-            return {}
-        return {"gid": f"grip {shape.grip.input} {round(1e9 * shape.grip.per_metre / self.scale.across)}"}
 
     def _circle(self, shape: CircleRecord) -> None:
         bow = self._bow(shape, 0.0, 2 * np.pi)

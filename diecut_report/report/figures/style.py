@@ -160,10 +160,10 @@ class Svg(NamedTuple):
     height: float
 
 
-def drawn(build: Callable[[], Figure], title: str, key: str, *, grips: bool = False) -> Svg:
+def drawn(build: Callable[[], Figure], title: str, key: str) -> Svg:
     """What ``build`` draws, in the report's style; ``key`` keeps its ids apart from those of the report's other figures."""
     with styled(key):
-        return written(build(), title, grips=grips)
+        return written(build(), title)
 
 
 def styled(key: str) -> AbstractContextManager[None]:
@@ -213,8 +213,8 @@ def plotted(x: Any, y: Any, labels: tuple[str, str], axes: Any = None, **style: 
     return axes
 
 
-def written(figure: Figure, title: str, *, grips: bool = False) -> Svg:
-    """A drawn figure as SVG, without what would leak into the page that it stands in; ``grips`` are named by ids as they are drawn."""
+def written(figure: Figure, title: str) -> Svg:
+    """A drawn figure as SVG, without what would leak into the page that it stands in."""
     buffer = io.StringIO()
     figure.savefig(
         buffer, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None}, transparent=True
@@ -222,7 +222,6 @@ def written(figure: Figure, title: str, *, grips: bool = False) -> Svg:
     body = buffer.getvalue().rpartition("</metadata>")[2]
     body = body[body.index("<defs>") if "<defs>" in body[:400] else 0 :]
     body = re.sub(r"<style[^>]*>.*?</style>", "", body, count=1, flags=re.DOTALL)
-    body = body.replace('<g id="grip ', '<g data-grip="') if grips else body
     body = re.sub(r'<g id="[^"]*"', "<g", body)
     body = re.sub(r"<!--.*?-->\s*", "", body, flags=re.DOTALL)
     shorter = partial(re.sub, r"-?\d+\.\d{3,}", lambda found: f"{float(found[0]):.2f}".rstrip("0").rstrip("."))

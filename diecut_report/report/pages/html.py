@@ -41,8 +41,8 @@ FACES = {  # family, weight, style: file
 POLICY = (
     "default-src 'none'", "style-src 'unsafe-inline'", "font-src data:", "img-src data:", "base-uri 'none'", "form-action 'none'",
 )  # fmt: skip
-READER = ("uplot/uPlot.min.css", "reader.css")
-SCRIPTS = ("uplot/uPlot.iife.min.js", "level_names.js", "reader.js")
+READER = ("uplot/uPlot.min.css", "reader.css", "moving.css")
+SCRIPTS = ("uplot/uPlot.iife.min.js", "level_names.js", "moving.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
 FILTERS: dict[str, Callable[..., Any]] = {
     "prose": prose,

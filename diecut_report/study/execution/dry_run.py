@@ -152,7 +152,7 @@ def _measured(study: Study, known: Description, first: int) -> Measured:
     """
     calculate(study, Chunk(0, first, first + 1))  # what is made once for all
     once, start = time.process_time(), first
-    found: list[tuple[int, float, int]] = []
+    found, statuses, slow, broken = list[tuple[int, float, int]](), Counter[str](), dict[str, None](), dict[str, str]()
     for wanted in (FEW, MORE):
         start = start if start + wanted <= study.sample.count else first
         stop = min(start + wanted, study.sample.count)
@@ -162,13 +162,14 @@ def _measured(study: Study, known: Description, first: int) -> Measured:
         kept = int(np.sum(judged(study, study.sample.rows(start, stop), stop - start).holds))
         table = table_of(schema_of(known), done.columns, len(done.columns["variant"]))
         found.append((kept, seconds, len(part_content(table))))
+        statuses.update(map(str, done.columns["status"]))
+        slow |= dict.fromkeys(done.slow)
+        broken |= done.broken
         if seconds > ENOUGH or stop == study.sample.count:
             break
         start = stop
-    status = done.columns["status"]
-    return Measured(
-        kept, Counter(map(str, status)), kept - len(status), *_rates(found, once), tuple(done.slow), done.broken
-    )
+    every = sum(kept for kept, _, _ in found)
+    return Measured(every, statuses, every - statuses.total(), *_rates(sorted(found), once), tuple(slow), broken)
 
 
 def _rates(found: list[tuple[int, float, int]], once: float) -> tuple[float, float, float, float, float]:
