@@ -19,7 +19,7 @@ from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.study_file import Optimise, Study
 from diecut_report.study.definition.variables import RangeVariable, Values
 from diecut_report.study.execution.study_run import SMALL, described
-from diecut_report.study.execution.worker import Chunk, calculate, judged, judged_rows
+from diecut_report.study.execution.worker import Chunk, Done, calculate, judged, judged_rows
 from diecut_report.study.storage.description import JUDGED, Description
 from diecut_report.study.storage.parts import part_content, schema_of, table_of
 from diecut_report.text.phrases import phrase
@@ -152,7 +152,7 @@ def _measured(study: Study, known: Description, first: int) -> Measured:
     """
     calculate(study, Chunk(0, first, first + 1))  # what is made once for all
     once, start = time.process_time(), first
-    found, statuses, slow, broken = list[tuple[int, float, int]](), Counter[str](), dict[str, None](), dict[str, str]()
+    found, windows = list[tuple[int, float, int]](), list[tuple[int, Done]]()
     for wanted in (FEW, MORE):
         start = start if start + wanted <= study.sample.count else first
         stop = min(start + wanted, study.sample.count)
@@ -162,14 +162,15 @@ def _measured(study: Study, known: Description, first: int) -> Measured:
         kept = int(np.sum(judged(study, study.sample.rows(start, stop), stop - start).holds))
         table = table_of(schema_of(known), done.columns, len(done.columns["variant"]))
         found.append((kept, seconds, len(part_content(table))))
-        statuses.update(map(str, done.columns["status"]))
-        slow |= dict.fromkeys(done.slow)
-        broken |= done.broken
+        windows = [*windows, (kept, done)] if start > first else [(kept, done)]
         if seconds > ENOUGH or stop == study.sample.count:
             break
         start = stop
-    every = sum(kept for kept, _, _ in found)
-    return Measured(every, statuses, every - statuses.total(), *_rates(sorted(found), once), tuple(slow), broken)
+    kept = sum(own for own, _ in windows)
+    statuses = Counter(str(each) for _, done in windows for each in done.columns["status"])
+    slow = dict.fromkeys(name for _, done in windows for name in done.slow)
+    broken = {name: why for _, done in windows for name, why in done.broken.items()}
+    return Measured(kept, statuses, kept - statuses.total(), *_rates(sorted(found), once), tuple(slow), broken)
 
 
 def _rates(found: list[tuple[int, float, int]], once: float) -> tuple[float, float, float, float, float]:
