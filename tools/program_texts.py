@@ -34,7 +34,7 @@ ROOT = Path(__file__).parents[1]
 CONSTANTS = (root.METHOD, reduction.SEARCHED, reduction.INTEGRATED, Accumulated.METHOD, Derivative.METHOD,
              page.EQUAL_TERMS, page.TO_ROUNDING, "True", "False", *pick.SERIES_WORDS.values(),
              table_steps.AS_GIVEN, rows.AMONG, mechanism.IDLE,
-             machine_advice.FOLLOWS, machine_advice.FOUNDED, *checks.MISSING.values(), document.LEFT_OUT,
+             machine_advice.FOUNDED, *checks.MISSING.values(), document.LEFT_OUT,
              "a curve", "yes", "no", "Name", "No.", "Place",
              "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",
              "Shown at {place}, in the middle of its smooth piece, over which it is constant.",

@@ -276,7 +276,9 @@ def _shortest(before: ProvedMachine, path: MendingPath) -> Mended:
     for each, text in run.choices.values():
         is_number = each.asked.unit is not None and each.present
         changes.append(InputChange(each, each.written or "", text, each.share(each.read(text)) if is_number else None))
-    machine = proved(before.press.with_values({each.design.stands: each.after for each in changes}))
+    machine = proved(
+        before.press.with_values({each.design.stands: each.design.in_file(each.after) for each in changes})
+    )
     passing = None if machine.failing else machine
     return Mended(before, tuple(changes), passing, machine.failing, None, len(run.inputs), run.spent.count)
 

@@ -48,7 +48,9 @@ def advised(config: Config, failing: Mapping[str, CheckRecord]) -> Advised:
         home, is_taken = name.split(".")[0], False
         for way in check.advice:
             known = Advised() if is_taken else found
-            taken = [_take(config, known, f"{MECHANISMS}.{home}.{change.key}", change) for change in way]
+            taken = [
+                _take(config, known, f"{MECHANISMS}.{change.mechanism or home}.{change.key}", change) for change in way
+            ]
             is_taken = is_taken or any(taken)
             found.others |= {path: design for path, (design, _) in known.numbers.items()}
     return found
@@ -63,7 +65,7 @@ def _take(config: Config, found: Advised, path: str, change: KeyChangeRecord) ->
             return False
         if design.asked.unit is None:
             texts = [str(each).lower() if isinstance(each, bool) else str(each) for each in values]
-            known = [text for text in texts if text in design.options]
+            known = [text for text in texts if text in (design.options or texts)]
             if known:
                 found.choices.setdefault(path, (design, known[0]))
             return bool(known)

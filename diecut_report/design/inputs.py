@@ -17,7 +17,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import related_bearings
 from diecut_report.config.parts.reading import typed_value
-from diecut_report.config.yaml import KeyPath, dotted
+from diecut_report.config.yaml import KeyPath, dotted, plain_text
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.curve_inputs import InOtherUnit
@@ -137,6 +137,10 @@ class DesignInput:
     def _typed(self, number: float) -> str:
         text = f"{round(number)}" if number.is_integer() and abs(number) < 1e15 else f"{number!r}"
         return text if self.unit == "1" else f"{text} {self.unit}"
+
+    def in_file(self, typed: str) -> str:
+        """Return a value as it stands in a file: a text in quotes where it would be read as something else, as the bearing 6210."""
+        return plain_text(typed) if self.is_text and typed not in ("true", "false") else typed
 
     def read(self, typed: str) -> float:
         """Return the value (SI) of what was typed; ValueError in words where it is not allowed, or is no number."""

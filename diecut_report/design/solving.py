@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.config.yaml import plain_text
 from diecut_report.design.answers import Answer, DesignQuestion, FoundValue, Range, Role, question
 from diecut_report.design.inputs import DesignInput
 from diecut_report.design.line_search import Function, crossings, greatest, looked_closer, roots, runs, without_gaps
@@ -104,9 +103,7 @@ def _proved(answer: Answer, press: Press) -> Answer:
     faults: list[UserError] = []
     for index, first in enumerate(answer.found):
         try:
-            is_word = answer.design.is_text and first.typed not in ("true", "false")
-            text = plain_text(first.typed) if is_word else first.typed
-            machine = proved(press.with_values({answer.design.stands: text}))
+            machine = proved(press.with_values({answer.design.stands: answer.design.in_file(first.typed)}))
         except UserError as fault:
             faults.append(fault)
             continue

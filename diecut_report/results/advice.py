@@ -85,14 +85,14 @@ def _told(change: KeyChangeRecord) -> Phrase:
     ]
     match change.relation:
         case "at_least":
-            return Phrase("set {key} to at least {value}", key=change.key, value=values[0])
+            return Phrase("set {key} to at least {value}", key=change.told, value=values[0])
         case "at_most":
-            return Phrase("set {key} to at most {value}", key=change.key, value=values[0])
+            return Phrase("set {key} to at most {value}", key=change.told, value=values[0])
         case "between":
-            return Phrase("set {key} to between {low} and {high}", key=change.key, low=values[0], high=values[1])
+            return Phrase("set {key} to between {low} and {high}", key=change.told, low=values[0], high=values[1])
         case "one_of":
-            return Phrase("set {key} to {values}", key=change.key, values=named(values, " or "))
-    return Phrase("set {key} to {value}", key=change.key, value=values[0])
+            return Phrase("set {key} to {values}", key=change.told, values=named(values, " or "))
+    return Phrase("set {key} to {value}", key=change.told, value=values[0])
 
 
 def printed(value: Value, unit: str) -> str:

@@ -331,7 +331,8 @@ def _check(calc: Calculation, check: Check, found: JudgedCheck, advisor: Advisor
         consequence = filled(calc, check.consequence, places=places)
         message = Phrase("{bounds:capital}: {consequence}", {"bounds:capital": sentence, "consequence": consequence})
         ways = advisor.ways(check) if advisor else []
-        calc.advised[check.id] = AdvisedCheck(message, ways, partial(advisor.ways, check) if advisor else lambda _: ())
+        if advisor:
+            calc.advised[check.id] = AdvisedCheck(message, ways, partial(advisor.ways, check))
     return CheckRecord(
         **_head(check),
         **told,

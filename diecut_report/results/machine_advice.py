@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -13,9 +15,16 @@ from diecut_report.config.instances import Instance, Node
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.parts.expansion import refused
-from diecut_report.config.parts.model import MachineParts
+from diecut_report.config.parts.model import (
+    SAME_PLACE,
+    MachineParts,
+    ShaftPart,
+    bearing_series,
+    catalogue_size,
+    stronger_bearings,
+)
 from diecut_report.config.references import upstream
-from diecut_report.config.yaml import KeyPath, dotted, resolved
+from diecut_report.config.yaml import KeyPath, Scalar, dotted, resolved
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.mechanism import intervals, phases_of
 from diecut_report.machine.steps.run import recalculated
@@ -31,12 +40,11 @@ from diecut_report.results.press_run import Run, Tell, same_inputs
 from diecut_report.results.record import Value
 from diecut_report.results.trials import parts_of
 from diecut_report.results.usual import outside
-from diecut_report.text.phrases import Phrase, joined, phrase
+from diecut_report.text.phrases import Counted, Phrase, joined, named, phrase
 
+LARGER = 4  # bearings of a series that are tried with their seats
+ROUNDED = 1e-6  # mm by which a whole one may be exceeded
 FURTHER, DIGITS = (0.1, 0.3, 1.0), 4  # shares of a change by which more is tried, and how many digits it has
-FOLLOWS = phrase(
-    "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
-)
 CALCULATED = phrase("{key} is {origin}, which is calculated; change what it follows from.")
 FOUNDED = "Say what {key} rests on, by its basis; without it the check is not made."
 Typed = dict[Node, tuple[Value, str]]  # values by the inputs that are typed, with their unit
@@ -62,21 +70,37 @@ class _WholeMachine:
 
     def advised(self, name: str, check: CheckRecord) -> CheckRecord:
         """Return a check with what can be followed of its advice."""
-        if not check.advice or name not in self.run.calculations:
+        calc = self.run.calculations.get(name)
+        known: AdvisedCheck | None = calc.advised.get(check.id) if calc else None
+        if calc is None or known is None:
             return check
-        known: AdvisedCheck = self.run.calculations[name].advised[check.id]
         ways = [fitting for way in known.ways for fitting in self._holding(name, check.id, way)]
         if not ways and (kept := self._not_alone(name, known.ways)):
             ways = [fitting for way in known.again(kept) for fitting in self._holding(name, check.id, way)]
+        if not ways:
+            grown = [self._with_bearings(name, check.id, way) for way in known.ways] or [
+                self._larger_bearing(name, check.id)
+            ]
+            ways = [way for way in grown if way]
         made = check.with_(**AdvisedCheck(known.finding, ways).fields) if ways != known.ways else check
-        begun = ((change.key, *self._origin((name, *_path(change.key)))) for way in ways for change in way.changes)
-        words = dict.fromkeys(
-            Phrase(CALCULATED if result else FOLLOWS, key=key, origin=origin) for key, origin, result in begun if origin
-        )
-        founded = next(each.founded for each in checks_of(self.run.calculations[name]) if each.id == check.id)
-        changed = (change.key for way in ways for change in way.changes)
+        words = dict.fromkeys(self._origins(name, (change for way in ways for change in way.changes)))
+        founded = next(each.founded for each in checks_of(calc) if each.id == check.id)
+        changed = (change.key for way in ways for change in way.changes if not change.mechanism)
         words |= dict.fromkeys(Phrase(FOUNDED, key=key) for key in changed if dotted(_path(key)) in founded)
         return made.with_(message=joined([made.message, *words], " ")) if words else made
+
+    def _origins(self, name: str, changes: Iterable[KeyChangeRecord]) -> Iterator[Phrase]:
+        """Yield where keys that are changed take their values from, those of one place together."""
+        found: dict[tuple[str, bool], dict[str, None]] = {}
+        for change in changes:
+            found.setdefault(self._origin(_node(name, change)), {})[change.told] = None
+        for (origin, is_result), keys in found.items():
+            if origin and is_result:
+                yield from (Phrase(CALCULATED, key=key, origin=origin) for key in keys)
+            elif origin:
+                one = "{keys} follows from {origin}; change it there, so that everything that depends on it stays consistent."
+                many = "{keys} follow from {origin}; change them there, so that everything that depends on them stays consistent."
+                yield Counted(len(keys), one, many, keys=named(list(keys), ", "), origin=origin)
 
     def _holding(self, name: str, check: str, way: Way) -> Iterator[Way]:
         """Yield a way as far as the machine allows it, and the check holds with it when all that is made of the parts follows."""
@@ -100,6 +124,50 @@ class _WholeMachine:
                 return replace(way, changes=[tried])
         return None
 
+    def _with_bearings(self, name: str, check: str, way: Way) -> Way | None:
+        """A way in which sections of a shaft grow, each bearing on them being a larger one of its series; None where none holds.
+
+        What else grows does so to whole millimetres: as far as it is advised, or in the proportion of the seats.
+        """
+        parts = self.run.config.parts
+        shaft = next((each for each in parts.shafts.values() if each.calculation == name), None) if parts else None
+        if not parts or not shaft or any(not isinstance(change.value, int | float) for change in way.changes):
+            return None
+        wanted = {change.key: unit(change.unit).to_si(float(change.value)) for change in way.changes}  # type: ignore[arg-type]
+        seats = {
+            part: key
+            for part in shaft.bearings
+            if part.section and (key := f"sections.{part.section.index}.diameter") in wanted
+        }
+        larger = {part: next(_of_bore(part, wanted[key]), "") for part, key in seats.items()}
+        if not larger or not all(larger.values()):
+            return None
+        bores = {seats[part]: catalogue_size(text, "d") or 0.0 for part, text in larger.items()}
+        with_them = [change for part, text in larger.items() for change in _another_bearing(parts, name, part, text)]
+        for share in (1.0, max(bores[key] / wanted[key] for key in bores)):
+            grown = {key: bores.get(key) or _whole(key, share * size) for key, size in wanted.items()}
+            changes = [
+                change.with_(relation="equal", value=_shown(grown[change.key], change.unit)) for change in way.changes
+            ]
+            if self._is_sound(name, check, [*changes, *with_them]):
+                return replace(way, changes=[*changes, *with_them])
+        return None
+
+    def _larger_bearing(self, name: str, check: str) -> Way | None:
+        """A bearing with which the check of one of them holds: the weakest of the same bore, or the next of its series with its seat."""
+        parts = self.run.config.parts
+        index = next(each.index for each in checks_of(self.run.calculations[name]) if each.id == check)
+        place = parts.sources.get((name, "bearings", index, "designation")) if parts and index is not None else None
+        if not parts or not place:
+            return None
+        part = next((each for shaft in parts.shafts.values() for each in shaft.parts if each.path == place[:-1]), None)
+        tried = _stronger(parts, name, part) if part else _in_place(parts, name, place)
+        return next((Way(changes, 0) for changes in tried if self._is_sound(name, check, changes)), None)
+
+    def _is_sound(self, name: str, check: str, changes: Sequence[KeyChangeRecord]) -> bool:
+        """Whether the parts agree with changes to one value each, a check holds with them, and no other of its mechanism fails by them."""
+        return self._suits(name, check, changes, [change.value for change in changes], is_sound=True)  # type: ignore[misc]
+
     def _present(self, name: str, change: KeyChangeRecord) -> float | None:
         """The value that a key has today, in the unit of its change."""
         path = _path(change.key)
@@ -108,19 +176,22 @@ class _WholeMachine:
         known = values[index] if index < len(values) else None
         return None if known is None else unit(change.unit).from_si(float(known))
 
-    def _holds(self, name: str, check: str, made: Typed) -> bool:
-        """Whether a check holds in the machine with these values at its parts."""
-        texts = {path: resolved(text) for path, text in self._texts(made).items()}
-        config, problems = self.run.config.retyped(texts)
+    def _holds(self, name: str, check: str, made: Typed, *, is_sound: bool = False) -> bool:
+        """Whether a check holds in the machine with these values at its parts; ``is_sound``: and no other of its mechanism fails by them."""
+        config, problems = self.run.config.retyped(self._by_place(made))
         if problems:
             return False
         changed = _ChangedRun(self.run, config, name)
         calc = changed.calculations.get(name)
-        return (
-            calc is not None
-            and not changed.problems
-            and all(each.status not in ("fail", "warn") for each in verdicts(calc) if each.id == check)
-        )
+        if calc is None or changed.problems:
+            return False
+        found = {each.id: each.status for each in verdicts(calc)}
+        return found.get(check) not in ("fail", "warn") and not (is_sound and self._worse(name, found))
+
+    def _worse(self, name: str, found: Mapping[str, str]) -> bool:
+        """Whether a check of a mechanism fails that does not fail today."""
+        failing = {each.id for each in verdicts(self.run.calculations[name]) if each.status == "fail"}
+        return any(status == "fail" and each not in failing for each, status in found.items())
 
     def _not_alone(self, name: str, ways: Iterable[Way]) -> frozenset[str]:
         """Which numbers that several ways change together the machine does not allow by themselves, such as the seat of a bearing."""
@@ -150,17 +221,25 @@ class _WholeMachine:
         elif values:
             yield replace(way, changes=[change.with_(relation="equal", value=values[0])])
 
-    def _suits(self, name: str, check: str, changes: Sequence[KeyChangeRecord], values: Sequence[Value]) -> bool:
+    def _suits(
+        self,
+        name: str,
+        check: str,
+        changes: Sequence[KeyChangeRecord],
+        values: Sequence[Value],
+        *,
+        is_sound: bool = False,
+    ) -> bool:
         """Whether the parts of the machine agree with some values, and a check holds with them."""
         self.tell(name)
         if not self._allows(name, changes, values):
             return False
         typed = self._typed(name, changes, values)
         # over what calculates a key, too, its value may be typed
-        own = {(name, *_path(change.key)): (value, change.unit) for change, value in zip(changes, values, strict=True)}
+        own = {_node(name, change): (value, change.unit) for change, value in zip(changes, values, strict=True)}
         over = {node: given for node, given in own.items() if self._beginning(node) is None}
         made = self._made_anew(typed) | self._felt(name, typed | over)
-        return not made or self._holds(name, check, made)
+        return not made or self._holds(name, check, made, is_sound=is_sound)
 
     def _allows(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> bool:
         """Whether the parts of the machine agree with some values of a mechanism's keys; of a key that is calculated nothing is known."""
@@ -174,7 +253,7 @@ class _WholeMachine:
         """Values of a mechanism's keys by where they are typed."""
         typed: Typed = {}
         for change, value in zip(changes, values, strict=True):
-            if (begin := self._beginning((name, *_path(change.key)))) is not None:
+            if (begin := self._beginning(_node(name, change))) is not None:
                 typed[begin] = value, change.unit
         return typed
 
@@ -196,12 +275,16 @@ class _WholeMachine:
             return True
         instances = (each for each in self.run.config.instances.values() if each and each.mechanism)
         kinds = {each.mechanism.kind: each.mechanism for each in instances if each.mechanism}
-        return refused(parts, self._texts(made), kinds)
+        return refused(parts, self._by_place(made), kinds)
 
-    def _texts(self, made: Typed) -> dict[KeyPath, str]:
-        """How values are typed in the file."""
+    def _by_place(self, made: Typed) -> dict[KeyPath, Scalar]:
+        """What stands in the places of the file with these values; a text, such as the bearing 6306, is no number."""
         places = {node: self._place(node) for node in made}
-        return {path: printed(*made[node]) for node, path in places.items() if path is not None}
+        values = {
+            node: value if isinstance(value, str) else resolved(printed(value, own))
+            for node, (value, own) in made.items()
+        }
+        return {path: values[node] for node, path in places.items() if path is not None}
 
     def _place(self, node: Node) -> KeyPath | None:
         """Where an input is typed, at the parts or in its own block; None where that is in a table, or several."""
@@ -297,6 +380,67 @@ class _ChangedRun(Run):
 
     def _comparisons(self) -> None:
         """A comparison has no checks."""
+
+
+def _of_bore(part: ShaftPart, bore: float) -> Iterator[str]:
+    """Yield the bearings of the series of one whose bore is not below that, m, the smallest first."""
+    return (name for name, own in bearing_series(part.keys.designation or "").items() if own >= bore - SAME_PLACE)
+
+
+def _stronger(parts: MachineParts, name: str, part: ShaftPart) -> Iterator[list[KeyChangeRecord]]:
+    """Yield the changes to stronger bearings on a shaft: of the same bore, then larger ones of its series, whose seat grows with them."""
+    yield from (_another_bearing(parts, name, part, text) for text in stronger_bearings(part.keys.designation or ""))
+    larger = _of_bore(part, part.seat + 2 * SAME_PLACE) if part.section else iter(())
+    for text in islice(larger, LARGER):
+        place = (*part.shaft.path, "sections", part.section.index if part.section else 0, "diameter")
+        seat = _typed_there(parts, name, place, _shown(catalogue_size(text, "d") or 0.0, "mm"), "mm")
+        yield [*_another_bearing(parts, name, part, text), seat]
+
+
+def _in_place(parts: MachineParts, name: str, place: KeyPath) -> Iterator[list[KeyChangeRecord]]:
+    """Yield the changes to stronger bearings of the same bore at a place of the file, as on a pin."""
+    return (
+        [_typed_there(parts, name, place, text)]
+        for text in stronger_bearings(str(parts.reader.tree.typed(place) or ""))
+    )
+
+
+def _another_bearing(parts: MachineParts, name: str, part: ShaftPart, designation: str) -> list[KeyChangeRecord]:
+    """The changes by which a bearing on a shaft is another one, with its ring at the shoulder that it rests on."""
+    wider, [*sides] = (catalogue_size(designation, "B") or 0.0) - (part.size("B") or 0.0), part.shoulders
+    changes = [_typed_there(parts, name, (*part.path, "designation"), designation)]
+    if wider and len(sides) == 1:
+        at = part.keys.at + (wider / 2 if sides == ["left"] else -wider / 2)
+        changes.append(_typed_there(parts, name, (*part.path, "at"), _shown(at, "mm"), "mm"))
+    return changes
+
+
+def _typed_there(parts: MachineParts, name: str, place: KeyPath, value: Value, own: str = "1") -> KeyChangeRecord:
+    """The change of what is typed at a place of the parts, which stands in the advice of a mechanism."""
+    home, *key = min(
+        (node for node, typed in parts.sources.items() if typed == place), key=lambda node: node[1:] != place[2:]
+    )
+    return KeyChangeRecord(
+        key=".".join(map(str, key)),
+        mechanism="" if home == name else str(home),
+        relation="equal",
+        value=value,
+        unit=own,
+    )
+
+
+def _whole(key: str, size: float) -> float:
+    """A diameter in whole millimetres, not below a size; another number as it is."""
+    return math.ceil(1000 * size - ROUNDED) / 1000 if key.endswith(".diameter") else size
+
+
+def _shown(value: float, own: str) -> float:
+    return float(f"{unit(own).from_si(value):.12g}")
+
+
+def _node(name: str, change: KeyChangeRecord) -> Node:
+    """The input that an advice of a mechanism changes."""
+    return (change.mechanism or name, *_path(change.key))
 
 
 def _path(key: str) -> KeyPath:

@@ -177,6 +177,14 @@ class KeyChangeRecord(Record):
     relation: Relation = always("How the key must stand to the value.")
     value: Value | list[Value] = always("The value; two of them for `between`, some for `one_of`.")
     unit: str = always("The unit of the value, in which it may be typed; `1` without one.")
+    mechanism: str = sometimes(
+        "The mechanism of the key, where that is another one: the bearings of a shaft that grows.", ""
+    )
+
+    @property
+    def told(self) -> str:
+        """Return the key as it is told beside the check: with its mechanism where that is another one."""
+        return f"{self.mechanism}.{self.key}" if self.mechanism else self.key
 
 
 class CheckRecord(_Marked):

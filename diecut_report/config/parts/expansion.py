@@ -18,7 +18,7 @@ from diecut_report.config.parts.model import MachineParts, MachineShaft
 from diecut_report.config.parts.reading import PartsReader, typed_changes
 from diecut_report.config.parts.rules import coherence, misdriven
 from diecut_report.config.validation import ASSUMED, ConfigPlace
-from diecut_report.config.yaml import KeyPath, Scalar, Tree, YamlNode, resolved, with_root, with_value
+from diecut_report.config.yaml import KeyPath, Scalar, Tree, YamlNode, with_root, with_value
 from diecut_report.errors import Problem, nearest
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.standards.ranges import asks_basis
@@ -138,9 +138,9 @@ def with_parts(parts: MachineParts, changes: Mapping[KeyPath, Scalar], kinds: Ma
     return expanded(Tree(tree.root, "base", tree.text, tree.sha256, tree.name, tree.problems), kinds.get)
 
 
-def refused(parts: MachineParts, changes: Mapping[KeyPath, str], kinds: Mapping[str, Mechanism]) -> bool:
-    """Return whether the parts contradict each other, or cannot be read, with these texts in the places of what is typed."""
-    return bool(with_parts(parts, {path: resolved(text) for path, text in changes.items()}, kinds).problems)
+def refused(parts: MachineParts, changes: Mapping[KeyPath, Scalar], kinds: Mapping[str, Mechanism]) -> bool:
+    """Return whether the parts contradict each other, or cannot be read, with these values in the places of what is typed."""
+    return bool(with_parts(parts, changes, kinds).problems)
 
 
 def _without(tree: Tree) -> Tree:

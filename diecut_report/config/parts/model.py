@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import hypot
+from math import hypot, inf
 from typing import Any, Literal
 
 from diecut_report.config.parts.keys import PART_KINDS, BeltKeys, ChainKeys, MachineKeys, MeshKeys, PartKeys, ShaftKeys
@@ -60,6 +60,23 @@ def related_bearings(designation: str) -> tuple[str, ...]:
 def _series(designation: str) -> str:
     """A designation without its last two digits, which stand for the bore: NU2 of NU217E."""
     return "".join(designation.split()).upper().removesuffix("E")[:-2]
+
+
+def bearing_series(designation: str) -> dict[str, float]:
+    """Return the bearings of the series of one, each with its bore, m, the smallest first."""
+    own = (each for each in related_bearings(designation) if _series(each) == _series(designation))
+    bores = {each: catalogue_size(each, "d") or 0.0 for each in own}
+    return dict(sorted(bores.items(), key=lambda pair: pair[1]))
+
+
+def stronger_bearings(designation: str) -> list[str]:
+    """Return the bearings of the same bore and type with a higher dynamic rating, the lowest first."""
+    own = [catalogue_type(designation), catalogue_size(designation, "d")]
+    alike = (each for each in related_bearings(designation) if [catalogue_type(each), catalogue_size(each, "d")] == own)
+    ratings = {each: catalogue_size(each, "C") or 0.0 for each in alike}
+    return sorted(
+        (each for each in ratings if ratings[each] > (catalogue_size(designation, "C") or inf)), key=ratings.__getitem__
+    )
 
 
 @dataclass(frozen=True)
