@@ -15,7 +15,6 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.parts.keys import WORDS
-from diecut_report.config.parts.model import related_bearings
 from diecut_report.config.parts.reading import typed_value
 from diecut_report.config.yaml import KeyPath, dotted, plain_text
 from diecut_report.errors import Problem, UserError, refusal
@@ -27,6 +26,7 @@ from diecut_report.mechanism.names import Text
 from diecut_report.mechanism.steps import Require
 from diecut_report.quantities.formatting import number_text, outward, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit, unit
+from diecut_report.standards import related_bearings
 from diecut_report.study.definition.base_inputs import (
     MECHANISMS,
     Input,

@@ -12,7 +12,7 @@ import numpy as np
 
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys, PinKeys
 from diecut_report.config.parts.masses import tooth_width
-from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart, catalogue_size
+from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart
 from diecut_report.machine.calculation import Calculation
 from diecut_report.mechanism.mechanism import Port
 from diecut_report.results.carrying_parts import BODIES, CarryingPart, carrying_parts, dotted, rating
@@ -27,6 +27,7 @@ from diecut_report.results.drive_line_record import (
 )
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.press_run import Run
+from diecut_report.standards import catalogue_size
 
 NOTHING = RatingRecord(state="none")
 KINDS: Mapping[str, Literal["mesh", "chain", "belt"]] = {"meshes": "mesh", "chains": "chain", "belts": "belt"}

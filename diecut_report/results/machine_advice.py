@@ -15,14 +15,7 @@ from diecut_report.config.instances import Instance, Node
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.parts.expansion import refused
-from diecut_report.config.parts.model import (
-    SAME_PLACE,
-    MachineParts,
-    ShaftPart,
-    bearing_series,
-    catalogue_size,
-    stronger_bearings,
-)
+from diecut_report.config.parts.model import SAME_PLACE, MachineParts, ShaftPart
 from diecut_report.config.references import upstream
 from diecut_report.config.yaml import KeyPath, Scalar, dotted, resolved
 from diecut_report.machine.calculation import Calculation
@@ -40,6 +33,7 @@ from diecut_report.results.press_run import Run, Tell, same_inputs
 from diecut_report.results.record import Value
 from diecut_report.results.trials import parts_of
 from diecut_report.results.usual import outside
+from diecut_report.standards import bearing_series, catalogue_size, stronger_bearings
 from diecut_report.text.phrases import Counted, Phrase, joined, named, phrase
 
 LARGER = 4  # bearings of a series that are tried with their seats

@@ -167,7 +167,7 @@ class WarmRun(Run):
         known = {name: self.remembered[name].of(self.press.judge) for name in self.calculations}
         names = [name for name in self.config.instances if name != PRESS]
         own = {name: known.get(name) or self.self_tests.get(name, []) for name in names}
-        return advised(self, own)
+        return advised(self, own) if self.press.judge is check_results else own
 
     def advised_checks(self, name: str, tell: Tell = lambda _: None) -> list[CheckRecord]:
         """Return the checks of a mechanism, the failing ones with their advice; KeyError as below.

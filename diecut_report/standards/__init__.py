@@ -16,9 +16,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import cache
+from math import inf
 from pathlib import Path
 from types import MappingProxyType
 
+from diecut_report.quantities.units import unit
 from diecut_report.standards.files import (
     ListedData,
     NamedData,
@@ -82,3 +84,58 @@ def _series(id: str, file: StandardData, values: Iterable[float]) -> StandardSer
 def _named(id: str, file: NamedData, part: NamedValues) -> StandardSeries:
     own = part.model_dump(include={"sources", "left_out"}, exclude_none=True)
     return _series(id, file.model_copy(update=own), part.values)
+
+
+# The bearings of the tables by their designations.
+
+
+BEARING_TABLES = {"deep_groove": "ball_bearings", "roller": "roller_bearings"}  # by the type of their bearings
+
+
+def catalogue_size(designation: str, column: str) -> float | None:
+    """Return a column of a bearing of the tables, SI; None of one that they do not have."""
+    plain = "".join(designation.split()).upper()
+    for table in map(standard_table, BEARING_TABLES.values()):
+        of = table.column(column)
+        rows = dict(zip(table.names, of.values, strict=True))
+        found = rows.get(plain, rows.get(f"{plain}E"))
+        if found is not None:
+            return float(found * unit(of.unit).factor)
+    return None
+
+
+def catalogue_type(designation: str) -> str | None:
+    """Return the type of a bearing of the tables; None of one that they do not have."""
+    plain = "".join(designation.split()).upper()
+    return next(
+        (kind for kind, table in BEARING_TABLES.items() if {plain, f"{plain}E"} & {*standard_table(table).names}), None
+    )
+
+
+def related_bearings(designation: str) -> tuple[str, ...]:
+    """Return the bearings of the tables that have the bore of this one, or are of its series; none where it is of no table."""
+    bore, series = catalogue_size(designation, "d"), _size_series(designation)
+    names = (name for table in BEARING_TABLES.values() for name in standard_table(table).names)
+    return tuple(name for name in names if bore and (catalogue_size(name, "d") == bore or _size_series(name) == series))
+
+
+def _size_series(designation: str) -> str:
+    """A designation without its last two digits, which stand for the bore: NU2 of NU217E."""
+    return "".join(designation.split()).upper().removesuffix("E")[:-2]
+
+
+def bearing_series(designation: str) -> dict[str, float]:
+    """Return the bearings of the series of one, each with its bore, m, the smallest first."""
+    own = (each for each in related_bearings(designation) if _size_series(each) == _size_series(designation))
+    bores = {each: catalogue_size(each, "d") or 0.0 for each in own}
+    return dict(sorted(bores.items(), key=lambda pair: pair[1]))
+
+
+def stronger_bearings(designation: str) -> list[str]:
+    """Return the bearings of the same bore and type with a higher dynamic rating, the lowest first."""
+    own = [catalogue_type(designation), catalogue_size(designation, "d")]
+    alike = (each for each in related_bearings(designation) if [catalogue_type(each), catalogue_size(each, "d")] == own)
+    ratings = {each: catalogue_size(each, "C") or 0.0 for each in alike}
+    return sorted(
+        (each for each in ratings if ratings[each] > (catalogue_size(designation, "C") or inf)), key=ratings.__getitem__
+    )

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from diecut_report.config.loader import Config, load_config
-from diecut_report.config.parts.model import catalogue_size
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.advice import mended
 from diecut_report.press import Press
@@ -16,6 +15,7 @@ from diecut_report.results.checks import checks_of, verdicts
 from diecut_report.results.machine_advice import advised
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.press_run import Run, compute
+from diecut_report.standards import catalogue_size
 from tests.configs import EXAMPLES, saved
 
 TEXT = (EXAMPLES[0].parent / "machines" / "flat_cylinder_corrected.yaml").read_text("utf-8")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import hypot, inf
+from math import hypot
 from typing import Any, Literal
 
 from diecut_report.config.parts.keys import PART_KINDS, BeltKeys, ChainKeys, MachineKeys, MeshKeys, PartKeys, ShaftKeys
@@ -15,7 +15,7 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import nearest
 from diecut_report.mechanics import drive_line
 from diecut_report.quantities.units import unit
-from diecut_report.standards import standard_table
+from diecut_report.standards import catalogue_size, standard_table
 from diecut_report.text.phrases import Phrase
 
 CREEP = 0.01  # share of its speed that a V-belt loses
@@ -27,56 +27,6 @@ SIDES = {
 """Of each word the kind of the parts that are joined, and where the driving and the driven ones are named."""
 SAME_PLACE = 0.05e-3  # m, by which two places that are one may differ
 DEDENDUM = 1.25  # modules, of the basic rack (ISO 53, profile A)
-BEARING_TABLES = {"deep_groove": "ball_bearings", "roller": "roller_bearings"}  # by the type of their bearings
-
-
-def catalogue_size(designation: str, column: str) -> float | None:
-    """Return a dimension of a bearing of the tables, m; None of one that they do not have."""
-    plain = "".join(designation.split()).upper()
-    for table in map(standard_table, BEARING_TABLES.values()):
-        of = table.column(column)
-        rows = dict(zip(table.names, of.values, strict=True))
-        found = rows.get(plain, rows.get(f"{plain}E"))
-        if found is not None:
-            return float(found * unit(of.unit).factor)
-    return None
-
-
-def catalogue_type(designation: str) -> str | None:
-    """Return the type of a bearing of the tables; None of one that they do not have."""
-    plain = "".join(designation.split()).upper()
-    return next(
-        (kind for kind, table in BEARING_TABLES.items() if {plain, f"{plain}E"} & {*standard_table(table).names}), None
-    )
-
-
-def related_bearings(designation: str) -> tuple[str, ...]:
-    """Return the bearings of the tables that have the bore of this one, or are of its series; none where it is of no table."""
-    bore, series = catalogue_size(designation, "d"), _series(designation)
-    names = (name for table in BEARING_TABLES.values() for name in standard_table(table).names)
-    return tuple(name for name in names if bore and (catalogue_size(name, "d") == bore or _series(name) == series))
-
-
-def _series(designation: str) -> str:
-    """A designation without its last two digits, which stand for the bore: NU2 of NU217E."""
-    return "".join(designation.split()).upper().removesuffix("E")[:-2]
-
-
-def bearing_series(designation: str) -> dict[str, float]:
-    """Return the bearings of the series of one, each with its bore, m, the smallest first."""
-    own = (each for each in related_bearings(designation) if _series(each) == _series(designation))
-    bores = {each: catalogue_size(each, "d") or 0.0 for each in own}
-    return dict(sorted(bores.items(), key=lambda pair: pair[1]))
-
-
-def stronger_bearings(designation: str) -> list[str]:
-    """Return the bearings of the same bore and type with a higher dynamic rating, the lowest first."""
-    own = [catalogue_type(designation), catalogue_size(designation, "d")]
-    alike = (each for each in related_bearings(designation) if [catalogue_type(each), catalogue_size(each, "d")] == own)
-    ratings = {each: catalogue_size(each, "C") or 0.0 for each in alike}
-    return sorted(
-        (each for each in ratings if ratings[each] > (catalogue_size(designation, "C") or inf)), key=ratings.__getitem__
-    )
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,12 @@ from collections.abc import Iterator
 from diecut_report.config.parts.elements import GEAR_LIMITS, Elements
 from diecut_report.config.parts.findings import Finding, finding, hubs, mm
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
-from diecut_report.config.parts.model import MachineParts, ShaftPart, catalogue_size, catalogue_type
+from diecut_report.config.parts.model import MachineParts, ShaftPart
 from diecut_report.config.validation import quoted
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import nearest
 from diecut_report.mechanism.mechanism import Port
+from diecut_report.standards import catalogue_size, catalogue_type
 from diecut_report.text.phrases import phrase
 
 PART_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

@@ -35,7 +35,6 @@ from diecut_report.config.parts.model import (
     MachineParts,
     MachineShaft,
     ShaftPart,
-    catalogue_size,
 )
 from diecut_report.config.parts.naming import (
     bores,
@@ -54,7 +53,7 @@ from diecut_report.config.references import WHOLE
 from diecut_report.config.validation import ConfigPlace
 from diecut_report.errors import Problem
 from diecut_report.quantities.units import unit
-from diecut_report.standards import standard_series
+from diecut_report.standards import catalogue_size, standard_series
 from diecut_report.standards.ranges import range_of
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.phrases import joined as joined_phrases

@@ -10,9 +10,10 @@ from diecut_report.config.parts.demands import Ratio, TypedNumber, TypedValue, m
 from diecut_report.config.parts.keys import LOOSE
 from diecut_report.config.parts.load_cases import LoadCases
 from diecut_report.config.parts.masses import Masses
-from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart, catalogue_type
+from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.mechanism import Port
+from diecut_report.standards import catalogue_type
 
 OF_SHAFT = frozenset({"rotation", "speed", "turns_per_cycle", "load_cases", "downwards"})
 OF_BEARING = frozenset({"radial_force", "tilt", "speed", "relative_angle", "cycle_speed", "on", "series", "bore_min"})
