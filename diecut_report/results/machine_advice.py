@@ -36,6 +36,7 @@ from diecut_report.results.usual import outside
 from diecut_report.standards import bearing_series, catalogue_size, stronger_bearings
 from diecut_report.text.phrases import Counted, Phrase, joined, named, phrase
 
+OF_BEARING = ("limiting_speed", "rolling_elements")  # what may be typed of one beside its designation
 LARGER = 4  # bearings of a series that are tried with their seats
 ROUNDED = 1e-6  # mm by which a whole one may be exceeded
 FURTHER, DIGITS = (0.1, 0.3, 1.0), 4  # shares of a change by which more is tried, and how many digits it has
@@ -81,6 +82,7 @@ class _WholeMachine:
         founded = next(each.founded for each in checks_of(calc) if each.id == check.id)
         changed = (change.key for way in ways for change in way.changes if not change.mechanism)
         words |= dict.fromkeys(Phrase(FOUNDED, key=key) for key in changed if dotted(_path(key)) in founded)
+        words |= dict.fromkeys(self._of_bearings(name, (change for way in ways for change in way.changes)))
         return made.with_(message=joined([made.message, *words], " ")) if words else made
 
     def _origins(self, name: str, changes: Iterable[KeyChangeRecord]) -> Iterator[Phrase]:
@@ -95,6 +97,16 @@ class _WholeMachine:
                 one = "{keys} follows from {origin}; change it there, so that everything that depends on it stays consistent."
                 many = "{keys} follow from {origin}; change them there, so that everything that depends on them stays consistent."
                 yield Counted(len(keys), one, many, keys=named(list(keys), ", "), origin=origin)
+
+    def _of_bearings(self, name: str, changes: Iterable[KeyChangeRecord]) -> Iterator[Phrase]:
+        """Yield what is typed for bearings that are replaced, and belongs to the former ones."""
+        sources = self.run.config.parts.sources if self.run.config.parts else {}
+        for change in changes:
+            *bearing, key = _node(name, change)
+            keys = [each for each in OF_BEARING if key == "designation" and sources.get((*bearing, each))]
+            if keys:
+                template = "Give {keys} of {designation}, too: what is typed there is of the former bearing."
+                yield Phrase(template, keys=named(keys, " and "), designation=str(change.value))
 
     def _holding(self, name: str, check: str, way: Way) -> Iterator[Way]:
         """Yield a way as far as the machine allows it, and the check holds with it when all that is made of the parts follows."""

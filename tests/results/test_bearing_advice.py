@@ -71,8 +71,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_bearing_that_dents_is_a_stronger_one_of_its_bore(folder: Path) -> None:
     run = machine(folder, THIN_SEATS)
-    [[change]] = advice(run, "shafts_pinion_bearings", "a_static").advice
+    found = advice(run, "shafts_pinion_bearings", "a_static")
+    [[change]] = found.advice
     assert (change.key, change.value, change.mechanism) == ("bearings.0.designation", "6306", "")
+    assert "Give limiting_speed of 6306, too" in str(found.message)
     assert status(followed(run, "shafts_pinion_bearings", [change]), "shafts_pinion_bearings", "a_static") == "pass"
 
 
