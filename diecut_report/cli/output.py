@@ -35,10 +35,11 @@ if TYPE_CHECKING:
     from rich.status import Status
 
 
-# What is being done, shown on a terminal that wants moving signs once it has taken longer than a second.
+# What is being done, shown on a terminal that wants moving signs once it has taken longer than a second, elsewhere as a line now and then.
 
 
 SECONDS_UNSHOWN = 1.0  # until it is shown
+SECONDS_BETWEEN = 30.0  # of two lines, and before the first
 
 
 def is_styled() -> bool:
@@ -47,18 +48,22 @@ def is_styled() -> bool:
 
 
 class Progress:
-    """Shows on a terminal what is being done, once it has taken longer than a second."""
+    """Shows what is being done: on a terminal once it has taken longer than a second, elsewhere in a line every half a minute."""
 
     def __init__(self) -> None:
-        self.doing, self.done, self.lock = "", is_quiet() or not is_styled(), Lock()
+        self.doing, self.done, self.lock = "", is_quiet(), Lock()
         self.status: Status | None = None
-        self.timer = Timer(SECONDS_UNSHOWN, self._show)
-        self.timer.daemon = True
+        self.timer = self._timer()
 
     def __call__(self, doing: str) -> None:
         self.doing = said(doing)
         if self.status is not None:
             self.status.update(self.doing)
+
+    def _timer(self) -> Timer:
+        made = Timer(SECONDS_UNSHOWN, self._show) if is_styled() else Timer(SECONDS_BETWEEN, self._say)
+        made.daemon = True
+        return made
 
     def __enter__(self) -> Progress:
         if not self.done:
@@ -79,6 +84,14 @@ class Progress:
             if not self.done:
                 self.status = Console(stderr=True).status(self.doing)
                 self.status.start()
+
+    def _say(self) -> None:
+        with self.lock:
+            if not self.done:
+                with suppress(OSError, ValueError):  # nobody reads it any more
+                    click.echo(f"{self.doing} …", err=True)
+                self.timer = self._timer()
+                self.timer.start()
 
 
 HEAD = "Exit codes"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -24,6 +23,7 @@ from diecut_report.config.validation import keys_of
 from diecut_report.errors import MAX_MECHANISMS, PluginError, Problem, UserError
 from diecut_report.mechanism.inputs import Block
 from diecut_report.mechanism.mechanism import KIND, ForEach, Mechanism, Wired, kinds_named
+from diecut_report.quantities.units import number_and_unit
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase
 from diecut_report.text.translation import said, say, spoken_language
@@ -256,13 +256,15 @@ def _head(mechanisms: Sequence[Drafted], file: str) -> Iterator[str]:
 
 
 def _press(mechanisms: Sequence[Drafted]) -> dict[str, Any]:
-    """The values of the press: those that the examples are made for, the first first, where none of them is of the usual press."""
+    """The values of the press: of those that the examples are made for the least, with which all of them can run."""
     found: dict[str, Any] = {"name": say("My press"), **PRESS, "sheet": dict(PRESS["sheet"])}
-    examples = [each.mechanism.example for each in mechanisms if each.mechanism.example]
-    own = [example.press for example in examples if example.press]
-    for path, value in ChainMap(*map(dict, own)).items() if len(own) == len(mechanisms) else ():
+    examples = [each.mechanism.example.press for each in mechanisms if each.mechanism.example]
+    for path in dict.fromkeys(path for press in examples for path in press):
         home, _, key = path.rpartition(".")
-        (found[home] if home else found)[key] = value
+        block = found[home] if home else found
+        block[key] = min(
+            (press.get(path, block[key]) for press in examples), key=lambda text: number_and_unit(str(text))[0]
+        )
     return found
 
 

@@ -399,7 +399,7 @@ class _ConfigReader:
         try:
             mechanism = self.discovery.mechanism(kind)
             self._add(name, mechanism.inputs, data, place, mechanism)
-            if mechanism.partners:
+            if mechanism.partners or any(check.only_beside for check in mechanism.checks):
                 self.with_partners.append(name)
             else:
                 self._probe(name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from types import MappingProxyType
 from typing import Any, Literal, TypeVar
@@ -63,7 +63,7 @@ class InputEffect:
 class Tornado:
     """Hold the inputs by what they do to a number, the greatest first.
 
-    ``impossible`` are those of which a change makes no machine and that do nothing else, ``reason`` says why the first does not.
+    ``impossible`` are those of which a change makes no machine and that do nothing else, each with the reason.
     Those that do nothing are counted (``still``), and those that were not changed, as they stand at their default (``at_default``)
     or are of parts of the machine or what these are made with (``tied``).
     """
@@ -72,8 +72,7 @@ class Tornado:
     present: float
     bars: tuple[InputEffect, ...]
     still: int
-    impossible: tuple[InputEffect, ...] = ()
-    reason: str = ""
+    impossible: Mapping[InputEffect, str] = field(default_factory=dict)
     at_default: int = 0
     tied: int = 0
 
@@ -208,12 +207,14 @@ def _tornado(
     bars = [InputEffect(each, *pair, *beside) for each, pair, beside in zip(inputs, ends, sides, strict=True)]
     moving = [each for each in bars if each.reach(present) > STILL * abs(present)]
     moving.sort(key=lambda each: -each.reach(present))
-    impossible = tuple(each for each in bars if each not in moving and np.isnan([each.low, each.high]).any())
-    reason = ""
-    if impossible:
-        first = 1 + 2 * bars.index(impossible[0])  # the machine with less of it, then the one with more
-        reason = next(filter(None, made.errors[first : first + 2]), "")
-    return Tornado(asked, present, tuple(moving), len(bars) - len(moving) - len(impossible), impossible, reason)
+    pairs = zip(
+        bars, zip(made.errors[1::2], made.errors[2::2], strict=True), strict=True
+    )  # of the machines with less of each, and with more
+    reasons = {each: next(filter(None, errors), "") for each, errors in pairs}
+    impossible = {
+        each: why for each, why in reasons.items() if each not in moving and np.isnan([each.low, each.high]).any()
+    }
+    return Tornado(asked, present, tuple(moving), len(bars) - len(moving) - len(impossible), impossible)
 
 
 def within_tolerances(
@@ -290,10 +291,17 @@ def _tornado_lines(tornado: Tornado) -> Iterator[Phrase]:
     rest += [Phrase("{n} have no effect", n=found.still)] if found.still else []
     yield Phrase("  {rest}", rest=joined(rest, ", ") or phrase("no other input has an effect"))
     if tornado.impossible:
-        names = ", ".join(each.design.name for each in tornado.impossible)
         yield Phrase(
-            "  changed one way or both, no machine exists: {names} ({reason})", names=names, reason=tornado.reason
+            "  changed one way or both, no machine exists: {inputs}",
+            inputs=joined(_by_reason(tornado.impossible), "; "),
         )
+
+
+def _by_reason(impossible: Mapping[InputEffect, str]) -> Iterator[Phrase]:
+    """Yield the inputs of which a change makes no machine, those of one reason together with it."""
+    for reason in dict.fromkeys(impossible.values()):
+        names = ", ".join(each.design.name for each, why in impossible.items() if why == reason)
+        yield Phrase("{names} ({reason})", names=names, reason=reason)
 
 
 def _told(value: float | None, unit: str, digits: int = 4) -> str:

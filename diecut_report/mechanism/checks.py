@@ -62,15 +62,18 @@ class Check:
     (a part breaks, wears, slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
     not among the checks of the machine; where one fails the mechanism is in error).
 
-    A check that needs an optional input which is not given is reported as not checked, with the keys that it needs. Where it does not
-    apply at all it is left out: an option of a text, a block or an alternative of its inputs was not chosen, or a key of
-    ``only_with`` is not given; a block of ``asks_for`` is missed like a key. ``sized_unless`` names the inputs in place of which
-    the program sizes what is compared to its own limit; () where it always does. Such a check shows no reserve while they are
-    not given. ``presumed`` says that it judges what the calculation presumes, such as the range of a method, or that two mechanisms are
-    calculated with the same mass: that it holds is no reserve of the machine, so that it governs only where it does not.
+    A check that needs an optional input which is not given is reported as not checked, with the keys that it needs. Where it does not apply
+    at all it is left out: an option of a text, a block or an alternative of its inputs was not chosen, or a key of ``only_with`` is not
+    given, or the press has no mechanism of the kinds ``only_beside``; a block of ``asks_for`` is missed like a key. ``sized_unless`` names
+    the inputs in place of which the program sizes what is compared to its own limit; () where it always does. Such a check shows no reserve
+    while they are not given. ``presumed`` says that it judges what the calculation presumes, such as the range of a method, or that two
+    mechanisms are calculated with the same mass: that it holds is no reserve of the machine, so that it governs only where it does not.
 
     ``founded`` names optional inputs by which the check would hold because somebody typed them (a factor of a standard, a fact of the
     design): where one is given without a basis that can be looked up, the check that holds is reported as not checked.
+
+    ``at_best`` names optional inputs without which the demand is the least that it can be: beyond its limit the check fails, and that it holds
+    is not checked.
 
     A row whose parts have names is one check for each of them with ``named_by``, the text input of their names
     (``interlocks.name``): ``part_id`` makes the check's id of ``{id}`` and ``{name}``, and ``{part}`` is then the name.
@@ -92,10 +95,12 @@ class Check:
     tolerance: float = ROUNDING
     needs: tuple[str, ...] = ()
     only_with: tuple[str, ...] = ()
+    only_beside: tuple[str, ...] = ()
     asks_for: tuple[str, ...] = ()
     sized_unless: tuple[str, ...] | None = None
     presumed: bool = False
     founded: tuple[str, ...] = ()
+    at_best: tuple[str, ...] = ()
     at_least: str | float | None = None
     at_least_label: str = phrase("at least")
     named_by: str = ""

@@ -353,11 +353,14 @@ def missing_keys(mechanism: Mechanism, check: Check, given: frozenset[str]) -> t
 
 
 def absent_partners_checks(mechanism: Mechanism, kinds: Collection[str], given: frozenset[str]) -> frozenset[str]:
-    """Return the ids of the checks that need what only kinds give of which a press has none."""
+    """Return the ids of the checks that need what only kinds give of which a press has none, or apply beside such kinds alone."""
     absent = [each for each in mechanism.partners if not each.always and not set(each.kinds) & set(kinds)]
-    lost = {key for partner in absent for key in partner.takes}
+    lost = {key for partner in absent for key in (partner.key, *partner.takes)}
     return frozenset(
-        check.id for check in mechanism.checks if lost.intersection(missing_keys(mechanism, check, given) or ())
+        check.id
+        for check in mechanism.checks
+        if (check.only_beside and not set(check.only_beside) & set(kinds))
+        or lost.intersection(missing_keys(mechanism, check, given) or ())
     )
 
 

@@ -101,7 +101,12 @@ def _unfounded_keys(calc: Calculation, check: Check) -> Iterator[KeyPath]:
 
 
 def left_out(calc: Calculation, check: Check, found: JudgedCheck) -> tuple[str, ...]:
-    """Return the optional keys that parts of a row leave out, so that the check judges the others alone; named parts have checks of their own."""
+    """Return the keys by which a check that holds may still fail: without them its demand is the least that it can be, or parts of a row lack them.
+
+    Such a row is judged by its other parts; named parts have checks of their own.
+    """
+    if lacking := tuple(key for key in check.at_best if key not in calc.given):
+        return lacking
     rows = {key: calc.inputs.get(key) for key in (check.named if check.index is None else ())}
     optional = {key: row for key, row in rows.items() if isinstance(row, tuple) and any(part is None for part in row)}
     if not optional:

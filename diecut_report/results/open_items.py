@@ -106,6 +106,27 @@ def _untaken_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
                 phrase("nothing says of which parts its forces pass: shafts and meshes describe them"),
             )
     yield from _taken_in_part(run)
+    yield from _without_line(run)
+
+
+DRIVEN = (
+    "cylinder_drive",
+    "cam_gear_transport",
+    "geneva_transport",
+    "platen_press",
+    "circular_knife",
+)  # by the main shaft
+
+
+def _without_line(run: Run) -> Iterator[tuple[str, Phrase]]:
+    """The mechanisms that a main shaft may drive, and that are no line of the cyclogram: what sums the torques does not know of them."""
+    timings = [name for name, kind in run.config.kinds.items() if kind == "cyclogram" and name in run.calculations]
+    links = run.config.links.items()
+    lines = {target.instance for (home, *_), target in links if home in timings and target.is_mechanism}
+    for name, kind in run.config.kinds.items() if timings else ():
+        if kind in DRIVEN and name in run.calculations and name not in lines:
+            template = "it is not a line of {timing}, so that motor and flywheel are calculated without its torque"
+            yield f"mechanisms.{name}", Phrase(template, timing=timings[0])
 
 
 def _ports_without_part(run: Run, parts: MachineParts) -> Iterator[tuple[str, Phrase]]:

@@ -29,6 +29,7 @@ from diecut_report.quantities.formatting import given_shown, shortest
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism_record import PartRecord, QuantityRecord
+from diecut_report.results.usual import OtherUse
 from diecut_report.text.phrases import Phrase, phrase
 
 # What a reference takes over of a calculated mechanism.
@@ -156,7 +157,10 @@ class Bases:
         """Return why an input may be outside its hard range; nothing where that is not said."""
         target = self.config.links.get(node)
         is_input = target is not None and target.key and not target.expression
-        return self.said(node).beyond or (self.reason(target.node) if target is not None and is_input else "")
+        own, parts = self.said(node).beyond, self.config.parts
+        if own and parts is not None and parts.follows(node) and parts.sources.get(node) is None:
+            return OtherUse(own)  # no file says it: the parts are made so
+        return own or (self.reason(target.node) if target is not None and is_input else "")
 
     def is_founded(self, node: Node) -> bool:
         """Return whether an input is at its default, or rests on what can be looked up."""

@@ -35,6 +35,12 @@ USUAL = "usual_values"  # the check, and the number that it judges
 Inputs = Mapping[str, Any]
 
 
+class OtherUse(str):
+    """Say why a value that the program makes of the parts has another use than its range is of: it is not unusual."""
+
+    __slots__ = ()
+
+
 class Beside(NamedTuple):
     """Hold what is known beside a mechanism's inputs: the numbers of the press, and why values are beyond their hard range."""
 
@@ -116,7 +122,8 @@ def _outside(key: KeyPath, row: UsualRange, values: Array, reason: str, may_be_z
     size = np.abs(values)
     there = np.isfinite(size) & ((size > 0) | (not may_be_zero))
     slips = there & ~_within(size, row.hard)
-    return Outside(key, row, values, there & ~_within(size, row.usual), slips & (not reason), reason)
+    unusual = there & ~_within(size, row.usual) & (not isinstance(reason, OtherUse))
+    return Outside(key, row, values, unusual, slips & (not reason), reason)
 
 
 def _within(size: Array, ends: tuple[float, float]) -> Array:

@@ -139,7 +139,7 @@ class _PlaceFinder:
         value = row[index]
         if isinstance(value, str):
             return value
-        return told(float(value), number_unit(self.calc, step.id, step, float(value)))
+        return told(float(value), number_unit(self.calc, step.id, step, float(value))) if np.isfinite(value) else ""
 
     def _typed(self, key: Sequence[str | int]) -> str:
         try:

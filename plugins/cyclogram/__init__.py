@@ -39,6 +39,7 @@ MECHANISM = Mechanism(
         Check(id="carriage_height", check_class="function", title="Clearance height for the carriages",
               demand="carriage_clearance", limit="clearance_least",
               unit="mm", demand_label="required", limit_label="minimum over the period", source="geometry", asks_for=("station",),
+              only_beside=("cylinder_drive",),
               consequence="a carriage is hit; let the carriages stop elsewhere, lower them, or turn the transport by its offset."),
     ),
     figures=FIGURES,

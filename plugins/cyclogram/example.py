@@ -1,7 +1,8 @@
-"""Example of a cyclogram: the drive of the cylinder and one transport of the sheet on the main shaft, with which a configuration begins."""
+"""Example of a cyclogram: the drive of a cylinder, or a platen, and a transport of the sheet, with which a configuration begins."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from diecut_report.api import ExampleBlock, ForEach, Wired
@@ -12,7 +13,7 @@ DRIVE: dict[str, Any] = {"mechanism": "<cylinder_drive>", "turns_per_sheet": "1/
 
 
 def _transport(kind: str) -> dict[str, Any]:
-    """The line of a transport; on a half of its way the carriage is below the cylinder."""
+    """The line of a transport; on a half of its way the carriage is below what cuts."""
     way = f"${{<{kind}>.sheet_step}}"
     passing = {
         "name": "passing",
@@ -22,20 +23,31 @@ def _transport(kind: str) -> dict[str, Any]:
     return {"mechanism": f"<{kind}>", "offset": "auto", "path_efficiency": 0.95, "passing": [passing]}
 
 
-def _interlocks(kind: str) -> list[Wired]:
-    """What must lie within what, where a press has the drive of a cylinder and a transport."""
-    rests = {"name": "sheet_rests", "phase": "<cylinder_drive>.contact", "within": f"<{kind}>.dwell"} | MARGIN
-    passes = {"name": "carriage_passes", "phase": f"<{kind}>.passing", "within": "<cylinder_drive>.carriage_window"}
+def _interlocks(kind: str, press: str, pressing: str) -> list[Wired]:
+    """What must lie within what, where a press has what cuts and a transport."""
+    rests = {"name": "sheet_rests", "phase": f"<{press}>.{pressing}", "within": f"<{kind}>.dwell"} | MARGIN
+    passes = {"name": "carriage_passes", "phase": f"<{kind}>.passing", "within": f"<{press}>.carriage_window"}
     return [Wired(rests), Wired(passes | MARGIN)]
 
 
+def _first_of(ways: list[Wired]) -> Wired:
+    """The first way whose kinds a press has."""
+    first, *others = ways
+    return replace(first, otherwise=_first_of(others)) if others else first
+
+
+CUTTING = (("cylinder_drive", "contact"), ("platen_press", "pressing"))
 EXAMPLE = ExampleBlock(
     "timing",
     {
-        "lines": [ForEach("cylinder_drive", DRIVE), Wired(_transport(GENEVA), otherwise=Wired(_transport(CAM_GEAR)))],
+        "lines": [
+            ForEach("cylinder_drive", DRIVE),
+            ForEach("platen_press", {"mechanism": "<platen_press>"}),
+            Wired(_transport(GENEVA), otherwise=Wired(_transport(CAM_GEAR))),
+        ],
         "interlocks": [
-            Wired(of_geneva, otherwise=of_cam_gear)
-            for of_geneva, of_cam_gear in zip(_interlocks(GENEVA), _interlocks(CAM_GEAR), strict=True)
+            _first_of(list(ways))
+            for ways in zip(*(_interlocks(kind, *cut) for cut in CUTTING for kind in (GENEVA, CAM_GEAR)), strict=True)
         ],
     },
 )

@@ -68,6 +68,7 @@ def offsets(given: Mapping[str, Any]) -> Rows:
 def lacking(given: Mapping[str, Any]) -> Rows:
     """Return what is not checked, or not in the sum, because something is not given."""
     timing: Timing = given["timing"]
+    has_cylinder = any(line.mechanism.kind == "cylinder_drive" for line in timing.lines)
     for line in timing.lines:
         transports = line.mechanism.curve(POSITION) is not None
         if transports and not set(line.phases) - set(line.mechanism.phases):
@@ -75,7 +76,7 @@ def lacking(given: Mapping[str, Any]) -> Rows:
                 Phrase("carriages of {name} against the window", name=line.name),
                 Phrase("passing of {name} is not given", name=line.name),
             )
-        if transports and "station.transport" not in given:
+        if transports and has_cylinder and "station.transport" not in given:
             yield (
                 Phrase("height over the carriages of {name}, carriage_height", name=line.name),
                 phrase("station is not given"),

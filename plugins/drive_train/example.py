@@ -7,7 +7,7 @@ from diecut_report.api import ExampleBlock, Wired
 EXAMPLE = ExampleBlock(
     "train",
     {
-        "motor_speed": "1450 rpm",
+        "motor_speed": Wired("1420 rpm", needs=("platen_press", "cyclogram"), otherwise="1450 rpm"),
         "output_speed": Wired(
             "${<cyclogram>.main_shaft_speed}", otherwise=Wired("${<cylinder_drive>.crank_speed}", otherwise="100 rpm")
         ),
@@ -23,6 +23,8 @@ EXAMPLE = ExampleBlock(
         "power_per_belt": "3.5 kW",
         "gears": [
             {"driver_teeth": 18, "driven_teeth": 87},
+            # a platen is slower
+            Wired({"driver_teeth": 20, "driven_teeth": 77}, needs=("platen_press", "cyclogram")),
             # from the main shaft to the crank's
             Wired(
                 None,
@@ -30,7 +32,9 @@ EXAMPLE = ExampleBlock(
                 otherwise=Wired({"driver_teeth": 24, "driven_teeth": 48}, needs=("cylinder_drive",)),
             ),
         ],
-        "reserve_factor": 1.3,
+        # a platen takes its torque at once: a soft motor, which starts with the clutch open
+        "reserve_factor": Wired(1.6, needs=("platen_press", "cyclogram"), otherwise=1.3),
+        "run_up_load": Wired(0, needs=("platen_press", "cyclogram")),
         "flywheel_material": "cast_iron",
     },
 )

@@ -93,9 +93,10 @@ count.value("length_factor", "c_3", "1", "Belt length factor",
     bind(belts.length_factor, length="vbelt_standard_length", reference="reference_length"), source="Optibelt")
 count.value("vbelt_power", "P_b", "kW", "Design power of the belts",
     bind(lambda service_factor, motor_power: service_factor * motor_power, service_factor="vbelt.service_factor"), source="Optibelt")
-count.value("vbelt_count_needed", "z_req", "1", "Required number of belts", lambda vbelt_power, power_per_belt, wrap_factor, length_factor:
-        np.maximum(1, np.ceil(vbelt_power / (power_per_belt * wrap_factor * length_factor))), whole=True, source="Optibelt",
-    needs=("power_per_belt",))
+count.value("vbelt_share", "z_P", "1", "Design power in terms of that of one belt", lambda vbelt_power, power_per_belt, wrap_factor, length_factor:
+        vbelt_power / (power_per_belt * wrap_factor * length_factor), source="Optibelt", output=False, needs=("power_per_belt",))
+count.value("vbelt_count_needed", "z_req", "1", "Required number of belts", lambda vbelt_share: np.maximum(1, np.ceil(vbelt_share)), whole=True,
+    source="Optibelt", needs=("power_per_belt",))
 count.value("vbelt_count", "z", "1", "Number of belts: as given", bind(lambda given: given, given=COUNT), whole=True, source="input", needs=(COUNT,))
 count.value("vbelt_count", "z", "1", "Number of belts: the smallest sufficient number", lambda vbelt_count_needed: vbelt_count_needed, whole=True,
     source="this method", needs=("power_per_belt",), lacks=(COUNT,))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import ExampleBlock
+from diecut_report.api import ExampleBlock, Wired
 
 EXAMPLE = ExampleBlock(
     "platen",
@@ -21,6 +21,7 @@ EXAMPLE = ExampleBlock(
         "crank_pin_length": "110 mm",
         "platen_pin_length": "90 mm",
         "allowable_pin_pressure": "30 MPa",
+        "carriage_clearance": Wired("40 mm", needs=("cyclogram",)),  # of which the cyclogram takes the window
     },
     press={"productivity": "1200 1/h", "sheet.thickness": "0.5 mm"},
 )

@@ -115,4 +115,7 @@ CHECKS = (
         demand_label="deviation from a whole number", limit_label="accepted", source="geometry",
         consequence="a step of {pitches} pitches stops the chain at another tooth each time; change the ratio or the sprocket so that it is a whole "
             "number."),
+    Check(id="whole_steps", check_class="function", title="Whole steps of the gripper chain", demand="loop_error", limit=WHOLE, unit="1",
+        only_with=("chain_links",), demand_label="deviation from a whole number", limit_label="accepted", source="geometry",
+        consequence="gripper bars a step apart do not fit a loop of {loop_steps} steps; change the chain's links or the step."),
 )  # fmt: skip

@@ -49,6 +49,7 @@ class PressConsistency(Inputs):
     conveyor_mass: Annotated[float | None, Quantity("m_c", "kg", "Mass of the conveyor: chains, gripper bars and sheets", gt=0)] = None
     chain_mass: Annotated[float | None,
         Quantity("m_h", "kg", "Mass accelerated by the gripper chain: its own, bars, sheets, and rotating parts", gt=0)] = None
+    chain_links: Annotated[int | None, Quantity("X", "1", "Number of links of the gripper chain", gt=0, integer=True)] = None
     wheel_inertia: Annotated[float | None,
         Quantity("J_w", "kg*m**2", "Moment of inertia used in the Geneva wheel's calculation, at its shaft", gt=0)] = None
     wheel_side_inertia: Annotated[float | None,

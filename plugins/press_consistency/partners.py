@@ -15,7 +15,8 @@ PARTNERS = (
     Partner(key="transport", kinds=("cam_gear_transport", "geneva_transport"), takes={
         "sheet_step": "sheet_step", "chain_pitch": "chain_pitch", "sprocket_teeth": "sprocket_teeth", "sheet_play": "sheet_play"}),
     Partner(key="conveyor", kinds=("cam_gear_transport",), takes={"conveyor_mass": "conveyor_mass"}),
-    Partner(key="chain", kinds=("roller_chain",), takes={"chain_mass": "moving_mass_total"}, unless={"acceleration": "cylinder_drive"}),
+    Partner(key="chain", kinds=("roller_chain",), takes={"chain_mass": "moving_mass_total", "chain_links": "links"},
+        unless={"acceleration": "cylinder_drive"}),
     Partner(key="wheel", kinds=("geneva_transport",), takes={
         "wheel_inertia": "driven_inertia", "travel_radius": "travel_radius", "cover_angle": "cover_angle"}),
     Partner(key="train", kinds=("drive_train",), takes={

@@ -119,5 +119,9 @@ register.value("pitches", "n_p", "1", "Chain pitches per step", lambda sheet_ste
     needs=("sheet_step", "chain_pitch"), digits=10)
 register.value("pitch_error", "Δn_p", "1", "Deviation from a whole number", lambda pitches: abs(pitches - np.floor(pitches + 1 / 2)),
     source="geometry", needs=("sheet_step", "chain_pitch"))
+register.value("loop_steps", "n_l", "1", "Steps in which the gripper chain goes round once", lambda chain_links, pitches: chain_links / pitches,
+    source="geometry", needs=("sheet_step", "chain_pitch", "chain_links"), digits=10)
+register.value("loop_error", "Δn_l", "1", "Deviation from a whole number", lambda loop_steps: abs(loop_steps - np.floor(loop_steps + 1 / 2)),
+    source="geometry", needs=("sheet_step", "chain_pitch", "chain_links"))
 register.value("speed_ripple", "ε_v", "%", "Speed ripple of the chain due to the polygon effect",
     lambda sprocket_teeth: 1 - np.cos(np.pi / sprocket_teeth), source="geometry", needs=("sprocket_teeth",))

@@ -8,6 +8,7 @@ import pty
 import signal
 import subprocess
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,7 @@ import click
 import pytest
 
 from diecut_report import __version__, plugins
+from diecut_report.cli import output
 from diecut_report.cli.main import main
 from diecut_report.cli.output import QUIET, Progress
 from tests.configs import BROKEN, GOOD, HEAD, LEVER, LISTED, SMALL, saved
@@ -357,10 +359,22 @@ def test_progress_is_not_shown_when_it_is_quick(capfd: Capture, monkeypatch: pyt
     assert not progress.timer.is_alive() and capfd.readouterr() == ("", "")
 
 
-@pytest.mark.parametrize(("quiet", "terminal"), [(False, False), (True, True)])
-def test_progress_keeps_quiet_where_it_is_told_to_and_where_there_is_no_terminal(
-    quiet: bool, terminal: bool, monkeypatch: pytest.MonkeyPatch
+def test_where_there_is_no_terminal_a_line_tells_now_and_then_what_is_done(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
+    monkeypatch.setattr("sys.stderr.isatty", lambda: False, raising=False)
+    monkeypatch.setattr(output, "SECONDS_BETWEEN", 0.05)
+    with Progress() as progress:
+        progress("doing this")
+        time.sleep(0.3)
+        progress("doing that")
+        time.sleep(0.3)
+    told = capfd.readouterr().err.splitlines()
+    assert {"doing this …", "doing that …"} == set(told) and 4 <= len(told) <= 14
+
+
+@pytest.mark.parametrize(("quiet", "terminal"), [(True, False), (True, True)])
+def test_progress_keeps_quiet_where_it_is_told_to(quiet: bool, terminal: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stderr.isatty", lambda: terminal, raising=False)
     with click.Context(click.Command("calc")) as context:
         context.meta.update({QUIET: True} if quiet else {})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, islice
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -140,6 +140,7 @@ LARGEST = np.array([130 * MM, 80 * MM])  # of the shapes, their texts come besid
 TALL = 1.2  # a tall drawing may be so many times as high as others
 SIZES = (FONT_SIZE, 8.0, 7.5, 7.0, 6.5)  # of text in boxes, the least last
 PAD = np.array([8.0, 6.0])  # between a box and its text, both sides together
+ROW = 1.5  # sizes of the text from row to row at least
 ROOMY = 2.5  # a schematic gives its boxes no more than so many times what their text needs
 
 
@@ -161,7 +162,7 @@ class Scale(NamedTuple):
 
 
 def scaled(shapes: Sequence[Shape], room: Array, *, schematic: bool) -> Scale:
-    """As large as the room lets it be; a schematic is stretched, where it must be, until the text fits its boxes."""
+    """As large as the room lets it be; a schematic is stretched, where it must be, until the text fits its boxes and its rows."""
     corners = np.concatenate([extent(shape) for shape in shapes])
     size = np.maximum(np.ptp(corners, axis=0), 1e-12)
     tall = float(np.clip(size[1] / size[0] / 1.1, 1.0, TALL))
@@ -171,13 +172,29 @@ def scaled(shapes: Sequence[Shape], room: Array, *, schematic: bool) -> Scale:
     needs = {text: needed(boxes, text) for text in SIZES}
     if not boxes or not schematic:
         fitting = [text for text in SIZES if (needs[text] <= scale).all()]
-        return Scale(scale, scale, fitting[0] if fitting else SIZES[-1])
+        rows = min(row_scale(shapes), float(PAGE[1] / size[1])) if schematic else 0.0
+        return Scale(scale, max(scale, rows), fitting[0] if fitting else SIZES[-1])
     scale = min(scale, ROOMY * float(needs[FONT_SIZE].max()))
     limits = np.maximum(limits * (PAGE / LARGEST) ** [1, 0], scale)
     fitting = [text for text in SIZES if (needs[text] <= limits).all()]
     text = fitting[0] if fitting else SIZES[-1]
     across, upwards = np.clip(needs[text], scale, limits)
     return Scale(float(across), float(upwards), text)
+
+
+def rows_of(shapes: Sequence[Shape]) -> dict[tuple[str, float], list[float]]:
+    """The heights of the labels that begin or end at one place, by their anchor and that place: what stands in rows keeps its row."""
+    found: dict[tuple[str, float], list[float]] = {}
+    for shape in shapes:
+        if isinstance(shape, LabelRecord) and shape.anchor != "center":
+            found.setdefault((shape.anchor, shape.at[0]), []).append(shape.at[1])
+    return {place: heights for place, heights in found.items() if len(heights) > 1}
+
+
+def row_scale(shapes: Sequence[Shape]) -> float:
+    """The scale upwards at which rows stand clear of each other; 0 without rows."""
+    gaps = np.concatenate([np.zeros(0), *(np.diff(np.unique(heights)) for heights in rows_of(shapes).values())])
+    return float(ROW * FONT_SIZE / gaps.min()) if len(gaps) else 0.0
 
 
 def needed(boxes: Sequence[BoxRecord], text: float) -> Array:
@@ -335,6 +352,7 @@ class Shapes:
         self.unit: str = figure.unit
         self.schematic: bool = figure.schematic
         self.words = words
+        self.rows = rows_of(self.shapes) if self.schematic else {}
         self.scale = scaled(self.shapes, room, schematic=self.schematic)
         corners = np.concatenate([extent(shape) for shape in self.shapes]) * self.scale.both
         self.lines: list[tuple[Array, float]] = []  # with how much texts are to keep clear of them
@@ -387,12 +405,19 @@ class Shapes:
         corners = np.array([tip, tip - length * along + across, tip - length * along - across])
         self.axes.fill(*corners.T, color=color, linewidth=0, zorder=zorder)
 
-    def _later(self, text: str, proposed: Callable[[Place], Iterable[Place]], leader: Place | None = None) -> None:
-        """A text that finds its place when all shapes are drawn, in two or three lines where it has none in one.
+    def _later(
+        self,
+        text: str,
+        proposed: Callable[[Place], Iterable[Place]],
+        leader: Place | None = None,
+        *,
+        is_whole: bool = False,
+    ) -> None:
+        """A text that finds its place when all shapes are drawn, in two or three lines where it has none in one, unless it stays whole.
 
         Far from its ``leader`` it gets a line to it.
         """
-        variants = ["\n".join(map(marked, lines)) for lines in _folds(text)]
+        variants = ["\n".join(map(marked, lines)) for lines in ([[text]] if is_whole else _folds(text))]
 
         def write(labels: Labels) -> None:
             found = [(said, text_size(said)) for said in variants]
@@ -461,7 +486,10 @@ class Shapes:
         size = text_size(marked(shape.text))
         middle, _ = next(labels.at(x, y, size, shape.anchor))
         self.wished.append((middle - size[0] / 2, middle + size[0] / 2))
-        self._later(shape.text, lambda size: labels.at(x, y, size, shape.anchor))
+        is_row = (shape.anchor, shape.at[0]) in self.rows
+        self._later(
+            shape.text, lambda size: islice(labels.at(x, y, size, shape.anchor), 1 if is_row else None), is_whole=is_row
+        )
 
     def _arrow(self, shape: ArrowRecord) -> None:
         """A straight arrow from box to box; its head has its size on paper, and is smaller only on a shorter arrow."""
