@@ -171,7 +171,7 @@ class Answer:
     asked number jumps over the value; the proof of the first.
 
     Without an answer ``nearest`` is the value that comes nearest, and ``always`` are the checks that fail with every value, where all are to pass.
-    ``reached`` is what is asked for today (NaN where that is nothing). ``refused`` are texts with which no machine can be, and why.
+    ``reached`` is what is asked for today (NaN where that is nothing). ``refused`` are values with which no machine can be, and why.
     """
 
     question: DesignQuestion
@@ -273,7 +273,8 @@ def _varied(answer: Answer) -> dict[str, Any]:
     design = answer.design
     if design.is_text:
         return {"unit": None, "today": design.written, "among": list(design.options), "refused": dict(answer.refused)}
-    ends = {"among": list(design.among)} if design.among else {"from": answer.low, "to": answer.high}
+    listed = {"among": list(design.among), "refused": dict(answer.refused)}
+    ends = listed if design.among else {"from": answer.low, "to": answer.high}
     return {"unit": design.meta.parsed_unit.si, "today": design.present, **ends}
 
 

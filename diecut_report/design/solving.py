@@ -88,7 +88,8 @@ def solved(
     if design.is_text:
         answer = _TextSearch(base, what, design, passing, of_parts).chosen()
     else:
-        answer = _RangeSearch(base, what, design, passing, of_parts).answer(*searched_range(design, low, high))
+        search = _RangeSearch(base, what, design, passing, of_parts)
+        answer = replace(search.answer(*searched_range(design, low, high)), refused=search.refused())
     return _proved(answer, press) if answer.found else answer
 
 
@@ -207,6 +208,13 @@ class _RangeSearch:
             self._keep(new, self.machines(new))
         found = np.reshape([self.known[each] for each in x.tolist()], (len(x), 2))
         return found[:, 0], found[:, 1]
+
+    def refused(self) -> dict[str, str]:
+        """Return which of the values that are tried no machine can have, and why."""
+        if not self.design.among:
+            return {}
+        made = self.machines(np.array([self.design.read(text) for text in self.design.among]))
+        return {text: why for text, why in zip(self.design.among, made.errors, strict=True) if why}
 
     def _keep(self, x: Array, made: VariedMachines) -> None:
         y = made.values(self.question.quantity.column)

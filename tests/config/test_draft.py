@@ -33,6 +33,20 @@ OFF = re.compile(
 CYLINDER = ["cylinder_sizing", "cylinder_drive", "clutch", "damper", "drive_train", "cyclogram"]
 
 
+def test_a_platen_is_a_line_of_the_cyclogram_and_its_press_runs(tmp_path: Path) -> None:
+    """No cylinder is brought along, none is missed, and the rate is that of the platen."""
+    made = draft(["platen_press", "geneva_transport", "cyclogram", "drive_train"], DISCOVERY)
+    assert made.added == ()
+    lines = values(made)["timing"]["lines"]
+    assert [each["mechanism"] for each in lines] == ["platen", "cross"]
+    file = tmp_path / "press.yaml"
+    file.write_text(made.text, "utf-8")
+    results = Press.read(file, DISCOVERY).calculate().results
+    assert results.summary.verdict == "conditional"
+    checks = {f"{name}.{check.id}" for name, own in results.mechanisms.items() for check in own.checks}
+    assert not [each for each in checks if "cylinder" in each or "carriage_height" in each]
+
+
 def values(made: Draft) -> dict[str, Any]:
     """The mechanisms of a draft, as another reader of YAML has them."""
     return dict(yaml.safe_load(made.text)["mechanisms"])

@@ -316,6 +316,15 @@ def test_one_size_of_a_series_is_found(
     assert answer["vary"]["among"] == ["150 mm", "90 mm", "120 mm"]
 
 
+def test_of_sizes_that_no_machine_can_have_it_is_said_why(capfd: Capture) -> None:
+    knife = Path("configs/circular_knife.yaml")
+    asked = ("knife.eccentricity", "knife.force_max <= 5 kN", "--among", "20 mm; 60 mm")
+    refused = found(capfd, solve(knife, *asked, "--format", "json"))["vary"]["refused"]
+    assert refused.keys() == {"60 mm"} and "front_distance" in refused["60 mm"]
+    solve(knife, *asked)
+    assert "knife.eccentricity = 60 mm cannot be: mechanisms.knife.front_distance" in capfd.readouterr().out
+
+
 def test_where_no_size_of_a_series_will_do_it_is_said(press: Path, capfd: Capture) -> None:
     assert solve(press, "a.arm", "a.moment >= 400 N*m", "--among", "90 mm;120 mm") == 1
     lines = capfd.readouterr().out.splitlines()

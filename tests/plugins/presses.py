@@ -28,7 +28,7 @@ OF_TRAIN = {
 TYPED: dict[str, Any] = {
     "productivity": "6000 1/h", "sheet_length": "700 mm", "sheet_width": "470.7 mm", "sheet_gap": "60 mm", "working_length": "470.7 mm",
     "generatrix_length": "700 mm", "sheet_step": "571.5 mm", "chain_pitch": "19.05 mm", "sprocket_teeth": 30, "sheet_play": "0.2743 mm",
-    "register_tolerance": "0.3 mm", "conveyor_mass": "12 kg", "chain_mass": "11.5 kg", "wheel_inertia": "3.6 kg*m**2",
+    "register_tolerance": "0.3 mm", "conveyor_mass": "12 kg", "chain_mass": "11.5 kg", "chain_links": 240, "wheel_inertia": "3.6 kg*m**2",
     "wheel_side_inertia": "0.02 kg*m**2", "loaded_output_speed": "50 rpm",
     "travel_radius": "545.7423 mm",
     "clutch_torque": "741.166 N*m", "clutch_load": "20 N*m", "clutch_speed": "49.32 rpm", "clutch_inertia": "16 kg*m**2",

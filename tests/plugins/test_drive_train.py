@@ -16,6 +16,7 @@ from diecut_report.api import standard_series
 from diecut_report.machine.calculation import CurveHandle, Impossible
 from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.quantities.units import unit as parsed
+from diecut_report.results.checks import verdicts
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
 from tests.machines import UNBALANCED, drive, made_possible, number
@@ -210,6 +211,27 @@ def test_without_a_curve_there_is_no_flywheel() -> None:
     assert not [name for name in results.outputs if name.startswith("flywheel") or "energy" in name]
     assert "torque_curve" in str(results.absent)
     assert not {"flywheel_rim_speed", "run_up_time"} & checked(train())
+
+
+@pytest.mark.parametrize(
+    ("given", "allowed", "status"),
+    [
+        ({}, 0.5, "fail"),  # of the flywheel alone it is too long already
+        ({}, 60, "not_checked"),
+        ({"motor_inertia": 0.05}, 60, "not_checked"),
+        ({"motor_inertia": 0.05}, 0.5, "fail"),
+        ({"motor_inertia": 0.05, "load_inertia": 3}, 60, "pass"),
+        ({"motor_inertia": 0.05, "load_inertia": 3}, 0.5, "fail"),
+    ],
+)
+def test_a_run_up_that_is_too_long_at_best_fails(given: dict[str, float], allowed: float, status: str) -> None:
+    """Without an inertia the time is the least that it can be, so that a short one proves nothing."""
+    calc = train(**WORKING, **given, allowable_run_up_time=allowed)
+    [found] = [each for each in verdicts(calc) if each.id == "run_up_time"]
+    assert found.status == status
+    assert found.missing == (
+        [each for each in ("motor_inertia", "load_inertia") if each not in given] if status == "not_checked" else []
+    )
 
 
 def test_results_do_not_depend_on_the_number_of_samples() -> None:

@@ -252,6 +252,7 @@ CHANGED = [  # what passes in the whole press, and a change with which it does n
     ("speed_swing", {"speed_fluctuation": 0.001}, "warn"),
     ("register", {"backlash": "0.1 mm"}, "fail"),
     ("whole_pitches", {"chain_pitch": "19 mm"}, "fail"),
+    ("whole_steps", {"chain_links": 200}, "fail"),
 ]
 
 

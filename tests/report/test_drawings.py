@@ -23,7 +23,7 @@ from diecut_report.report.figures.drawing import (
     folded,
     hatching,
 )
-from diecut_report.report.figures.style import MM, SizesSize, marked, overlap, text_size
+from diecut_report.report.figures.style import FONT_SIZE, MM, SizesSize, marked, overlap, text_size
 from diecut_report.report.text import Catalogue
 from diecut_report.results.figure_record import BoxRecord, FigureRecord
 from tests.examples import few
@@ -213,6 +213,28 @@ def test_names_beside_their_rows_stand_at_their_height() -> None:
     for text in sheet.axes.texts:
         _, y = rows[int(text.get_text().split()[-1])]
         assert text.get_position()[1] == pytest.approx(y * sheet.scale.upwards) and "\n" not in text.get_text()
+
+
+@pytest.mark.parametrize("share", [1.0, 0.66, 0.5, 0.36])
+@pytest.mark.parametrize("count", [4, 12, 20])
+def test_rows_keep_their_height_however_small_the_drawing_and_long_their_names(count: int, share: float) -> None:
+    """Also those of both sides, of another distance; none is folded, and none stands on another."""
+    rows = [(0.0, -0.44 * n - 0.2 * (n > 3)) for n in range(count)]
+    shapes = [polyline([(0, y), (8, y), (8, y - 0.1)], closed=True) for _, y in rows]
+    shapes += [
+        label((-0.2, y), f"The platen stands on the die and the rods relax {n}", "right")
+        for n, (_, y) in enumerate(rows)
+    ]
+    shapes += [label((8.2, y), f"110.1°, 113.4° {n}", "left") for n, (_, y) in enumerate(rows) if n % 2]
+    sheet = Shapes(drawing("x", "x", shapes, unit="1", schematic=True), Catalogue("en"), LARGEST * share)
+    sheet.finish()
+    texts = [text for text in sheet.axes.texts if text.get_alpha() != 0]
+    assert len(texts) == count + count // 2
+    for text in texts:
+        _, y = rows[int(text.get_text().split()[-1])]
+        assert text.get_position()[1] == pytest.approx(y * sheet.scale.upwards) and "\n" not in text.get_text()
+    heads = sorted(text.get_position()[1] for text in texts if "platen" in text.get_text())
+    assert min(np.diff(heads)) > 1.2 * FONT_SIZE
 
 
 def test_drawing_is_made_smaller_until_its_texts_have_places() -> None:
