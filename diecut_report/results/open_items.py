@@ -27,6 +27,7 @@ from diecut_report.results.origins import as_founded, assumed, at_default, input
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
 from diecut_report.results.usual import unbounded
+from diecut_report.standards import catalogue_type
 from diecut_report.standards.ranges import asks_basis, by_reference, open_choices, range_of, unranged, zero_is_open
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -107,6 +108,7 @@ def _untaken_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
             )
     yield from _taken_in_part(run)
     yield from _without_line(run)
+    yield from _unlocated(run)
 
 
 DRIVEN = (
@@ -127,6 +129,27 @@ def _without_line(run: Run) -> Iterator[tuple[str, Phrase]]:
         if kind in DRIVEN and name in run.calculations and name not in lines:
             template = "it is not a line of {timing}, so that motor and flywheel are calculated without its torque"
             yield f"mechanisms.{name}", Phrase(template, timing=timings[0])
+
+
+def _unlocated(run: Run) -> Iterator[tuple[str, Phrase]]:
+    """The shafts whose bearings are all calculated as cylindrical roller bearings without ribs."""
+    found: dict[str, list[bool]] = {}
+    for name in (name for name, kind in run.config.kinds.items() if kind == "rolling_bearing"):
+        inputs = run.calculations[name].inputs if name in run.calculations else {}
+        rows = zip(
+            *(inputs.get(key, ()) for key in ("bearings.series", "bearings.designation") if key in inputs), strict=True
+        )
+        for index, texts in enumerate(rows):
+            target = run.config.links.get((name, "bearings", index, "radial_force"))
+            if target is not None and target.result in ("reaction_a", "reaction_b"):
+                known = [text for text in map(str, texts) if text.startswith("NU") or catalogue_type(text) == "roller"]
+                found.setdefault(target.instance, []).append(bool(known))
+    for shaft, floating in found.items():
+        if len(floating) > 1 and all(floating):
+            yield (
+                f"mechanisms.{shaft}",
+                phrase("all of its bearings are cylindrical roller bearings NU, which do not hold it along its axis"),
+            )
 
 
 def _ports_without_part(run: Run, parts: MachineParts) -> Iterator[tuple[str, Phrase]]:

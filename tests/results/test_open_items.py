@@ -480,3 +480,16 @@ def test_a_formula_founds_no_value_that_asks_for_a_basis(tmp_path: Path) -> None
     path, of_other = "mechanisms.k.yield_hub", "'900 MPa + 0 * ${k.yield_shaft}'"
     assert values(tmp_path, HEAD + KEY % of_other).get(path) == "assumed"
     assert values(tmp_path, HEAD + KEY % f"{{value: {of_other}, basis: drawing}}").get(path) is None
+
+
+def test_a_shaft_that_no_bearing_holds_along_its_axis_is_open(tmp_path: Path) -> None:
+    """Two NU do not; one of them as a ball bearing does."""
+    text = EXAMPLE.with_stem("flat_cylinder_elements").read_text("utf-8")
+    assert text.count('"6209"') == 1 and text.count('"6212"') == 1
+
+    def unlocated(changed: str) -> list[str]:
+        results = Press.read(saved(tmp_path, changed), Discovery()).calculate().results
+        return [each.path for each in results.summary.open if "along its axis" in str(each.why)]
+
+    one = text.replace('"6209"', "NU209E")
+    assert unlocated(one) == [] and unlocated(one.replace('"6212"', "NU212E")) == ["mechanisms.crankshaft"]
