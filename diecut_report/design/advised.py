@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.design.inputs import DesignInput, given_numbers, is_form, typed_input, untied
+from diecut_report.design.inputs import DesignInput, given_numbers, in_series, is_form, typed_input, untied
 from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, Chosen, VariedMachines, varied
 from diecut_report.errors import PluginError, UserError
 from diecut_report.formulas import Array
@@ -367,9 +367,8 @@ Choices = dict[str, tuple[DesignInput, dict[str, float]]]
 
 def changeable_choices(config: Config, free: Sequence[DesignInput], keep: Container[str]) -> Choices:
     """Return what of the ``free`` ones takes one of some values, else the sizes that are numbers of a list; not those paths."""
-    named = free or [
-        each for each in untied(config, given_numbers(config)) if each.meta.listed and is_form(config, each)
-    ]
+    form = [each for each in untied(config, given_numbers(config)) if is_form(config, each)]
+    named = [each for each in (in_series(config, each) for each in free or form) if free or len(each.listed)]
     return {each.asked.path: (each, own) for each in named if each.asked.path not in keep and (own := _values(each))}
 
 
@@ -411,6 +410,6 @@ def _values(design: DesignInput) -> dict[str, float]:
     if not present or not design.is_stepped:
         return {}
     around = np.arange(round(present) - WHOLE_REACH, round(present) + WHOLE_REACH + 1, dtype=float)
-    steps = design.listed if design.meta.listed else around[design.allows(around)]
+    steps = design.listed if len(design.listed) else around[design.allows(around)]
     others = sorted((each for each in steps.tolist() if each != present), key=lambda each: abs(each - present))
     return {design.typed(each): abs(design.share(each)) for each in others}

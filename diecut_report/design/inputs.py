@@ -19,6 +19,7 @@ from diecut_report.config.parts.reading import typed_value
 from diecut_report.config.yaml import KeyPath, dotted, plain_text
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
+from diecut_report.mechanism.checks import Vary
 from diecut_report.mechanism.curve_inputs import InOtherUnit
 from diecut_report.mechanism.inputs import POINTS, Quantity
 from diecut_report.mechanism.mechanism import Mechanism
@@ -477,8 +478,29 @@ def changeable(
             template = "{input} has no value at present, or is zero, and cannot be varied by a percentage; give it a value first."
             raise UserError(Problem(Phrase(template, input=each.name), config.tree.file, path="--free"))
     own = free or [*(each for each in untied(config, given_numbers(config)) if is_form(config, each)), *advised]
-    left = [each for each in own if not each.is_stepped and each.present and each.asked.path not in keep]
+    left = [
+        each for each in own if not in_series(config, each).is_stepped and each.present and each.asked.path not in keep
+    ]
     return list({each.asked.path: each for each in left}.values())
+
+
+NEAR = 3.0  # times today's value, and by that less: how far values of a series are tried
+
+
+def in_series(config: Config, design: DesignInput) -> DesignInput:
+    """Return a number that has a value of the series that its kind knows for it with the values of that near it alone, else as it is.
+
+    What can be bought in some sizes, and is one of them, becomes another of them: a pulley of R40, a module, the length of a key.
+    """
+    instance, present = config.instances[design.asked.instance], design.present
+    checks = instance.mechanism.checks if instance and instance.mechanism else ()
+    ways = (way for check in checks for way in check.advise if isinstance(way, Vary) and way.key == design.key)
+    own = sorted({float(value) for way in ways for value in way.values if not isinstance(value, str)})
+    shares = [design.meta.parsed_unit.to_si(value) / (present or math.inf) for value in own]
+    if design.is_stepped or not any(math.isclose(share, 1.0) for share in shares):
+        return design
+    near = (value for value, share in zip(own, shares, strict=True) if 1 / NEAR <= share <= NEAR)
+    return replace(design, among=tuple(with_unit(f"{value:g}", design.meta.unit) for value in near))
 
 
 def is_form(config: Config, design: DesignInput) -> bool:

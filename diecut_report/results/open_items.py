@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -81,7 +82,8 @@ def unrated_forces(run: Run) -> Iterator[OpenRecord]:
     A mechanism that is calculated alone belongs to no drive line. In a machine of parts they are the ports for which no part stands.
     """
     found = _untaken_forces(run) if run.config.parts is None else _ports_without_part(run, run.config.parts)
-    yield from (OpenRecord(what="not_rated", path=path, owner=_owner(run), why=why) for path, why in found)
+    for path, why in (*found, *_without_line(run)):
+        yield OpenRecord(what="not_rated", path=path, owner=_owner(run), why=why)
 
 
 def _untaken_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
@@ -107,7 +109,6 @@ def _untaken_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
                 phrase("nothing says of which parts its forces pass: shafts and meshes describe them"),
             )
     yield from _taken_in_part(run)
-    yield from _without_line(run)
     yield from _unlocated(run)
 
 
@@ -131,6 +132,9 @@ def _without_line(run: Run) -> Iterator[tuple[str, Phrase]]:
             yield f"mechanisms.{name}", Phrase(template, timing=timings[0])
 
 
+WITHOUT_RIBS = re.compile(r"\s*NU?\s*\d", re.IGNORECASE)  # N 212, NU1009: on one ring alone
+
+
 def _unlocated(run: Run) -> Iterator[tuple[str, Phrase]]:
     """The shafts whose bearings are all calculated as cylindrical roller bearings without ribs."""
     found: dict[str, list[bool]] = {}
@@ -142,13 +146,17 @@ def _unlocated(run: Run) -> Iterator[tuple[str, Phrase]]:
         for index, texts in enumerate(rows):
             target = run.config.links.get((name, "bearings", index, "radial_force"))
             if target is not None and target.result in ("reaction_a", "reaction_b"):
-                known = [text for text in map(str, texts) if text.startswith("NU") or catalogue_type(text) == "roller"]
+                known = [
+                    text for text in map(str, texts) if WITHOUT_RIBS.match(text) or catalogue_type(text) == "roller"
+                ]
                 found.setdefault(target.instance, []).append(bool(known))
     for shaft, floating in found.items():
         if len(floating) > 1 and all(floating):
             yield (
                 f"mechanisms.{shaft}",
-                phrase("all of its bearings are cylindrical roller bearings NU, which do not hold it along its axis"),
+                phrase(
+                    "all of its bearings are cylindrical roller bearings N or NU, which do not hold it along its axis"
+                ),
             )
 
 
