@@ -493,11 +493,13 @@ def in_series(config: Config, design: DesignInput) -> DesignInput:
     What can be bought in some sizes, and is one of them, becomes another of them: a pulley of R40, a module, the length of a key.
     """
     instance, present = config.instances[design.asked.instance], design.present
+    if design.is_text or design.is_stepped or not present:
+        return design
     checks = instance.mechanism.checks if instance and instance.mechanism else ()
     ways = (way for check in checks for way in check.advise if isinstance(way, Vary) and way.key == design.key)
     own = sorted({float(value) for way in ways for value in way.values if not isinstance(value, str)})
-    shares = [design.meta.parsed_unit.to_si(value) / (present or math.inf) for value in own]
-    if design.is_stepped or not any(math.isclose(share, 1.0) for share in shares):
+    shares = [design.meta.parsed_unit.to_si(value) / present for value in own]
+    if not any(math.isclose(share, 1.0) for share in shares):
         return design
     near = (value for value, share in zip(own, shares, strict=True) if 1 / NEAR <= share <= NEAR)
     return replace(design, among=tuple(with_unit(f"{value:g}", design.meta.unit) for value in near))

@@ -296,7 +296,7 @@ class DrivenRecord(Record):
     """A mechanism whose drawing moves with another's."""
 
     mechanism: str = always("Its name.")
-    offset: float = always("Where the abscissa of that one is at its zero.")
+    offset: Annotated[float, Field(ge=-1e9, le=1e9)] = always("Where the abscissa of that one is at its zero.")
     period: PositiveFloat = always("How far that abscissa goes in its period.")
 
 

@@ -225,7 +225,7 @@
       make("div", { "class": "line" }, [slider || "", typed, back]), make("div", { "class": "was" }), make("div", { "class": "wrong", role: "alert" }), make("div", { "class": "fault" })]);
     if (slider) { slider.addEventListener("input", function () { typed.value = slider.value + (row.unit ? " " + row.unit : ""); change(each.name, typed.value, true); }); slider.addEventListener("change", function () { strokes += 1; }); }
     typed.addEventListener("change", function () { row.sent = typed.value; change(each.name, typed.value); });
-    typed.addEventListener("keydown", function (event) { if (event.key === "Escape" && slider) { typed.value = row.typed; wrong(Object.fromEntries([[each.name, ""]]), ""); } });
+    typed.addEventListener("keydown", function (event) { if (event.key === "Escape" && !each.options) { typed.value = row.typed; wrong(Object.fromEntries([[each.name, ""]]), ""); } });
     back.addEventListener("click", function () { delete waiting[each.name]; act("back", { names: [each.name] }); });
     if (slider) { [slider, typed].forEach(function (field) { field.addEventListener("focus", function () { choose(each.name); }); }); }
     return row;

@@ -9,7 +9,11 @@ from typing import Any
 import pytest
 
 from diecut_report.cli.main import main
-from tests.configs import GOOD, HEAD, saved
+from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.advised import changeable_choices
+from diecut_report.design.inputs import changeable, design_input, in_series
+from tests.configs import EXAMPLE, GOOD, HEAD, saved
 
 Capture = pytest.CaptureFixture[str]
 PLUGIN = """\
@@ -119,3 +123,17 @@ def test_a_search_ends_with_the_machines_that_it_may_calculate_and_says_so(tmp_p
     assert int(out.split("none of the ")[1].split()[0]) <= 60 and "in the best of them" in out
     assert main([*command, "--format", "json"]) == 1
     assert json.loads(capfd.readouterr().out)["ended"]
+
+
+def test_what_stands_at_a_value_of_its_series_is_changed_in_that_series_alone() -> None:
+    """A pulley of R40 becomes another one of R40; one that is of no series, and what has none, any size."""
+    config = load_config(EXAMPLE, Discovery([]))
+    pulley, radius = (
+        in_series(config, design_input(config, name)) for name in ("train.vbelt.driver_diameter", "cylinder.radius")
+    )
+    assert {"118 mm", "125 mm", "132 mm"} <= set(pulley.among) and "126 mm" not in pulley.among and pulley.is_stepped
+    assert min(pulley.listed) >= 0.125 / 3 and max(pulley.listed) <= 3 * 0.125
+    assert radius.among == () and not radius.is_stepped
+    assert "train.vbelt.driver_diameter" not in [each.name for each in changeable(config, [], set(), [])]
+    choices = changeable_choices(config, [], set())
+    assert choices["mechanisms.train.vbelt.driver_diameter"][1]["132 mm"] == pytest.approx(7 / 125)
