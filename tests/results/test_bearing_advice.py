@@ -15,7 +15,7 @@ from diecut_report.results.checks import checks_of, verdicts
 from diecut_report.results.machine_advice import advised
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.press_run import Run, compute
-from diecut_report.standards import catalogue_size
+from diecut_report.standards import bearing_series, catalogue_size, stronger_bearings
 from tests.configs import EXAMPLES, saved
 
 TEXT = (EXAMPLES[0].parent / "machines" / "flat_cylinder_corrected.yaml").read_text("utf-8")
@@ -122,3 +122,10 @@ def test_a_machine_is_mended_by_larger_bearings_on_thicker_seats(folder: Path) -
         "shafts.pinion.parts.0.designation": "6210", "shafts.pinion.parts.4.designation": "6209",
     }  # fmt: skip
     assert found.machine is not None and 'designation: "6210"' in found.machine.press.config.tree.text
+
+
+def test_the_bearings_that_are_tried_are_stronger_ones_of_the_bore_then_larger_ones_of_the_series() -> None:
+    assert stronger_bearings("6206") == ["6306"] and stronger_bearings("nu 206") == ["NU2206E", "NU306E", "NU2306E"]
+    series = bearing_series("6206")
+    assert list(series.values()) == sorted(series.values()) and series["6210"] == pytest.approx(0.05)
+    assert not stronger_bearings("22212") and not bearing_series("22212")
