@@ -112,7 +112,7 @@ def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
 # ``needs`` and ``lacks``: each names an input that there is, or a text that it may be.
 
 
-TOKENS = ("needs", "lacks", "only_with", "asks_for", "sized_unless", "scaled_by")
+TOKENS = ("needs", "lacks", "only_with", "asks_for", "at_best", "founded", "sized_unless", "scaled_by")
 
 
 def token_faults(names: DeclaredNames) -> Iterator[Fault]:

@@ -21,7 +21,6 @@ from diecut_report.results.figure_record import (
     FigureRecord,
     LabelRecord,
     MovedRecord,
-    MovingRecord,
     MovingShape,
     Panel,
     PlotPanelRecord,
@@ -92,14 +91,11 @@ LETTER, WIDE = 0.024, 0.56  # the size of labels, of that side; how wide a lette
 
 
 def moving_data(
-    chapter: str,
-    number: str,
-    figure: FigureRecord,
-    moving: MovingRecord,
-    curves: Mapping[str, CurveRecord],
-    pool: ReaderRows,
+    chapter: str, number: str, figure: FigureRecord, curves: Mapping[str, CurveRecord], pool: ReaderRows
 ) -> dict[str, Any]:
     """Return a moving drawing: its abscissa, the room that it takes, each shape with its numbers at each place, and what moves with it."""
+    moving = figure.moving
+    assert moving is not None
     over = curves[moving.over]
     shown, places = over.display_unit, np.array(moving.places)
     ends = [to_display(float(places[end]), shown) for end in (0, -1)]
@@ -202,9 +198,7 @@ def reader_data(material: Material) -> str:
         if figure.type in READ and (made := _figure(name, figure, curves, material.words, pool)):
             figures[number] = made
     moving = [
-        moving_data(name, number, figure, figure.moving, curves, pool)
-        for curves, name, number, figure in drawn
-        if figure.moving
+        moving_data(name, number, figure, curves, pool) for curves, name, number, figure in drawn if figure.moving
     ]
     data = {
         "decimal": material.words["decimal"],
@@ -222,16 +216,11 @@ Shown = tuple[str, FigureRecord, Mapping[str, CurveRecord]]  # a figure with its
 def moving_readings(first: Shown, others: Sequence[Shown]) -> dict[str, Any]:
     """Return a moving drawing with what can be dragged in it, those that may move with it, and the rows of numbers that they name."""
     pool = ReaderRows()
-
-    def made(name: str, figure: FigureRecord, curves: Mapping[str, CurveRecord]) -> dict[str, Any]:
-        assert figure.moving is not None
-        return moving_data(name, "", figure, figure.moving, curves, pool)
-
-    main = made(*first)
+    main, *driven = (moving_data(name, "", figure, curves, pool) for name, figure, curves in (first, *others))
     for shape, own in zip(main["shapes"], first[1].moving.shapes if first[1].moving else (), strict=True):
         if grip := getattr(own, "grip", None):
             shape["grip"] = vars(grip)
-    return {"moving": main, "driven": [made(*each) for each in others], "rows": pool.rows}
+    return {"moving": main, "driven": driven, "rows": pool.rows}
 
 
 def figure_readings(

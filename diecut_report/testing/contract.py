@@ -142,19 +142,19 @@ def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str
 
 
 def _strange_partners(mechanism: Mechanism, discovery: Discovery) -> Iterator[Phrase]:
-    """Yield what a partner is said to have and no plugin does: then nothing is taken from it, and its checks never apply."""
+    """Yield what another mechanism is said to be or have and no plugin does: then nothing is taken from it, and checks never apply."""
+    beside = [(check.at, kind) for check in mechanism.checks for kind in check.only_beside]
+    beside += [
+        (partner.at, kind) for partner in mechanism.partners for kind in (*partner.kinds, *partner.unless.values())
+    ]
+    for at, kind in beside:
+        if kind not in discovery.origins:
+            yield Phrase("{place}: no plugin has the kind {kind}; look at its name", place=short(at), kind=kind)
     for partner in mechanism.partners:
         known: list[Mechanism] = []
-        for kind in (*partner.kinds, *partner.unless.values()):
-            try:
-                found = discovery.mechanism(kind)
-            except UnknownKind:
-                template = "{place}: no plugin has the kind {kind} of a partner; look at its name"
-                yield Phrase(template, place=short(partner.at), kind=kind)
-                continue
-            except (DuplicateKind, PluginError):  # which is told where that kind is used
-                continue
-            known += [found] if kind in partner.kinds else []
+        for kind in partner.kinds:
+            with suppress(UnknownKind, DuplicateKind, PluginError):  # told above, or where that kind is used
+                known.append(discovery.mechanism(kind))
         for name in (*partner.takes.values(), *partner.unless):
             if known and not any(_has(each, name) for each in known):
                 template = "{place}: no partner of kind {kinds} has {name}; look at its name"

@@ -10,9 +10,10 @@ import pytest
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.plugins.cyclogram.kinds import TORQUES
 from diecut_report.press import Press
 from diecut_report.results.model import OpenRecord
-from diecut_report.results.open_items import unrated_forces
+from diecut_report.results.open_items import DRIVEN, unrated_forces
 from diecut_report.results.press_run import compute
 from tests.config.parts.test_parts import FILE
 from tests.configs import EXAMPLE, GOOD, HEAD, saved
@@ -518,3 +519,7 @@ def test_a_mechanism_that_is_no_line_is_open_in_a_machine_of_parts_too(tmp_path:
     at = whole.index(cross[0])
     without = whole[:at] + whole[whole.index("    interlocks:") :]
     assert open_at(without) == ["mechanisms.cross"]
+
+
+def test_what_a_main_shaft_drives_is_what_the_cyclogram_takes_a_torque_of() -> None:
+    assert set(DRIVEN) == set(TORQUES)

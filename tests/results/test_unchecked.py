@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 import pytest
 
-from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, OneOf, Quantity, Text
+from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, OneOf, Partner, Quantity, Text
+from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
@@ -17,6 +19,7 @@ from diecut_report.results.conclusion import governing, summary
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.study.execution import variant_rows
+from diecut_report.testing.contract import _strange_partners
 
 
 class Stop(Block):
@@ -185,5 +188,39 @@ def test_a_check_without_an_allowed_class_is_told_with_those_that_are(given: dic
 
 
 def test_keys_that_there_are_not_are_told_of_a_check() -> None:
-    told = " ".join(map(str, faults(bar(check("doubled", 3.0, only_with=("widht",), sized_unless=("rate",))))))
+    told = " ".join(
+        map(
+            str,
+            faults(
+                bar(
+                    check(
+                        "doubled",
+                        3.0,
+                        only_with=("widht",),
+                        at_best=("wieght",),
+                        founded=("k",),
+                        sized_unless=("rate",),
+                    )
+                )
+            ),
+        )
+    )
     assert "only_with names widht" in told and "sized_unless names rate" in told
+    assert "at_best names wieght" in told and "founded names k" in told
+
+
+def test_a_kind_that_no_plugin_has_is_told_of_a_check_beside_it_and_of_a_partner() -> None:
+    """Such a check would never be made, and nobody would miss it."""
+    discovery = Discovery([])
+    assert list(_strange_partners(discovery.mechanism("press_consistency"), discovery)) == []
+    timing = discovery.mechanism("cyclogram")
+    misspelt = replace(
+        timing, checks=tuple(replace(each, only_beside=("cylinder_drvie",)) for each in timing.checks[:1])
+    )
+    [told] = map(str, _strange_partners(misspelt, discovery))
+    assert "no plugin has the kind cylinder_drvie" in told
+    other = replace(
+        timing, partners=(Partner(key="x", kinds=("clutch", "clucth"), takes={"a": "torque", "b": "torqeu"}),)
+    )
+    unknown, absent = map(str, _strange_partners(other, discovery))
+    assert "no plugin has the kind clucth" in unknown and "has torqeu" in absent
