@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import pytest
 
-from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, OneOf, Partner, Quantity, Text
+from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, OneOf, Quantity, Text
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
 from diecut_report.machine.calculation import Calculation
@@ -209,7 +209,7 @@ def test_keys_that_there_are_not_are_told_of_a_check() -> None:
     assert "at_best names wieght" in told and "founded names k" in told
 
 
-def test_a_kind_that_no_plugin_has_is_told_of_a_check_beside_it_and_of_a_partner() -> None:
+def test_a_kind_that_no_plugin_has_is_told_of_a_check_beside_it() -> None:
     """Such a check would never be made, and nobody would miss it."""
     discovery = Discovery([])
     assert list(_strange_partners(discovery.mechanism("press_consistency"), discovery)) == []
@@ -219,8 +219,3 @@ def test_a_kind_that_no_plugin_has_is_told_of_a_check_beside_it_and_of_a_partner
     )
     [told] = map(str, _strange_partners(misspelt, discovery))
     assert "no plugin has the kind cylinder_drvie" in told
-    other = replace(
-        timing, partners=(Partner(key="x", kinds=("clutch", "clucth"), takes={"a": "torque", "b": "torqeu"}),)
-    )
-    unknown, absent = map(str, _strange_partners(other, discovery))
-    assert "no plugin has the kind clucth" in unknown and "has torqeu" in absent
