@@ -104,6 +104,7 @@ def test_the_workbook_is_for_calculating(two: list[Path], tmp_path: Path) -> Non
     assert sheet.column_dimensions["A"].width > len("old/press")
 
 
+@pytest.mark.nightly
 def test_a_landscape_sheet_holds_twelve_machines(tmp_path: Path) -> None:
     for number in range(12):
         saved(tmp_path, LIMITED.replace("2 kN", f"{1 + number / 100} kN"), f"a_rather_long_name_{number}.yaml")

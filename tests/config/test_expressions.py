@@ -145,6 +145,7 @@ def test_a_reference_without_quotes_within_braces_is_told(tmp_path: Path) -> Non
     assert "YAML reads its brace as a map. Quote it" in found[0]
 
 
+@pytest.mark.nightly
 def test_lengths_are_typed_in_place_of_the_ratios_of_a_linkage(tmp_path: Path) -> None:
     file = EXAMPLE.with_name("flat_cylinder_mechanisms.yaml")
     text = file.read_text("utf-8")

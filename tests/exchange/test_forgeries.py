@@ -347,6 +347,7 @@ def time_stamped(content: bytes, last: int = 99) -> bytes:
     return bytes(made.getvalue())
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("made_once")
 def test_a_document_timestamp_holds_and_tells_its_time(
     small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey, monkeypatch: Patch

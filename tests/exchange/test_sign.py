@@ -117,6 +117,7 @@ def signed(pdf: Path, signed_once: bytes) -> Path:
     return pdf
 
 
+@pytest.mark.nightly
 def test_one_signs_after_the_other_and_the_report_agrees_in_everything(
     small_report: Path, pdf: Path, key: Path, tmp_path: Path, capfd: Capture
 ) -> None:

@@ -62,6 +62,7 @@ def test_a_load_that_stands_on_a_bearing_leaves_a_shaft_proved(
     assert run.errors == {} and run.skipped == {} and run.checks[shaft]
 
 
+@pytest.mark.nightly
 def test_a_linkage_that_folds_flat_is_refused_in_words() -> None:
     """70 mm and 120 mm are as long as 110 mm and 80 mm; rounding would let it turn."""
     with pytest.raises(UserError, match="gives no crank-rocker"):

@@ -99,6 +99,7 @@ MODULES = ["weasyprint", "click", "numpy", "diecut_report.cli", "yaml", "diecut_
         "diecut_report.results.document", "diecut_report.report"]  # fmt: skip
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("module", every(len(MODULES), MODULES))
 def test_ctrl_c_while_modules_are_loaded_leaves_no_traceback(tmp_path: Path, module: str) -> None:
     """Sent as a module is sought: a time after the start would be another place on each machine."""

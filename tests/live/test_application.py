@@ -75,6 +75,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     made.process.communicate(timeout=SECONDS)
 
 
+@pytest.mark.nightly
 def test_states_are_kept_undone_saved_and_compared_by_whoever_has_the_secret(tmp_path: Path) -> None:
     file = tmp_path / "knife.yaml"
     file.write_bytes(KNIFE.read_bytes())

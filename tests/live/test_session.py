@@ -348,6 +348,7 @@ def test_a_press_without_a_cyclogram_has_no_figure_of_its_own(session: LiveSessi
         Pictures().figure(session.machine, "press", 0)
 
 
+@pytest.mark.nightly
 def test_advice_is_that_of_the_report_and_comes_when_it_is_asked_for() -> None:
     session = LiveSession(KNIFE.parent / "flat_cylinder_mechanisms.yaml", Discovery([]))
     assert session.machine is not None

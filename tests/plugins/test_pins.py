@@ -69,6 +69,7 @@ def test_pins_that_have_grown_as_the_report_says_hold(
     assert all(not failed(thick, name) for name in PINS)
 
 
+@pytest.mark.nightly
 def test_pins_without_a_diameter_get_the_least_that_holds(tmp_path_factory: pytest.TempPathFactory) -> None:
     sized = press(tmp_path_factory, "bore: 0 mm", *LOADED)
     sizes = [sized.mechanisms[name].outputs["section_diameter.0"].value for name in PINS]

@@ -346,6 +346,7 @@ def test_a_machine_of_parts_is_drawn_in_word_and_pdf_too() -> None:
     assert all(FigurePicture(*material.figures[number]).pieces for number in ("1.1", "1.2"))
 
 
+@pytest.mark.nightly
 def test_a_report_of_some_mechanisms_draws_no_machine() -> None:
     results = small()
     part = results.with_(report=results.report.with_(only=["stamp"]))

@@ -69,6 +69,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("machines")
 
 
+@pytest.mark.nightly
 def test_a_bearing_that_dents_is_a_stronger_one_of_its_bore(folder: Path) -> None:
     run = machine(folder, THIN_SEATS)
     found = advice(run, "shafts_pinion_bearings", "a_static")

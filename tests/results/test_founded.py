@@ -114,6 +114,7 @@ def mended(**changes: dict[str, Any]) -> dict[str, Any]:
     return {f"{name}.{each.id}": each.status for name in found for each in found[name]}
 
 
+@pytest.mark.nightly
 def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
     drawn = {"value": True, "basis": "drawing"}
     read_off = {"value": 0.3, "basis": "standard", "note": "DIN 6892, figure 5"}

@@ -487,6 +487,7 @@ def test_a_formula_founds_no_value_that_asks_for_a_basis(tmp_path: Path) -> None
     assert values(tmp_path, HEAD + KEY % f"{{value: {of_other}, basis: drawing}}").get(path) is None
 
 
+@pytest.mark.nightly
 def test_a_shaft_that_no_bearing_holds_along_its_axis_is_open(tmp_path: Path) -> None:
     """Two NU do not; one of them as a ball bearing does."""
     text = EXAMPLE.with_stem("flat_cylinder_elements").read_text("utf-8")
@@ -501,6 +502,7 @@ def test_a_shaft_that_no_bearing_holds_along_its_axis_is_open(tmp_path: Path) ->
     assert unlocated(one.replace('"6212"', "nu 212 e")) == ["mechanisms.crankshaft"]
 
 
+@pytest.mark.nightly
 def test_a_mechanism_that_is_no_line_is_open_in_a_machine_of_parts_too(tmp_path: Path) -> None:
     """The Geneva drive stands on shafts of the machine, and the motor does not know it."""
     text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")

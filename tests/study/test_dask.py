@@ -207,6 +207,7 @@ def test_address_that_is_none_is_told(tmp_path: Path, address: str) -> None:
         pass
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nosuch.invalid:8786"])
 def test_scheduler_that_is_not_there_is_told_within_its_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, address: str

@@ -159,6 +159,7 @@ def started(folder: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, env=paths, process_group=0)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("sent", every(2, [signal.SIGKILL, signal.SIGINT]))
 def test_ended_run_leaves_no_process(tmp_path: Path, sent: signal.Signals) -> None:
     run = started(tmp_path)

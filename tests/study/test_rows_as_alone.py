@@ -67,8 +67,8 @@ def require_as_alone(press: Press, path: str, *values: float) -> Rows:
     ("path", "values"),
     [
         ("crank.reliability", (0.90, 0.99)),
-        ("wheel_key.load_distribution_factor", (1.2, 1.3)),
-        ("wheel_key.load_distribution_factor", (1.3, 1.1, 1.2)),
+        pytest.param("wheel_key.load_distribution_factor", (1.2, 1.3), marks=pytest.mark.nightly),
+        pytest.param("wheel_key.load_distribution_factor", (1.3, 1.1, 1.2), marks=pytest.mark.nightly),
     ],
 )
 def test_a_row_at_its_default_is_checked_whatever_stands_beside_it(path: str, values: tuple[float, ...]) -> None:

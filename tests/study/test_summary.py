@@ -117,6 +117,7 @@ def test_ranges_and_histograms_are_those_of_the_rows(large: Path) -> None:
     )  # a wall without one fails
 
 
+@pytest.mark.nightly
 def test_reasons_that_differ_in_numbers_alone_are_counted_together(
     large: Path, large_summary: contents.Summary
 ) -> None:
@@ -159,6 +160,7 @@ def test_shares_that_pass_are_those_of_the_rows_by_value_and_by_class(
     assert {row.text for row in found[LAW]} == {"harmonic", "cycloidal"}
 
 
+@pytest.mark.nightly
 def test_a_value_at_which_nothing_passes_is_marked(small_summary: contents.Summary) -> None:
     found = small_summary
     speeds = next(each.rows for each in found.passing if each.column.name == SPEED)

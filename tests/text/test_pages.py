@@ -194,6 +194,7 @@ def test_no_english_is_left(name: str, made: Path, known: set[str]) -> None:
     assert [text for text in told if MIXED.search(text)] == []
 
 
+@pytest.mark.nightly
 def test_differences_are_told_in_ukrainian(made: Path, known: set[str], capfd: pytest.CaptureFixture[str]) -> None:
     assert run("diff", made / "base.yaml", made / "knife.yaml", "--format", "html") == 0
     told = visible(re.sub(r"<script\b.*?</script>", " ", capfd.readouterr().out, flags=re.DOTALL))

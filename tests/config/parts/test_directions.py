@@ -13,7 +13,7 @@ from diecut_report.config.yaml import parse
 from diecut_report.formulas import Array
 from diecut_report.results.press_run import Run
 from tests.config.parts.test_parts import DISCOVERY, FILE, TEXT
-from tests.examples import few
+from tests.examples import every, few
 
 KINDS = (
     "cylinder_sizing",
@@ -103,7 +103,8 @@ def test_the_rollers_force_has_the_moment_of_the_torque_about_both_axes(frame: s
 
 
 @pytest.mark.parametrize(
-    ("driver", "driven"), [(("main", "pinion"), ("crank", "wheel")), (("rocker", "sector"), ("pinion", "pinion"))]
+    ("driver", "driven"),
+    every(2, [(("main", "pinion"), ("crank", "wheel")), (("rocker", "sector"), ("pinion", "pinion"))]),
 )
 def test_teeth_push_each_other_apart_with_one_force(driver: tuple[str, str], driven: tuple[str, str]) -> None:
     """By the tangential force of the torque, and the radial one away from the mate, in the frame."""

@@ -118,6 +118,7 @@ def test_a_chain_pulls_its_sprockets_by_its_sag_too() -> None:
     assert problems == [] and without["shafts_far_loads"]["forces"][0]["constant"].startswith(f"2 * ({sag}) * ")
 
 
+@pytest.mark.nightly
 def test_the_chain_of_the_cylinder_moves_its_unbalance_too() -> None:
     """What the joints bear is no less than what accelerates the cylinder, by the drive."""
     [moved] = [
@@ -539,6 +540,7 @@ ROLL = (
 )  # fmt: skip
 
 
+@pytest.mark.nightly
 def test_what_the_far_end_of_a_chain_drives_is_moved_by_all_before_it() -> None:
     """A roll behind the conveyor's far shaft: the driving sprocket pulls what the driven one takes, and moves the chain besides."""
     right = "      - {sprocket: right, at: 635, hub: 60, key: 50}\n"
@@ -769,6 +771,7 @@ def test_profile_shifts_leave_the_axes_where_the_frame_has_them(typed: str, is_r
     assert ("do not add up to zero" in told((MAIN_DRIVE, f"{MAIN_DRIVE} {typed}"))) == is_refused
 
 
+@pytest.mark.nightly
 def test_the_material_of_a_pair_stands_before_that_of_all_gears(tmp_path: Path) -> None:
     """It was left out without a word: S_H 1.62 for 0.76."""
     table = "gear_materials:\n  soft: {sigma_h_lim: 700 MPa, sigma_f_lim: 280 MPa, source: maker}\n"
@@ -811,6 +814,7 @@ def test_a_pin_is_held_within_its_disc() -> None:
 # What is lost on the way to a mechanism.
 
 
+@pytest.mark.nightly
 def test_what_the_cyclogram_loses_beyond_the_meshes_passes_the_main_shaft_too() -> None:
     """The wheel's key, the mesh on it and the cyclogram say one torque."""
     machine = WarmPress(is_advised=False).calculate(changed()[0])
@@ -888,6 +892,7 @@ def test_flywheel_and_pulley_on_a_clutch_pass_it_what_the_pinion_takes() -> None
     assert made["clutch"]["torque_curve"] == "${shafts_flywheel_loads.pinion_torque}"
 
 
+@pytest.mark.nightly
 def test_a_chain_over_idlers_pulls_in_its_direction() -> None:
     """Without one it is told that the frame's x is taken."""
     for degrees, y, z in ((0, 1, 0), (90, 0, 1), (180, -1, 0)):

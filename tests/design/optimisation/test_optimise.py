@@ -27,6 +27,7 @@ def parts(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in sorted((folder / "variants").iterdir())}
 
 
+@pytest.mark.nightly
 def test_the_front_of_a_lever_is_the_hyperbola_of_its_least_force(tmp_path: Path, capfd: Any) -> None:
     # moment m = F a, pressure p = F / (b a): p m = F² / b, least where F is least, whatever the arm
     study = search_file(tmp_path, more="evaluations: 900, population: 60, points: 4")
