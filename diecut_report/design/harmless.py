@@ -37,8 +37,8 @@ TWICE = 2.0  # what a value is multiplied by to see with which power of it anoth
 STILL = 1e-9  # of the greater side of a check, by which rounding alone moves its margin
 # how many of those that change a check together are taken out, strongest first
 LEFT_OUT = tuple(2**k for k in range(8))
-SEED, DRAWN = 29, 16  # of machines that are drawn, and how many at once
-CLEAN, ROUNDS = 4, 40  # how often without a find, and at most
+SEED, DRAWN, CLEAN = 29, 16, 64  # of machines that are drawn, how many at once, and how many without a find end the search
+ROUNDS = 40  # at most
 JUDGED = 4  # of those of one draw in which a check fails
 UNTRIED = phrase(
     "it is not one number of the configuration, parts of the machine are made with it, or its mechanism takes no arrays, "
@@ -417,21 +417,21 @@ class OpenValueTrials:
 
         A size of a series, or the place that governs, may be another one within the corners.
         """
-        found, draw, clean = dict[int, str](), np.random.default_rng(SEED), 0
+        found, draw, count = dict[int, str](), np.random.default_rng(SEED), DRAWN
         for _ in range(ROUNDS):
-            drawn = self._drawn(draw, {*out, *found})
+            drawn = self._drawn(draw, count, {*out, *found})
             failing = self._failing(effects, drawn)
-            clean = 0 if failing else clean + 1
-            if clean == CLEAN:
+            if not failing and count > DRAWN:
                 break
+            count = DRAWN if failing else CLEAN - DRAWN
             strongest = {self._strongest(effects, name, drawn[row]): name for name, row in failing}
             found |= {index: name for index, name in strongest.items() if index is not None}
         return found
 
-    def _drawn(self, draw: np.random.Generator, out: set[int]) -> Array:
-        """Machines of which each value that is not out stands at one of its ends, shape (machines, trials)."""
+    def _drawn(self, draw: np.random.Generator, count: int, out: set[int]) -> Array:
+        """So many machines of which each value that is not out stands at one of its ends, shape (count, trials)."""
         ends = np.array([(each.low, each.high) for each in self.trials])
-        drawn = np.take_along_axis(ends.T, draw.integers(0, 2, (DRAWN, len(ends))), axis=0)
+        drawn = np.take_along_axis(ends.T, draw.integers(0, 2, (count, len(ends))), axis=0)
         return np.where(np.isin(np.arange(len(ends)), list(out)), self.present, drawn)
 
     def _failing(self, effects: Effects, values: Array) -> list[tuple[str, int]]:
