@@ -37,7 +37,11 @@ TWICE = 2.0  # what a value is multiplied by to see with which power of it anoth
 STILL = 1e-9  # of the greater side of a check, by which rounding alone moves its margin
 # how many of those that change a check together are taken out, strongest first
 LEFT_OUT = tuple(2**k for k in range(8))
-SEED, DRAWN, CLEAN = 29, 16, 64  # of machines that are drawn, how many at once, and how many without a find end the search
+SEED, DRAWN, CLEAN = (
+    29,
+    16,
+    64,
+)  # of machines that are drawn, how many at once, and how many without a find end the search
 ROUNDS = 40  # at most
 JUDGED = 4  # of those of one draw in which a check fails
 UNTRIED = phrase(

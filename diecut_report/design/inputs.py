@@ -298,27 +298,18 @@ def inputs_of_parts(config: Config) -> dict[str, list[DesignInput]]:
 
     Of a bearing these are designations of its bore, and of its series.
     """
-    parts, found = config.parts, dict[KeyPath, DesignInput]()
-    made: dict[str, list[DesignInput]] = {}
-    for node, place in parts.sources.items() if parts else ():
+    parts, found, made = config.parts, dict[KeyPath, DesignInput](), dict[str, list[DesignInput]]()
+    if parts is None:
+        return made
+    for node, place in parts.sources.items():
         if place and place[0] in WORDS:
             with suppress(UnknownPath):  # a block, or what the program writes there
-                each = found[place] if place in found else _made(config, varied_input(config, _of_parts(config, place)))
+                each = found[place] if place in found else _made(config, varied_input(config, parts.called(place)))
                 found[place] = replace(each, among=related_bearings(each.written or "")) if each.is_text else each
                 own = made.setdefault(str(node[0]), [])
                 if found[place] not in own and (found[place].present is not None or found[place].among):
                     own.append(found[place])
     return made
-
-
-def _of_parts(config: Config, place: KeyPath) -> str:
-    """What a place of the parts is called, with the names of the parts of a shaft in place of their numbers."""
-    assert config.parts is not None
-    path = tuple(step for step in place if step != "value")
-    if path[0] == "shafts" and path[2:3] == ("parts",):
-        names = (part.name for part in config.parts.shafts[str(path[1])].parts if part.path == path[:4])
-        path = (*path[:3], next(names, path[3]), *path[4:])
-    return ".".join(map(str, path))
 
 
 def choices_at_default(config: Config) -> list[DesignInput]:

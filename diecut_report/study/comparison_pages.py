@@ -97,16 +97,24 @@ def sheets(made: MachineComparison) -> list[WorkSheet]:
     """Return the sheets: machines with their results, what differs, the checks, the advice; numbers are numbers."""
     found = [_machines(made)]
     if made.kinds or made.changes:
-        heads = [say("input"), say("description"), say("unit"), *made.names]
-        rows = [*made.kinds, *made.changes]
-        cells = [[row.path, row.title, pretty(row.unit), *map(_cell, row.cells)] for row in rows]
-        found.append(_sheet(say("differences"), heads, cells))
+        found.append(_differences(made, [*made.kinds, *made.changes]))
     if made.checks:
         found.append(_checks(made))
     if made.advice:
         heads = [say("machine"), say("check"), say("advice")]
         found.append(_sheet(say("advice"), heads, [list(each) for each in made.advice]))
     return found
+
+
+def _differences(made: MachineComparison, rows: Sequence[ComparedRow]) -> WorkSheet:
+    """Return the sheet of what was typed differently; behind the values of all what they rest on, where that differs."""
+    heads = [say("input"), say("description"), say("unit"), *made.names]
+    cells: list[list[Cell]] = [[row.path, row.title, pretty(row.unit), *map(_cell, row.cells)] for row in rows]
+    notes = [[cell.note if cell else "" for cell in row.cells] for row in rows]
+    if any(map(any, notes)):
+        heads += [f"{name}: " + say("basis") for name in made.names]
+        cells = [[*own, *rests_on] for own, rests_on in zip(cells, notes, strict=True)]
+    return _sheet(say("differences"), heads, cells)
 
 
 def _machines(made: MachineComparison) -> WorkSheet:

@@ -12,15 +12,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import is_study
+from diecut_report.config.loader import Config, is_study
+from diecut_report.config.parts.reading import typed_places, typed_value
 from diecut_report.config.plugins import Discovery
-from diecut_report.config.yaml import Tree
+from diecut_report.config.validation import value_at
+from diecut_report.config.yaml import KeyPath, Tree
 from diecut_report.errors import PluginError, Problem, UserError, own_fault, refusal
+from diecut_report.quantities.formatting import given_shown
 from diecut_report.report.text import translated
-from diecut_report.results.mechanism_record import MechanismRecord
+from diecut_report.results.mechanism_record import MechanismRecord, QuantityRecord, ShownRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.study.analysis.variant_config import variant_config, variant_named
 from diecut_report.study.analysis.variants import opened
+from diecut_report.study.definition.base_inputs import UnknownPath, present_value, varied_input
 from diecut_report.study.execution.engines import WorkerSetup, local_engine, results, settle
 from diecut_report.study.storage.state import STATE
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
@@ -182,7 +186,8 @@ def _calculated(discovery: Discovery, given: str | Tree, file: str, finish: Fini
             problems = more.problems
         return CheckedMachine(file, status, None, [str(problem) for problem in problems])
     status = BROKEN if made.broken else made.results.status
-    return CheckedMachine(file, status, _lean(made.results), [*map(str, made.broken), *made.warnings, *notes])
+    lean = _lean(made.results, made.press.config)
+    return CheckedMachine(file, status, lean, [*map(str, made.broken), *made.warnings, *notes])
 
 
 def _source(given: str | Tree, discovery: Discovery, notes: list[str]) -> Path | Tree:
@@ -196,11 +201,60 @@ def _source(given: str | Tree, discovery: Discovery, notes: list[str]) -> Path |
     return Path(given)
 
 
-def _lean(whole: ResultsRecord) -> ResultsRecord:
-    """Return results without what a comparison does not show, so that they travel fast between processes."""
-    kept = {name: data.with_(**UNUSED) for name, data in whole.mechanisms.items()}
+def _lean(whole: ResultsRecord, made_of: Config) -> ResultsRecord:
+    """Return results without what a comparison does not show, so that they travel fast between processes.
+
+    What is typed at the parts of a machine stands beside the fields of the press; what follows from it was typed by nobody.
+    """
+    kept = {
+        name: data.with_(**UNUSED, inputs=_not_made(name, data, made_of)) for name, data in whole.mechanisms.items()
+    }
     config = whole.config.with_(source_text="", resolved={}, materials=[], logo=None)
-    return whole.with_(config=config, mechanisms=kept, comparisons={})
+    press = whole.press.with_(fields=[*whole.press.fields, *typed_at_parts(made_of)])
+    return whole.with_(config=config, press=press, mechanisms=kept, comparisons={})
+
+
+def _not_made(name: str, data: MechanismRecord, config: Config) -> dict[str, QuantityRecord]:
+    """The inputs of a mechanism, as left out where they follow from the parts of the machine."""
+    parts = config.parts
+    if parts is None:
+        return dict(data.inputs)
+    nodes = ((key, row, (name, *key.split("."))) for key, row in data.inputs.items())
+    return {key: row.with_(origin="default") if parts.follows(node) else row for key, row, node in nodes}
+
+
+def typed_at_parts(config: Config) -> Iterator[QuantityRecord]:
+    """What is typed at the parts of a machine, each with its path."""
+    for place in typed_places(config.parts.reader.tree) if config.parts else ():
+        yield _typed_at(config, place, config.parts.called(place))  # type: ignore[union-attr]
+
+
+def _typed_at(config: Config, place: KeyPath, path: str) -> QuantityRecord:
+    tree = config.tree if config.parts is None else config.parts.reader.tree
+    block = value_at(tree.data, place)
+    typed, basis = str(typed_value(tree, place)), block.get("basis", "") if isinstance(block, dict) else ""
+    given: dict[str, Any] = {"origin": "given", "path": path, "text": typed, "basis": basis}
+    try:
+        asked = varied_input(config, path)
+        value = present_value(config, asked)
+    except UnknownPath:
+        return _as_text(typed, path.rpartition(".")[2], given)
+    if not isinstance(value, float):
+        return _as_text(typed, asked.meta.description, given)
+    shown = ShownRecord(**given_shown(value, asked.display))
+    return QuantityRecord(
+        value=value,
+        unit=asked.unit or "1",
+        symbol=asked.meta.symbol,
+        description=asked.meta.description,
+        display=shown,
+        **given,
+    )
+
+
+def _as_text(typed: str, description: str, given: Mapping[str, Any]) -> QuantityRecord:
+    shown = ShownRecord(text=typed, unit="1")
+    return QuantityRecord(value=typed, unit="1", symbol="", description=description, display=shown, **given)
 
 
 def language_of(machines: Sequence[CheckedMachine]) -> str:

@@ -14,7 +14,10 @@ import pytest
 from pypdf import PdfReader
 
 from diecut_report.cli.main import main
-from tests.configs import BROKEN, GOOD, LEVER, saved
+from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
+from diecut_report.study.machines import typed_at_parts
+from tests.configs import BROKEN, EXAMPLE, GOOD, LEVER, saved
 from tests.shared import once
 
 Capture = pytest.CaptureFixture[str]
@@ -85,6 +88,31 @@ def test_all_formats_hold_numbers(two: list[Path], tmp_path: Path) -> None:
     assert results == {"rate": [6000, 6000], "torque_max": [200, 300], "strength": [0.8, 1.2]}
     rows = {row[0]: row[1:] for row in csv.reader(io.StringIO((out / "comparison.csv").read_text("utf-8")))}
     assert rows["a.force"] == ["Force", "kN", "2.0", "3.0"] and rows["rate"][1:] == ["1/h", "6000.0", "6000.0"]
+
+
+def test_of_machines_of_parts_what_is_typed_at_a_part_differs() -> None:
+    """Not the inputs of the calculations that follow from it."""
+    file = EXAMPLE.parent / "machines" / "flat_cylinder.yaml"
+    typed = {row.path: row for row in typed_at_parts(load_config(file, Discovery([])))}
+    width, teeth, name = (
+        typed[path] for path in ("meshes.main_drive.width", "meshes.main_drive.teeth_2", "shafts.main.parts.b.bearing")
+    )
+    assert (width.value, width.display.unit, teeth.value, name.value) == (pytest.approx(0.05), "mm", 87, "b")
+    assert typed["shafts.main.sections.2.diameter"].value == pytest.approx(0.06)
+    assert typed["machine.frame.main.0"].value == pytest.approx(0.18) and "meshes.main_drive.teeth" not in typed
+
+
+@pytest.mark.nightly
+def test_what_follows_from_a_part_is_no_difference(tmp_path: Path) -> None:
+    text = (EXAMPLE.parent / "machines" / "flat_cylinder.yaml").read_text("utf-8")
+    assert text.count("teeth: 18/87, module: 4, width: 50") == 1
+    other = text.replace("module: 4, width: 50", "module: 4, width: 48")
+    two = [saved(tmp_path, text, "a.yaml"), saved(tmp_path, other, "b.yaml")]
+    compare(*two, "-o", tmp_path / "out", "--format", "json", "--quiet")
+    data = json.loads((tmp_path / "out" / "comparison.json").read_text("utf-8"))
+    assert {row["path"]: [*row["machines"].values()] for row in data["own_changes"]} == {
+        "meshes.main_drive.width": [50, 48]
+    }
 
 
 def test_the_workbook_is_for_calculating(two: list[Path], tmp_path: Path) -> None:

@@ -367,6 +367,14 @@ class MachineParts:
         is_block = path is not None and "value" in (self.reader.tree.node(path).children or {})
         return (*path, "value") if path is not None and is_block else path
 
+    def called(self, place: KeyPath) -> str:
+        """Return what a place is called: a part of a shaft by its name, ``shafts.main.parts.wheel.hub``; a value as its key."""
+        path = tuple(step for step in place if step != "value")
+        if path[0] == "shafts" and path[2:3] == ("parts",):
+            names = (part.name for part in self.shafts[str(path[1])].parts if part.path == path[:4])
+            path = (*path[:3], next(names, path[3]), *path[4:])
+        return ".".join(map(str, path))
+
     def line(self, path: KeyPath) -> Phrase:
         """Return the path with its line, as results name a place: where the file stands is not of the machine."""
         return Phrase("{path}, line {line}", path=".".join(map(str, path)), line=self.reader.tree.position(path)[0])

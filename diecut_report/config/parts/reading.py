@@ -387,6 +387,25 @@ def typed_value(tree: Tree, path: KeyPath) -> Any:
     return numbers[pair.single.index(str(key)) if len(numbers) > 1 else 0].strip()
 
 
+def typed_places(tree: Tree) -> Iterator[KeyPath]:
+    """Yield the places of the parts at which something is typed; of a text of several numbers those of these."""
+    for word in WORDS:
+        yield from _typed_places(tree, (word,), tree.data.get(word))
+
+
+def _typed_places(tree: Tree, path: KeyPath, data: Any) -> Iterator[KeyPath]:
+    if isinstance(data, dict | list) and not (isinstance(data, dict) and "value" in data):
+        for key, inner in data.items() if isinstance(data, dict) else enumerate(data):
+            yield from _typed_places(tree, (*path, key), inner)
+    elif path[0] == "shafts" and path[2:] == ("sections",):
+        numbers = ((*path, i, key) for i in range(len(str(data).split(","))) for key in SECTION.groupindex)
+        yield from (place for place in numbers if typed_value(tree, place) is not None)
+    elif pair := next((each for each in PAIRS.values() if each.key == path[-1] and len(path) == 3), None):
+        yield from ((*path[:2], key) for key in pair.single)
+    elif data is not None:
+        yield path
+
+
 def typed_text(tree: Tree, path: KeyPath) -> str | None:
     """Return what is typed at a place of a file as it stands there, of the parts also within a text; None where nothing is."""
     given = next((text for place in (path, (*path, "value")) if (text := tree.typed(place)) is not None), None)
