@@ -207,15 +207,21 @@ def verdict_lines(results: ResultsRecord, discovery: Discovery) -> list[Line]:
 
     ``discovery`` knows where plugins of others have their words.
     """
-    if spoken_language() != SOURCE_LANGUAGE:
-        from diecut_report.report.text import translated  # with what makes reports, which English does not need
-
-        results = translated(results, spoken_catalogues(discovery))
+    results = _spoken(results, discovery)
     left_out = {name: data.error for name, data in results.mechanisms.items() if data.status == "skipped"}
     skipped = [(marked("skipped"), f" {name}: {why}") for name, why in left_out.items()]
     lines = [*_checks(results, "fail"), *skipped, *_checks(results, "warn"), *_checks(results, "not_checked")]
     note = [results.comparisons_left_out.message] if results.comparisons_left_out else []
     return [*lines, *note, _whole(results)]
+
+
+def _spoken(results: ResultsRecord, discovery: Discovery) -> ResultsRecord:
+    """Results in the language that is spoken."""
+    if spoken_language() == SOURCE_LANGUAGE:
+        return results
+    from diecut_report.report.text import translated  # with what makes reports, which English does not need
+
+    return translated(results, spoken_catalogues(discovery))
 
 
 def _checks(results: ResultsRecord, status: str) -> Iterator[Line]:
@@ -357,8 +363,14 @@ class NamedMachines:
         """Write the comparison, if a folder is named, report how many machines there are of each verdict, and return the exit code."""
         if folder is not None:
             self._write(folder, name, formats)
-        inform([*_passed_over(self.passed_over), _counts(self.spoken.machines)])
+        inform([*_passed_over(self.passed_over), *self._broken_checks(), _counts(self.spoken.machines)])
         return _code(self.spoken.machines, strict)
+
+    def _broken_checks(self) -> Iterator[Line]:
+        """The checks of a machine alone that fail or warn, in words: in a table of many they would be lost."""
+        if len(self.machines) == 1 and self.machines[0].results:
+            results = _spoken(self.machines[0].results, self.discovery)
+            yield from (line for status in ("fail", "warn") for line in _checks(results, status))
 
     def _write(self, folder: Path, name: str, formats: Sequence[str]) -> None:
         """Write the comparison in the language that is asked for, else in that of all projects."""

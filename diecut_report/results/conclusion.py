@@ -182,8 +182,8 @@ def weight(check: CheckRecord) -> tuple[int, float]:
 
 
 LEFT: dict[OpenKind, Callable[[int], Counted]] = {
-    "warning": lambda n: Counted(n, "{n} warns", "{n} warn"),
-    "not_checked": lambda n: Counted(n, "{n} is not checked", "{n} are not checked"),
+    "warning": lambda n: Counted(n, "{n} check warns", "{n} checks warn"),
+    "not_checked": lambda n: Counted(n, "{n} check is not made", "{n} checks are not made"),
     "not_rated": lambda n: Counted(n, "{n} part is not rated", "{n} parts are not rated"),
     "assumed": lambda n: Counted(n, "{n} assumed value is open", "{n} assumed values are open"),
     "default": lambda n: Counted(n, "{n} default value is open", "{n} default values are open"),

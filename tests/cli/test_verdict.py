@@ -56,12 +56,12 @@ def test_a_check_without_its_limit_is_told_and_counted(tmp_path: Path, capfd: Ca
         ("default", "mechanisms.a.arm", ""),  # typed, but what it would be if nobody typed it
         ("default", "mechanisms.a.teeth", ""),
     ]
-    assert told["text"] == "Nothing was checked, and 1 is not checked and 2 default values are open."
+    assert told["text"] == "Nothing was checked, and 1 check is not made and 2 default values are open."
     assert told["template"] == "Nothing was checked, and {left}."
     assert told["values"]["left"]["values"]["first"]["count"] == 1
     assert err.splitlines() == [
         "not checked a: Moment. Moment 200 N·m, but allowable_moment is not given.",
-        "Nothing was checked, and 1 is not checked and 2 default values are open.",
+        "Nothing was checked, and 1 check is not made and 2 default values are open.",
     ]
 
 
@@ -79,9 +79,9 @@ def test_page_1_does_not_say_that_all_checks_pass_where_one_is_not_made(tmp_path
     for text in (FREE, LIMITED):
         assert run("report", saved(tmp_path, text), "-o", tmp_path, "--format", "html", "--quiet") == 0
         pages.append((tmp_path / "press.html").read_text("utf-8"))
-    assert "All checks pass" not in pages[0] and "Nothing was checked, and 1 is not checked." in pages[0]
+    assert "All checks pass" not in pages[0] and "Nothing was checked, and 1 check is not made." in pages[0]
     assert ">allowable_moment</span>" in pages[0]
-    assert "All checks pass" in pages[1] and "1 is not checked" not in pages[1]
+    assert "All checks pass" in pages[1] and "1 check is not made" not in pages[1]
 
 
 def test_a_calculation_that_contradicts_itself_is_an_error_and_what_refers_to_it_is_skipped(

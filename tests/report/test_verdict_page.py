@@ -58,7 +58,7 @@ def test_the_summary_is_sorted_by_utilisation_what_fails_first_and_what_was_size
                  judged("missed", None, "fail"), judged("odd", 1.01, "warn"), judged("own", 0.5, **{"class": "numerical"}))  # fmt: skip
     assert [row.id for row in found.checks] == ["missed", "over", "odd", "high", "low", "sized"]
     assert [row.id for row in found.sized] == ["sized"] and found.governing.id == "missed"
-    assert found.counts == ["3 pass"] and found.verdict == "2 of 6 checks fail; 1 warns."
+    assert found.counts == ["3 pass"] and found.verdict == "2 of 6 checks fail; 1 check warns."
     assert found.notes == ["1 self-test of the calculation holds."]
 
 
@@ -83,10 +83,10 @@ def test_a_failure_without_a_utilisation_tells_by_how_much_in_words() -> None:
     ("checks", "verdict", "face"),
     [
         ([judged("a", 0.5)], "All checks pass.", "pass"),
-        ([judged("a", 0.5), unchecked("b", "rated")], "No check fails, but 1 is not checked.", "conditional"),
-        ([unchecked("b", "rated")], "Nothing was checked, and 1 is not checked.", "conditional"),
-        ([judged("a", 1.1, "warn"), unchecked("b", "rated")], "No check fails, but 1 warns and 1 is not checked.", "conditional"),
-        ([judged("a", 1.1, "fail"), unchecked("b", "rated")], "1 of 1 checks fails; 1 is not checked.", "fail"),
+        ([judged("a", 0.5), unchecked("b", "rated")], "No check fails, but 1 check is not made.", "conditional"),
+        ([unchecked("b", "rated")], "Nothing was checked, and 1 check is not made.", "conditional"),
+        ([judged("a", 1.1, "warn"), unchecked("b", "rated")], "No check fails, but 1 check warns and 1 check is not made.", "conditional"),
+        ([judged("a", 1.1, "fail"), unchecked("b", "rated")], "1 of 1 checks fails; 1 check is not made.", "fail"),
         ([], "There are no checks.", "conditional"),
     ],
 )  # fmt: skip

@@ -42,7 +42,7 @@ def test_a_report_tells_the_faults_and_is_not_whole(tmp_path: Path, home: Path, 
     asked = ("report", str(home / "examples" / "toggle.yaml"), "--format", "html,json", "-o", str(tmp_path))
     assert run(home, *asked) == 0
     told = capfd.readouterr().err
-    assert SAID in told and FAULT in told and "1 warns" in told
+    assert SAID in told and FAULT in told and "1 check warns" in told
     results = json.loads((tmp_path / "toggle.json").read_text("utf-8"))
     page = text(tmp_path / "toggle.html")
     assert results["mechanisms"]["toggle"]["plugin_check"] == "failed"
