@@ -66,7 +66,7 @@ def test_the_verdict_is_pass_only_where_nothing_is_open(found: dict[str, Any], v
 def test_it_is_said_in_ukrainian() -> None:
     with speaking("uk"):
         line = said(summary(**{"pass": 3, "not_checked": 23, "assumed": 2}).conclusion)
-    assert line == "Невиконаних перевірок немає, але 23 не перевірено і 2 прийняті значення не підтверджено."
+    assert line == "Невиконаних перевірок немає, але 23 перевірки не проведено і 2 прийняті значення не підтверджено."
 
 
 def test_a_file_before_the_three_verdicts_is_judged_by_its_checks_and_assumed_inputs() -> None:
