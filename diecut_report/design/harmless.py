@@ -23,7 +23,7 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.conclusion import VALUES
 from diecut_report.results.model import OpenRecord, ResultsRecord
 from diecut_report.results.open_items import UNPROVED
-from diecut_report.results.usual import USUAL, usual_ends, with_value
+from diecut_report.results.usual import USUAL, ends_by_ratio, with_value
 from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.standards.ranges import UsualRange, ranges_of
 from diecut_report.study.definition.base_inputs import Input
@@ -167,7 +167,7 @@ class UsualEnds:
                 inputs = with_value(inputs, other.key, other.asked.key, value)
             else:
                 beside = beside._replace(press={**beside.press, _named(other, home): value})
-        return usual_ends(instance, design.asked.key, row, inputs, beside, self.run.calculations[home].values)
+        return ends_by_ratio(instance, design.asked.key, row, inputs, beside, self.run.calculations[home].values)
 
     def following(self, trials: Sequence[Trial]) -> list[Trial]:
         """Return trials that know which others they follow, by the ratio that bounds them."""

@@ -8,7 +8,7 @@ outside the usual one makes the check ``usual_values`` of its mechanism warn, wh
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -16,7 +16,7 @@ import numpy as np
 
 from diecut_report.config.instances import Instance
 from diecut_report.config.model import NUMBERS, PRESS
-from diecut_report.config.yaml import KeyPath
+from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem
 from diecut_report.formulas import Array
 from diecut_report.formulas.condition_parts import Expression, Name, read_expression
@@ -61,7 +61,10 @@ def _kind(instance: Instance) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Outside:
-    """Hold a value outside its usual range: its key, SI values of shape (variants,), which are unusual, and which are a slip."""
+    """Hold a value outside its usual range: its key, SI values of shape (variants,), which are unusual, and which are a slip.
+
+    ``possible`` says between which values a slip in a ratio may be, with all else as it is.
+    """
 
     key: KeyPath
     row: UsualRange
@@ -69,6 +72,7 @@ class Outside:
     unusual: Array
     slips: Array
     reason: str
+    possible: Phrase | None = None
 
     def given(self, variant: int) -> Phrase:
         """Return what was given: the key's value, or what it makes with others."""
@@ -87,9 +91,12 @@ class Outside:
         origin = Phrase(" (from {source})", source=source) if source else ""
         template = (
             "gives {given}{origin}, which no machine of this kind has ({ranges}). Correct the value, its unit or the place; if it is "
-            "meant, write {value: …, beyond: …} with a reason of at least 20 characters, and it stays a warning."
+            "meant, write {value: …, beyond: …} with a reason of at least 20 characters, and it stays a warning.{else_as_it_is}"
         )
-        return instance.place.problem(self.key, template, given=self.given(variant), origin=origin, ranges=self.ranges)
+        possible = {"key": dotted(self.key), "possible": self.possible}
+        alone = Phrase(" With all else as it is, {key} may be {possible}.", possible) if self.possible else ""
+        told = {"given": self.given(variant), "origin": origin, "ranges": self.ranges, "else_as_it_is": alone}
+        return instance.place.problem(self.key, template, **told)
 
 
 def outside(instance: Instance, inputs: Inputs, beside: Beside, results: Inputs | None = None) -> list[Outside]:
@@ -101,7 +108,16 @@ def outside(instance: Instance, inputs: Inputs, beside: Beside, results: Inputs 
         _outside(key, row, values, beside.reasons.get(key, ""), _may_be_zero(instance, key))
         for key, row, values in _values(instance, inputs, beside.press, results or {})
     )
-    return [each for each in judged if each.unusual.any()]
+    found = (each for each in judged if each.unusual.any())
+    known = inputs, beside, results or {}
+    return [replace(each, possible=_possible(instance, each, *known)) if each.slips.any() else each for each in found]
+
+
+def _possible(instance: Instance, found: Outside, inputs: Inputs, beside: Beside, results: Inputs) -> Phrase | None:
+    """Between which values of its own a slip in a ratio would be possible; None where it is in no ratio, or in no proportion to one."""
+    meta = dict(fields(instance.model)).get(dotted(found.key))
+    ends = ends_by_ratio(instance, found.key, found.row, inputs, beside, results, hard=True) if found.row.of else None
+    return _ends(ends, meta.unit) if ends and isinstance(meta, Quantity) else None
 
 
 def unbounded(instance: Instance, inputs: Inputs, beside: Beside, results: Inputs) -> set[KeyPath]:
@@ -131,10 +147,17 @@ def _within(size: Array, ends: tuple[float, float]) -> Array:
     return held
 
 
-def usual_ends(
-    instance: Instance, key: KeyPath, row: UsualRange, inputs: Inputs, beside: Beside, results: Inputs
+def ends_by_ratio(
+    instance: Instance,
+    key: KeyPath,
+    row: UsualRange,
+    inputs: Inputs,
+    beside: Beside,
+    results: Inputs,
+    *,
+    hard: bool = False,
 ) -> tuple[float, float] | None:
-    """Return the least and greatest value (SI) of a number with which what a row bounds is usual, all else as it is.
+    """Return the least and greatest value (SI) of a number with which what a row bounds is usual, or just possible, all else as it is.
 
     None where that is not known, or what it bounds is not in proportion to the number, such as a slip or a distance between places.
     """
@@ -150,7 +173,7 @@ def usual_ends(
     ]  # fmt: skip
     if len(found) != 2 or not found[0] or not abs(found[1] - MORE * found[0]) <= ROUNDING * abs(found[1]):
         return None
-    low, high = sorted(float(x[0]) * end / found[0] for end in row.usual)
+    low, high = sorted(float(x[0]) * end / found[0] for end in (row.hard if hard else row.usual))
     return low, high
 
 

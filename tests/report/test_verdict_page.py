@@ -124,10 +124,9 @@ def test_open_values_stand_by_their_mechanism_those_with_the_same_reason_togethe
         "summary": {"verdict": "conditional", "open": left},
     }
     (group,) = open_groups(filled(ResultsRecord, results), Catalogue("en"))
-    assert group.values == [
-        ("interlocks.0.margin", "5\u00a0ms", "assumed: at 6 ms"),
-        ("a", "3", ""),
-        ("b", "4", "assumed: together"),
+    assert group.reasons == [
+        ([("interlocks.0.margin", "5\u00a0ms")], "assumed: at 6 ms"),
+        ([("a", "3"), ("b", "4")], "assumed: together"),
     ]
 
 

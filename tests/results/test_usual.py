@@ -18,7 +18,7 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.press import Press
 from diecut_report.results.document import resolved
 from diecut_report.results.press_run import Run, compute, impossible
-from diecut_report.results.usual import _values, usual_ends, with_value
+from diecut_report.results.usual import _values, ends_by_ratio, with_value
 from diecut_report.standards.ranges import range_of
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
@@ -259,7 +259,7 @@ def test_at_its_usual_ends_a_value_makes_a_ratio_that_is_one_end_of_its_row(name
             path = ".".join(step for step in key if isinstance(step, str))
             if not row.of or range_of(calculation.mechanism.kind, path) != row or not np.isfinite(values).all():
                 continue
-            ends = usual_ends(instance, key, row, inputs, beside, calculation.values)
+            ends = ends_by_ratio(instance, key, row, inputs, beside, calculation.values)
             for end in ends or ():
                 made = with_value(inputs, path, key, end)
                 again = [
@@ -270,3 +270,18 @@ def test_at_its_usual_ends_a_value_makes_a_ratio_that_is_one_end_of_its_row(name
                 assert min(abs(float(again[0][0]) - each) for each in row.usual) < 1e-9 * max(row.usual)
                 tried += 1
     assert tried > 10
+
+
+def test_a_ratio_that_no_machine_has_says_between_which_values_it_would_be_possible(tmp_path: Path) -> None:
+    """The table bounds face_width / module, hard from 2 to 40; the other key of the ratio is as it is."""
+    gears = {
+        "kind": "gear_pair",
+        "module": "4 mm",
+        "teeth_1": 20,
+        "teeth_2": 60,
+        "face_width": "500 mm",
+        "torque": "100 N*m",
+    }
+    limits = {f"sigma_{name}_lim_{number}": "430 MPa" for name in "hf" for number in (1, 2)}
+    (told,) = problems(tmp_path, gears=gears | limits)
+    assert "With all else as it is, face_width may be 8 to 160 mm." in told.text

@@ -355,11 +355,18 @@ def _shown(row: QuantityRecord, words: Catalogue) -> str:
 _TYPED = re.compile(r"(?<=\d) (?=\S+$)")  # between a number and its unit that were typed as a text
 
 
+class OpenReason(NamedTuple):
+    """Hold values that are open for the same reason, by their keys, and that reason."""
+
+    values: list[tuple[str, str]]
+    why: str
+
+
 class OpenGroup(NamedTuple):
-    """Hold the open values of the press or of a mechanism: key, value, and behind the last of those with the same reason that reason."""
+    """Hold the open values of the press or of a mechanism."""
 
     name: str
-    values: list[tuple[str, str, str]]
+    reasons: list[OpenReason]
 
 
 def open_groups(results: ResultsRecord, words: Catalogue) -> list[OpenGroup]:
@@ -371,14 +378,13 @@ def open_groups(results: ResultsRecord, words: Catalogue) -> list[OpenGroup]:
     return [OpenGroup(name, [*_reasoned(results, words, values)]) for name, values in groups.items()]
 
 
-def _reasoned(results: ResultsRecord, words: Catalogue, values: list[OpenRecord]) -> Iterator[tuple[str, str, str]]:
-    reasons: dict[tuple[str, str], list[OpenRecord]] = {}
+def _reasoned(results: ResultsRecord, words: Catalogue, values: list[OpenRecord]) -> Iterator[OpenReason]:
+    reasons: dict[tuple[str, str], list[tuple[str, str]]] = {}
     for each in values:
-        reasons.setdefault((each.what, each.why), []).append(each)
+        _, key, row = _input(results, each.path)
+        reasons.setdefault((each.what, each.why), []).append((key, _shown(row, words) if row else ""))
     for (what, why), same in reasons.items():
-        for each in same:
-            _, key, row = _input(results, each.path)
-            yield key, _shown(row, words) if row else "", f"{words[what]}: {why}" if each is same[-1] else ""
+        yield OpenReason(same, f"{words[what]}: {why}")
 
 
 class NotCovered(NamedTuple):

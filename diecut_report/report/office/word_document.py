@@ -138,9 +138,10 @@ def _open(body: WordBody, document: ReportDocument) -> None:
         body.subheading(document.words["open_values"])
         rows = []
         for group in document.open_groups:
-            told = [f"{name} {value}" + (f" ({why})" if why else "") for name, value, why in group.values]
-            rows.append([key(group.name), run(" · ".join(told))])
-        body.table([TableColumn("", 1), TableColumn("", 4)], rows, headed=False)
+            for place, reason in enumerate(group.reasons):
+                told = " · ".join(f"{name} {value}" for name, value in reason.values)
+                rows.append([key("" if place else group.name), run(told), run(reason.why)])
+        body.table([TableColumn("", 1), TableColumn("", 2), TableColumn("", 2)], rows, headed=False)
 
 
 def _not_covered(body: WordBody, document: ReportDocument) -> None:
