@@ -95,8 +95,9 @@ class Outside:
         )
         possible = {"key": dotted(self.key), "possible": self.possible}
         alone = Phrase(" With all else as it is, {key} may be {possible}.", possible) if self.possible else ""
-        told = {"given": self.given(variant), "origin": origin, "ranges": self.ranges, "else_as_it_is": alone}
-        return instance.place.problem(self.key, template, **told)
+        return instance.place.problem(
+            self.key, template, given=self.given(variant), origin=origin, ranges=self.ranges, else_as_it_is=alone
+        )
 
 
 def outside(instance: Instance, inputs: Inputs, beside: Beside, results: Inputs | None = None) -> list[Outside]:

@@ -284,4 +284,4 @@ def test_a_ratio_that_no_machine_has_says_between_which_values_it_would_be_possi
     }
     limits = {f"sigma_{name}_lim_{number}": "430 MPa" for name in "hf" for number in (1, 2)}
     (told,) = problems(tmp_path, gears=gears | limits)
-    assert "With all else as it is, face_width may be 8 to 160 mm." in told.text
+    assert "With all else as it is, face_width may be 8 to 160 mm." in str(told)
