@@ -136,7 +136,8 @@ def advise(
 ) -> int:  # fmt: skip
     """Find the smallest changes for which no check fails: the advice of all checks is tried together, then reduced.
 
-    Exit codes: 0 a machine that passes was found (or passes already), 1 none was found, 2 bad input, 3 a plugin broke.
+    Ctrl-C ends the search with the best machine so far. Exit codes: 0 a machine that passes was found (or passes already), 1 none was
+    found, 2 bad input, 3 a plugin broke, 130 stopped.
     """
     from diecut_report.design.advice import data, lines, mended
 
@@ -144,6 +145,8 @@ def advise(
         press = _read(config, discovery, progress)
         found = mended(press, free=free, keep=keep, most=most)
     _give(as_json(data(found)) if form == "json" else _text(lines(found)), press, found.machine, target)
+    if found.is_stopped:
+        return INTERRUPTED
     return CHECK_FAILED if found.before.failing and found.machine is None else PASSED
 
 

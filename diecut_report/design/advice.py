@@ -56,6 +56,7 @@ NOTHING = 1e-6  # share of a value that is no change
 DIGITS = (2, 3, 4, 5, 6)
 DEARER, TYPED_CHANGES_EACH = 1.05, 0.005  # what rounding may make of the size of all changes, and add for each of them
 EXACT = 12
+MOST_CHANGES = 12  # of a machine that does not pass, that are shown
 
 Typed = dict[int, str]
 """How inputs are typed, by their places."""
@@ -186,9 +187,9 @@ class InputChange:
 class Mended:
     """Hold what became of a machine: its checks before, the changes, the machine with them (None where none passes), why none does.
 
-    ``left`` are the checks that fail at the best machine that was found, ``conflict`` those of them and others that do not hold together.
-    ``is_ended``: as many machines were calculated as were allowed, and the search is not at its end. ``untried`` are the texts and numbers
-    of parts that are tried only where they are named.
+    ``left`` are the checks that fail at the best machine that was found, with these changes, ``conflict`` those of them and others that do
+    not hold together. ``is_ended``: as many machines were calculated as were allowed, and the search is not at its end; ``is_stopped``: nor
+    is it where somebody stopped it. ``untried`` are the texts and numbers of parts that are tried only where they are named.
     """
 
     before: ProvedMachine
@@ -199,6 +200,7 @@ class Mended:
     free: int = 0
     calculated: int = 0
     is_ended: bool = False
+    is_stopped: bool = False
     untried: tuple[str, ...] = ()
 
     @property
@@ -235,22 +237,27 @@ def mended(press: Press, *, free: Iterable[str] = (), keep: Iterable[str] = (), 
         conflict = CheckConflict(unreached, is_proved=True)  # no search can mend it
         return Mended(before, left=failing, conflict=conflict, free=count, untried=left_out)
     run = ChangedMachines(config, inputs, begun, Spent(most), press.tell)
-    path, is_ended = _searched(MendingPath(run, _start(run, advice)), choices)
+    path, how = _searched(MendingPath(run, _start(run, advice)), choices)
     if path.passes:
         press.tell(phrase("removing unnecessary changes"))
         run.spent.most = math.inf  # what is found is not lost for want of a few more
         return _shortest(before, path)
     why = None
-    if not is_ended:
+    if not how:
         try:
             why = conflict_of(path)
         except Enough:
-            is_ended = True
-    return Mended(before, (), None, tuple(path.made.failing(0)), why, count, run.spent.count, is_ended, left_out)
+            how = {"is_ended": True}
+        except KeyboardInterrupt:
+            how = {"is_stopped": True}
+    changes = tuple(_changes(run, path.share, _typed(run, path.share)))
+    return Mended(
+        before, changes, None, tuple(path.made.failing(0)), why, count, run.spent.count, untried=left_out, **how
+    )
 
 
-def _searched(path: MendingPath, choices: Choices) -> tuple[MendingPath, bool]:
-    """The best path that is found, and whether it was ended as enough machines were calculated."""
+def _searched(path: MendingPath, choices: Choices) -> tuple[MendingPath, dict[str, bool]]:
+    """The best path that is found, and how it was ended: as enough machines were calculated, or as somebody stopped it."""
     try:
         if path.run.inputs:
             path.go()
@@ -259,8 +266,10 @@ def _searched(path: MendingPath, choices: Choices) -> tuple[MendingPath, bool]:
         if not path.passes and choices:
             path = with_choices(path, choices)
     except Enough:
-        return path, True
-    return path, False
+        return path, {"is_ended": True}
+    except KeyboardInterrupt:
+        return path, {"is_stopped": True}
+    return path, {}
 
 
 def _shortest(before: ProvedMachine, path: MendingPath) -> Mended:
@@ -271,16 +280,28 @@ def _shortest(before: ProvedMachine, path: MendingPath) -> Mended:
         if without(path.share[None]).passes.all():
             run = without
     share, typed = rounded(run, fewer(run, path.share))
-    moved = [(run.inputs[each], text, float(share[each])) for each, text in typed.items()]
-    changes = [InputChange(each, each.told(each.present or 0.0), text, own) for each, text, own in moved]
-    for each, text in run.choices.values():
-        is_number = each.asked.unit is not None and each.present
-        changes.append(InputChange(each, each.written or "", text, each.share(each.read(text)) if is_number else None))
+    changes = list(_changes(run, share, typed))
     machine = proved(
         before.press.with_values({each.design.stands: each.design.in_file(each.after) for each in changes})
     )
     passing = None if machine.failing else machine
     return Mended(before, tuple(changes), passing, machine.failing, None, len(run.inputs), run.spent.count)
+
+
+def _changes(run: ChangedMachines, share: Array, typed: Typed) -> Iterator[InputChange]:
+    """The changes of a machine, as they are typed."""
+    for number, text in typed.items():
+        each = run.inputs[number]
+        yield InputChange(each, each.told(each.present or 0.0), text, float(share[number]))
+    for each, text in run.choices.values():
+        is_number = each.asked.unit is not None and each.present
+        yield InputChange(each, each.written or "", text, each.share(each.read(text)) if is_number else None)
+
+
+def _typed(run: ChangedMachines, share: Array) -> Typed:
+    """How the changes of a machine that does not pass are typed, the greatest first: as it was calculated."""
+    changed = [int(each) for each in np.argsort(-np.abs(share)) if abs(share[each]) > NOTHING]
+    return {each: run.inputs[each].typed(run.inputs[each].changed(share[each]), DIGITS[-1]) for each in changed}
 
 
 def _with_single_change(path: MendingPath) -> MendingPath:
@@ -341,7 +362,7 @@ def data(found: Mended) -> dict[str, Any]:
         "conflict": why and {"checks": list(why.checks), "proved": why.is_proved, "least": why.is_least},
         "free": found.free,
         "calculated": found.calculated,
-        "ended": found.is_ended,
+        "ended": found.is_ended or found.is_stopped,
         "untried": list(found.untried),
     }  # fmt: skip
 
@@ -365,16 +386,20 @@ def lines(found: Mended) -> Iterator[str]:
         return
     one = "with {n} change no check fails, recalculated as a single machine:"
     yield Counted(len(found.changes), one, "with {n} changes no check fails, recalculated as a single machine:")
-    width = max(len(each.design.name) for each in found.changes)
-    for each in found.changes:
-        share = "" if each.share is None else f"  ({share_told(each.share)})"
-        before, after = each.before or phrase("not given"), _as_written(each.after)
-        name = each.design.name.ljust(width)
-        yield Phrase("  {name}  {before} → {after}{share}", name=name, before=before, after=after, share=share)
+    yield from _listed_changes(found.changes)
     template = "total change: {size} % of the present values; governing: {check}"
     yield Phrase(template, size=localised(number_text(100 * found.size, 3)), check=machine.governing or phrase("none"))
     if warned := machine.checks("warn"):
         yield Phrase("with a warning: {checks}", checks=", ".join(warned))
+
+
+def _listed_changes(changes: Sequence[InputChange]) -> Iterator[Phrase]:
+    width = max(len(each.design.name) for each in changes)
+    for each in changes:
+        share = "" if each.share is None else f"  ({share_told(each.share)})"
+        before, after = each.before or phrase("not given"), _as_written(each.after)
+        name = each.design.name.ljust(width)
+        yield Phrase("  {name}  {before} → {after}{share}", name=name, before=before, after=after, share=share)
 
 
 def share_told(share: float) -> str:
@@ -399,10 +424,17 @@ def _without(found: Mended) -> Iterator[Phrase]:
         yield Phrase(template, machines=found.calculated, free=found.free)
     if found.is_ended:
         yield phrase("the search stopped at its limit and has not converged; increase --most")
+    if found.is_stopped:
+        yield phrase("the search was stopped before it converged")
     if found.calculated and found.left:
         one = "in the best of them {n} check fails: {checks}"
         many = "in the best of them {n} checks fail: {checks}"
         yield Counted(len(found.left), one, many, checks=", ".join(found.left))
+    if shown := found.changes[:MOST_CHANGES]:
+        yield phrase("the changes of the best of them:")
+        yield from _listed_changes(shown)
+        more = len(found.changes) - len(shown)
+        yield from [Counted(more, "  and {n} further one", "  and {n} further ones")] if more else []
     if found.conflict:
         yield from _conflict(found.conflict)
     if found.untried:

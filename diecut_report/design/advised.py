@@ -17,7 +17,7 @@ from diecut_report.quantities.formatting import with_unit
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.model import AdvisedChangeRecord, FollowedAdviceRecord, ResultsRecord
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
-from diecut_report.text.phrases import Phrase
+from diecut_report.text.phrases import Phrase, phrase
 
 
 @dataclass
@@ -121,6 +121,7 @@ STEPS, TRIES = 25, 3  # at most; and how often the regions shrink before it is g
 SMALLEST = 1e-3  # share of the size of all changes by which a step must make it less
 FEASIBLE = 1e-2  # the same, where it is only asked whether some checks can hold together
 UNFIT = 1e6  # of a machine that cannot be
+FIRST = 3  # failing checks that are named while the search goes on
 
 
 @dataclass
@@ -161,7 +162,9 @@ class MendingPath:
             if tries == TRIES or (until_it_holds and self.passes):
                 break
             before, had_passed = self.merit, self.passes
-            self.run.tell(Phrase("correcting: step {step}, failing checks: {n}", step=step, n=len(self.failing)))
+            template = "correcting: step {step}, {machines} machines calculated; the best of them fails: {checks}"
+            first = ", ".join(self.failing[:FIRST]) + (" …" if len(self.failing) > FIRST else "")
+            self.run.tell(Phrase(template, step=step, machines=self.run.spent.count, checks=first or phrase("none")))
             self._step(scale)
             least = SMALLEST if self.among is None else FEASIBLE
             is_better = self.merit < before - least * max(before, 1e-9)

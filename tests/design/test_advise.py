@@ -13,6 +13,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.advice import mended, share_told
+from diecut_report.design.advised import MendingPath
 from diecut_report.design.inputs import design_input
 from diecut_report.design.machines import varied
 from diecut_report.press import Press
@@ -190,3 +191,20 @@ def test_advice_on_a_key_of_a_block_is_followed(tmp_path: Path, capfd: Capture) 
     assert main(["advise", str(press), "--plugins", str(tmp_path), "--format", "json"]) == 0
     answer = found(capfd)
     assert [(each["name"], each["after"]) for each in answer["changes"]] == [("b.screw.preload", "250 kN")]
+
+
+def test_ctrl_c_ends_the_search_with_the_best_machine_so_far(
+    press: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def go(path: MendingPath) -> None:
+        path.share = np.full(len(path.share), -0.1)
+        path.made = path.run(path.share[None])
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(MendingPath, "go", go)
+    assert advise(press) == 130
+    out = capfd.readouterr().out.splitlines()
+    assert "the search was stopped before it converged" in out
+    # 3 kN · 90 mm is 270 N·m, 3 kN · 110 mm 330 N·m
+    assert "in the best of them 2 checks fail: a.moment, b.moment" in out
+    assert "the changes of the best of them:" in out and "  a.arm  100 mm → 90 mm  (-10 %)" in out
