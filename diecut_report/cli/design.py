@@ -136,8 +136,9 @@ def advise(
 ) -> int:  # fmt: skip
     """Find the smallest changes for which no check fails: the advice of all checks is tried together, then reduced.
 
-    Ctrl-C ends the search with the best machine so far. Exit codes: 0 a machine that passes was found (or passes already), 1 none was
-    found, 2 bad input, 3 a plugin broke, 130 stopped.
+    Ctrl-C ends the search with the best machine so far.
+
+    Exit codes: 0 a machine that passes was found (or passes already), 1 none was found, 2 bad input, 3 a plugin broke, 130 stopped.
     """
     from diecut_report.design.advice import data, lines, mended
 
