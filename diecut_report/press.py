@@ -264,7 +264,7 @@ def drawn(
             contents |= {"html": encoded(rendering.html())} if "html" in formats else {}
             if "pdf" in formats:
                 tell(phrase("typesetting the pages"))
-                contents["pdf"] = _pdf(rendering)
+                contents["pdf"] = _pdf(rendering, tell)
         if "docx" in formats:
             tell(phrase("writing the document"))
             contents["docx"] = rendering.docx()
@@ -290,12 +290,12 @@ def exported(results: ResultsRecord, tell: Tell) -> tuple[dict[str, bytes], list
     ]
 
 
-def _pdf(rendering: Any) -> bytes:
+def _pdf(rendering: Any, tell: Tell) -> bytes:
     from diecut_report.files import room
 
     with room():  # for the files of fonts: the command line does not wait until the page engine removes them
         try:
-            return rendering.pdf()  # type: ignore[no-any-return]
+            return rendering.pdf(lambda sheet: tell(Phrase("typesetting the pages: sheet {n}", n=sheet)))  # type: ignore[no-any-return]
         except OSError as error:
             if "cannot load library" not in str(error):
                 raise

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from diecut_report.report.context import Material
 from diecut_report.report.pages.html import page
 
@@ -13,11 +15,16 @@ class Rendering(Material):
         """The report as one self-contained HTML page."""
         return page(self)
 
-    def pdf(self) -> bytes:
-        """The report as PDF (A4, PDF/A-3 and PDF/UA-1); needs the system's pango (OSError without it)."""
+    def pdf(self, begun: Callable[[int], object] = int) -> bytes:
+        """The report as PDF (A4, PDF/A-3 and PDF/UA-1); needs the system's pango (OSError without it). ``begun`` gets each sheet's number."""
+        from diecut_report.report.pages.frames import SHEET_BEGUN
         from diecut_report.report.pages.pdf import sheets
 
-        return sheets(self)
+        before = SHEET_BEGUN.set(begun)
+        try:
+            return sheets(self)
+        finally:
+            SHEET_BEGUN.reset(before)
 
     def docx(self) -> bytes:
         """The report as a document for word processors."""

@@ -302,7 +302,9 @@ def test_a_machine_that_is_drawn_to_scale_has_a_brief_report_too(tmp_path: Path)
 
 # sheets
 def test_brief_is_short_on_paper(plain: Data, tmp_path: Path) -> None:
-    (tmp_path / "brief.pdf").write_bytes(Rendering(typed(plain | {"report": {"detail": "brief"}})).pdf())
+    begun: list[int] = []
+    (tmp_path / "brief.pdf").write_bytes(Rendering(typed(plain | {"report": {"detail": "brief"}})).pdf(begun.append))
+    assert max(begun) == len(PdfReader(tmp_path / "brief.pdf").pages) and begun[0] == 1  # progress tells each sheet
     assert len(PdfReader(tmp_path / "brief.pdf").pages) <= 3
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from functools import wraps
 from itertools import takewhile
 from typing import Any, NamedTuple
@@ -231,6 +232,8 @@ def _short(date: str) -> str:
 WAITS = "waits"
 MOST = 0.97  # of a sheet, for the figures that waited
 BARRIER = "section"  # a chapter does not begin before the figures of the one before it
+SHEET_BEGUN: ContextVar[Callable[[int], object]] = ContextVar("SHEET_BEGUN", default=int)
+"""What is called with the number of each sheet that is begun."""
 Laid = tuple[Any, ...]  # block, where it goes on, how the next page begins, margins, whether they meet, lines left
 GOES_ON: Any = {"break": "any", "page": None}
 NO_ROOM: Laid = (None, None, GOES_ON, [], False)
@@ -330,6 +333,7 @@ def _is_kept_with(around: Any, box: Any) -> bool:
 
 def _body(ordinary: Callable[..., Laid], context: Any, box: Any, place: BlockPlace) -> Laid:
     sheets, sheet = _sheets(context), context.current_page
+    SHEET_BEGUN.get()(sheet)
     sheets.top, sheets.waiting[sheet] = box.position_y, []
     laid = _below(ordinary, context, box, place, _heads(ordinary, context, box, place))
     there = {id(child) for child in laid[0].descendants()} if sheets.waiting[sheet] else set()
