@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import webbrowser
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -46,6 +46,19 @@ def live(config: Path, port: int, is_opened: bool, discovery: Discovery) -> int:
     with without_output():  # a plugin that prints does not spoil the address
         session = LiveSession(config.absolute(), discovery)
 
+    language = asked_language() or _of_project(session) or spoken_language()
+    with shown_page(is_opened=is_opened) as ready, speaking(language, catalogues_of(language, discovery)):
+        serve(LiveApplication(session, discovery.folders, asked_language()), port, ready)
+    template = "changed on the page but not saved: {name}: {typed}"  # so that nothing is lost
+    for state, edits in session.unsaved:
+        tell([say("state not saved: {name}", name=state)] if state else [])
+        tell(say(template, name=name, typed=typed) for name, typed in edits.items())
+    return PASSED
+
+
+@contextmanager
+def shown_page(*, is_opened: bool) -> Iterator[Callable[[str], None]]:
+    """Give what is called with the address of a page that is served within, until Ctrl-C: it is told, and opened in the browser."""
     follows, unopened = (  # said now: the page may have another language
         say("The page follows the file; Ctrl-C ends it."),
         say("No browser could be started; open the address by hand."),
@@ -60,15 +73,8 @@ def live(config: Path, port: int, is_opened: bool, discovery: Discovery) -> int:
     def show(door: str) -> None:
         tell([] if webbrowser.open(door) else [unopened])
 
-    language = asked_language() or _of_project(session) or spoken_language()
-    spoken = speaking(language, catalogues_of(language, discovery))
-    with TemporaryDirectory(prefix="diecut-report-") as doors, spoken, _until_ended():
-        serve(LiveApplication(session, discovery.folders, asked_language()), port, ready)
-    template = "changed on the page but not saved: {name}: {typed}"  # so that nothing is lost
-    for state, edits in session.unsaved:
-        tell([say("state not saved: {name}", name=state)] if state else [])
-        tell(say(template, name=name, typed=typed) for name, typed in edits.items())
-    return PASSED
+    with TemporaryDirectory(prefix="diecut-report-") as doors, _until_ended():
+        yield ready
 
 
 @contextmanager

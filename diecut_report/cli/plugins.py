@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import webbrowser
 from collections.abc import Iterator, Mapping, Sequence
 from importlib import resources
@@ -178,13 +179,22 @@ def new_plugin(name: str, as_package: bool, like: str, folder: Path | None, disc
     is_flag=True,
     help="Show the rendered chapter in the browser; without -o from a temporary folder.",
 )
+@click.option(
+    "--watch",
+    "is_watched",
+    is_flag=True,
+    help="Show chapter and faults in the browser, again after each change of the plugin's files; end with Ctrl-C.",
+)
 @common
 def check_plugin(
-    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, discovery: Discovery
+    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, is_watched: bool,
+    discovery: Discovery,
 ) -> int:  # fmt: skip
     """Test a plugin against the rules of its contract; with -o render its chapter as HTML. Ends with 1 where a rule is broken."""
     from diecut_report.testing.plugin_page import checked, meant
 
+    if is_watched:
+        return _watched(plugin, configs, discovery)
     known, kinds = meant(plugin, discovery.folders)
     if page is not None and len(kinds) > 1 and page.suffix:
         template = "{folder} has {n} plugins; name one of them, or give a folder with -o."
@@ -205,6 +215,23 @@ def check_plugin(
         inform([Phrase("-o FILE writes the chapter as it stands in a report, --open shows it")])
     states = {each.status for each in found}
     return PLUGIN_BROKE if "broke" in states else CHECK_FAILED if "fail" in states else PASSED
+
+
+def _watched(plugin: str, configs: Sequence[Path], discovery: Discovery) -> int:
+    """Show a plugin's chapter in the browser until Ctrl-C; what is asked for otherwise is done by the process that judges it."""
+    from diecut_report.cli.live import shown_page
+    from diecut_report.live.server import serve
+    from diecut_report.live.watched_plugin import WatchedPlugin
+    from diecut_report.testing.plugin_page import home_of
+
+    home = home_of(plugin, discovery.folders)
+    command = [sys.executable, "-m", "diecut_report", "check-plugin", plugin, "--format", "json"]
+    command += [text for file in configs for text in ("--config", str(file))]
+    command += [text for folder in discovery.folders for text in ("--plugins", str(folder))]
+    command += ["--language", asked_language() or spoken_language()]
+    with shown_page(is_opened=True) as ready:
+        serve(WatchedPlugin(command, home), 0, ready)
+    return PASSED
 
 
 def _lines(found: CheckedPlugin) -> Iterator[str]:

@@ -22,9 +22,8 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report.errors import UserError, nearest, refusal
 from diecut_report.exchange.carried import MOST, MOST_RESULTS, form_of
-from diecut_report.exchange.later_changes import only_signed
+from diecut_report.exchange.later_changes import drawing, only_signed
 from diecut_report.exchange.pdf_attachments import attachments, damage
-from diecut_report.exchange.signature_drawing import drawing
 from diecut_report.exchange.signatures import ENDLESS, READING_SECONDS, refuse_nested_fields, signatures, silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all

@@ -16,7 +16,7 @@ from contextlib import asynccontextmanager, suppress
 from contextvars import copy_context
 from hmac import compare_digest
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import uvicorn
 from starlette.applications import Starlette
@@ -412,8 +412,17 @@ IDLE = 10.0  # seconds after which a connection that asks nothing, or not to the
 CONNECTIONS = 100  # at a time
 
 
-def serve(application: LiveApplication, port: int, ready: Callable[[str], None]) -> None:
-    """Serve a session until Ctrl-C; ``ready`` is called with the address. UserError where the port cannot be had."""
+class Application(Protocol):
+    """Answer what a page asks, until it is to end."""
+
+    starlette: Starlette
+
+    def end(self) -> None:
+        """End what a page waits for."""
+
+
+def serve(application: Application, port: int, ready: Callable[[str], None]) -> None:
+    """Serve a page until Ctrl-C; ``ready`` is called with the address. UserError where the port cannot be had."""
     with _bound(port) as listening:
         own, token = int(listening.getsockname()[1]), secrets.token_urlsafe(24)
         guarded = Guard(application.starlette, own, token)
@@ -455,7 +464,7 @@ class _Connection(H11Protocol):
 class _Server(uvicorn.Server):
     """A server that lets the streams of its pages end before it waits for them."""
 
-    def __init__(self, settings: uvicorn.Config, application: LiveApplication) -> None:
+    def __init__(self, settings: uvicorn.Config, application: Application) -> None:
         super().__init__(settings)
         self.application = application
 

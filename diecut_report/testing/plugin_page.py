@@ -141,10 +141,21 @@ class CheckedPlugin:
     def data(self) -> dict[str, Any]:
         """Return it as plain data."""
         version = self.mechanism.version if self.mechanism else None
-        rules = [{"rule": each.id, "status": each.status, "told": said(each.summary), "faults": [said(fault) for fault in each.faults]}
+        rules = [{"rule": each.id, "status": each.status, "told": said(each.summary), "faults": [said(fault) for fault in each.faults],
+                  "places": [getattr(fault, "values", {}).get("place", "") for fault in each.faults]}
                  for each in self.rules]  # fmt: skip
         made = {"kind": self.kind, "version": version, "from": said(self.origin), "status": self.status, "rules": rules}
         return made | ({"error": said(self.error)} if self.error else {})
+
+
+def home_of(asked: str, folders: Sequence[Path]) -> Path:
+    """Return the folder of the files of what a name or a folder means, also where it cannot be loaded; UserError where there are none."""
+    place = Path(asked)
+    if place.is_dir():
+        meant(asked, folders)
+        return place
+    known, (kind,) = meant(asked, folders)
+    return known.origins[kind][0].file().parent
 
 
 def meant(asked: str, folders: Sequence[Path]) -> tuple[Discovery, list[str]]:
