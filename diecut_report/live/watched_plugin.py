@@ -8,6 +8,7 @@ import re
 from collections.abc import AsyncIterator, Iterator, Sequence
 from contextlib import asynccontextmanager, suppress
 from functools import partial
+from glob import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
@@ -98,9 +99,10 @@ class WatchedPlugin:
                     process.kill()
                     await process.wait()
             made = chapter.read_text("utf-8") if chapter.is_file() else ""
-        judged: list[dict[str, Any]] = (
-            json.loads(out) if out else [{"error": err.decode("utf-8", "replace"), "rules": []}]
-        )
+        try:
+            judged: list[dict[str, Any]] = json.loads(out)
+        except ValueError:  # it ended before it could answer
+            judged = [{"error": (err or out).decode("utf-8", "replace"), "rules": []}]
         self.serial += 1
         self.content, self.is_judging = self._shown([*self._faults(judged)], made), False
 
@@ -116,7 +118,7 @@ class WatchedPlugin:
     def _lines(self, place: str) -> Iterator[PlacedLine]:
         """The lines around a place ``NAME.py:LINE``; none where no file of the plugin, or several, are called so."""
         found = PLACE.fullmatch(place)
-        files = [*self.home.rglob(found["file"])] if found else []
+        files = [*self.home.rglob(escape(Path(found["file"]).name))] if found else []
         if found and len(files) == 1:
             meant, lines = int(found["line"]), files[0].read_text("utf-8", "replace").splitlines()
             for number in range(max(1, meant - AROUND), min(len(lines), meant + AROUND) + 1):

@@ -21,6 +21,7 @@ from pathlib import Path
 Path(sys.argv[-1]).write_text("<style>b {}</style><body class=x><h1>Springs</h1><script>alert(1)</script></body>")
 print(json.dumps([{"rules": [
     {"status": "fail", "faults": ["springs.py:3: <rate> is wrong", "elsewhere"], "places": ["springs.py:3", ""]},
+    {"status": "note", "faults": ["no file", "no line"], "places": ["/*.py:1", "springs.py:99"]},
     {"status": "pass", "faults": [], "places": []},
 ]}]))
 """
@@ -57,8 +58,9 @@ def test_a_fault_stands_beside_its_line_and_the_chapter_below(tmp_path: Path) ->
     assert shown.count("<pre>") == 1 and "location.reload" in asked(page, "/plugin.js")
 
 
-def test_a_process_that_ends_without_an_answer_is_told_by_what_it_said(tmp_path: Path) -> None:
-    page = WatchedPlugin([sys.executable, "-c", "raise SystemExit('no such plugin')"], tmp_path)
+@pytest.mark.parametrize("program", ["raise SystemExit('no such plugin')", "print('[no such plugin')"])
+def test_a_process_that_ends_without_an_answer_is_told_by_what_it_said(program: str, tmp_path: Path) -> None:
+    page = WatchedPlugin([sys.executable, "-c", program], tmp_path)
     asyncio.run(page.judge())
     assert "no such plugin" in asked(page, "/")
 
