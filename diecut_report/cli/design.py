@@ -146,7 +146,7 @@ def advise(
         press = _read(config, discovery, progress)
         found = mended(press, free=free, keep=keep, most=most)
     _give(as_json(data(found)) if form == "json" else _text(lines(found)), press, found.machine, target)
-    if found.is_stopped:
+    if found.ended == "stopped":
         return INTERRUPTED
     return CHECK_FAILED if found.before.failing and found.machine is None else PASSED
 

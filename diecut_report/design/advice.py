@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -58,6 +58,7 @@ DEARER, TYPED_CHANGES_EACH = 1.05, 0.005  # what rounding may make of the size o
 EXACT = 12
 MOST_CHANGES = 12  # of a machine that does not pass, that are shown
 
+Ended = Literal["", "limit", "stopped"]
 Typed = dict[int, str]
 """How inputs are typed, by their places."""
 
@@ -188,8 +189,8 @@ class Mended:
     """Hold what became of a machine: its checks before, the changes, the machine with them (None where none passes), why none does.
 
     ``left`` are the checks that fail at the best machine that was found, with these changes, ``conflict`` those of them and others that do
-    not hold together. ``is_ended``: as many machines were calculated as were allowed, and the search is not at its end; ``is_stopped``: nor
-    is it where somebody stopped it. ``untried`` are the texts and numbers of parts that are tried only where they are named.
+    not hold together. ``ended`` says by what a search was ended before it was at its end: by the limit of machines, or by somebody.
+    ``untried`` are the texts and numbers of parts that are tried only where they are named.
     """
 
     before: ProvedMachine
@@ -199,8 +200,7 @@ class Mended:
     conflict: CheckConflict | None = None
     free: int = 0
     calculated: int = 0
-    is_ended: bool = False
-    is_stopped: bool = False
+    ended: Ended = ""
     untried: tuple[str, ...] = ()
 
     @property
@@ -237,27 +237,25 @@ def mended(press: Press, *, free: Iterable[str] = (), keep: Iterable[str] = (), 
         conflict = CheckConflict(unreached, is_proved=True)  # no search can mend it
         return Mended(before, left=failing, conflict=conflict, free=count, untried=left_out)
     run = ChangedMachines(config, inputs, begun, Spent(most), press.tell)
-    path, how = _searched(MendingPath(run, _start(run, advice)), choices)
+    path, ended = _searched(MendingPath(run, _start(run, advice)), choices)
     if path.passes:
         press.tell(phrase("removing unnecessary changes"))
         run.spent.most = math.inf  # what is found is not lost for want of a few more
         return _shortest(before, path)
     why = None
-    if not how:
+    if not ended:
         try:
             why = conflict_of(path)
         except Enough:
-            how = {"is_ended": True}
+            ended = "limit"
         except KeyboardInterrupt:
-            how = {"is_stopped": True}
-    changes = tuple(_changes(run, path.share, _typed(run, path.share)))
-    return Mended(
-        before, changes, None, tuple(path.made.failing(0)), why, count, run.spent.count, untried=left_out, **how
-    )
+            ended = "stopped"
+    changes = tuple(_changes(path.run, path.share, _typed(path.run, path.share)))
+    return Mended(before, changes, None, tuple(path.made.failing(0)), why, count, run.spent.count, ended, left_out)
 
 
-def _searched(path: MendingPath, choices: Choices) -> tuple[MendingPath, dict[str, bool]]:
-    """The best path that is found, and how it was ended: as enough machines were calculated, or as somebody stopped it."""
+def _searched(path: MendingPath, choices: Choices) -> tuple[MendingPath, Ended]:
+    """The best path that is found, and by what it was ended."""
     try:
         if path.run.inputs:
             path.go()
@@ -266,26 +264,30 @@ def _searched(path: MendingPath, choices: Choices) -> tuple[MendingPath, dict[st
         if not path.passes and choices:
             path = with_choices(path, choices)
     except Enough:
-        return path, {"is_ended": True}
+        return path, "limit"
     except KeyboardInterrupt:
-        return path, {"is_stopped": True}
-    return path, {}
+        return path, "stopped"
+    return path, ""
 
 
 def _shortest(before: ProvedMachine, path: MendingPath) -> Mended:
     """The machine that passes with what is needed alone, and with few digits; proved."""
-    run = path.run
-    for name in run.choices:
-        without = replace(run, choices={other: chosen for other, chosen in run.choices.items() if other != name})
-        if without(path.share[None]).passes.all():
-            run = without
-    share, typed = rounded(run, fewer(run, path.share))
+    run, share = path.run, path.share
+    ended: Ended = ""
+    try:
+        for name in run.choices:
+            without = replace(run, choices={other: chosen for other, chosen in run.choices.items() if other != name})
+            if without(share[None]).passes.all():
+                run = without
+        share, typed = rounded(run, fewer(run, share))
+    except KeyboardInterrupt:
+        typed, ended = _typed(run, share), "stopped"
     changes = list(_changes(run, share, typed))
     machine = proved(
         before.press.with_values({each.design.stands: each.design.in_file(each.after) for each in changes})
     )
     passing = None if machine.failing else machine
-    return Mended(before, tuple(changes), passing, machine.failing, None, len(run.inputs), run.spent.count)
+    return Mended(before, tuple(changes), passing, machine.failing, None, len(run.inputs), run.spent.count, ended)
 
 
 def _changes(run: ChangedMachines, share: Array, typed: Typed) -> Iterator[InputChange]:
@@ -362,7 +364,7 @@ def data(found: Mended) -> dict[str, Any]:
         "conflict": why and {"checks": list(why.checks), "proved": why.is_proved, "least": why.is_least},
         "free": found.free,
         "calculated": found.calculated,
-        "ended": found.is_ended or found.is_stopped,
+        "ended": bool(found.ended),
         "untried": list(found.untried),
     }  # fmt: skip
 
@@ -422,9 +424,9 @@ def _without(found: Mended) -> Iterator[Phrase]:
     template = "none of the {machines} machines calculated with other values of the free inputs ({free}) passes"
     if found.calculated:
         yield Phrase(template, machines=found.calculated, free=found.free)
-    if found.is_ended:
+    if found.ended == "limit":
         yield phrase("the search stopped at its limit and has not converged; increase --most")
-    if found.is_stopped:
+    if found.ended == "stopped":
         yield phrase("the search was stopped before it converged")
     if found.calculated and found.left:
         one = "in the best of them {n} check fails: {checks}"
