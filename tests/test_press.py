@@ -198,7 +198,7 @@ class Painted:
     def html(self) -> str:
         return f"<p>{self.title} in {self.__class__.__name__}</p>"
 
-    def pdf(self) -> bytes:
+    def pdf(self, _begun: Callable[[int], object]) -> bytes:
         return b"%PDF"
 
 

@@ -224,6 +224,8 @@ def _found(answer: Answer) -> Iterator[str]:
     elif machine is not None:
         template = "recalculated as a single machine: no check fails; governing: {check}"
         yield Phrase(template, check=machine.governing or phrase("none"))
+    if machine is not None and (warned := machine.checks("warn")):
+        yield Phrase("with a warning: {checks}", checks=", ".join(warned))
     if first.beyond:
         yield Phrase("just beyond it, these fail: {checks}", checks=", ".join(first.beyond))
     for low, high in answer.ranges:

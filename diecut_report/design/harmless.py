@@ -44,10 +44,9 @@ SEED, DRAWN, CLEAN = (
 )  # of machines that are drawn, how many at once, and how many without a find end the search
 ROUNDS = 40  # at most
 JUDGED = 4  # of those of one draw in which a check fails
-UNTRIED = phrase(
-    "it is not one number of the configuration, parts of the machine are made with it, or its mechanism takes no arrays, "
-    "so no other value was tried"
-)
+NO_NUMBER = phrase("it is not one number of the configuration, so no other value was tried")
+OF_PARTS = phrase("parts of the machine are made with it, so no other value was tried")
+NO_ARRAYS = phrase("its mechanism takes no arrays, so no other value was tried")
 
 
 STANDS_ALONE = phrase("what else it might be nothing tells, so no other value was tried")
@@ -74,7 +73,9 @@ def without_harmless(config: Config, results: ResultsRecord) -> list[OpenRecord]
     harmless |= {each.item.path for each in machines.trials if each.item.path not in changes}
     harmless -= {each.item.path for each in trials if machines.left_out & each.reached}
     left = [each for each in results.summary.open if each.what not in VALUES or each.path not in harmless]
-    return [each.with_(why=changes.get(each.path, UNTRIED)) if each in tried else each for each in left]
+    untried = {each.path: OF_PARTS if each.path in fixed else NO_NUMBER for each in tried if each not in named}
+    reasons = untried | changes
+    return [each.with_(why=reasons.get(each.path, NO_ARRAYS)) if each in tried else each for each in left]
 
 
 @dataclass(frozen=True, eq=False)

@@ -483,7 +483,7 @@ def in_series(config: Config, design: DesignInput) -> DesignInput:
 
     What can be bought in some sizes, and is one of them, becomes another of them: a pulley of R40, a module, the length of a key.
     """
-    instance, present = config.instances[design.asked.instance], design.present
+    instance, present = config.instances.get(design.asked.instance), design.present  # a part of a machine is of none
     if design.is_text or design.is_stepped or not present:
         return design
     checks = instance.mechanism.checks if instance and instance.mechanism else ()
@@ -498,7 +498,7 @@ def in_series(config: Config, design: DesignInput) -> DesignInput:
 
 def is_form(config: Config, design: DesignInput) -> bool:
     """Return whether an input gives a part its form, and is neither demanded nor fixed by what it rests on."""
-    instance = config.instances[design.asked.instance]
+    instance = config.instances.get(design.asked.instance)
     key = str(design.asked.key[-1])
     if instance is None or design.asked.instance == PRESS or design.is_whole or LIMIT.search(key):
         return False

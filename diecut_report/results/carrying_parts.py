@@ -147,6 +147,27 @@ def unrated(
             yield record(dotted(each.path), Phrase(template, part=each.called))
 
 
+def accepted(
+    parts: MachineParts, train: str | None, checks: Mapping[str, Sequence[CheckRecord]]
+) -> Iterator[OpenRecord]:
+    """Yield what of the parts is not rated and accepted by somebody: each thing that it leaves out, who accepts it, and why."""
+    left = [
+        (each.path, Phrase("{part}: not all of its checks of strength are made", part=each.name))
+        for each in carrying_parts(parts, train) if each.accepted and not is_rated(each, checks)
+    ]  # fmt: skip
+    every = [part for shaft in parts.shafts.values() for part in shaft.parts if part.keys.accepted]
+    left += [
+        (dotted(each.path), Phrase(template, part=each.called))
+        for each in every for template in _without_method(each, parts.mechanisms)
+    ]  # fmt: skip
+    blocks = {dotted(part.path): part.keys.accepted for part in every}
+    blocks |= {dotted(join.path): join.keys.accepted for join in parts.joins if join.keys.accepted}
+    for path, what in left:
+        by = blocks[path]
+        why = Phrase("{what}; accepted: {reason}", what=what, reason=by.reason)
+        yield OpenRecord(what="not_rated", path=path, owner=by.by, why=why)
+
+
 def _without_method(part: ShaftPart, mechanisms: Mapping[str, str]) -> Iterator[str]:
     """What of a part carries load and has no method of calculation, with the kinds of the mechanisms by their names."""
     if part.kind == "clutch" and mechanisms.get(part.name) != "clutch":

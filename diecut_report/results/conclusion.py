@@ -251,7 +251,7 @@ def _conclusion(found: SummaryRecord, total: int, lost: int, are_compared: bool)
         return Phrase("Nothing was checked, and {left}.", left=left) if left else phrase("There are no checks.")
     if left:
         return Phrase("No check fails, but {left}.", left=left)
-    if accepted := found.parts.accepted if found.parts else 0:
+    if accepted := len({each.path for each in found.accepted}) or (found.parts.accepted if found.parts else 0):
         one, many = (
             "All checks pass; {n} part is accepted without a rating.",
             "All checks pass; {n} parts are accepted without a rating.",

@@ -196,6 +196,9 @@ class SummaryRecord(CountRecord):
         "`fail`: a check does not hold, or a mechanism could not be calculated; `conditional`: something is open; `pass`. Files before it have none."
     )
     open: list[OpenRecord] = sometimes("What is open, each with its owner.", [])
+    accepted: list[OpenRecord] = sometimes(
+        "What of the parts is not rated, and is accepted: by its `owner`, for the reason that stands there.", []
+    )
     tried: bool = sometimes(
         "Whether the values that are open were tried with others: those left may change a check.", False
     )

@@ -20,7 +20,7 @@ from diecut_report.mechanism.inputs import POINTS, Quantity, Varying, flatten
 from diecut_report.mechanism.names import SI
 from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
-from diecut_report.results.carrying_parts import counted, unrated
+from diecut_report.results.carrying_parts import accepted, counted, unrated
 from diecut_report.results.conclusion import LEFT, judged, summary, unsettled
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, SummaryRecord
@@ -47,7 +47,8 @@ def run_summary(run: Run, checks: Mapping[str, Sequence[CheckRecord]]) -> Summar
     """Return the verdict on a run as numbers; an assumed value is open as long as it is not proved harmless."""
     found = summary(checks, assumed(run.config)).with_(open=open_items(run, checks))
     if run.config.parts is not None:
-        found = found.with_(parts=counted(run.config.parts, run.config.named("drive_train"), checks))
+        given = run.config.parts, run.config.named("drive_train"), checks
+        found = found.with_(parts=counted(*given), accepted=[*accepted(*given)])
     lost = {*run.errors, *run.skipped} & {*run.config.kinds, *(case.name for case in run.cases)}
     total = len(run.config.kinds) + len(run.cases)
     return judged(found, total, len(lost), are_compared=bool(run.cases))
@@ -100,7 +101,10 @@ def _untaken_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
         if any(each.is_mechanism or (each.instance, each.result) in given for each in target.single)
     }
     for name, own in forces.items() if len(forces) > 1 else ():
-        asked = own if name not in parts else run.calculations[name].mechanism.reactions
+        reactions = run.calculations[name].mechanism.reactions
+        asked = (
+            reactions if reactions or name in parts else own
+        )  # without any declared, components of one force are among them
         if free := [force for force in own if force in asked and (name, force) not in taken]:
             yield f"mechanisms.{name}", Phrase("no part takes {ports}", ports=", ".join(free))
         elif run.calculations[name].mechanism.ports:

@@ -40,6 +40,7 @@ MECHANISM = Mechanism(
         "The stress in the rods is that of tension alone: their bending by the joints' friction and the stress concentration of their eyes are "
         "not included and have to be covered by the allowable stress. Guides and frame are not calculated.",
     ),
+    reactions=("crank_pin_force_x", "crank_pin_force_y", "torque"),
     sources=(
         Source("001", "Banakh Yu. O. Estimation of torques during die-cutting, with the compliance of the press, on a machine of the platen type. "
                "Naukovi zapysky (Ukrainian Academy of Printing), 1999, no. 1 (in Ukrainian)."),

@@ -12,7 +12,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.advised import changeable_choices
-from diecut_report.design.inputs import changeable, design_input, in_series
+from diecut_report.design.inputs import changeable, design_input, in_series, is_form, named_input
 from tests.configs import EXAMPLE, GOOD, HEAD, saved
 
 Capture = pytest.CaptureFixture[str]
@@ -137,3 +137,9 @@ def test_what_stands_at_a_value_of_its_series_is_changed_in_that_series_alone() 
     assert "train.vbelt.driver_diameter" not in [each.name for each in changeable(config, [], set(), [])]
     choices = changeable_choices(config, [], set())
     assert choices["mechanisms.train.vbelt.driver_diameter"][1]["132 mm"] == pytest.approx(7 / 125)
+
+
+def test_a_number_of_a_part_is_of_no_series_of_a_mechanism() -> None:
+    config = load_config(EXAMPLE.parent / "machines" / "flat_cylinder.yaml", Discovery([]))
+    diameter = named_input(config, "shafts.main.sections.2.diameter")
+    assert in_series(config, diameter) is diameter and not is_form(config, diameter)

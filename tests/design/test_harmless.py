@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.findings import decided, with_findings
-from diecut_report.design.harmless import STANDS_ALONE, UNTRIED, Effects, Trial, UsualEnds, apart, without_harmless
+from diecut_report.design.harmless import NO_NUMBER, STANDS_ALONE, Effects, Trial, UsualEnds, apart, without_harmless
 from diecut_report.design.inputs import design_input
 from diecut_report.press import Press
 from diecut_report.results.model import OpenRecord
@@ -180,7 +180,7 @@ def test_an_assumed_direction_stays_open(tmp_path: Path) -> None:
 
 def test_what_is_not_one_number_of_the_file_stays_open(tmp_path: Path) -> None:
     width = ", width: {value: '${press.sheet.thickness} * 9', basis: assumed}"
-    assert left(press(tmp_path, "900 N*m", width)) == {"mechanisms.a.width": str(UNTRIED)}
+    assert left(press(tmp_path, "900 N*m", width)) == {"mechanisms.a.width": str(NO_NUMBER)}
 
 
 def test_a_limit_of_which_nobody_knows_what_is_usual_is_not_proved_harmless(tmp_path: Path) -> None:

@@ -62,7 +62,7 @@ def test_factors_hold_by_what_can_be_looked_up_alone(tmp_path: Path, basis: dict
     found = judged(tmp_path, gears(**typed), "k_factors")
     assert found["status"] == status
     if status != "pass":
-        assert "All checks pass" not in found["conclusion"] and "not checked" in found["conclusion"]
+        assert "All checks pass" not in found["conclusion"] and "not made" in found["conclusion"]
         assert found["missing"] == list(FACTORS)
         assert "would pass only because of application_factor" in found["message"]
 

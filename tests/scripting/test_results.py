@@ -204,7 +204,10 @@ def test_a_notebook_shows_verdict_checks_and_formulas(levers: dr.Results) -> Non
 
 def test_a_notebook_speaks_the_language_that_is_asked_for() -> None:
     results = dr.loads(LEVERS, plugins=[GOOD], language="uk").calculate()
-    line = "Не виконано 1 перевірку із 1; 1 не перевірено, деталі 2 механізмів не змодельовано і 4 значення за замовчуванням не підтверджено."
+    line = (
+        "Не виконано 1 перевірку із 1; 1 перевірку не проведено, деталі 2 механізмів не змодельовано "
+        "і 4 значення за замовчуванням не підтверджено."
+    )
     assert line in results._repr_html_()
     with pytest.raises(dr.UnknownName, match="немає механізму 'c'; наявні: a, b"):
         results["c"]

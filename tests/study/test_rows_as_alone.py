@@ -362,3 +362,12 @@ def test_the_same_number_typed_otherwise_rests_on_what_it_did(tmp_path: Path, ty
     press = Press.read(saved(tmp_path, HEAD + FOUNDED % "370"), DISCOVERY)
     place = ("mechanisms", "key", "yield_hub")
     assert press.with_values({(*place, "value"): typed}).config.tree.typed((*place, "basis")) == basis
+
+
+def test_a_coefficient_for_all_joints_but_one_is_varied(tmp_path: Path) -> None:
+    """It is that of the joints that have none of their own: not theirs alone may be changed."""
+    text, common = PLATEN.read_text("utf-8"), "    friction: 0.1 "
+    assert text.count(common) == 1
+    file = saved(tmp_path, text.replace(common, f"    friction_journal: 0.05\n{common}"), "press.yaml")
+    found = require_as_alone(Press.read(file, DISCOVERY), "platen.friction", 0.09, 0.11)
+    assert np.diff(found.columns["platen.friction_work"]) > 0

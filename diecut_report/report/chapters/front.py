@@ -404,6 +404,7 @@ def not_covered(results: ResultsRecord, words: Catalogue) -> list[NotCovered]:
     home = "mechanisms."  # a part of the machine is named by the reason itself
     names = [f"{each.path.removeprefix(home)}: " if each.path.startswith(home) else "" for each in unrated]
     parts = [NotCovered(f"{name}{each.why}.", each.owner) for name, each in zip(names, unrated, strict=True)]
+    parts += [NotCovered(f"{each.why}.", each.owner) for each in results.summary.accepted]
     return [*found[:1], *parts, *found[1:]] if parts else found
 
 

@@ -85,7 +85,7 @@ def find_input(base: Config, path: str) -> Input:
         raise UnknownPath(_no_input(instance, keys))
     _check_list(instance.data, key)
     single = instance.model.spread.get(str(key[0]), ()) if len(key) == 1 else ()
-    if any(name in instance.data for name in single):
+    if single and all(name in instance.data for name in single):
         template = "is given in the base by its single values; vary one of these: {names}."
         raise UnknownPath(template, names=", ".join(single))
     home = declared(instance.model, key[:-1]) if len(key) > 1 else instance.model

@@ -23,7 +23,7 @@ from diecut_report.press import Press
 from diecut_report.report.chapters.front import not_covered
 from diecut_report.report.scope import scope
 from diecut_report.report.text import Catalogue
-from diecut_report.results.carrying_parts import CarryingPart, carrying_parts, is_rated, unrated
+from diecut_report.results.carrying_parts import CarryingPart, accepted, carrying_parts, is_rated, unrated
 from diecut_report.results.open_items import is_formula, unrated_forces
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
@@ -984,3 +984,19 @@ def test_the_whole_machine_is_calculated_and_fails_where_the_sheet_says() -> Non
     asked = results.with_(report=results.report.with_(only=["shafts_main", "drive_line"]))
     told = [each.text for each in not_covered(scope(asked).results, Catalogue("en"))]
     assert any("main.disc" in text for text in told) and not any("are not modelled" in text for text in told)
+
+
+def test_what_is_accepted_of_a_part_stands_there_with_who_accepts_it_and_why() -> None:
+    """Its body and its pin both, also where all that has a method is rated."""
+    old = "cross.crank, at: 35, hub: 60, key: 50, plane: 20, mass: 9 kg}"
+    by = "accepted: {by: Chief engineer, reason: finite elements of its maker}"
+    config, _ = changed(old, old[:-1] + f", {by}}}")
+    assert config.parts is not None
+    assert not list(accepted(parts(), None, {}))
+    found = {
+        str(each.why): each.owner for each in accepted(config.parts, None, {}) if each.path == "shafts.main.parts.0"
+    }
+    reason = "; accepted: finite elements of its maker"
+    left = ("main.disc.key: not all of its checks of strength are made", "main.disc: no method rates its body",
+            "main.disc: no calculation rates its pin")  # fmt: skip
+    assert found == {f"{each}{reason}": "Chief engineer" for each in left}
