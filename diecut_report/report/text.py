@@ -69,8 +69,10 @@ ENGLISH: dict[str, str] = {
     "worst_strength": "Worst strength check", "worst_function": "Worst function check", "none": "none", "not_covered": "Not covered",
     "not_modelled": "Parts of the drive line are not modelled.",
     "no_load_cases": "Load cases engage, start and stop are not run for the parts of the drive line.",
-    "beyond_methods": "Shock from backlash, torsional vibration of the drive line, heating of the machine and guards are beyond the methods.",
+    "beyond_methods": "Shock from backlash, torsional vibration of the drive line, heating of the machine, guards, and the room that cranks, "
+    "rims, chains and sheets leave each other are beyond the methods.",
     "owned_by": "Owner: {owner}", "no_owner": "no owner", "open_values": "Open values",
+    "unnamed_basis": "assumed, as no note names its standard or catalogue",
     "influence": "Influence of inputs",
     "influence_lead": "Each numerical input is decreased and increased by {by}, or by its tolerance; all other inputs are unchanged.",
     "influence_on": "Influence on {what}", "influence_today": "Now: {value}.", "influence_none": "cannot exist",

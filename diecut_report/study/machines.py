@@ -193,6 +193,9 @@ def _calculated(discovery: Discovery, given: str | Tree, file: str, finish: Fini
 def _source(given: str | Tree, discovery: Discovery, notes: list[str]) -> Path | Tree:
     if isinstance(given, Tree):
         return given
+    if Path(given).suffix == ".json":
+        template = "This is a results file, or none of a machine. Name configurations; diecut-report diff compares two results files."
+        raise refusal(template, given)
     if variant := variant_named(Path(given)):
         folder, number = variant
         return variant_config(folder, number, discovery, f"{folder.resolve().name}-{number}.yaml", notes.append)
@@ -232,7 +235,8 @@ def typed_at_parts(config: Config) -> Iterator[QuantityRecord]:
 def _typed_at(config: Config, place: KeyPath, path: str) -> QuantityRecord:
     tree = config.tree if config.parts is None else config.parts.reader.tree
     block = value_at(tree.data, place)
-    typed, basis = str(typed_value(tree, place)), block.get("basis", "") if isinstance(block, dict) else ""
+    typed, basis = typed_value(tree, place), block.get("basis", "") if isinstance(block, dict) else ""
+    typed = str(typed).lower() if isinstance(typed, bool) else str(typed)
     given: dict[str, Any] = {"origin": "given", "path": path, "text": typed, "basis": basis}
     try:
         asked = varied_input(config, path)

@@ -114,9 +114,10 @@ def test_the_counts_begin_a_sentence() -> None:
 
 
 def test_open_values_stand_by_their_mechanism_those_with_the_same_reason_together() -> None:
-    shown = {"interlocks.0.margin": "5 ms", "a": "3", "b": "4"}
-    inputs = {key: {"display": {"text": text, "unit": "1"}, "unit": "1"} for key, text in shown.items()}
-    items = [("interlocks.0.margin", "at 6 ms"), ("a", "together"), ("b", "together")]
+    shown = {"interlocks.0.margin": "5 ms", "a": "3", "b": "4", "c": "7"}
+    inputs: dict[str, Any] = {key: {"display": {"text": text, "unit": "1"}, "unit": "1"} for key, text in shown.items()}
+    inputs["c"]["basis"] = "catalogue"
+    items = [("interlocks.0.margin", "at 6 ms"), ("a", "together"), ("b", "together"), ("c", "together")]
     left = [{"what": "assumed", "path": f"mechanisms.timing.{key}", "why": why} for key, why in items]
     results = {
         "mechanisms": {"timing": {"inputs": inputs}},
@@ -127,6 +128,7 @@ def test_open_values_stand_by_their_mechanism_those_with_the_same_reason_togethe
     assert group.reasons == [
         ([("interlocks.0.margin", "5\u00a0ms")], "assumed: at 6 ms"),
         ([("a", "3"), ("b", "4")], "assumed: together"),
+        ([("c", "7")], "assumed, as no note names its standard or catalogue: together"),
     ]
 
 

@@ -13,6 +13,7 @@ from typing import NamedTuple, TypeVar
 
 from markupsafe import Markup
 
+from diecut_report.config.validation import is_founded
 from diecut_report.quantities.formatting import number_text
 from diecut_report.report.chapters.printed_tables import DASH
 from diecut_report.report.model import CheckRow, TornadoFigure, utilisation
@@ -313,13 +314,14 @@ def followed_line(results: ResultsRecord, words: Catalogue, rows: Iterable[Check
 
 
 FACTS = (
+    (("press_consistency", "required_rate"),),
+    (("press_consistency", "true_rate"),),
     (("drive_train", "motor_power"),),
     (("cyclogram", "power_mean"), ("cylinder_drive", "power_mean"), ("", "power_mean")),
     (("cyclogram", "torque_peak"), ("cylinder_drive", "crank_torque_peak"), ("", "torque_peak"), ("", "torque_max")),
     (("", "machine_mass"), ("cylinder_sizing", "mass")),
 )
-"""Kinds of mechanisms, any where there is none, and the ids of their results: installed and mean power, peak torque, mass."""
-RATES = (("press_consistency", "true_rate"),)
+"""Kinds of mechanisms, any where there is none, and the ids of their numbers: rates, installed and mean power, peak torque, mass."""
 
 
 def machine_facts(results: ResultsRecord, words: Catalogue) -> list[tuple[str, str]]:
@@ -331,7 +333,7 @@ def machine_facts(results: ResultsRecord, words: Catalogue) -> list[tuple[str, s
     found += [(words["sheet_format"], " × ".join(sheet))] if sheet else []
     board = fields.get("press.sheet.thickness")
     found += [(words["board"], _shown(board, words))] if board else []
-    rows = (_first(results, names) for names in (RATES, *FACTS))
+    rows = (_first(results, names) for names in FACTS)
     found += [(f"{row.description} ({name})", _shown(row, words)) for name, row in filter(None, rows)]
     return [(label, text) for label, text in found if text]
 
@@ -382,9 +384,11 @@ def _reasoned(results: ResultsRecord, words: Catalogue, values: list[OpenRecord]
     reasons: dict[tuple[str, str], list[tuple[str, str]]] = {}
     for each in values:
         _, key, row = _input(results, each.path)
-        reasons.setdefault((each.what, each.why), []).append((key, _shown(row, words) if row else ""))
+        is_unnamed = row is not None and row.basis in ("standard", "catalogue") and not is_founded(row.basis, row.note)
+        what = words["unnamed_basis"] if is_unnamed else words[each.what]
+        reasons.setdefault((what, each.why), []).append((key, _shown(row, words) if row else ""))
     for (what, why), same in reasons.items():
-        yield OpenReason(same, f"{words[what]}: {why}")
+        yield OpenReason(same, f"{what}: {why}")
 
 
 class NotCovered(NamedTuple):
