@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from diecut_report.config.parts.model import MachineParts, ShaftPart
+from diecut_report.config.parts.model import Join, MachineParts, ShaftPart
 from diecut_report.results.conclusion import governing
 from diecut_report.results.drive_line_record import RatingRecord, State
 from diecut_report.results.mechanism_record import CheckRecord
@@ -160,12 +160,11 @@ def accepted(
         (dotted(each.path), Phrase(template, part=each.called))
         for each in every for template in _without_method(each, parts.mechanisms)
     ]  # fmt: skip
-    blocks = {dotted(part.path): part.keys.accepted for part in every}
-    blocks |= {dotted(join.path): join.keys.accepted for join in parts.joins if join.keys.accepted}
+    owners: list[ShaftPart | Join] = [*every, *parts.joins]
+    blocks = {dotted(each.path): each.keys.accepted for each in owners if each.keys.accepted}
     for path, what in left:
-        by = blocks[path]
-        why = Phrase("{what}; accepted: {reason}", what=what, reason=by.reason)
-        yield OpenRecord(what="not_rated", path=path, owner=by.by, why=why)
+        why = Phrase("{what}; accepted: {reason}", what=what, reason=blocks[path].reason)
+        yield OpenRecord(what="not_rated", path=path, owner=blocks[path].by, why=why)
 
 
 def _without_method(part: ShaftPart, mechanisms: Mapping[str, str]) -> Iterator[str]:

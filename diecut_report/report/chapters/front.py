@@ -13,7 +13,6 @@ from typing import NamedTuple, TypeVar
 
 from markupsafe import Markup
 
-from diecut_report.config.validation import is_founded
 from diecut_report.quantities.formatting import number_text
 from diecut_report.report.chapters.printed_tables import DASH
 from diecut_report.report.model import CheckRow, TornadoFigure, utilisation
@@ -384,7 +383,7 @@ def _reasoned(results: ResultsRecord, words: Catalogue, values: list[OpenRecord]
     reasons: dict[tuple[str, str], list[tuple[str, str]]] = {}
     for each in values:
         _, key, row = _input(results, each.path)
-        is_unnamed = row is not None and row.basis in ("standard", "catalogue") and not is_founded(row.basis, row.note)
+        is_unnamed = row is not None and row.basis in ("standard", "catalogue") and not row.note
         what = words["unnamed_basis"] if is_unnamed else words[each.what]
         reasons.setdefault((what, each.why), []).append((key, _shown(row, words) if row else ""))
     for (what, why), same in reasons.items():
