@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -78,9 +79,14 @@ def _free_name(mechanism: Mechanism, names: Iterable[str]) -> str:
 
 @dataclass(frozen=True)
 class LeftOut:
-    """Stand for a value that is left out; a mechanism of ``kind`` would give it, where that is told."""
+    """Stand for a value that is left out; mechanisms of these ``kinds`` would give it, where that is told."""
 
-    kind: str = ""
+    kinds: tuple[str, ...] = ()
+
+
+def _lacking(value: LeftOut) -> float:
+    """How many mechanisms would have to be added for a value: of several ways the one with the fewest is gone."""
+    return len(value.kinds) or math.inf
 
 
 class NeedsKind(LookupError):
@@ -106,8 +112,8 @@ class Wiring:
             made = self.value(value, known.block if known else None)
             if not isinstance(made, LeftOut):
                 found[key] = made
-            elif known and known.field.is_required() and made.kind:
-                raise NeedsKind(self.own, made.kind)
+            elif known and known.field.is_required() and made.kinds:
+                raise NeedsKind(self.own, made.kinds[0])
         return found
 
     def value(self, value: Any, model: type[Block] | None) -> Any:
@@ -124,7 +130,7 @@ class Wiring:
             case list() | tuple():
                 made = [each for part in value for each in self._parts(part, model)]
                 found = [part for part in made if not isinstance(part, LeftOut)]
-                return made[0] if made and not found else found
+                return min(made, key=_lacking) if made and not found else found
         return value
 
     def _wired(self, wired: Wired, model: type[Block] | None) -> Any:
@@ -135,7 +141,7 @@ class Wiring:
         if not isinstance(made, LeftOut) or wired.otherwise is None:
             return made
         other = self.value(wired.otherwise, model)
-        return made if isinstance(other, LeftOut) else other
+        return min(made, other, key=_lacking) if isinstance(other, LeftOut) else other
 
     def _block(self, data: Mapping[str, Any], model: type[Block] | None) -> Any:
         known = keys_of(model) if model else {}
@@ -153,11 +159,11 @@ class Wiring:
             return [self.value(part, model)]
         names = self.names.get(part.kind, ())
         one_by_one = [replace(self, names={**self.names, part.kind: (name,)}) for name in names]
-        return [wiring.value(part.part, model) for wiring in one_by_one] or [LeftOut(part.kind)]
+        return [wiring.value(part.part, model) for wiring in one_by_one] or [LeftOut((part.kind,))]
 
-    def _missing(self, kinds: Iterable[str]) -> str:
-        """The first of these kinds that is not there."""
-        return next((kind for kind in kinds if kind != self.own.kind and not self.names.get(kind)), "")
+    def _missing(self, kinds: Iterable[str]) -> tuple[str, ...]:
+        """Those of these kinds that are not there."""
+        return tuple(kind for kind in kinds if kind != self.own.kind and not self.names.get(kind))
 
     def _name(self, kind: str) -> str:
         """The mechanism of a kind: the first belongs to the first, the second to the second; of the own kind the own one."""

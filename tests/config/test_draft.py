@@ -139,6 +139,19 @@ def test_what_a_kind_cannot_be_without_is_added() -> None:
     assert [line["mechanism"] for line in values(made)["all"]["lines"]] == ["drive", "cross"]
 
 
+@pytest.mark.parametrize(
+    ("kinds", "added"),
+    [
+        (["platen_press", "cyclogram"], ["geneva_transport"]),
+        (["cyclogram", "cam_gear_transport"], ["cylinder_drive"]),
+        (["cyclogram"], ["cylinder_drive", "geneva_transport"]),
+    ],
+)
+def test_of_several_ways_that_with_the_fewest_further_mechanisms_is_gone(kinds: list[str], added: list[str]) -> None:
+    """A platen press brought the drive of a cylinder along where no transport was named."""
+    assert [new.kind for new, _ in draft(kinds, DISCOVERY).added] == added
+
+
 def test_each_drive_is_a_line_of_the_cyclogram() -> None:
     made = values(draft(["cylinder_drive:a", "cylinder_drive:b", "cam_gear_transport", "cyclogram"], DISCOVERY))
     assert [line["mechanism"] for line in made["timing"]["lines"]] == ["a", "b", "feeder"]
