@@ -10,6 +10,9 @@ from typing import Any, Literal
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.parts.keys import WORDS
+from diecut_report.config.parts.model import MachineParts
+from diecut_report.config.parts.reading import place_of
 from diecut_report.design.inputs import DesignInput, design_input
 from diecut_report.design.machines import CHECKS, UTILISATION, ProvedMachine, quantities
 from diecut_report.errors import Problem, UserError, nearest, refusal
@@ -90,8 +93,10 @@ def question(config: Config, text: str) -> DesignQuestion:
 
 
 def quantity(config: Config, name: str) -> AskedNumber:
-    """Return the number that a name stands for: an output, the utilisation of a check, or an input; UserError in words."""
+    """Return the number that a name stands for: an output, the utilisation of a check, an input, or one of a part; UserError in words."""
     home, _, own = name.removeprefix("mechanisms.").partition(".")
+    if home in WORDS and config.parts is not None and (made := _of_part(config.parts, name)):
+        return quantity(config, made)
     column = quantities(config).get(f"{home}.{own}")
     if column is not None:
         return AskedNumber(column.name, column.name, column.display or column.unit, home)
@@ -102,6 +107,13 @@ def quantity(config: Config, name: str) -> AskedNumber:
         found = design_input(config, name)
         return AskedNumber(found.name, found.asked.path, found.unit, found.asked.instance, found.asked)
     raise UserError(Problem(_unknown(config, home, own), config.tree.file))
+
+
+def _of_part(parts: MachineParts, name: str) -> str:
+    """The first input of a calculation that follows from a number of a part; nothing where none does."""
+    place = place_of(parts.reader.data, name)
+    nodes = (node for node, there in parts.sources.items() if there == place and len(node) > 1)
+    return next((".".join(map(str, node)) for node in nodes), "")
 
 
 def _utilisation(config: Config, home: str, check: str) -> AskedNumber:

@@ -12,6 +12,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.advised import changeable_choices
+from diecut_report.design.answers import quantity
 from diecut_report.design.inputs import changeable, design_input, in_series, is_form, named_input
 from tests.configs import EXAMPLE, GOOD, HEAD, saved
 
@@ -143,3 +144,15 @@ def test_a_number_of_a_part_is_of_no_series_of_a_mechanism() -> None:
     config = load_config(EXAMPLE.parent / "machines" / "flat_cylinder.yaml", Discovery([]))
     diameter = named_input(config, "shafts.main.sections.2.diameter")
     assert in_series(config, diameter) is diameter and not is_form(config, diameter)
+
+
+@pytest.mark.parametrize(
+    ("name", "stands_for"),
+    [
+        ("shafts.conveyor.sections.1.diameter", "shafts_conveyor_body.discs.1.diameter"),
+        ("shafts.main.parts.wheel.key", "shafts_main_wheel_key.key_length"),
+    ],
+)
+def test_a_number_of_a_part_is_asked_for_by_the_name_by_which_it_is_varied(name: str, stands_for: str) -> None:
+    config = load_config(EXAMPLE.parent / "machines" / "flat_cylinder.yaml", Discovery([]))
+    assert quantity(config, name).name == stands_for
