@@ -149,10 +149,12 @@ class Quantity:
         try:
             return parse_quantity(given, self.unit)
         except ValueError as fault:
-            if not self.words:
+            others = [*self.words, *([f"10 {pretty(self.or_unit)}"] if self.or_unit else [])]
+            if not others:
                 raise
-            raise ValueError(Phrase("{removesuffix}; or {words}.", removesuffix=str(fault).removesuffix('.'), words=', '.join(
-                self.words))) from None  # fmt: skip
+            raise ValueError(
+                Phrase("{fault} Allowed, too: {others}.", fault=fault.args[0], others=", ".join(others))
+            ) from None
 
     def _same_kind(self, other: str, told: str) -> None:
         if unit(other).kind != self.parsed_unit.kind:

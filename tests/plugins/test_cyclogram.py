@@ -439,7 +439,11 @@ def test_a_configuration_takes_mechanisms_by_their_names_and_tells_what_is_wrong
         ),
         (
             {"lines": [{"mechanism": "drive", "offset": "automatic"}]},
-            "an angle is needed, for example 60 deg; or auto.",
+            "an angle is needed, for example 60 deg. Allowed, too: auto.",
+        ),
+        (
+            {"interlocks": [{"name": "a", "phase": "drive.cutting", "within": "cross.dwell", "margin": "5 mm"}]},
+            "5 mm is a length; an angle is needed, for example 60 deg. Allowed, too: 10 ms.",
         ),
         (
             {"lines": [{"mechanism": "${drive.crank_speed}"}]},
