@@ -72,6 +72,7 @@ ENGLISH: dict[str, str] = {
     "beyond_methods": "Shock from backlash, torsional vibration of the drive line, heating of the machine, guards, and the room that cranks, "
     "rims, chains and sheets leave each other are beyond the methods.",
     "owned_by": "Owner: {owner}", "no_owner": "no owner", "open_values": "Open values",
+    "required_rate": "Required rate",
     "unnamed_basis": "assumed, as no note names its standard or catalogue",
     "influence": "Influence of inputs",
     "influence_lead": "Each numerical input is decreased and increased by {by}, or by its tolerance; all other inputs are unchanged.",

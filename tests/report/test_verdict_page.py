@@ -141,10 +141,16 @@ def test_page_1_says_what_the_machine_is_as_far_as_the_results_hold_it() -> None
         row("470", "mm", "Width") | {"path": "press.sheet.width"},
     ]
     train = {"kind": "drive_train", "outputs": {"motor_power": row("1.1", "kW", "Rated power")}}
+    asked = {"kind": "press_consistency", "inputs": {"required_rate": row("4500", "1/h", "Rate; default: another one")}}
     found = machine_facts(
-        filled(ResultsRecord, {"press": {"fields": fields}, "mechanisms": {"train": train}}), Catalogue("en")
+        filled(ResultsRecord, {"press": {"fields": fields}, "mechanisms": {"train": train, "all": asked}}),
+        Catalogue("en"),
     )
-    assert found == [("Format", "700\u00a0mm × 470\u00a0mm"), ("Rated power (train)", "1.1\u00a0kW")]
+    assert found == [
+        ("Required rate", "4500\u00a01/h"),
+        ("Format", "700\u00a0mm × 470\u00a0mm"),
+        ("Rated power (train)", "1.1\u00a0kW"),
+    ]
     assert machine_facts(filled(ResultsRecord, {"press": {"fields": []}, "mechanisms": {}}), Catalogue("en")) == []
 
 

@@ -313,7 +313,6 @@ def followed_line(results: ResultsRecord, words: Catalogue, rows: Iterable[Check
 
 
 FACTS = (
-    (("press_consistency", "required_rate"),),
     (("press_consistency", "true_rate"),),
     (("drive_train", "motor_power"),),
     (("cyclogram", "power_mean"), ("cylinder_drive", "power_mean"), ("", "power_mean")),
@@ -329,6 +328,8 @@ def machine_facts(results: ResultsRecord, words: Catalogue) -> list[tuple[str, s
     sheet = [_shown(fields[path], words) for path in ("press.sheet.length", "press.sheet.width") if path in fields]
     rate = fields.get("press.productivity")
     found = [(rate.description, _shown(rate, words))] if rate else []
+    required = _first(results, [("press_consistency", "required_rate")])
+    found += [(words["required_rate"], _shown(required[1], words))] if required else []
     found += [(words["sheet_format"], " × ".join(sheet))] if sheet else []
     board = fields.get("press.sheet.thickness")
     found += [(words["board"], _shown(board, words))] if board else []
