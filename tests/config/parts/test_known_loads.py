@@ -21,7 +21,7 @@ from diecut_report.results.warm_press import WarmPress
 from tests.config.parts.test_parts import DISCOVERY, FILE, calculated
 
 TEXT = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
-CONVEYOR = "60x40 r1.4, 70x120 r2, 75x520 r1.4, 60x40"
+CONVEYOR = "60x40 r1.4, 70x120 r2, 75x510 r2, 70x10 r1.4, 60x40"
 
 
 def changed(*changes: tuple[str, str]) -> tuple[Config, list[str]]:
@@ -282,7 +282,7 @@ def test_two_stages_behind_a_wheel_are_its_gear_ratio() -> None:
         ("step_up: {pair: [geneva.large, conveyor.small], teeth: 120/20",
          "second: {pair: [lay.large, conveyor.small], teeth: 60/30, module: 4, width: 40}\n"
          "  step_up: {pair: [geneva.large, lay.small], teeth: 120/20"),
-        ("60x40 r1.4, 70x120 r2, 75x520 r1.4, 60x40", "60x40 r1.4, 75x640 r1.4, 60x40"),
+        ("60x40 r1.4, 70x120 r2, 75x510 r2, 70x10 r1.4, 60x40", "60x40 r1.4, 75x640 r1.4, 60x40"),
     )  # fmt: skip
     assert problems == []
     ratio = made["cross"]["gear_ratio"]
@@ -676,11 +676,11 @@ def test_a_brake_on_the_main_shaft_loads_all_up_to_the_flywheel_with_what_the_li
 
 
 def test_what_a_brake_loads_is_rated_for_it_and_the_way_to_rest_follows() -> None:
-    """By hand (1300 + 1095.7) · 18/87/0.97 N·m at the pinion, where the stop comes when the lines take most."""
+    """By hand (1300 + 1095.5) · 18/87/0.97 N·m at the pinion, where the stop comes when the lines take most."""
     machine = WarmPress(is_advised=False).calculate(changed((ON_MAIN, f"      - {BRAKE}}}\n{ON_MAIN}"))[0])
     values = {name: each.values for name, each in machine.calculations.items()}
     mean, peak = (values["timing"][name].item() for name in ("torque_mean", "torque_peak"))
-    assert peak == pytest.approx(1095.7, abs=0.1)
+    assert peak == pytest.approx(1095.5, abs=0.1)
     assert values["shafts_main_wheel_key"]["torque_peak"].item() == pytest.approx(1300 + peak)
     assert values["meshes_main_drive"]["torque_root"].item() == pytest.approx((1300 + peak) * 18 / 87 / 0.97)
     assert (
