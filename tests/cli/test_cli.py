@@ -390,6 +390,7 @@ def test_progress_keeps_quiet_where_it_is_told_to(quiet: bool, terminal: bool, m
 SLOW_TO_IMPORT = ("matplotlib", "jinja2", "weasyprint", "pint", "rich", "ezdxf", "scipy.stats", "diecut_report.report")
 
 
+@pytest.mark.nightly
 def test_calc_imports_nothing_that_draws_or_is_slow(example: Example) -> None:
     assert example.imported.isdisjoint(SLOW_TO_IMPORT)
 

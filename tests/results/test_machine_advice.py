@@ -145,6 +145,7 @@ def followed(press: Press, mechanism: str, check: CheckRecord) -> list[str]:
     return found
 
 
+@pytest.mark.nightly
 def test_a_shaft_is_advised_to_grow_where_no_bearing_sits_and_holds_with_its_own_weight(tmp_path: Path) -> None:
     """All sections together would leave the bearings' bores; the middle one alone grows by more, and by more again as it is heavier then."""
     text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")

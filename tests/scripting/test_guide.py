@@ -13,6 +13,8 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
+from tests.examples import every
+
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
 
@@ -79,7 +81,7 @@ def answer(code: str, name: str, space: dict[str, Any]) -> Any:
     return eval(compile(ast.Expression(last.value), name, "eval"), space) if isinstance(last, ast.Expr) else None
 
 
-@pytest.mark.parametrize("file", [file for file in NOTEBOOKS if file != FIRST], ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", every(2, [file for file in NOTEBOOKS if file != FIRST]), ids=lambda file: file.stem)
 @pytest.mark.usefixtures("without_advice")
 def test_a_notebook_runs_in_this_process(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(EXAMPLES)
