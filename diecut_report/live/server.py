@@ -10,7 +10,7 @@ import re
 import secrets
 import socket
 import threading
-from collections.abc import AsyncIterator, Awaitable, Callable, MutableMapping
+from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine, MutableMapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager, suppress
 from contextvars import copy_context
@@ -48,6 +48,19 @@ class _GivesWay(Exception):
     """End what nobody waits for as long as for what has come meanwhile."""
 
 
+@asynccontextmanager
+async def watching(watch: Coroutine[Any, Any, None], end: Callable[[], None]) -> AsyncIterator[None]:
+    """Watch as long as a server lives, and end what hangs on it."""
+    task = asyncio.create_task(watch)
+    try:
+        yield
+    finally:
+        end()
+        task.cancel()
+        with suppress(asyncio.CancelledError):
+            await task
+
+
 class LiveApplication:
     """Serve a session. ``folders`` are those of foreign plugins, which a report is made with; ``language`` is asked for it."""
 
@@ -77,14 +90,10 @@ class LiveApplication:
 
     @asynccontextmanager
     async def _lifespan(self, _app: Starlette) -> AsyncIterator[None]:
-        watching = asyncio.create_task(self._watch())
         try:
-            yield
+            async with watching(self._watch(), self.end):
+                yield
         finally:
-            self.end()
-            watching.cancel()
-            with suppress(asyncio.CancelledError):
-                await watching
             self._worker.shutdown(wait=False, cancel_futures=True)
 
     def end(self) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 import json
 import re
-from collections.abc import AsyncIterator, Iterator, Sequence
-from contextlib import asynccontextmanager, suppress
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractAsyncContextManager
 from functools import partial
 from glob import escape
 from pathlib import Path
@@ -20,6 +20,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 from watchfiles import awatch
 
+from diecut_report.live.server import watching
 from diecut_report.report.pages.html import filled_page, folder
 from diecut_report.text.translation import say, spoken_language
 
@@ -62,16 +63,8 @@ class WatchedPlugin:
         """Watch no more, so that the server can end."""
         self._is_ending.set()
 
-    @asynccontextmanager
-    async def _lifespan(self, _app: Starlette) -> AsyncIterator[None]:
-        watching = asyncio.create_task(self._watch())
-        try:
-            yield
-        finally:
-            self.end()
-            watching.cancel()
-            with suppress(asyncio.CancelledError):
-                await watching
+    def _lifespan(self, _app: Starlette) -> AbstractAsyncContextManager[None]:
+        return watching(self._watch(), self.end)
 
     async def _watch(self) -> None:
         """Judge the plugin at once, and after each change of its files; what is begun then is of files that are no more."""
