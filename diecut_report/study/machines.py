@@ -228,15 +228,15 @@ def _not_made(name: str, data: MechanismRecord, config: Config) -> dict[str, Qua
 
 def typed_at_parts(config: Config) -> Iterator[QuantityRecord]:
     """What is typed at the parts of a machine, each with its path."""
-    for place in typed_places(config.parts.reader.tree) if config.parts else ():
-        yield _typed_at(config, place, config.parts.called(place))  # type: ignore[union-attr]
+    if (parts := config.parts) is not None:
+        tree = parts.reader.tree
+        yield from (_typed_at(config, tree, place, parts.called(place)) for place in typed_places(tree))
 
 
-def _typed_at(config: Config, place: KeyPath, path: str) -> QuantityRecord:
-    tree = config.tree if config.parts is None else config.parts.reader.tree
-    block = value_at(tree.data, place)
-    typed, basis = typed_value(tree, place), block.get("basis", "") if isinstance(block, dict) else ""
-    typed = str(typed).lower() if isinstance(typed, bool) else str(typed)
+def _typed_at(config: Config, tree: Tree, place: KeyPath, path: str) -> QuantityRecord:
+    block, scalar = value_at(tree.data, place), typed_value(tree, place)
+    basis = block.get("basis", "") if isinstance(block, dict) else ""
+    typed = str(scalar).lower() if isinstance(scalar, bool) else str(scalar)
     given: dict[str, Any] = {"origin": "given", "path": path, "text": typed, "basis": basis}
     try:
         asked = varied_input(config, path)
