@@ -85,7 +85,7 @@ class LeftOut:
 
 
 def _lacking(value: LeftOut) -> float:
-    """How many mechanisms would have to be added for a value: of several ways the one with the fewest is gone."""
+    """How many mechanisms would have to be added for a value: of several ways the one with the fewest is taken."""
     return len(value.kinds) or math.inf
 
 

@@ -37,18 +37,13 @@ TWICE = 2.0  # what a value is multiplied by to see with which power of it anoth
 STILL = 1e-9  # of the greater side of a check, by which rounding alone moves its margin
 # how many of those that change a check together are taken out, strongest first
 LEFT_OUT = tuple(2**k for k in range(8))
-SEED, DRAWN, CLEAN = (
-    29,
-    16,
-    64,
-)  # of machines that are drawn, how many at once, and how many without a find end the search
+SEED, DRAWN = 29, 16  # of machines that are drawn, and how many at once
+CLEAN = 64  # drawn without a find end the search
 ROUNDS = 40  # at most
 JUDGED = 4  # of those of one draw in which a check fails
 NO_NUMBER = phrase("it is not one number of the configuration, so no other value was tried")
 OF_PARTS = phrase("parts of the machine are made with it, so no other value was tried")
 NO_ARRAYS = phrase("its mechanism takes no arrays, so no other value was tried")
-
-
 STANDS_ALONE = phrase("what else it might be nothing tells, so no other value was tried")
 
 

@@ -102,9 +102,8 @@ def _untaken_forces(run: Run) -> Iterator[tuple[str, Phrase]]:
     }
     for name, own in forces.items() if len(forces) > 1 else ():
         reactions = run.calculations[name].mechanism.reactions
-        asked = (
-            reactions if reactions or name in parts else own
-        )  # without any declared, components of one force are among them
+        # without any declared, components of one force are among them
+        asked = reactions if reactions or name in parts else own
         if free := [force for force in own if force in asked and (name, force) not in taken]:
             yield f"mechanisms.{name}", Phrase("no part takes {ports}", ports=", ".join(free))
         elif run.calculations[name].mechanism.ports:

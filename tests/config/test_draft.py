@@ -147,7 +147,7 @@ def test_what_a_kind_cannot_be_without_is_added() -> None:
         (["cyclogram"], ["cylinder_drive", "geneva_transport"]),
     ],
 )
-def test_of_several_ways_that_with_the_fewest_further_mechanisms_is_gone(kinds: list[str], added: list[str]) -> None:
+def test_of_several_ways_that_with_the_fewest_further_mechanisms_is_taken(kinds: list[str], added: list[str]) -> None:
     """A platen press brought the drive of a cylinder along where no transport was named."""
     assert [new.kind for new, _ in draft(kinds, DISCOVERY).added] == added
 
