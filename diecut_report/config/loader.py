@@ -224,7 +224,7 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
         raise UserError([*tree.problems, *excess])
     discovery.extend()
     tree, wrong = misnamed(tree)
-    found = Expanded(tree, None, None, wrong) if wrong else None
+    found = Expanded(tree, problems=wrong) if wrong else None
     if has_parts(tree.data):
         found = expanded(tree, lambda kind: _declared(discovery, kind))
     tree = found.tree if found else tree

@@ -36,6 +36,7 @@ SECTIONS, ROUNDS = 10, 4  # into which the interval around a limit is cut at onc
 DIGITS = (4, 5, 6)  # significant digits of an advised number: the first with which the check holds
 ROUNDING = 1e-9  # relative: by how much a limit is surely missed that was met but for the rounding of its last place
 FEW_OPTIONS = 3  # that an advice names
+NEAR = 6  # values of a grid on each side of today's that are tried before all others
 
 
 @dataclass(frozen=True)
@@ -439,8 +440,13 @@ def _common_ray(places: Sequence[VariedNumber]) -> Ray:
 
 def _nearest(trials: Trials, ray: Ray) -> float | None:
     """The parameter nearest to today's with which the check holds."""
-    line = TriedLine.of(trials, ray)
-    if line is None or ray.present is None:
+    if ray.present is None:
+        return None
+    start = int(np.searchsorted(ray.grid, ray.present))
+    line = TriedLine.of(trials, replace(ray, grid=ray.grid[max(start - NEAR, 0) : start + NEAR]))
+    if line is None or line.level < LEVELS - 1:  # further away more may hold
+        line = TriedLine.of(trials, ray)
+    if line is None:
         return None
     return line.low() if line.run[0] > ray.present else line.high()
 

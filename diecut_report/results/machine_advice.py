@@ -167,12 +167,18 @@ class _WholeMachine:
         if not parts or not place:
             return None
         part = next((each for shaft in parts.shafts.values() for each in shaft.parts if each.path == place[:-1]), None)
-        tried = _stronger(parts, name, part) if part else _in_place(parts, name, place)
+        tried = [*(_stronger(parts, name, part) if part else _in_place(parts, name, place))]
+        strongest = next((each for each in reversed(tried) if self._allows(name, each, _values(each))), None)
+        # what the strongest one does not mend, such as a speed or a swing, none does
+        if strongest is None or not self._is_sound(name, check, strongest, is_sound=False):
+            return None
         return next((Way(changes, 0) for changes in tried if self._is_sound(name, check, changes)), None)
 
-    def _is_sound(self, name: str, check: str, changes: Sequence[KeyChangeRecord]) -> bool:
+    def _is_sound(
+        self, name: str, check: str, changes: Sequence[KeyChangeRecord], *, is_sound: bool = True
+    ) -> bool:
         """Whether the parts agree with changes to one value each, a check holds with them, and no other of its mechanism fails by them."""
-        return self._suits(name, check, changes, [change.value for change in changes], is_sound=True)  # type: ignore[misc]
+        return self._suits(name, check, changes, _values(changes), is_sound=is_sound)
 
     def _present(self, name: str, change: KeyChangeRecord) -> float | None:
         """The value that a key has today, in the unit of its change."""
@@ -386,6 +392,11 @@ class _ChangedRun(Run):
 
     def _comparisons(self) -> None:
         """A comparison has no checks."""
+
+
+def _values(changes: Iterable[KeyChangeRecord]) -> list[Value]:
+    """The values of changes to one value each."""
+    return [change.value for change in changes if not isinstance(change.value, list)]
 
 
 def _of_bore(part: ShaftPart, bore: float) -> Iterator[str]:

@@ -128,6 +128,7 @@ class Demands:
     twice: list[tuple[KeyPath, KeyPath]] = field(default_factory=list)  # typed keys that follow, each with from where
     counted: set[KeyPath] = field(default_factory=set)  # typed efficiencies that count in a torque
     _torques: dict[ShaftPart, dict[str, Any] | None] = field(default_factory=dict)
+    _inertial: dict[MachineShaft, dict[str, Any] | None] = field(default_factory=dict)
     _inertias: dict[str, dict[ShaftPart | None, dict[str, Any]]] = field(default_factory=dict)
 
     def _beside(
@@ -497,6 +498,11 @@ class Demands:
 
     def inertia_of(self, shaft: MachineShaft) -> dict[str, Any] | None:
         """Return the torque that a shaft which swings or turns in steps takes by its inertia and the chains that roll a cylinder; None of others."""
+        if shaft not in self._inertial:  # it is asked for at every part
+            self._inertial[shaft] = self._inertia_of(shaft)
+        return self._inertial[shaft]
+
+    def _inertia_of(self, shaft: MachineShaft) -> dict[str, Any] | None:
         moving = self.moved_by(shaft)
         if moving is None or not moving.port.acceleration or any(self._of_swing(part) for part in shaft.parts):
             return None
@@ -565,7 +571,7 @@ class Demands:
 
         With the losses of the meshes between it counts for the torque that drives it; where it brakes that is safe.
         """
-        group = [self.parts.shafts[name] for name in self.parts.shafts if name in self.parts.group(start.name)]
+        group = [self.parts.shafts[name] for name in self.parts.shafts if name in self.parts.groups[start.name]]
         terms = []
         for shaft in (each for each in group if each.has_body):
             way = self.chain_from(start.name, shaft.name)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from diecut_report.config.model import ConfigDocument
@@ -29,12 +30,19 @@ SINGLE = re.compile(r"\$\{[^${}]*\}")
 
 @dataclass(frozen=True, eq=False)
 class Expanded:
-    """Hold a file with parts as one of mechanisms alone, the parts themselves, and what is wrong with them."""
+    """Hold a file with parts, the parts themselves, the calculations made of them, and what is wrong with them."""
 
-    tree: Tree
-    parts: MachineParts | None
-    elements: Elements | None
-    problems: tuple[Problem, ...]
+    base: Tree
+    parts: MachineParts | None = None
+    elements: Elements | None = None
+    problems: tuple[Problem, ...] = ()
+
+    @cached_property
+    def tree(self) -> Tree:
+        """Return the file as one of mechanisms alone; without the parts where something is wrong with them."""
+        if self.parts is None or self.elements is None:
+            return _without(self.base)
+        return _Writer(self.base, self.parts, self.elements).written(self.elements.made)
 
 
 def has_parts(data: Any) -> bool:
@@ -71,7 +79,7 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
         {name: block for name, block in given.items() if isinstance(block, dict)} if isinstance(given, dict) else {}
     )
     if not isinstance(given, dict):  # which is told where the file is judged
-        return Expanded(_without(tree), None, None, ())
+        return Expanded(tree)
     kinds = {name: str(block.get("kind")) for name, block in blocks.items()}
     known = {kind: found for kind in {*kinds.values()} if (found := of_kind(kind)) is not None}
     models = {name: known[kind].inputs for name, kind in kinds.items() if kind in known}
@@ -80,7 +88,7 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
     if parts is not None and not reader.problems:
         reader.problems += misdriven(parts)
     if parts is None or reader.problems:
-        return Expanded(_without(tree), parts, None, tuple(reader.problems))
+        return Expanded(tree, parts, problems=tuple(reader.problems))
     elements = Elements(parts, blocks, known)
     made = elements.all()
     parts.calculations.update({each.name: ".".join(map(str, each.path[:2])) for each in made if len(each.path) > 1})
@@ -100,8 +108,8 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
             parts.fault(paths[1], template, name=name, place=parts.where(paths[0]))
     problems = [*reader.problems, *coherence(parts, elements)]
     if problems:  # which would be told again of what is made of them
-        return Expanded(_without(tree), parts, None, tuple(problems))
-    return Expanded(_Writer(tree, parts, elements).written(made), parts, elements, ())
+        return Expanded(tree, parts, problems=tuple(problems))
+    return Expanded(tree, parts, elements)
 
 
 def _homes(made: Sequence[Element]) -> dict[str, list[KeyPath]]:

@@ -513,22 +513,17 @@ class MachineParts:
         """Return the part of the port whose mechanism moves the shaft's group to and fro, or in steps; None of one that turns steadily."""
         if shaft.name in self.ratios:
             return None
-        group = self.group(shaft.name)
-        return next((part for name in group for part in self.shafts[name].parts if part.port), None)
+        tied = (each for name, each in self.shafts.items() if name in self.groups[shaft.name])
+        return next((part for each in tied for part in each.parts if part.port), None)
 
-    def group(self, shaft: str) -> set[str]:
-        """Return the shafts that joins tie to a shaft, with itself."""
-        found = {shaft}
-        while True:
-            more = {
-                part.shaft.name
-                for each in self.joins
-                if each.is_between_shafts and found & {p.shaft.name for p in (*each.drivers, *each.driven)}
-                for part in (*each.drivers, *each.driven)
-            }
-            if more <= found:
-                return found
-            found |= more
+    @cached_property
+    def groups(self) -> dict[str, set[str]]:
+        """Return the shafts that joins tie to each shaft, with itself."""
+        found = {name: {name} for name in self.shafts}
+        for join in (each for each in self.joins if each.is_between_shafts):
+            tied = set[str]().union(*(found[part.shaft.name] for part in (*join.drivers, *join.driven)))
+            found |= dict.fromkeys(tied, tied)
+        return found
 
     # Where the shafts stand along their axes.
 
