@@ -174,9 +174,7 @@ class _WholeMachine:
             return None
         return next((Way(changes, 0) for changes in tried if self._is_sound(name, check, changes)), None)
 
-    def _is_sound(
-        self, name: str, check: str, changes: Sequence[KeyChangeRecord], *, is_sound: bool = True
-    ) -> bool:
+    def _is_sound(self, name: str, check: str, changes: Sequence[KeyChangeRecord], *, is_sound: bool = True) -> bool:
         """Whether the parts agree with changes to one value each, a check holds with them, and no other of its mechanism fails by them."""
         return self._suits(name, check, changes, _values(changes), is_sound=is_sound)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -191,14 +191,14 @@ class Statics:
 
     def _resultant(self, of_units: Array) -> Array:
         """The resultant over both planes of what unit loads do (places, variants, loads)."""
-        found: Array = np.sqrt(self._size(of_units))
+        found: Array = np.sqrt(np.stack([*self._squares(of_units)], axis=1))
         return found
 
-    def _size(self, of_units: Array) -> Array:
-        """The square of the resultant."""
-        by_variant = np.moveaxis(of_units, 1, 0)
-        in_y, in_z = (by_variant @ given for given in self._given)
-        return np.moveaxis(in_y**2 + in_z**2, 0, 1)
+    def _squares(self, of_units: Array) -> Iterator[Array]:
+        """Yield the square of the resultant of each variant (places, instants): one at a time, so that it stays in the processor's cache."""
+        for variant, (in_y, in_z) in enumerate(zip(*self._given, strict=True)):
+            by_unit = of_units[:, variant]
+            yield (by_unit @ in_y) ** 2 + (by_unit @ in_z) ** 2
 
     @cached_property
     def greatest_deflection(self) -> tuple[Array, Array]:
@@ -209,8 +209,7 @@ class Statics:
     @property
     def instant_of_deflection(self) -> Array:
         """Return at which instant the greatest deflection is, its index, as far as places between the joints tell."""
-        found: Array = np.argmax(np.max(self._size(self.elastic.within.deflection), axis=0), axis=1)
-        return found
+        return np.array([np.argmax(np.max(each, axis=0)) for each in self._squares(self.elastic.within.deflection)])
 
     def at_instant(self, instant: Array) -> Statics:
         """The same at one instant of each variant."""
