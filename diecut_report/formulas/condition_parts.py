@@ -6,7 +6,7 @@ import ast
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache, reduce
+from functools import cached_property, lru_cache, reduce
 from itertools import chain
 from typing import Any, Literal, cast
 
@@ -471,7 +471,7 @@ class Expression:
     tree: Node
     kind: Kind
 
-    @property
+    @cached_property  # it is asked for at each step of a reading
     def names(self) -> tuple[str, ...]:
         """Return the references in it, each once."""
         return names(self.tree)

@@ -9,7 +9,7 @@ import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -399,6 +399,9 @@ class LiveSession:
 
 def shown_inputs(config: Config, tree: Tree) -> dict[str, DesignInput]:
     """Return by name the inputs of the mechanisms that a file gives, and those at default whose block stands in it."""
+    if (parts := config.parts) is not None:  # what is made of them, most of the machine, stands in no file
+        typed = {name: each for name, each in config.instances.items() if not parts.follows((name,))}
+        config = replace(config, instances=typed)
     every = (*given_numbers(config), *given_words(config), *given_choices(config))
     given = [each for each in every if tree.typed(each.stands) is not None]
     at_default = (*numbers_at_default(config), *choices_at_default(config))
