@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from pathlib import Path
 
-from diecut_report.study.analysis.answers import answer
-from diecut_report.study.analysis.query import Request
+from diecut_report.study.analysis.answers import Request, answer
 
 
 def variants(

@@ -85,13 +85,21 @@ vary: {mechanisms.m.x: [1 mm, 2 mm, 3 mm, 4 mm]}
 """
 
 
-def ran(folder: Path, step: str, capfd: Capture, inputs: str = "", rest: str = "") -> tuple[int, str]:
-    """The exit code of the study with this step in the plugin, and what it tells."""
+def written(folder: Path, text: str) -> list[str]:
+    """A folder with a plugin of this text, a base and a study of it; the command's options that find the plugin."""
     (folder / "plugins").mkdir()
-    saved(folder / "plugins", PLUGIN.format(step=step).replace("# inputs", inputs), "breaking.py")
+    saved(folder / "plugins", text, "breaking.py")
     saved(folder, BASE)
+    saved(folder, STUDY, "study.yaml")
+    return ["--plugins", str(folder / "plugins")]
+
+
+def ran(folder: Path, step: str, capfd: Capture, inputs: str = "", rest: str = "", helper: str = "") -> tuple[int, str]:
+    """The exit code of the study with this step in the plugin, and what it tells."""
+    text = PLUGIN.format(step=step).replace("# inputs", inputs).replace("class Breaking", f"{helper}class Breaking")
+    plugins = written(folder, text)
     study = saved(folder, STUDY + rest, "study.yaml")
-    code = main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(folder / "plugins")])
+    code = main(["batch", str(study), "-o", str(folder / "out"), *plugins])
     return code, capfd.readouterr().err
 
 
@@ -151,12 +159,9 @@ def test_code_cannot_leave_the_program(
 ) -> None:
     code, words = LEAVES[raised]
     text = PLUGIN.format(step=COMPUTED.replace("small", "never")).replace('raise LookupError("no table")', code)
-    (tmp_path / "plugins").mkdir()
-    saved(tmp_path / "plugins", text, "breaking.py")
-    saved(tmp_path, BASE)
-    saved(tmp_path, STUDY, "study.yaml")
+    plugins = written(tmp_path, text)
     monkeypatch.chdir(tmp_path)
-    assert main([*COMMANDS[command], "--plugins", "plugins"]) == 3
+    assert main([*COMMANDS[command], *plugins]) == 3
     out, told = capfd.readouterr()
     assert words in told and "(breaking.py:" in told and "Traceback" not in told
     assert len(told) + len(out) < 10_000 and not {*"\x1b\u202e"} & {*told, *out}
@@ -170,13 +175,8 @@ def test_a_continued_run_tells_it_again(tmp_path: Path, capfd: Capture) -> None:
 
 def test_a_default_of_the_press_that_breaks_leaves_no_mechanism_out_in_silence(tmp_path: Path, capfd: Capture) -> None:
     press = 'z: Annotated[float | None, Quantity("z", "1/h", "Z", gt=0, press=FromPress("press.productivity", strange))] = None'
-    helper = '@formula\ndef strange(x: Any) -> Any:\n    return x * {}["nothing"]\n\n\nclass Breaking'
-    (tmp_path / "plugins").mkdir()
-    text = PLUGIN.format(step=VALUE.format("twice")).replace("# inputs", press).replace("class Breaking", helper)
-    saved(tmp_path / "plugins", text, "breaking.py")
-    saved(tmp_path, BASE)
-    study = saved(tmp_path, STUDY, "study.yaml")
-    assert main(["batch", str(study), "-o", str(tmp_path / "out"), "--plugins", str(tmp_path / "plugins")]) == 3
+    helper = '@formula\ndef strange(x: Any) -> Any:\n    return x * {}["nothing"]\n\n\n'
+    assert ran(tmp_path, VALUE.format("twice"), capfd, press, helper=helper)[0] == 3
     assert {row["status"] for row in rows(tmp_path)} == {"error"}
     assert "KeyError: 'nothing'" in rows(tmp_path)[0]["error"]
 

@@ -14,10 +14,18 @@ from diecut_report.design.findings import decided
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from diecut_report.report.office.workbook import book_of
-from diecut_report.study.comparison import ComparedRow, MachineComparison, Verdict, compared, names
+from diecut_report.study.comparison import (
+    AskedResults,
+    ComparedRow,
+    MachineComparison,
+    Verdict,
+    compared,
+    names,
+    refuse_units,
+    refuse_unused_units,
+)
 from diecut_report.study.comparison_pages import blocks, page, sheets
 from diecut_report.study.machines import CheckedMachine, calculated
-from diecut_report.study.shown_results import AskedResults, refuse_units, refuse_unused_units
 from tests.config.parts.test_parts import FILE
 from tests.configs import GOOD, HEAD, LEVER, saved
 

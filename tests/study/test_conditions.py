@@ -21,7 +21,7 @@ from diecut_report.formulas.condition_parts import Name, read
 from diecut_report.formulas.condition_tree import Node, names
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.tree import Node as Expression
-from diecut_report.study.analysis.query import SqlWriter, condition
+from diecut_report.study.analysis.answers import SqlWriter, condition
 from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.definition.constraints import parse
 

@@ -48,23 +48,12 @@ def alive(pool: Pool) -> list[int]:
     return [process.pid for process in pool._context.started if process.is_alive() and process.pid is not None]
 
 
-@pytest.mark.parametrize("make", ENGINES)
-def test_each_chunk_gives_its_result_once(tmp_path: Path, make: Make) -> None:
-    with make(tmp_path) as engine:
-        found = list(results(engine, square, range(50)))
-    assert sorted(found) == [(n, n * n) for n in range(50)]
-
-
-@pytest.mark.parametrize("make", ENGINES)
-def test_no_chunks_give_no_results(tmp_path: Path, make: Make) -> None:
+@pytest.mark.parametrize(("make", "most"), list(zip(ENGINES, (1, 2), strict=True)))
+def test_each_chunk_gives_its_result_once_and_a_worker_loads_once(tmp_path: Path, make: Make, most: int) -> None:
     with make(tmp_path) as engine:
         assert list(results(engine, square, [])) == []
-
-
-@pytest.mark.parametrize(("make", "most"), list(zip(ENGINES, (1, 2), strict=True)))
-def test_a_worker_loads_once(tmp_path: Path, make: Make, most: int) -> None:
-    with make(tmp_path) as engine:
-        list(results(engine, square, range(40)))
+        found = list(results(engine, square, range(50)))
+    assert sorted(found) == [(n, n * n) for n in range(50)]
     loaded = [path.name.split(".")[1] for path in tmp_path.glob("loaded.*")]
     assert 1 <= len(loaded) == len(set(loaded)) <= most
 
@@ -101,13 +90,14 @@ def test_memory_stays_flat_over_many_chunks(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("make", ENGINES)
-def test_exception_names_its_chunk(tmp_path: Path, make: Make) -> None:
+def test_exception_names_its_chunk_and_leaves_no_process(tmp_path: Path, make: Make) -> None:
     with (
         pytest.raises(ZeroDivisionError, match="nothing to divide by") as caught,
         make(tmp_path) as engine,
     ):
-        list(results(engine, fails_at_three, range(10)))
+        list(results(engine, fails_at_three, range(1000)))
     assert caught.value.__notes__ == ["while calculating 3"]
+    assert workers_of(os.getpid()) == []
 
 
 def test_killed_process_loses_nothing(tmp_path: Path) -> None:
@@ -141,13 +131,6 @@ def test_chunk_that_ends_its_process_is_told_after_three_times_and_no_other_is_b
         found.extend(chunk for chunk, _ in results(pool, dies_at_three, range(12)))
     assert len(list(tmp_path.glob("call.3.*"))) == engines.MAX_TRIES
     assert 3 not in found
-
-
-def test_early_end_leaves_no_process(tmp_path: Path) -> None:
-    with pytest.raises(ZeroDivisionError), Pool(2, warm(tmp_path)) as pool:
-        list(results(pool, fails_at_three, range(1000)))
-    assert alive(pool) == []
-    assert [child for child in psutil.Process().children() if "spawn_main" in " ".join(child.cmdline())] == []
 
 
 def started(folder: Path) -> subprocess.Popen[str]:

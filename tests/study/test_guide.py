@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.config.plugins import Discovery
-from diecut_report.study.analysis.query import condition
+from diecut_report.study.analysis.answers import condition
 from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.study_run import result_columns, varied_columns

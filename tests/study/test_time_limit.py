@@ -7,9 +7,7 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import Any
 
-import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.cli.main import main
@@ -18,7 +16,7 @@ from diecut_report.study.execution.worker import ChunkClock
 from diecut_report.time_limit import Overran, limited
 from tests.configs import saved
 from tests.examples import few
-from tests.study.test_broken_plugins import BASE, COMPUTED, PLUGIN
+from tests.study.test_broken_plugins import COMPUTED, PLUGIN, rows, written
 
 Capture = pytest.CaptureFixture[str]
 pytestmark = pytest.mark.usefixtures("without_summary")
@@ -47,17 +45,10 @@ def ran(folder: Path, loop: str, monkeypatch: pytest.MonkeyPatch, *options: str)
     """The exit code of a study in chunks of two variants, whose last two never come back."""
     text = PLUGIN.format(step=COMPUTED).replace("def small(x: Any) -> Any:", f"def small(x: Any) -> Any:{loop}")
     text = text.replace('    if np.any(x > 2.5e-3):\n        raise LookupError("too long for the table")\n', "")
-    (folder / "plugins").mkdir()
-    saved(folder / "plugins", "import time\n\nheld: list[int] = []\n" + text, "breaking.py")
-    saved(folder, BASE)
+    plugins = written(folder, "import time\n\nheld: list[int] = []\n" + text)
     monkeypatch.setattr(study_run, "PART", (2, 2))
     study = saved(folder, STUDY, "study.yaml")
-    return main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(folder / "plugins"), *options])
-
-
-def rows(folder: Path) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = pq.read_table(folder / "out" / "variants").to_pylist()
-    return found
+    return main(["batch", str(study), "-o", str(folder / "out"), *plugins, *options])
 
 
 @pytest.mark.parametrize(

@@ -99,7 +99,6 @@ def differences(row: dict[str, Any], results: dict[str, Any]) -> list[str]:
     return found
 
 
-@pytest.mark.nightly
 def test_each_variant_calculated_alone_gives_the_row_that_is_stored(
     out: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

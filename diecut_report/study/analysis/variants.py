@@ -29,10 +29,10 @@ from diecut_report.study.storage.description import (
     VERDICT,
     Description,
     ResultColumn,
+    continuing,
     short_hash,
     source_name,
 )
-from diecut_report.study.storage.state import continuing
 from diecut_report.study.storage.store import Store
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase

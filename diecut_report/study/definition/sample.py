@@ -27,7 +27,20 @@ from diecut_report.study.definition.base_inputs import (
     with_values,
 )
 from diecut_report.study.definition.constraints import stored_value
-from diecut_report.study.definition.samples import Grid, LatinHypercube, Sample, Sobol, TableSample, Zip
+from diecut_report.study.definition.samples import (
+    ChoiceVariable,
+    Distribution,
+    Grid,
+    LatinHypercube,
+    RangeVariable,
+    Sample,
+    SampleError,
+    Sobol,
+    TableSample,
+    Values,
+    Variable,
+    Zip,
+)
 from diecut_report.study.definition.schema import (
     DISTRIBUTIONS,
     DRAWN,
@@ -36,14 +49,6 @@ from diecut_report.study.definition.schema import (
     distribution_form,
     range_form,
     value_form,
-)
-from diecut_report.study.definition.variables import (
-    ChoiceVariable,
-    Distribution,
-    RangeVariable,
-    SampleError,
-    Values,
-    Variable,
 )
 from diecut_report.study.tables.reading import ReadColumn, TableFile, read_table
 from diecut_report.text.phrases import Phrase, named, phrase
