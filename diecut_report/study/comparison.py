@@ -252,10 +252,7 @@ def _check_cell(check: CheckRecord | None) -> ComparedCell | None:
     return share_cell(check.utilisation, check.status, note)
 
 
-Records = Sequence[QuantityRecord | None]
-
-
-def quantity_rows(path: str, records: Records, units: Sequence[str]) -> Iterator[ComparedRow]:
+def quantity_rows(path: str, records: Sequence[QuantityRecord | None], units: Sequence[str]) -> Iterator[ComparedRow]:
     """Yield the row of a quantity; several where machines have it in several dimensions. What it rests on is noted where that differs."""
     kinds = dict.fromkeys(record.unit for record in records if record)
     bases = {record.basis or GIVEN for record in records if record}

@@ -24,7 +24,7 @@ from diecut_report.study.storage.description import write_state
 from diecut_report.study.tables.reading import read_table
 from tests.configs import SMALL, saved
 from tests.hostile.made_tables import SHEET, workbook
-from tests.study.questions import variants
+from tests.study.stored_study import variants
 
 CORPUS = Path(__file__).parent / "corpus"
 Reader = Callable[[bytes], None]

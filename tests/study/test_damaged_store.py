@@ -26,8 +26,7 @@ from diecut_report.study.storage.store import Store
 from tests.configs import GOOD
 from tests.examples import few
 from tests.study.made_store import description, part
-from tests.study.questions import variants
-from tests.study.stored_study import ten
+from tests.study.stored_study import ten, variants
 from tests.study.studies import study
 
 Edit = Callable[[Path], None]
@@ -326,8 +325,7 @@ def test_any_single_edit_of_the_state_is_told_in_words(folder: Path) -> None:
 def test_the_words_say_the_key_what_was_given_and_what_is_allowed(
     folder: Path, key: str, value: Any, words: str
 ) -> None:
-    data = json.loads((folder / "study.json").read_text())
-    (folder / "study.json").write_text(json.dumps(data | {key: value}))
+    _edit_state(**{key: value})(folder)
     assert words in refused(folder)
 
 

@@ -79,21 +79,6 @@ def calculated(address: str, folder: Path, function: Function, chunks: Iterable[
         return list(results(engine, function, chunks))
 
 
-@pytest.mark.nightly
-def test_killed_worker_loses_nothing_and_rows_are_the_same(cluster: Cluster, tmp_path: Path) -> None:
-    first, _ = cluster.worker(), cluster.worker()
-    found, workers, killed = [], set(), False
-    with dask_cluster(cluster.address, warm(tmp_path)) as engine:
-        for chunk, (value, process) in results(engine, slow_square, range(40)):
-            found.append((chunk, value))
-            workers.add(process)
-            if len(found) >= 10 and first.pid in workers and not killed:
-                killed = True
-                first.send_signal(signal.SIGKILL)
-    assert killed and sorted(found) == [(n, n * n) for n in range(40)]
-    assert len(workers) == 2 == len(list(tmp_path.glob("loaded.*")))  # once each
-
-
 STUDY = """\
 schema_version: 1
 base: press.yaml

@@ -309,12 +309,9 @@ def test_a_margin_may_follow_from_what_is_a_time_or_an_angle(tmp_path: Path, sec
     asked = run["timing"]["margin_required"][0, 1]
     expected = run["drive"]["swing_angle"].item() / 10 if angle is None else angle * 1e-3 * 2 * np.pi * 6090 / 3600
     assert asked == pytest.approx(expected, rel=1e-9)
-    found = rows(
-        press.config, "timing.interlocks.1.margin", 0.002, 0.004
-    )  # takes the place of a reference, in its unit
-    assert found.columns["timing.margin_required.1"][1] == pytest.approx(
-        2 * found.columns["timing.margin_required.1"][0]
-    )
+    # it takes the place of a reference, in its unit
+    first, twice = rows(press.config, "timing.interlocks.1.margin", 0.002, 0.004).columns["timing.margin_required.1"]
+    assert twice == pytest.approx(2 * first)
 
 
 FOUNDED = """

@@ -150,9 +150,8 @@ def test_curves_are_lists_of_unlike_lengths_and_stand_in_the_part_files_alone(tm
         assert connection.execute(asked).fetchall() == [(1.0,), (None,), (None,), (4.0,), (5.0,)]
     [told] = export(store, ["csv", "xlsx"])
     assert "torque" not in (tmp_path / "out/variants.csv").read_text()
-    assert told.startswith(
-        "variants.csv and variants.xlsx: without the curves drive.torque, which only the Parquet files in"
-    )
+    files = "variants.csv and variants.xlsx"
+    assert told.startswith(f"{files}: without the curves drive.torque, which only the Parquet files in")
 
 
 @pytest.mark.parametrize(
@@ -236,9 +235,8 @@ def test_tables_of_the_study_are_kept_within_the_folder(tmp_path: Path) -> None:
     tables = tuple(source(f"{place}/a.csv", place) for place in ("../data", str(tmp_path), "x"))
     Store.create(tmp_path / "out", description(tables=tables))
     copies = kept(tmp_path / "out")
-    assert {name: path.read_text() for name, path in copies.items() if name != "press.yaml"} == {
-        table.file: str(Path(table.file).parent) for table in tables
-    }
+    texts = {name: path.read_text() for name, path in copies.items() if name != "press.yaml"}
+    assert texts == {table.file: str(Path(table.file).parent) for table in tables}
     assert sorted(tmp_path.iterdir()) == [tmp_path / "out"]
     assert sorted(path.name for path in (tmp_path / "out/tables").iterdir()) == ["1-a.csv", "2-a.csv", "3-a.csv"]
     copies["x/a.csv"].write_text("other")
@@ -388,9 +386,8 @@ def test_full_disk_is_told_and_leaves_nothing_half_written(small_disk: Path, mon
     store = Store.create(small_disk / "out", description(100_000, 1000))
     if small_disk.name == "no disk":
         limited(monkeypatch)
-    with pytest.raises(
-        UserError, match=r"(part-.*parquet|study\.json): This cannot be written: the disk is full.*--resume"
-    ):
+    words = r"(part-.*parquet|study\.json): This cannot be written: the disk is full.*--resume"
+    with pytest.raises(UserError, match=words):
         fill(store)
     there = store.done_parts()
     assert hidden(small_disk / "out") == [] and there == set(store.parts()) != set(range(100))

@@ -30,8 +30,20 @@ from diecut_report.study.summary.charts import near
 from diecut_report.study.summary.content import page
 from diecut_report.study.summary.data import WORST, display, utilised, value_text
 from tests.hostile.bounded import PEAK
-from tests.study.questions import variants
-from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
+from tests.study.stored_study import (
+    BORE,
+    INPUTS,
+    LAW,
+    RESULTS,
+    SPEED,
+    STUDY,
+    calculated,
+    made,
+    many,
+    ten,
+    variants,
+    written,
+)
 
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
 
@@ -104,9 +116,7 @@ def test_counts_failures_and_utilisations_are_those_of_the_rows(large: Path, lar
         assert used.without == values.count(None)
         assert used.greatest == there.max()
         states = [row[f"{used.check}.status"] for row in rows]
-        assert (used.passing, used.warning, used.failing) == tuple(
-            states.count(one) for one in ("pass", "warn", "fail")
-        )
+        assert [used.passing, used.warning, used.failing] == list(map(states.count, ("pass", "warn", "fail")))
 
 
 def test_ranges_and_histograms_are_those_of_the_rows(large: Path) -> None:
@@ -122,9 +132,7 @@ def test_ranges_and_histograms_are_those_of_the_rows(large: Path) -> None:
     failing = [row["drive.power_peak"] for row in rows if row["status"] == "fail"]
     assert histogram.counts[STATUSES.index("fail")].tolist() == np.histogram(failing, histogram.edges)[0].tolist()
     governed = [row[f"{row['governing']}.utilisation"] for row in rows if row["governing"]]
-    assert spread[WORST.name].values[-1] == max(
-        each for each in governed if each is not None
-    )  # a wall without one fails
+    assert spread[WORST.name].values[-1] == max(filter(None, governed))  # a wall without one fails
 
 
 @pytest.mark.nightly

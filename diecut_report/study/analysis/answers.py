@@ -23,24 +23,8 @@ import numpy as np
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
 from diecut_report.formulas import Array
+from diecut_report.formulas import condition_tree as tree
 from diecut_report.formulas.condition_parts import Name, read
-from diecut_report.formulas.condition_tree import (
-    Call,
-    Chain,
-    ColumnName,
-    Compared,
-    Joined,
-    Like,
-    Missing,
-    Negative,
-    Node,
-    Not,
-    Number,
-    Power,
-    TextLiteral,
-    Truth,
-    names,
-)
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.press import Press
 from diecut_report.quantities.units import unit
@@ -62,7 +46,7 @@ from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted, spoken_language
 
-# A condition as SQL with parameters for DuckDB; see `tree` for what holds where there is no value.
+# A condition as SQL with parameters for DuckDB; see `condition_tree` for what holds where there is no value.
 #
 # Nothing of what a user writes reaches DuckDB but as a parameter or as the quoted name of a known column.
 
@@ -88,56 +72,56 @@ class SqlWriter:
 
     columns: Mapping[str, StoredColumn]
 
-    def expression(self, node: Node) -> Sql:
+    def expression(self, node: tree.Node) -> Sql:
         """Return a side of a comparison or a condition; what is calculated and not finite is NULL."""
         match node:
-            case ColumnName(name):
+            case tree.ColumnName(name):
                 return Sql(self.columns[name].sql)
-            case Number(value) | TextLiteral(value):
+            case tree.Number(value) | tree.TextLiteral(value):
                 return Sql("?", (value,))
-            case Truth(value):
+            case tree.Truth(value):
                 return Sql("true" if value else "false")
-            case Negative() | Chain() | Power() | Call():
+            case tree.Negative() | tree.Chain() | tree.Power() | tree.Call():
                 return _filled("list_transform([{}], lambda x: CASE WHEN isfinite(x) THEN x END)[1]", self.number(node))
-            case Compared(sign, left, right):
+            case tree.Compared(sign, left, right):
                 return _filled(f"({{}} {_SIGNS[sign]} {{}})", self.expression(left), self.expression(right))
-            case Like(text, pattern):
+            case tree.Like(text, pattern):
                 return _filled("({} LIKE {})", self.expression(text), Sql("?", (pattern,)))
-            case Missing(of):
+            case tree.Missing(of):
                 return _filled("({} IS NULL)", self.expression(of))
-            case Not(of):
+            case tree.Not(of):
                 return _filled("(NOT {})", self.expression(of))
-            case Joined(word, parts):
+            case tree.Joined(word, parts):
                 places = f" {word.upper()} ".join(["{}"] * len(parts))
                 return _filled(f"({places})", *map(self.expression, parts))
 
-    def number(self, node: Node) -> Sql:
+    def number(self, node: tree.Node) -> Sql:
         """Return a number that something is calculated from; NaN and infinite ones go on through sums, products and roots."""
         match node:
-            case ColumnName(name) if self.columns[name].kind == "int":
+            case tree.ColumnName(name) if self.columns[name].kind == "int":
                 return Sql(f"CAST({self.columns[name].sql} AS DOUBLE)")
-            case Negative(of):
+            case tree.Negative(of):
                 return _filled("(-{})", self.number(of))
-            case Chain(first, rest):
+            case tree.Chain(first, rest):
                 found = self.number(first)
                 for sign, part in rest:
                     # one divided by what is infinite would be 0
                     other = self._finite(part) if sign == "/" else self.number(part)
                     found = _filled(f"({{}} {sign} {{}})", found, other)
                 return found
-            case Power(base, exponent):  # 1 ** NaN would be 1
+            case tree.Power(base, exponent):  # 1 ** NaN would be 1
                 return _filled("pow({}, {})", self._finite(base), self._finite(exponent))
-            case Call(name, of) if name in _LEAST:  # least() and greatest() would pass over what is NULL
+            case tree.Call(name, of) if name in _LEAST:  # least() and greatest() would pass over what is NULL
                 least = f"lambda x, y: CASE WHEN x {_LEAST[name]} y THEN x WHEN y {_LEAST[name]} x THEN y END"
                 given = ", ".join(["{}"] * len(of))
                 return _filled(f"list_reduce([{given}], {least})", *map(self._finite, of))
-            case Call(name, (of,)):
+            case tree.Call(name, (of,)):
                 return _filled(f"{name}({{}})", self.number(of))
         return self.expression(node)
 
-    def _finite(self, node: Node) -> Sql:
+    def _finite(self, node: tree.Node) -> Sql:
         """Return a number that is NULL where it is calculated and not finite."""
-        return self.number(node) if isinstance(node, ColumnName | Number) else self.expression(node)
+        return self.number(node) if isinstance(node, tree.ColumnName | tree.Number) else self.expression(node)
 
 
 # Conditions on stored variants: ``drive.crank_torque_peak < '40 N*m' and status = 'pass'`` to SQL with parameters.
@@ -157,12 +141,12 @@ def condition(given: str, columns: Mapping[str, StoredColumn]) -> tuple[Sql, lis
         return columns[name].in_condition
 
     try:
-        tree = read(given, columns, name, EXAMPLE)
+        node = read(given, columns, name, EXAMPLE)
     except ConditionError as fault:
         where = "" if fault.place is None else Phrase(", at character {place}", place=fault.place + 1)
         shown = given if len(given) <= MAX_SHOWN else given[:MAX_SHOWN] + "…"
         raise refusal("The condition “{shown}”{where}: {words}", shown=shown, where=where, words=fault.words) from None
-    return SqlWriter(columns).expression(tree), list(names(tree))
+    return SqlWriter(columns).expression(node), list(tree.names(node))
 
 
 def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:

@@ -11,7 +11,7 @@ import re
 import warnings
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import closing
 from dataclasses import dataclass
 from typing import Any, BinaryIO
 from xml.parsers import expat
@@ -332,17 +332,20 @@ def read_xlsx(file: BinaryIO) -> Columns:
     """Return the headers and the cells of the first sheet of a workbook, which is judged before it is unpacked."""
     import openpyxl
 
-    with _damage_reported(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of styles and checks of cells that openpyxl leaves out
-        _check_archive(file)
-        book = openpyxl.load_workbook(file, read_only=True, data_only=True, keep_links=False)
-        try:
-            sheet = book.worksheets[0]
-            sheet.reset_dimensions()  # the stored size may be wrong
-            rows = list(_bounded(tuple(map(_shown, row)) for row in sheet.iter_rows()))
-        finally:
-            book.close()
-    return _columns(rows)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of styles and checks of cells that openpyxl leaves out
+            _check_archive(file)
+            with closing(openpyxl.load_workbook(file, read_only=True, data_only=True, keep_links=False)) as book:
+                sheet = book.worksheets[0]
+                sheet.reset_dimensions()  # the stored size may be wrong
+                return _columns(list(_bounded(tuple(map(_shown, row)) for row in sheet.iter_rows())))
+    except (UserError, OSError):
+        raise
+    except MemoryError as error:
+        raise refusal(NO_MEMORY) from error
+    except Exception as error:  # of zipfile, zlib, expat or openpyxl, which trusts what it reads
+        raise refusal(DAMAGED) from error
 
 
 def _shown(cell: Any) -> Any:
@@ -357,19 +360,6 @@ def _shown(cell: Any) -> Any:
         return f"{value} shown as {form}"  # which is refused as it stands there
     beside += "".join(SIGNS.findall(rest))
     return f"{value} {beside}" if beside else value
-
-
-@contextmanager
-def _damage_reported() -> Iterator[None]:
-    """What goes wrong in a damaged file is any exception: of zipfile, zlib, expat or openpyxl, which trusts what it reads."""
-    try:
-        yield
-    except (UserError, OSError):
-        raise
-    except MemoryError as error:
-        raise refusal(NO_MEMORY) from error
-    except Exception as error:
-        raise refusal(DAMAGED) from error
 
 
 def _check_archive(file: BinaryIO) -> None:

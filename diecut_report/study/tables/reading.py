@@ -21,19 +21,10 @@ from diecut_report.errors import Problem, UserError, nearest, refusal
 from diecut_report.files import opened
 from diecut_report.formulas import Array
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity, unit
-from diecut_report.study.tables.formats import (
-    MAX_BYTES,
-    NO_ROWS,
-    SLICE,
-    Cells,
-    Columns,
-    read_csv,
-    read_parquet,
-    read_xlsx,
-)
+from diecut_report.study.tables import formats
 from diecut_report.text.phrases import Phrase, phrase
 
-READERS = {".csv": read_csv, ".parquet": read_parquet, ".xlsx": read_xlsx}
+READERS = {".csv": formats.read_csv, ".parquet": formats.read_parquet, ".xlsx": formats.read_xlsx}
 EMPTY = phrase("the cell is empty (or a formula without a stored value); every row needs a value")
 REPORTED = 5  # wrong cells of a column that are reported one by one
 REMEMBERED = 65_536  # different cells that are remembered while a column is read
@@ -57,7 +48,7 @@ class ReadColumn:
     name: str
     unit: str | None
     number: int
-    cells: Cells
+    cells: formats.Cells
 
     def problem(self, message: str, row: int | None = None) -> Problem:
         """Return a problem of this column, or of its cell in a row of the file."""
@@ -146,18 +137,18 @@ def read_table(path: Path) -> TableFile:
         columns.append(ReadColumn(str(path), name, own or stored_unit, number, under))
     problems = list(_wrong_headers(columns))
     if not problems and not (cells and len(cells[0])):
-        problems.append(Problem(NO_ROWS, str(path)))
+        problems.append(Problem(formats.NO_ROWS, str(path)))
     if problems:
         raise UserError(problems)
     return TableFile(str(path), {column.name: column for column in columns}, sha256)
 
 
-def _read(path: Path) -> tuple[Columns, str]:
+def _read(path: Path) -> tuple[formats.Columns, str]:
     kind = path.suffix.lower()
     if kind not in READERS:
         template = "the ending {suffix} is not known; save the table as {known}"
         raise refusal(template, suffix=path.suffix or phrase("(none)"), known=", ".join(READERS))
-    with opened(path, MAX_BYTES[kind], Phrase("a table ({kind})", kind=kind)) as file:
+    with opened(path, formats.MAX_BYTES[kind], Phrase("a table ({kind})", kind=kind)) as file:
         try:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
             file.seek(0)
@@ -181,7 +172,7 @@ def _wrong_headers(columns: list[ReadColumn]) -> Iterator[Problem]:
 # --- the cells of a column as SI numbers ------------------------------------------------------------------------------
 
 
-def si_numbers(cells: Cells, unit_text: str, *, own: bool) -> tuple[Array, Wrong]:
+def si_numbers(cells: formats.Cells, unit_text: str, *, own: bool) -> tuple[Array, Wrong]:
     """Return SI values of cells; bare numbers are in `unit_text`, which is the header's where `own`.
 
     Cells with a unit must all have the same one, and that of the header where it has one.
@@ -200,15 +191,17 @@ def _to_si(values: Array, unit_text: str) -> Array:
     if given.factor == 1:
         return values
     read = np.empty(len(values))
-    for start in range(0, len(values), SLICE):  # all at once would take several times what the numbers themselves do
-        different, places = np.unique(values[start : start + SLICE], return_inverse=True)
+    for start in range(
+        0, len(values), formats.SLICE
+    ):  # all at once would take several times what the numbers themselves do
+        different, places = np.unique(values[start : start + formats.SLICE], return_inverse=True)
         finite = np.isfinite(different)
         different[finite] = [given.to_si(value) for value in different[finite].tolist()]
-        read[start : start + SLICE] = different[places]
+        read[start : start + formats.SLICE] = different[places]
     return read
 
 
-def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Wrong]:
+def _one_by_one(cells: formats.Cells, unit_text: str, own: bool) -> tuple[Array, Wrong]:
     values, is_wrong, messages = np.full(len(cells), np.nan), np.zeros(len(cells), dtype=bool), dict[int, str]()
     known: dict[Any, tuple[float, str] | str] = {}
     agreed = (unit(unit_text).text, phrase("the header")) if own else None
