@@ -17,7 +17,7 @@ import pytest
 
 from diecut_report import files
 from diecut_report.errors import Unwritable, UserError
-from diecut_report.study.storage.state import continuing
+from diecut_report.study.storage.description import continuing
 
 Write = Callable[[Path, bytes], None]
 WAYS = [files.write, lambda path, content: files.write_all({path: content}, None)]

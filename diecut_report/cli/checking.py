@@ -60,10 +60,9 @@ from diecut_report.text.phrases import Counted, Phrase, cell, phrase
 from diecut_report.text.translation import localised, said, say, say_counted, speaking, spoken_language
 
 if TYPE_CHECKING:
-    from diecut_report.study.comparison import MachineComparison, Verdict
+    from diecut_report.study.comparison import AskedResults, MachineComparison, Verdict
     from diecut_report.study.execution.dry_run import DryRun
     from diecut_report.study.machines import CheckedMachine
-    from diecut_report.study.shown_results import AskedResults
 
 
 STATES = {PASSED: "valid", BAD_INPUT: "bad", PLUGIN_BROKE: "broken", FAULT: "fault"}
@@ -276,7 +275,7 @@ table_formats = formats_option(
 def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
           discovery: Discovery) -> int:  # fmt: skip
     """Calculate many machines and show a table of their verdicts; folders are searched for configurations."""
-    from diecut_report.study.shown_results import AskedResults
+    from diecut_report.study.comparison import AskedResults
 
     found = _found(given, discovery, jobs, AskedResults())
     emit_lines(_table(found.spoken.machines))
@@ -311,8 +310,7 @@ def compare(given: tuple[Path, ...], show: tuple[str, ...] | None, units: tuple[
 
     Each is a configuration, a variant of a study (DIR#N), or a folder of configurations or of a study's results.
     """
-    from diecut_report.study.shown_results import WORDS as SHOWN_WORDS
-    from diecut_report.study.shown_results import AskedResults, refuse_units, refuse_unused_units
+    from diecut_report.study.comparison import SHOWN_WORDS, AskedResults, refuse_units, refuse_unused_units
 
     refuse_units(units or ())
     found = _found(given, discovery, jobs, AskedResults(show or tuple(SHOWN_WORDS), units or ()))

@@ -177,9 +177,8 @@ def variants(folder: Path, where: str | None, sort: str | None, top: int | None,
              transpose: bool, form: str, file: Path | None, units: str | None, separator: str | None, decimal: str | None,
              discovery: Discovery) -> int:  # fmt: skip
     """Query the stored variants of a study."""
-    from diecut_report.study.analysis.answers import Notation, answer, answer_workbook, unfinished
-    from diecut_report.study.analysis.query import Request
-    from diecut_report.study.storage.state import refuse_sources
+    from diecut_report.study.analysis.answers import Notation, Request, answer, answer_workbook, unfinished
+    from diecut_report.study.storage.description import refuse_sources
 
     _refuse_idle(form, file, {"--units": units, "--separator": separator, "--decimal": decimal})
     asked = Request(where, sort, top, columns, pick)
@@ -218,7 +217,7 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
 def take(variant: str, file: Path, digits: int | None, discovery: Discovery) -> int:
     """Write a variant of a study as a configuration: the study's base with that variant's values, comments kept."""
     from diecut_report.study.analysis.variant_config import taken_config
-    from diecut_report.study.storage.state import refuse_sources
+    from diecut_report.study.storage.description import refuse_sources
 
     folder, _, number = variant.rpartition("#")
     if not folder or not number.isdecimal():

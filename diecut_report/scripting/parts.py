@@ -248,7 +248,7 @@ class CheckList(PartList[CheckResult], Tabular):
 
     def to_arrow(self) -> Any:
         """Return them as a table of pyarrow, a row each; demand, limit and margin in the SI unit of the column ``unit``."""
-        from diecut_report.study.storage.parts import plain_table
+        from diecut_report.study.storage.store import plain_table
 
         def row(check: CheckResult) -> dict[str, Any]:
             sides = {"demand": check.demand, "limit": check.limit, "margin": check.margin}

@@ -24,7 +24,7 @@ from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.study_run import result_columns, varied_columns
 from diecut_report.study.execution.worker import Chunk, Done, calculate
 from diecut_report.study.storage.description import VARIANT, VERDICT, ResultColumn
-from diecut_report.study.storage.parts import described_table
+from diecut_report.study.storage.store import described_table
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
 

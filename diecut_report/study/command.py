@@ -21,7 +21,7 @@ from diecut_report.study.execution.study_run import (
     run_study,
 )
 from diecut_report.study.execution.variant_reports import Finish, wanted, write_chosen
-from diecut_report.study.storage import state
+from diecut_report.study.storage.description import STUDY, kept
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.summary import summarise
 from diecut_report.text.catalogues import Catalogues
@@ -135,4 +135,4 @@ def loaded(study: Path | None, directory: Path, where: Where) -> Study:
     discovery = _discovery(where)
     if study is not None:
         return load_study(study, discovery)
-    return load_study(directory / state.STUDY, discovery, state.kept(directory))
+    return load_study(directory / STUDY, discovery, kept(directory))

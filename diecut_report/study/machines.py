@@ -26,7 +26,7 @@ from diecut_report.study.analysis.variant_config import variant_config, variant_
 from diecut_report.study.analysis.variants import opened
 from diecut_report.study.definition.base_inputs import UnknownPath, present_value, varied_input
 from diecut_report.study.execution.engines import WorkerSetup, local_engine, results, settle
-from diecut_report.study.storage.state import STATE
+from diecut_report.study.storage.description import STATE
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase
 

@@ -20,11 +20,11 @@ from diecut_report.quantities.units import UnitError, parse_quantity
 from diecut_report.quantities.units import unit as read_unit
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
-from diecut_report.study.storage.state import write_state
+from diecut_report.study.storage.description import write_state
 from diecut_report.study.tables.reading import read_table
 from tests.configs import SMALL, saved
 from tests.hostile.made_tables import SHEET, workbook
-from tests.study.questions import variants
+from tests.study.stored_study import variants
 
 CORPUS = Path(__file__).parent / "corpus"
 Reader = Callable[[bytes], None]

@@ -10,7 +10,7 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.yaml import parse, with_values
 from diecut_report.errors import UserError
-from diecut_report.study.storage.state import write_state
+from diecut_report.study.storage.description import write_state
 from tests.configs import GOOD, saved
 from tests.study.studies import BASE, STUDY
 

@@ -23,7 +23,7 @@ from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
 from tests.configs import DISCOVERY, HEAD, problems, saved
 from tests.plugins.cases import COMPARISONS, OF_KINDS
-from tests.study.questions import variants
+from tests.study.stored_study import variants
 
 LENGTH = Quantity("l", "mm", "Length")
 SHARE = Quantity("s", "1", "Share", ge=0, plausible=("0.01", "50"))

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.study.storage import parts
+from diecut_report.study.storage import store
 
 
 @pytest.fixture(autouse=True)
 def _without_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing of a test stays in the user's cache."""
-    monkeypatch.setattr(parts, "REMEMBERED_SIZE", float("inf"))
+    monkeypatch.setattr(store, "REMEMBERED_SIZE", float("inf"))

@@ -1,15 +1,16 @@
-"""A small stored study of two mechanisms, as a run leaves it: calculated here by plain arithmetic, stored by the program's store."""
+"""A small stored study of two mechanisms, as a run leaves it, and questions to it: calculated here by plain arithmetic, stored by the program."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from diecut_report.study.analysis.answers import Request, answer
 from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 from diecut_report.study.storage.store import Store
 
@@ -153,3 +154,16 @@ def many(folder: Path, count: int, seed: int = 0, **facts: Any) -> Path:
     draw = np.random.default_rng(seed)
     law = draw.choice(["harmonic", "cycloidal"], count).tolist()
     return made(folder, draw.uniform(3, 7, count), draw.uniform(0.05, 0.103, count), law, parts=8, **facts)
+
+
+def variants(
+    folder: Path,
+    where: str | None = None,
+    sort: str | None = None,
+    top: int | None = None,
+    format: str = "table",
+    columns: Sequence[str] | None = None,
+    width: int | None = None,
+) -> Generator[str, None, None]:
+    """The answer in pieces of text."""
+    yield from answer(folder, Request(where, sort, top, columns), format, width=width)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,7 @@ from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input, with_values
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows, columns_of
-from tests.configs import EXAMPLE, EXAMPLES
+from tests.configs import EXAMPLE, EXAMPLES, HEAD, loaded
 from tests.examples import few
 
 Values = Mapping[str, Any]
@@ -72,16 +72,16 @@ def given_numbers(base: Config) -> Iterator[tuple[str, float]]:
                 yield ".".join(map(str, (home, *slot.key))), float(value)
 
 
-def together(base: Config, values: Values, count: int) -> Rows:
-    return calculate_rows(base, {find_input(base, path): column for path, column in values.items()}, count)
+def together(base: Config, values: Values, count: int, curves: Sequence[str] = ()) -> Rows:
+    return calculate_rows(base, {find_input(base, path): column for path, column in values.items()}, count, curves)
 
 
-def alone(base: Config, values: Values) -> dict[str, Any] | str:
-    """The results document of one machine, or why it cannot exist."""
-    given = {find_input(base, path): value for path, value in values.items()}
-    known = {
-        asked: value if asked.unit is None else SI(value, asked.unit, asked.path) for asked, value in given.items()
-    }
+def alone(base: Config, values: Values, row: int) -> dict[str, Any] | str:
+    """The results document of the machine of one row, or why it cannot exist."""
+    known: dict[Any, Any] = {}
+    for path, column in values.items():
+        asked, value = find_input(base, path), column[row]
+        known[asked] = value if asked.unit is None else SI(float(value), asked.unit, asked.path)
     changed, problems = with_values(base, known)
     assert not problems
     try:
@@ -122,15 +122,11 @@ def test_each_machine_among_more_is_the_one_alone(name: str) -> None:
 
 def check_rows(name: str, count: int) -> None:
     """Hold the rows of machines against the results of each."""
-    base = config(name)
-    values = drawn(name, count)
+    base, values = config(name), drawn(name, count)
     rows = together(base, values, count)
     assert not rows.slow
     for row in range(count):
-        found = alone(
-            base,
-            {path: column[row] if isinstance(column, list) else float(column[row]) for path, column in values.items()},
-        )
+        found = alone(base, values, row)
         if isinstance(found, str):
             assert rows.status[row] == "error"
             assert rows.errors[row].split(": ", 1)[1] in found
@@ -150,44 +146,36 @@ def without_elements() -> Config:
 @pytest.mark.nightly
 def test_machines_whose_lines_run_at_unlike_rates_are_told_apart() -> None:
     """What needs the sum of the torques is not calculated for them, and the others keep it."""
-    base, speeds = without_elements(), np.array([40.0, 50.0]) * math.pi / 30
-    rows = together(base, {"mechanisms.drive.crank_speed": speeds}, 2)
+    base, values = without_elements(), {"mechanisms.drive.crank_speed": np.array([40.0, 50.0]) * math.pi / 30}
+    rows = together(base, values, 2)
     assert list(rows.columns["timing.checks.equal_rates.status"]) == ["fail", "pass"]
-    for row, speed in enumerate(speeds):
-        found = alone(base, {"mechanisms.drive.crank_speed": float(speed)})
+    for row in range(2):
+        found = alone(base, values, row)
         assert isinstance(found, dict)
         assert rows.status[row] == found["status"] == "fail"
-        assert (found["mechanisms"]["train"]["status"] == "skipped") == bool(
-            np.isnan(rows.columns["train.motor_power"][row])
-        )
+        is_skipped = found["mechanisms"]["train"]["status"] == "skipped"
+        assert is_skipped == bool(np.isnan(rows.columns["train.motor_power"][row]))
         kept = {name: each for name, each in found["mechanisms"].items() if each["status"] != "skipped"}
         _same_numbers(rows, row, {"mechanisms": kept})
 
 
 def _same_numbers(rows: Rows, row: int, found: dict[str, Any]) -> None:
     for name, mechanism in found["mechanisms"].items():
-        outputs = {f"{name}.{key}": output for key, output in mechanism["outputs"].items()}
-        lacking = set(outputs) - set(rows.columns)
-        assert all(
-            "place_" in key or "power_reversal_" in key for key in lacking
-        )  # rows over places, which are known only once a shaft is calculated
-        for key, output in ((key, output) for key, output in outputs.items() if key not in lacking):
+        for key, output in mechanism["outputs"].items():
+            if f"{name}.{key}" not in rows.columns:  # rows over places, which are known only once a shaft is calculated
+                assert "place_" in key or "power_reversal_" in key
+                continue
             value, within = output["value"], rounding(mechanism, output["unit"])
-            is_residual = key.endswith("_residual")  # judged by its check
-            assert is_residual or same(rows.columns[key][row], value, within), (key, rows.columns[key][row], value)
+            own, is_residual = rows.columns[f"{name}.{key}"][row], key.endswith("_residual")  # judged by its check
+            assert is_residual or same(own, value, within), (key, own, value)
         for check in mechanism["checks"]:
             if check["class"] == "numerical":  # one that fails makes the variant an error
                 continue
-            ratio, status = (
-                rows.columns[f"{name}.checks.{check['id']}.{part}"][row] for part in ("utilisation", "status")
-            )
-            assert status == check["status"], check["id"]
-            is_residual = max(ratio, check["utilisation"] or 0) < 1e-3
-            assert (
-                is_residual
-                or same(ratio, check["utilisation"], 0)
-                or (math.isnan(ratio) and check["utilisation"] is None)
-            ), check["id"]
+            column, used = f"{name}.checks.{check['id']}", check["utilisation"]
+            ratio, status = (rows.columns[f"{column}.{part}"][row] for part in ("utilisation", "status"))
+            assert status == check["status"], column
+            is_residual = max(ratio, used or 0) < 1e-3
+            assert is_residual or same(ratio, used, 0) or (math.isnan(ratio) and used is None), column
 
 
 def test_an_output_that_a_machine_does_not_have_is_empty() -> None:
@@ -203,22 +191,16 @@ def test_an_output_that_a_machine_does_not_have_is_empty() -> None:
 
 @pytest.mark.nightly
 def test_curves_come_on_demand_as_each_machine_alone_has_them() -> None:
-    name, count = "flat_cylinder_mechanisms.yaml", 2
-    base, values = config(name), drawn(name, count)
-    rows = calculate_rows(
-        base,
-        {find_input(base, path): v for path, v in values.items()},
-        count,
-        ["drive.crank_torque", "drive.crank_angle"],
-    )
+    name, curves = "flat_cylinder_mechanisms.yaml", ("crank_torque", "crank_angle")
+    base, values = config(name), drawn(name, 2)
+    rows = together(base, values, 2, [f"drive.{curve}" for curve in curves])
     for row in np.flatnonzero(rows.status != "error"):
-        found = alone(base, {path: v[row] if isinstance(v, list) else float(v[row]) for path, v in values.items()})
+        found = alone(base, values, row)
         assert not isinstance(found, str)
-        for curve in ("crank_torque", "crank_angle"):
-            alone_has = np.array(found["mechanisms"]["drive"]["curves"][curve]["values"])
-            np.testing.assert_allclose(
-                rows.columns[f"drive.{curve}"][row], alone_has, rtol=0, atol=1e-12 * np.abs(alone_has).max()
-            )
+        for curve in curves:
+            own = np.array(found["mechanisms"]["drive"]["curves"][curve]["values"])
+            within = 1e-12 * np.abs(own).max()
+            np.testing.assert_allclose(rows.columns[f"drive.{curve}"][row], own, rtol=0, atol=within)
 
 
 @pytest.mark.parametrize("name", VARIED)
@@ -231,33 +213,27 @@ def test_the_columns_are_known_before(name: str) -> None:
 
 @pytest.mark.nightly
 def test_machines_with_unlike_numbers_of_samples_have_the_curves_that_they_ask_for() -> None:
-    base = config("flat_cylinder_mechanisms.yaml")
-    points = np.array([90.0, 180.0, 90.0])
-    rows = calculate_rows(base, {find_input(base, "mechanisms.drive.n_points"): points}, 3, ["drive.crank_torque"])
+    points = {"mechanisms.drive.n_points": np.array([90.0, 180.0, 90.0])}
+    rows = together(config("flat_cylinder_mechanisms.yaml"), points, 3, ["drive.crank_torque"])
     assert not rows.slow
     assert [len(values) for values in rows.columns["drive.crank_torque"]] == [90, 180, 90]
     peaks = rows.columns["drive.crank_torque_peak"]
     np.testing.assert_allclose(peaks, peaks[0], rtol=1e-12)
 
 
+GEARS = """\
+  pair:
+    {kind: gear_pair, module: 4 mm, teeth_1: 30, teeth_2: 60, face_width: 40 mm, torque: 300 N*m, speed: 1500 rpm, grade: 6,
+     slope: 0.1 mrad, sigma_h_lim_1: 767 MPa, sigma_h_lim_2: 767 MPa, sigma_f_lim_1: 314 MPa, sigma_f_lim_2: 314 MPa}
+"""
+
+
 def test_gears_of_which_some_are_too_fast_for_their_method_are_rated_as_each_alone(tmp_path: Path) -> None:
-    file = tmp_path / "gears.yaml"
-    text = next(path for path in EXAMPLES if path.name == "circular_knife.yaml").read_text(encoding="utf-8")
-    data = yaml.safe_load(text) | {
-        "mechanisms": {
-            "pair": {
-                "kind": "gear_pair", "module": "4 mm", "teeth_1": 30, "teeth_2": 60, "face_width": "40 mm", "torque": "300 N*m", "speed": "1500 rpm",
-                "grade": 6, "slope": "0.1 mrad", "sigma_h_lim_1": "767 MPa", "sigma_h_lim_2": "767 MPa", "sigma_f_lim_1": "314 MPa",
-                "sigma_f_lim_2": "314 MPa",
-            }
-        }
-    }  # fmt: skip
-    file.write_text(yaml.safe_dump(data), encoding="utf-8")
-    base, path = load_config(file, Discovery([])), "mechanisms.pair.speed"
-    speeds = np.array([1000.0, 2500.0, 9000.0, 40_000.0]) * math.pi / 30
-    rows = together(base, {path: speeds}, len(speeds))
-    for row, speed in enumerate(speeds):
-        found = alone(base, {path: float(speed)})
+    base = loaded(tmp_path, HEAD + GEARS, Discovery([]))
+    values = {"mechanisms.pair.speed": np.array([1000.0, 2500.0, 9000.0, 40_000.0]) * math.pi / 30}
+    rows = together(base, values, 4)
+    for row in range(4):
+        found = alone(base, values, row)
         assert not isinstance(found, str)
         assert rows.status[row] == found["status"], rows.errors[row]
         _same_numbers(rows, row, found)

@@ -14,10 +14,18 @@ from diecut_report.design.findings import decided
 from diecut_report.errors import UserError
 from diecut_report.press import Press
 from diecut_report.report.office.workbook import book_of
-from diecut_report.study.comparison import ComparedRow, MachineComparison, Verdict, compared, names
+from diecut_report.study.comparison import (
+    AskedResults,
+    ComparedRow,
+    MachineComparison,
+    Verdict,
+    compared,
+    names,
+    refuse_units,
+    refuse_unused_units,
+)
 from diecut_report.study.comparison_pages import blocks, page, sheets
 from diecut_report.study.machines import CheckedMachine, calculated
-from diecut_report.study.shown_results import AskedResults, refuse_units, refuse_unused_units
 from tests.config.parts.test_parts import FILE
 from tests.configs import GOOD, HEAD, LEVER, saved
 
@@ -57,39 +65,44 @@ def side_by_side(
     return compared(machines, asked.rows(machines), units)
 
 
+def lever(*changes: str, more: str = "") -> list[str]:
+    """The lever with other keys in the place of its force of 2 kN, once for each change, and with more mechanisms."""
+    return [LEVER.replace("2 kN", change) + more for change in changes]
+
+
 def values(rows: list[ComparedRow]) -> dict[str, list[Any]]:
     return {row.path: [cell.value if cell else None for cell in row.cells] for row in rows}
 
 
-def test_only_what_was_typed_differently_is_an_own_change(tmp_path: Path) -> None:
-    follows = "  b: {kind: lever, force: '${a.force}', arm: 50}\n"
-    one, two = LEVER + follows, LEVER.replace("2 kN", "2500 N") + follows.replace("50", "0.06 m")
-    found = side_by_side(tmp_path, one, two).changes
-    assert values(found) == {"a.force": [2, 2.5], "b.arm": [50, 60]}
-    assert [row.unit for row in found] == ["kN", "mm"]
+FOLLOWS = "  b: {kind: lever, force: '${a.force}'}\n"
+ASSUMED = "{value: 100, basis: assumed}"
+OWN: dict[str, tuple[list[str], dict[str, list[Any]]]] = {  # machines, and what was typed differently
+    "what follows is none": (
+        [lever("2 kN", more=FOLLOWS.replace("}'}", "}', arm: 50}"))[0], lever("2500 N", more=FOLLOWS.replace("}'}", "}', arm: 0.06 m}"))[0]],
+        {"a.force": [2, 2.5], "b.arm": [50, 60]},
+    ),
+    "a number in place of a reference": (
+        [*lever("2 kN", more=FOLLOWS), *lever("3 kN", more=FOLLOWS.replace("'${a.force}'", "3 kN")), *lever("4 kN", more=FOLLOWS)],
+        {"a.force": [2, 3, 4], "b.force": [2, 3, 4]},
+    ),
+    "a default that follows from the press": ([LEVER, LEVER.replace("6000 1/h", "7000 1/h")], {"press.productivity": [6000, 7000]}),
+    "a typed default": (lever("2 kN", "2 kN, arm: 100"), {}),
+    "another basis": (lever("2 kN, arm: 100", f"2 kN, arm: {ASSUMED}"), {"a.arm": [100, 100]}),
+    "a key that one machine lacks": (lever("2 kN", "2 kN, width: 10"), {"a.width": [None, 10]}),
+    "a bad file": ([LEVER, "a: [", *lever("3 kN")], {"a.force": [2, None, 3]}),
+}  # fmt: skip
 
 
-def test_a_reference_typed_in_place_of_a_number_is_an_own_change(tmp_path: Path) -> None:
-    one = LEVER + "  b: {kind: lever, force: '${a.force}'}\n"
-    two = one.replace("2 kN", "3 kN").replace("'${a.force}'", "3 kN")
-    three = one.replace("2 kN", "4 kN")
-    found = values(side_by_side(tmp_path, one, two, three).changes)
-    assert found == {"a.force": [2, 3, 4], "b.force": [2, 3, 4]}
-
-
-def test_a_default_that_follows_from_the_press_is_no_own_change(tmp_path: Path) -> None:
-    found = side_by_side(tmp_path, LEVER, LEVER.replace("6000 1/h", "7000 1/h"))
-    assert values(found.changes) == {"press.productivity": [6000, 7000]}
-
-
-def test_a_typed_default_is_no_change_but_another_basis_is_one(tmp_path: Path) -> None:
-    typed, assumed = (
-        LEVER.replace("2 kN", "2 kN, arm: 100"),
-        LEVER.replace("2 kN", "2 kN, arm: {value: 100, basis: assumed}"),
-    )
-    assert side_by_side(tmp_path, LEVER, typed).changes == []
-    (row,) = side_by_side(tmp_path, typed, assumed).changes
-    assert (row.path, [cell.note for cell in row.cells if cell]) == ("a.arm", ["", "assumed"])
+@pytest.mark.parametrize("name", OWN)
+def test_only_what_was_typed_differently_is_an_own_change(tmp_path: Path, name: str) -> None:
+    texts, changes = OWN[name]
+    made = side_by_side(tmp_path, *texts)
+    assert values(made.changes) == changes
+    if name == "another basis":
+        assert [cell.note for row in made.changes for cell in row.cells if cell] == ["", "assumed"]
+    if name == "a bad file":  # it keeps its column
+        assert [each.verdict for each in made.machines] == ["conditional", "bad", "conditional"]
+        assert made.machines[1].messages[0].startswith(str(tmp_path / "m1.yaml"))
 
 
 def test_a_mechanism_of_another_kind_is_compared_with_its_like_alone(tmp_path: Path) -> None:
@@ -97,11 +110,6 @@ def test_a_mechanism_of_another_kind_is_compared_with_its_like_alone(tmp_path: P
     found = side_by_side(tmp_path, LEVER, clutch, LEVER.replace("2 kN", "5 kN"))
     assert values(found.kinds) == {"a": ["lever", "clutch", "lever"]}
     assert values(found.changes) == {"a.force": [2, None, 5]}
-
-
-def test_a_key_that_one_machine_lacks_is_an_own_change(tmp_path: Path) -> None:
-    found = side_by_side(tmp_path, LEVER, LEVER.replace("2 kN", "2 kN, width: 10"))
-    assert values(found.changes) == {"a.width": [None, 10]}
 
 
 def test_results_are_shown_by_id_by_path_and_in_chosen_units(tmp_path: Path) -> None:
@@ -131,26 +139,14 @@ def test_nothing_is_refused_where_all_files_are_bad(tmp_path: Path) -> None:
     assert [each.verdict for each in made.machines] == ["bad"] and made.results == []
 
 
-@pytest.mark.parametrize(
-    ("units", "template"), [(("kN", "N"), "units of the same dimension"), (("furlongs/x",), "--units furlongs/x: ")]
-)
-def test_units_that_cannot_be_are_refused(units: tuple[str, ...], template: str) -> None:
-    with pytest.raises(UserError, match=template):
-        refuse_units(units)
-
-
-def test_a_unit_that_fits_nothing_is_refused(tmp_path: Path) -> None:
+def test_units_that_cannot_be_or_fit_nothing_are_refused(tmp_path: Path) -> None:
+    for units, words in ((("kN", "N"), "units of the same dimension"), (("furlongs/x",), "--units furlongs/x: ")):
+        with pytest.raises(UserError, match=words):
+            refuse_units(units)
     made = side_by_side(tmp_path, LEVER, show=("moment",))
     refuse_unused_units(("kN*m",), made.results)
     with pytest.raises(UserError, match=r"--units kg: nothing that is shown has this dimension\. Shown are N·m"):
         refuse_unused_units(("kg",), made.results)
-
-
-def test_a_bad_file_keeps_its_column_and_hides_no_other(tmp_path: Path) -> None:
-    made = side_by_side(tmp_path, LEVER, "a: [", LEVER.replace("2 kN", "3 kN"))
-    assert [each.verdict for each in made.machines] == ["conditional", "bad", "conditional"]
-    assert values(made.changes) == {"a.force": [2, None, 3]}
-    assert made.machines[1].messages[0].startswith(str(tmp_path / "m1.yaml"))
 
 
 def test_a_page_shows_the_checks_that_do_not_hold_and_says_of_how_many(tmp_path: Path) -> None:
@@ -163,15 +159,13 @@ def test_a_page_shows_the_checks_that_do_not_hold_and_says_of_how_many(tmp_path:
 
 
 def test_a_tiny_utilisation_is_printed_as_nothing(tmp_path: Path) -> None:
-    made = side_by_side(tmp_path, LEVER.replace("2 kN", "2 kN, allowable_moment: 1e9 N*m"))
-    (row,) = made.checks
+    (row,) = side_by_side(tmp_path, *lever("2 kN, allowable_moment: 1e9 N*m")).checks
     assert row.cells[0] is not None and row.cells[0].text.split() == ["0.0", "%"]
 
 
 def test_a_page_shows_no_more_rows_than_a_reader_reads(tmp_path: Path) -> None:
     parts = (", ".join(f"{{length: {first + n} mm}}" for n in range(60)) for first in (10, 20))
-    one, two = (LEVER.replace("2 kN", f"2 kN, parts: [{each}]") for each in parts)
-    made = side_by_side(tmp_path, one, two)
+    made = side_by_side(tmp_path, *lever(*(f"2 kN, parts: [{each}]" for each in parts)))
     assert len(made.changes) > 40
     assert page(made).count('<span class="where">a.parts.') == 40
     assert f"{len(made.changes) - 40} more input" in page(made)
@@ -179,10 +173,7 @@ def test_a_page_shows_no_more_rows_than_a_reader_reads(tmp_path: Path) -> None:
 
 
 def test_the_parts_stand_there_where_they_are_known() -> None:
-    known, unknown = (
-        Verdict("a", "a.yaml", "pass", parts=(54, 42), verdict="pass"),
-        Verdict("b", "b.yaml", "pass", verdict="pass"),
-    )
+    known, unknown = (Verdict("a", "a.yaml", "pass", parts=parts, verdict="pass") for parts in ((54, 42), None))
     (row,) = [row for row in MachineComparison([known, unknown], []).verdicts if row.path == "parts"]
     assert [cell and (cell.value, cell.note) for cell in row.cells] == [(42, "of 54"), None]
     assert "parts" not in values(MachineComparison([unknown], []).verdicts)

@@ -21,7 +21,7 @@ from diecut_report.formulas.condition_parts import Name, read
 from diecut_report.formulas.condition_tree import Node, names
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.tree import Node as Expression
-from diecut_report.study.analysis.query import SqlWriter, condition
+from diecut_report.study.analysis.answers import SqlWriter, condition
 from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.definition.constraints import parse
 
@@ -333,18 +333,15 @@ def test_long_conditions_that_are_no_deep_ones_are_taken(text: str, database: du
 
 Row = dict[str, Any]
 Meant = tuple[str, Callable[[Row], Any]]
+Form = tuple[str, Callable[..., Any]]  # a text with places, and what it means by what stands there
 SIGNS = {"<": operator.lt, "<=": operator.le, "=": operator.eq, "!=": operator.ne, ">": operator.gt, ">=": operator.ge}
-ARITHMETIC: dict[str, Callable[[Any, Any], Any]] = {
-    "+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv,
-    "min": min, "max": max,
-}  # fmt: skip
+ARITHMETIC = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
 
 
-def of_values(made: Callable[..., Any], *parts: Callable[[Row], Any]) -> Callable[[Row], Any]:
-    """A function of a row that is None where one of its parts is, or what they make is no finite number."""
+def of_numbers(made: Callable[..., Any]) -> Callable[..., Any]:
+    """A function that is None where one of its numbers is, or what it makes of them is no finite number."""
 
-    def value(row: Row) -> Any:
-        given = [part(row) for part in parts]
+    def value(*given: Any) -> Any:
         try:
             found = None if None in given else made(*given)
         except (ZeroDivisionError, ValueError):
@@ -354,50 +351,45 @@ def of_values(made: Callable[..., Any], *parts: Callable[[Row], Any]) -> Callabl
     return value
 
 
-def binary(parts: tuple[Meant, str, Meant]) -> Meant:
-    (left, one), sign, (right, two) = parts
-    text = f"{sign}({left}, {right})" if sign in ("min", "max") else f"({left}) {sign} ({right})"
-    return text, of_values(ARITHMETIC[sign], one, two)
+def joined(decides: bool) -> Callable[[Any, Any], Any]:
+    """What ``or`` means where true decides, ``and`` where false does; None where nobody knows."""
+    return lambda *given: decides if decides in given else None if None in given else not decides
 
 
-def kleene(word: str, one: Callable[[Row], Any], two: Callable[[Row], Any]) -> Callable[[Row], Any]:
-    decides = word == "or"
-
-    def value(row: Row) -> Any:
-        given = (one(row), two(row))
-        return decides if decides in given else None if None in given else not decides
-
-    return value
+def chained(first: str, second: str) -> Callable[[Any, Any, Any], Any]:
+    one, two = of_numbers(SIGNS[first]), of_numbers(SIGNS[second])
+    return lambda low, middle, high: joined(False)(one(low, middle), two(middle, high))
 
 
-def contrary(part: Meant) -> Meant:
-    return f"not ({part[0]})", lambda row: None if part[1](row) is None else not part[1](row)
+MISSING: Form = ("({}) is null", lambda given: given is None)
+CALCULATED: list[Form] = [
+    *((f"({{}}) {sign} ({{}})", of_numbers(made)) for sign, made in ARITHMETIC.items()),
+    *((f"{made.__name__}({{}}, {{}})", of_numbers(made)) for made in (min, max)),
+]
+COMPARED: list[Form] = [
+    *((f"{{}} {sign} {{}}", of_numbers(made)) for sign, made in SIGNS.items()),
+    *((f"{{}} {first} {{}} {second} {{}}", chained(first, second)) for first in SIGNS for second in SIGNS),
+    ("{1} between {0} and {2}", chained("<=", "<=")),
+    MISSING,
+]
+LOGIC: list[Form] = [
+    ("({}) and ({})", joined(False)),
+    ("({}) or ({})", joined(True)),
+    ("not ({})", lambda given: None if given is None else not given),
+    MISSING,
+]
 
 
-def comparison(parts: tuple[Meant, str, Meant]) -> Meant:
-    (left, one), sign, (right, two) = parts
-    return f"{left} {sign} {right}", of_values(SIGNS[sign], one, two)
+def made(forms: list[Form], inner: st.SearchStrategy[Meant]) -> st.SearchStrategy[Meant]:
+    """One of the forms with anything in its places."""
 
+    def filled(form: Form) -> st.SearchStrategy[Meant]:
+        text, means = form
+        return st.tuples(*[inner] * text.count("{")).map(
+            lambda parts: (text.format(*(part for part, _ in parts)), lambda row: means(*(of(row) for _, of in parts)))
+        )
 
-def chained(parts: tuple[Meant, str, Meant, str, Meant]) -> Meant:
-    (low, one), first, (middle, two), second, (high, three) = parts
-    meant = kleene("and", of_values(SIGNS[first], one, two), of_values(SIGNS[second], two, three))
-    return f"{low} {first} {middle} {second} {high}", meant
-
-
-def between(parts: tuple[Meant, Meant, Meant]) -> Meant:
-    (middle, two), (low, one), (high, three) = parts
-    meant = kleene("and", of_values(SIGNS[">="], two, one), of_values(SIGNS["<="], two, three))
-    return f"{middle} between {low} and {high}", meant
-
-
-def missing(part: Meant) -> Meant:
-    return f"({part[0]}) is null", lambda row: part[1](row) is None
-
-
-def either(parts: tuple[Meant, str, Meant]) -> Meant:
-    (left, one), word, (right, two) = parts
-    return f"({left}) {word} ({right})", kleene(word, one, two)
+    return st.sampled_from(forms).flatmap(filled)
 
 
 def column(called: str) -> Meant:
@@ -409,20 +401,9 @@ def literal(value: int) -> Meant:
 
 
 LEAVES = st.sampled_from(["n", "ratio"]).map(column) | st.integers(0, 4).map(literal)
-VALUES = st.recursive(LEAVES, lambda inner: st.tuples(inner, st.sampled_from(list(ARITHMETIC)), inner).map(binary), max_leaves=6)  # fmt: skip
-SIGN = st.sampled_from(list(SIGNS))
-COMPARISONS = (
-    st.tuples(VALUES, SIGN, VALUES).map(comparison)
-    | st.tuples(VALUES, SIGN, VALUES, SIGN, VALUES).map(chained)
-    | st.tuples(VALUES, VALUES, VALUES).map(between)
-    | VALUES.map(missing)
-    | st.just(column("slip"))
-)
-CONDITIONS = st.recursive(
-    COMPARISONS,
-    lambda inner: st.tuples(inner, st.sampled_from(["and", "or"]), inner).map(either) | inner.map(contrary) | inner.map(missing),
-    max_leaves=5,
-)  # fmt: skip
+VALUES = st.recursive(LEAVES, lambda inner: made(CALCULATED, inner), max_leaves=6)
+COMPARISONS = made(COMPARED, VALUES) | st.just(column("slip"))
+CONDITIONS = st.recursive(COMPARISONS, lambda inner: made(LOGIC, inner), max_leaves=5)
 
 
 @settings(max_examples=60, deadline=None)

@@ -8,16 +8,17 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.errors import UserError
 from diecut_report.study.execution import dask_cluster as module
-from diecut_report.study.execution.engines import SAFE_PATH, InProcess, results
+from diecut_report.study.execution.engines import SAFE_PATH, Function, results
 from diecut_report.study.execution.study_run import Counts, Where, dask_cluster, run_study
 from tests.configs import GOOD
 from tests.design.optimisation.searches import optimised, search_file
@@ -73,21 +74,9 @@ def cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Cluster
             process.wait(timeout=60)
 
 
-@pytest.mark.nightly
-def test_killed_worker_loses_nothing_and_rows_are_the_same(cluster: Cluster, tmp_path: Path) -> None:
-    first, _ = cluster.worker(), cluster.worker()
-    found, workers, killed = [], set(), False
-    with dask_cluster(cluster.address, warm(tmp_path)) as engine:
-        for chunk, (value, process) in results(engine, slow_square, range(40)):
-            found.append((chunk, value))
-            workers.add(process)
-            if len(found) >= 10 and first.pid in workers and not killed:
-                killed = True
-                first.send_signal(signal.SIGKILL)
-    with InProcess(warm(tmp_path)) as alone:
-        expected = [(chunk, value) for chunk, (value, _) in results(alone, slow_square, range(40))]
-    assert killed and sorted(found) == expected
-    assert len(workers) == 2 and len(list(tmp_path.glob("loaded.*"))) == 3  # once each, and here
+def calculated(address: str, folder: Path, function: Function, chunks: Iterable[int]) -> list[tuple[int, Any]]:
+    with dask_cluster(address, warm(folder)) as engine:
+        return list(results(engine, function, chunks))
 
 
 STUDY = """\
@@ -154,25 +143,18 @@ def test_worker_that_joins_later_takes_part(cluster: Cluster, tmp_path: Path) ->
 @pytest.mark.nightly
 def test_exception_names_its_chunk_and_the_cluster_can_be_used_again(cluster: Cluster, tmp_path: Path) -> None:
     cluster.worker()
-    with (
-        pytest.raises(ZeroDivisionError) as caught,
-        dask_cluster(cluster.address, warm(tmp_path)) as engine,
-    ):
-        list(results(engine, fails_at_three, range(100)))
+    with pytest.raises(ZeroDivisionError) as caught:
+        calculated(cluster.address, tmp_path, fails_at_three, range(100))
     assert caught.value.__notes__ == ["while calculating 3"]
-    with dask_cluster(cluster.address, warm(tmp_path)) as engine:
-        assert sorted(results(engine, square, range(30))) == [(n, n * n) for n in range(30)]
+    assert sorted(calculated(cluster.address, tmp_path, square, range(30))) == [(n, n * n) for n in range(30)]
 
 
 @pytest.mark.nightly
 def test_chunk_that_ends_its_workers_is_told(cluster: Cluster, tmp_path: Path) -> None:
     for _ in range(4):
         cluster.worker()
-    with (
-        pytest.raises(UserError, match="process that calculates 3 ended"),
-        dask_cluster(cluster.address, warm(tmp_path)) as engine,
-    ):
-        list(results(engine, dies_at_three, [3]))
+    with pytest.raises(UserError, match="process that calculates 3 ended"):
+        calculated(cluster.address, tmp_path, dies_at_three, [3])
 
 
 @pytest.mark.nightly
@@ -191,20 +173,14 @@ def test_lost_scheduler_is_told(cluster: Cluster, tmp_path: Path, caplog: pytest
 @pytest.mark.nightly
 def test_cluster_without_workers_is_told(cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "TIMEOUT", 2)
-    with (
-        pytest.raises(UserError, match=f"no workers.*dask worker {cluster.address}"),
-        dask_cluster(cluster.address, warm(tmp_path)),
-    ):
-        pass
+    with pytest.raises(UserError, match=f"no workers.*dask worker {cluster.address}"):
+        calculated(cluster.address, tmp_path, square, [])
 
 
 @pytest.mark.parametrize("address", ["foo://127.0.0.1:8786", "127.0.0.1", "nonsense", "tcp://127.0.0.1:port"])
 def test_address_that_is_none_is_told(tmp_path: Path, address: str) -> None:
-    with (
-        pytest.raises(UserError, match=r"not an address of a Dask scheduler.*tcp://HOST:PORT"),
-        dask_cluster(address, warm(tmp_path)),
-    ):
-        pass
+    with pytest.raises(UserError, match=r"not an address of a Dask scheduler.*tcp://HOST:PORT"):
+        calculated(address, tmp_path, square, [])
 
 
 @pytest.mark.nightly
@@ -214,11 +190,8 @@ def test_scheduler_that_is_not_there_is_told_within_its_time(
 ) -> None:
     monkeypatch.setattr(module, "TIMEOUT", 2)
     began = time.monotonic()
-    with (
-        pytest.raises(UserError, match=f"scheduler at .*{address} cannot be reached"),
-        dask_cluster(address, warm(tmp_path)),
-    ):
-        pass
+    with pytest.raises(UserError, match=f"scheduler at .*{address} cannot be reached"):
+        calculated(address, tmp_path, square, [])
     assert time.monotonic() - began < 5
 
 
@@ -243,6 +216,5 @@ def test_a_worker_started_as_it_is_told_runs_nothing_from_its_folder(cluster: Cl
     command = [sys.executable, "-m", "dask", "worker", cluster.address, "--nthreads", "1", "--no-dashboard"]
     with (cluster.folder / "log").open("ab") as log:
         cluster.started.append(subprocess.Popen(command, stdout=log, stderr=log, env=safe, cwd=cluster.folder))
-    with dask_cluster(cluster.address, warm(tmp_path)) as engine:
-        found = dict(results(engine, square, range(3)))
-    assert found == {0: 0, 1: 1, 2: 4} and not told.exists()
+    found = calculated(cluster.address, tmp_path, square, range(3))
+    assert sorted(found) == [(0, 0), (1, 1), (2, 4)] and not told.exists()

@@ -34,30 +34,26 @@ def test_the_variants_and_what_each_constraint_drops_are_counted(tmp_path: Path,
     assert (found["rows"], found["variants"], found["exact"]) == (10, 6, True)
     assert found["dropped_by"] == {"mechanisms.a.force >= '2 kN'": 2, "mechanisms.a.force != '5 kN'": 2}
     assert found["measured"]["variants"] == 6 == sum(found["measured"]["statuses"].values())
-
-
-def test_varied_inputs_have_their_range_and_the_value_of_the_first_variant(tmp_path: Path, capfd: Capture) -> None:
-    force, grade = validated(tmp_path, DROPPING, capfd, "--dry-run")["study"]["varied"]
+    force, grade = found["varied"]  # with their range and the value of the first variant
     assert force == {"path": "mechanisms.a.force", "unit": "kN", "low": 1.0, "high": 5.0, "texts": [], "first": 2.0}
     assert (grade["texts"], grade["first"], grade["low"]) == (["fine", "coarse"], "fine", None)
+    on_results = FORCES + "constraints: [a.moment <= '500 N*m']\n"
+    found = validated(tmp_path, on_results, capfd, "--dry-run")["study"]
+    assert found["variants"] == 10 and found["dropped_by"] == {}
+    assert found["measured"]["dropped"] == 6  # forces of 1 and 2 kN at 200 mm stay, 400 N·m at most
 
 
 def test_the_size_is_that_of_the_run(tmp_path: Path, without_summary: None) -> None:
-    made = study(tmp_path, varied("{from: 1 kN, to: 9 kN}", sample="{method: latin_hypercube, count: 1100}"))
-    found = dry_run(made)
-    out = tmp_path / "out"
-    assert main(
-        ["batch", str(tmp_path / "study.yaml"), "-o", str(out), "--jobs", "1", "--quiet", "--plugins", str(GOOD)]
-    ) in (0, 1)
-    size = sum(file.stat().st_size for file in (out / "variants").glob("*.parquet"))
-    assert found.bytes_ == pytest.approx(size, rel=0.5)
-    assert found.parts == len(list((out / "variants").glob("*.parquet")))
-    described = json.loads((out / "study.json").read_text("utf-8"))["columns"]
-    checks = [name for name in described if ".checks." in name and name.endswith(".status")]
-    assert found.checks == len(checks)
-    assert (
-        found.quantities == len([name for name in described if ".checks." not in name]) - 6
-    )  # varied, variant, verdict
+    found = dry_run(study(tmp_path, varied("{from: 1 kN, to: 9 kN}", sample="{method: latin_hypercube, count: 1100}")))
+    asked = ["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--jobs", "1", "--quiet"]
+    assert main([*asked, "--plugins", str(GOOD)]) in (0, 1)
+    files = list((tmp_path / "out" / "variants").glob("*.parquet"))
+    assert found.bytes_ == pytest.approx(sum(file.stat().st_size for file in files), rel=0.5)
+    assert found.parts == len(files)
+    names = json.loads((tmp_path / "out" / "study.json").read_text("utf-8"))["columns"]
+    assert found.checks == len([name for name in names if ".checks." in name and name.endswith(".status")])
+    # varied, variant, verdict
+    assert found.quantities == len([name for name in names if ".checks." not in name]) - 6
 
 
 def test_of_a_large_sample_pieces_are_looked_at_that_lie_evenly(
@@ -114,33 +110,21 @@ def test_people_are_told_it_line_by_line_and_nothing_is_written(tmp_path: Path, 
     assert "1,5 … 3,5 kN" in capfd.readouterr().out
 
 
-def test_what_a_constraint_on_results_drops_is_counted_among_those_that_are_calculated(
-    tmp_path: Path, capfd: Capture
-) -> None:
-    found = validated(tmp_path, FORCES + "constraints: [a.moment <= '500 N*m']\n", capfd, "--dry-run")["study"]
-    assert found["variants"] == 10 and found["dropped_by"] == {}
-    assert found["measured"]["dropped"] == 6  # forces of 1 and 2 kN at 200 mm stay, 400 N·m at most
-
-
 def test_of_a_search_it_tells_how_many_machines_are_tried(tmp_path: Path, capfd: Capture) -> None:
     ranged = FORCES.replace("sample: {method: grid}\n", "").replace("[1 kN, 2, 3000 N, 4, 5]", "{from: 1 kN, to: 5 kN}")
     search = "optimise: {objectives: [minimise: a.moment], evaluations: 400, population: 40, seed: 1}\n"
     found = validated(tmp_path, ranged + search, capfd, "--dry-run")["study"]
     goals = {"objectives": [{"minimise": "a.moment"}], "passing": True}
     assert (found["rows"], found["optimise"]) == (40, {"evaluations": 400, "population": 40} | goals)
-    assert main(["validate", str(tmp_path / "study.yaml"), "--dry-run", "--plugins", str(GOOD)]) == 0
+    asked = ["validate", str(tmp_path / "study.yaml"), "--dry-run", "--plugins", str(GOOD)]
+    assert main(asked) == 0
     lines = capfd.readouterr().out.splitlines()
     assert lines[0].endswith("study.yaml: a search over 400 machines, 40 per generation")
     assert lines[1:3] == ["  searched for: a.moment minimised", "  feasible: machines with no failing check"]
     assert "  mechanisms.a.force  1 … 5 kN" in lines  # the whole range, and not what the first generation takes of it
     assert lines[-1].startswith("  time: ") and lines[-1].endswith(" on one processor, excluding page and reports")
-
-
-def test_of_a_study_with_a_search_beside_its_sample_both_are_told(tmp_path: Path, capfd: Capture) -> None:
-    search = "optimise: {objectives: [minimise: a.moment], evaluations: 400, population: 40, passing: false}\n"
-    saved(tmp_path, BASE)
-    file = saved(tmp_path, FORCES + search, "study.yaml")
-    assert main(["validate", str(file), "--dry-run", "--plugins", str(GOOD)]) == 0
+    saved(tmp_path, FORCES + search, "study.yaml")  # beside a sample both are told
+    assert main(asked) == 0
     out = capfd.readouterr().out
     assert "optimise tries 400 machines, which take one processor about " in out and "variant 0: " in out
 
@@ -151,10 +135,8 @@ def test_all_faults_are_told_at_once_and_nothing_is_calculated(tmp_path: Path, c
     assert found["status"] == "bad" and "study" not in found
     assert {each["path"].split(".")[0] for each in found["problems"]} == {"sample", "vary"}
     assert all(each["line"] and each["file"].endswith("study.yaml") for each in found["problems"])
-
-
-def test_a_study_without_a_variant_is_refused(tmp_path: Path, capfd: Capture) -> None:
-    found = validated(tmp_path, FORCES + "constraints: [mechanisms.a.force > '9 kN']\n", capfd, "--dry-run", code=2)
+    text = FORCES + "constraints: [mechanisms.a.force > '9 kN']\n"
+    found = validated(tmp_path, text, capfd, "--dry-run", code=2)
     assert "the constraints exclude all 10 variants" in found["problems"][0]["message"]
 
 

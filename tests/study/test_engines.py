@@ -1,8 +1,9 @@
-"""Engines in this process and in a pool: the same results, nothing lost with a process, little in flight, a clean end."""
+"""Engines in this process and in a pool: the same results, nothing lost with a process, little in flight, a clean end, processes that are settled."""
 
 from __future__ import annotations
 
 import os
+import platform
 import signal
 import subprocess
 import sys
@@ -48,23 +49,12 @@ def alive(pool: Pool) -> list[int]:
     return [process.pid for process in pool._context.started if process.is_alive() and process.pid is not None]
 
 
-@pytest.mark.parametrize("make", ENGINES)
-def test_each_chunk_gives_its_result_once(tmp_path: Path, make: Make) -> None:
-    with make(tmp_path) as engine:
-        found = list(results(engine, square, range(50)))
-    assert sorted(found) == [(n, n * n) for n in range(50)]
-
-
-@pytest.mark.parametrize("make", ENGINES)
-def test_no_chunks_give_no_results(tmp_path: Path, make: Make) -> None:
+@pytest.mark.parametrize(("make", "most"), list(zip(ENGINES, (1, 2), strict=True)))
+def test_each_chunk_gives_its_result_once_and_a_worker_loads_once(tmp_path: Path, make: Make, most: int) -> None:
     with make(tmp_path) as engine:
         assert list(results(engine, square, [])) == []
-
-
-@pytest.mark.parametrize(("make", "most"), list(zip(ENGINES, (1, 2), strict=True)))
-def test_a_worker_loads_once(tmp_path: Path, make: Make, most: int) -> None:
-    with make(tmp_path) as engine:
-        list(results(engine, square, range(40)))
+        found = list(results(engine, square, range(50)))
+    assert sorted(found) == [(n, n * n) for n in range(50)]
     loaded = [path.name.split(".")[1] for path in tmp_path.glob("loaded.*")]
     assert 1 <= len(loaded) == len(set(loaded)) <= most
 
@@ -101,13 +91,14 @@ def test_memory_stays_flat_over_many_chunks(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("make", ENGINES)
-def test_exception_names_its_chunk(tmp_path: Path, make: Make) -> None:
+def test_exception_names_its_chunk_and_leaves_no_process(tmp_path: Path, make: Make) -> None:
     with (
         pytest.raises(ZeroDivisionError, match="nothing to divide by") as caught,
         make(tmp_path) as engine,
     ):
-        list(results(engine, fails_at_three, range(10)))
+        list(results(engine, fails_at_three, range(1000)))
     assert caught.value.__notes__ == ["while calculating 3"]
+    assert workers_of(os.getpid()) == []
 
 
 def test_killed_process_loses_nothing(tmp_path: Path) -> None:
@@ -141,13 +132,6 @@ def test_chunk_that_ends_its_process_is_told_after_three_times_and_no_other_is_b
         found.extend(chunk for chunk, _ in results(pool, dies_at_three, range(12)))
     assert len(list(tmp_path.glob("call.3.*"))) == engines.MAX_TRIES
     assert 3 not in found
-
-
-def test_early_end_leaves_no_process(tmp_path: Path) -> None:
-    with pytest.raises(ZeroDivisionError), Pool(2, warm(tmp_path)) as pool:
-        list(results(pool, fails_at_three, range(1000)))
-    assert alive(pool) == []
-    assert [child for child in psutil.Process().children() if "spawn_main" in " ".join(child.cmdline())] == []
 
 
 def started(folder: Path) -> subprocess.Popen[str]:
@@ -206,6 +190,70 @@ def test_missing_dask_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
         dask_cluster("tcp://127.0.0.1:1", warm(tmp_path))
 
 
+def printed(code: str, *arguments: str, around: dict[str, str] | None = None) -> str:
+    """What a process of its own prints."""
+    command = [sys.executable, "-c", code, *arguments]
+    return subprocess.run(command, check=True, capture_output=True, text=True, env=around).stdout
+
+
 def test_dask_is_imported_only_for_a_cluster() -> None:
     code = "import sys, diecut_report.study.execution.engines; print({'dask', 'distributed', 'pyarrow'} & set(sys.modules))"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"
+    assert printed(code) == "set()\n"
+
+
+COUNT = """
+import resource, sys
+import numpy as np
+from diecut_report.study.execution.engines import settle
+if sys.argv[1] == "settled":
+    settle()
+def chunk():
+    return [np.ones(1 << 17) for _ in range(20)]
+chunk()
+before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+for _ in range(10):
+    chunk()
+print(resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before)
+"""
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only glibc has this setting")
+@pytest.mark.nightly
+def test_the_next_chunk_takes_no_new_pages() -> None:
+    assert int(printed(COUNT, "settled")) < 200 < int(printed(COUNT, "as it was"))
+
+
+THREADS = """
+import numpy as np
+from diecut_report.study.execution.engines import settle
+from threadpoolctl import threadpool_info
+settle()
+print({pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"})
+"""
+
+
+def test_linear_algebra_takes_one_thread() -> None:
+    assert printed(THREADS, around=os.environ | {"OPENBLAS_NUM_THREADS": "2"}) == "{1}\n"
+
+
+STARTED = """
+import os, sys
+from diecut_report.__main__ import run
+sys.argv = ["diecut-report", "--version"]
+def told(code):
+    from threadpoolctl import threadpool_info
+    print(code, *(library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"))
+os._exit = told
+run()
+"""
+
+
+@pytest.mark.parametrize(("given", "expected"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "2"}, "2")])
+def test_the_program_takes_one_thread_for_products_unless_the_user_says_otherwise(
+    given: dict[str, str], expected: str
+) -> None:
+    around = {name: value for name, value in os.environ.items() if "_NUM_THREADS" not in name}
+    code, *threads = printed(STARTED, around=around | given).splitlines()[-1].split()
+    assert code == "0"
+    if os.cpu_count() != 1 and threads:
+        assert set(threads) == {expected}

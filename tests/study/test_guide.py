@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from diecut_report.config.plugins import Discovery
-from diecut_report.study.analysis.query import condition
-from diecut_report.study.analysis.variants import StoredColumn
-from diecut_report.study.definition.study_file import Study, load_study
-from diecut_report.study.execution.study_run import result_columns, varied_columns
+from diecut_report.study.analysis.answers import condition
+from diecut_report.study.analysis.variants import columns_of
+from diecut_report.study.definition.study_file import load_study
+from diecut_report.study.execution.study_run import described
 from tests.configs import MECHANISMS, STUDIES, saved
 
 GUIDE = Path(__file__).parents[2] / "docs" / "studies.md"
@@ -24,27 +24,16 @@ def guide() -> str:
     return GUIDE.read_text("utf-8")
 
 
-@pytest.fixture
-def example(tmp_path: Path, guide: str) -> Study:
+def test_its_study_is_valid(tmp_path: Path, guide: str) -> None:
     shutil.copy(MECHANISMS, tmp_path)
     text = guide.split("```yaml\n")[1].partition("```")[0]
-    return load_study(saved(tmp_path, text, "study.yaml"), Discovery([]))
-
-
-def test_its_study_is_valid(example: Study) -> None:
-    assert example.sample.count == 2000
-    assert len(example.inputs) == 5
+    example = load_study(saved(tmp_path, text, "study.yaml"), Discovery([]))
+    assert (example.sample.count, len(example.inputs)) == (2000, 5)
     assert example.curves == ("drive.crank_torque", "drive.crank_angle")
 
 
 def test_its_questions_can_be_asked(guide: str) -> None:
-    known = load_study(OF_PRESS, Discovery([]))
-    columns = {
-        c.name: StoredColumn(c.name, c.kind, c.unit)
-        for c in (*varied_columns(known), *result_columns(known))
-        if c.kind != "curve"
-    }
-    columns |= {name: StoredColumn(name, "text") for name in ("status", "governing")}
+    columns = columns_of(described(load_study(OF_PRESS, Discovery([]))))
     questions = re.findall(r"""`"([^`]*)"`""", guide)
     assert len(questions) == 3
     for question in questions:

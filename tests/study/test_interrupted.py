@@ -106,9 +106,10 @@ def end(run: subprocess.Popen[str], by: Callable[[], None]) -> tuple[str, str]:
 
 
 @pytest.mark.nightly
-def test_killed_run_is_continued_without_its_study(tmp_path: Path, finished: Run) -> None:
+@pytest.mark.parametrize("after", [3, 5, 8, 10])
+def test_killed_run_is_continued_without_its_study(tmp_path: Path, after: int, finished: Run) -> None:
     out = tmp_path / "out"
-    with begun(tmp_path, 3) as run:
+    with begun(tmp_path, after) as run:
         end(run, run.kill)
     before = stored(out)
     damaged = sorted(before)[2]
@@ -116,12 +117,12 @@ def test_killed_run_is_continued_without_its_study(tmp_path: Path, finished: Run
     (out / "variants/.0123456789abcdef.part").write_bytes(b"PAR1")
     (tmp_path / "study.yaml").unlink()
     (tmp_path / "press.yaml").unlink()
-    assert 3 <= len(before) < PARTS
+    assert after <= len(before) < PARTS
     code, told, said = finished("--resume", out, "--jobs", "1")
-    after = stored(out)
+    then = stored(out)
     assert (code, told) == (0, "") and f"{ROWS} variants: {ROWS} pass" in said
-    assert {name for name in before if after[name] != before[name]} == {damaged}
-    assert len(after) == PARTS and are_complete(out)
+    assert {name for name in before if then[name] != before[name]} == {damaged}
+    assert len(then) == PARTS and are_complete(out)
 
 
 def test_a_study_that_is_continued_without_its_file_keeps_its_name(tmp_path: Path, finished: Run) -> None:
@@ -136,7 +137,7 @@ def test_a_study_that_is_continued_without_its_file_keeps_its_name(tmp_path: Pat
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("whole_group", [True, pytest.param(False, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("whole_group", [True, False])
 def test_interrupted_run_says_how_to_continue_and_is_continued_by_its_own_study_alone(
     tmp_path: Path, whole_group: bool, finished: Run
 ) -> None:
@@ -172,17 +173,6 @@ def test_second_run_in_a_folder_is_refused_and_the_first_goes_on_even_without_a_
         os.killpg(run.pid, signal.SIGCONT)
         said = run.communicate(timeout=SPENT)
     assert run.returncode == 0 and f"{ROWS} variants" in said[1] and are_complete(out)
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("after", [1, 3, 5, 8, 10])
-def test_run_killed_at_any_time_is_continued(tmp_path: Path, after: int, finished: Run) -> None:
-    out = tmp_path / "out"
-    with begun(tmp_path, after) as run:
-        end(run, run.kill)
-    before = stored(out)
-    assert finished("--resume", out)[0] == 0
-    assert before.items() <= stored(out).items() and are_complete(out)
 
 
 @pytest.mark.nightly

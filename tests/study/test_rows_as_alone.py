@@ -24,6 +24,7 @@ from diecut_report.study.execution import press_batch
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 from tests.configs import DISCOVERY, EXAMPLES, HEAD, saved
 from tests.examples import every, few
+from tests.study.studies import varied
 
 PLATEN, KNIFE, MENDED = (
     next(path for path in EXAMPLES if path.stem == stem)
@@ -44,6 +45,10 @@ SHAFT = """
 def rows(config: Config, path: str, *values: float) -> Rows:
     """A study of one number, SI."""
     return calculate_rows(config, {find_input(config, f"mechanisms.{path}"): np.array(values)}, len(values))
+
+
+def config_of(folder: Path, text: str) -> Config:
+    return Press.read(saved(folder, text), DISCOVERY).config
 
 
 def require_as_alone(press: Press, path: str, *values: float) -> Rows:
@@ -135,35 +140,30 @@ mechanisms:
 """
 
 
-def test_a_torque_in_one_row_is_none_in_another(tmp_path: Path) -> None:
-    config = Press.read(saved(tmp_path, CRANKSHAFT), DISCOVERY).config
-    found = rows(config, "crankshaft.loads.0.torque", 0.0, 500.0, 0.0)
-    assert found.status.tolist()[0] != "error" and found.status.tolist()[2] != "error" and found.status[1] == "error"
-    assert "the nearest keyseat or press fit is at 240 mm" in str(found.errors[1])
+LOADED = ("position: 130 mm, torque: 0 N*m", "position: 230 mm, torque: 90 N*m")
+SHAFTS = [  # what differs from the shaft above, what is varied, which rows cannot exist, and why the first of them
+    (("", ""), "loads.0.torque", (0.0, 500.0, 0.0), [1], "the nearest keyseat or press fit is at 240 mm"),
+    (LOADED, "notches.1.position", (0.305, 0.310, 0.385), [2], ""),
+    (("    speed: 100 rpm\n", "    rotation: 5 deg\n"), "rotation", (0.0, 0.2), [], ""),
+]
 
 
-def test_the_place_of_one_of_two_notches_is_varied(tmp_path: Path) -> None:
-    text = CRANKSHAFT.replace("position: 130 mm, torque: 0 N*m", "position: 230 mm, torque: 90 N*m")
-    config = Press.read(saved(tmp_path, text), DISCOVERY).config
-    found = rows(config, "crankshaft.notches.1.position", 0.305, 0.310, 0.385)
-    assert [status == "error" for status in found.status] == [False, False, True]
-
-
-def test_the_rotation_of_a_shaft_is_varied(tmp_path: Path) -> None:
-    text = CRANKSHAFT.replace("    speed: 100 rpm\n", "    rotation: 5 deg\n")
-    config = Press.read(saved(tmp_path, text), DISCOVERY).config
-    found = rows(config, "crankshaft.rotation", 0.0, 0.2)
-    assert "error" not in found.status.tolist()
+@pytest.mark.parametrize(("change", "path", "values", "impossible", "why"), SHAFTS, ids=[each[1] for each in SHAFTS])
+def test_a_shaft_of_one_row_is_another_in_the_next(
+    tmp_path: Path, change: tuple[str, str], path: str, values: tuple[float, ...], impossible: list[int], why: str
+) -> None:
+    """A torque is none, the place of a notch leaves the shaft, its rotation is varied."""
+    found = rows(config_of(tmp_path, CRANKSHAFT.replace(*change)), f"crankshaft.{path}", *values)
+    assert np.flatnonzero(found.status == "error").tolist() == impossible
+    assert all(why in str(found.errors[row]) for row in impossible)
 
 
 def test_a_text_that_a_machine_does_not_have_is_none(tmp_path: Path) -> None:
     """Of a shaft that stands still the verdict on its speed."""
-    press = Press.read(saved(tmp_path, CRANKSHAFT + "    rotation: none\n"), DISCOVERY)
-    found = rows(press.config, "crankshaft.bearing_a", 0.02, 0.021)
-    assert found.columns["crankshaft.speed_verdict"].tolist() == [None, None] and found.status.tolist() == [
-        "fail",
-        "fail",
-    ]
+    config = config_of(tmp_path, CRANKSHAFT + "    rotation: none\n")
+    found = rows(config, "crankshaft.bearing_a", 0.02, 0.021)
+    assert found.columns["crankshaft.speed_verdict"].tolist() == [None, None]
+    assert found.status.tolist() == ["fail", "fail"]
 
 
 BEARING = """\
@@ -186,26 +186,20 @@ mechanisms:
 
 
 def test_what_nothing_bounds_is_open_in_each_row(tmp_path: Path) -> None:
-    press = Press.read(saved(tmp_path, BEARING), DISCOVERY)
-    name = "mechanisms.bearings.bearings.0.limiting_speed"
-    alone = {each.path for each in press.calculate().results.summary.open}
-    assert name in alone
-    founded = BEARING.replace("3000 rpm", "{value: 3000 rpm, basis: drawing}")
-    others = {each.path for each in Press.read(saved(tmp_path, founded), DISCOVERY).calculate().results.summary.open}
-    found = rows(press.config, "bearings.bearings.0.limiting_speed", 314.0, 419.0)
-    assert name not in others and found.verdict.tolist() == ["conditional", "conditional"]
+    name, founded = "bearings.bearings.0.limiting_speed", "{value: 3000 rpm, basis: drawing}"
+    for text, is_open in ((BEARING.replace("3000 rpm", founded), False), (BEARING, True)):
+        press = Press.read(saved(tmp_path, text), DISCOVERY)
+        paths = {each.path for each in press.calculate().results.summary.open}
+        assert (f"mechanisms.{name}" in paths) is is_open
+    assert rows(press.config, name, 314.0, 419.0).verdict.tolist() == ["conditional", "conditional"]
 
 
 def test_rows_of_a_plugin_with_faults_in_its_formulas_are_conditional(tmp_path: Path) -> None:
-    plugin = (Path(__file__).parents[2] / "examples" / "machine-builder" / "plugins" / "sheet_stop.py").read_text(
-        "utf-8"
-    )
-    folder = tmp_path / "plugins"
-    folder.mkdir()
+    builder = Path(__file__).parents[2] / "examples" / "machine-builder"
+    plugin = (builder / "plugins" / "sheet_stop.py").read_text("utf-8")
     assert "stiffness * way" in plugin
-    (folder / "sheet_stop.py").write_text(plugin.replace("stiffness * way", "stiffness * way + 1", 1), "utf-8")
-    example = next((Path(__file__).parents[2] / "examples" / "machine-builder").rglob("*.yaml"))
-    config = Press.read(example, Discovery([folder])).config
+    saved(tmp_path, plugin.replace("stiffness * way", "stiffness * way + 1", 1), "sheet_stop.py")
+    config = Press.read(next(builder.rglob("*.yaml")), Discovery([tmp_path])).config
     names = [name for name, kind in config.kinds.items() if kind == "sheet_stop"]
     design = next(each for each in given_numbers(config) if each.asked.instance == names[0])
     found = calculate_rows(config, {design.asked: np.array([design.present, design.present])}, 2)
@@ -245,7 +239,7 @@ def test_a_mechanism_that_is_calculated_once_for_those_that_are_the_same_to_it_g
 
 def test_shafts_that_turn_unlike_often_in_a_cycle_are_as_each_alone(tmp_path: Path) -> None:
     """Each has so many instants of its cycle as alone; loads are those of a curve."""
-    config = Press.read(saved(tmp_path, KNIFE.read_text("utf-8") + SHAFT), DISCOVERY).config
+    config = config_of(tmp_path, KNIFE.read_text("utf-8") + SHAFT)
     turns = 1, 100, 720
     found = rows(config, "bent.turns_per_cycle", *turns)
     for row, count in enumerate(turns):
@@ -315,12 +309,9 @@ def test_a_margin_may_follow_from_what_is_a_time_or_an_angle(tmp_path: Path, sec
     asked = run["timing"]["margin_required"][0, 1]
     expected = run["drive"]["swing_angle"].item() / 10 if angle is None else angle * 1e-3 * 2 * np.pi * 6090 / 3600
     assert asked == pytest.approx(expected, rel=1e-9)
-    found = rows(
-        press.config, "timing.interlocks.1.margin", 0.002, 0.004
-    )  # takes the place of a reference, in its unit
-    assert found.columns["timing.margin_required.1"][1] == pytest.approx(
-        2 * found.columns["timing.margin_required.1"][0]
-    )
+    # it takes the place of a reference, in its unit
+    first, twice = rows(press.config, "timing.interlocks.1.margin", 0.002, 0.004).columns["timing.margin_required.1"]
+    assert twice == pytest.approx(2 * first)
 
 
 FOUNDED = """
@@ -340,12 +331,10 @@ FOUNDED = """
 @pytest.mark.nightly
 def test_a_stored_variant_says_what_its_values_rest_on(tmp_path: Path, first: str) -> None:
     """A certificate is of the value that was measured: the report of another variant does not name it, and `take` says the same."""
-    (tmp_path / "press.yaml").write_text(HEAD + FOUNDED % first, "utf-8")
-    vary = "{mechanisms.key.yield_hub: [370 MPa, 380 MPa], mechanisms.key.brittle_hub: [true, false]}"
-    (tmp_path / "study.yaml").write_text(
-        f"schema_version: 1\nbase: press.yaml\nsample: {{method: zip}}\nvary: {vary}\n", "utf-8"
-    )
-    main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--quiet"])
+    saved(tmp_path, HEAD + FOUNDED % first)
+    hubs = "  mechanisms.key.brittle_hub: [true, false]\n"
+    text = varied("[370 MPa, 380 MPa]", sample="{method: zip}", path="mechanisms.key.yield_hub", rest=hubs)
+    main(["batch", str(saved(tmp_path, text, "study.yaml")), "-o", str(tmp_path / "out"), "--quiet"])
     for variant, basis in enumerate(["measured", "assumed"]):
         tree = variant_config(tmp_path / "out", variant, DISCOVERY, "v")
         taken = yaml.parse(taken_config(tmp_path / "out", variant, DISCOVERY)[0].decode(), "v")

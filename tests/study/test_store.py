@@ -27,9 +27,8 @@ import scipy
 
 from diecut_report.errors import UserError
 from diecut_report.study.storage import spreadsheets as exports
-from diecut_report.study.storage import state
 from diecut_report.study.storage import store as stores
-from diecut_report.study.storage.description import Description, ResultColumn
+from diecut_report.study.storage.description import Description, ResultColumn, kept
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.storage.store import Store
 from tests.study.made_store import MASS, SPEED, description, part, source
@@ -63,6 +62,15 @@ def filled(folder: Path, study: Description | None = None) -> Store:
     return store
 
 
+def stored(folder: Path, study: Description, *parts: dict[str, Any]) -> Store:
+    """A study with these first parts."""
+    store = Store.create(folder, study)
+    with store.lock():
+        for index, columns in enumerate(parts):
+            store.write_part(index, columns)
+    return store
+
+
 def fill(store: Store) -> None:
     with store.lock():
         for index in range(store.description.parts):
@@ -90,32 +98,16 @@ def exported(store: Store, name: str) -> Path:
     return store.directory / f"variants.{name}"
 
 
-def expect(folder: Path, now: Description) -> str:
-    with pytest.raises(UserError) as caught:
-        Store.open(folder, now)
-    return str(caught.value)
-
-
 # what is stored
 def test_each_column_has_its_type_and_missing_values_are_null(tmp_path: Path) -> None:
-    store = filled(tmp_path / "out")
-    table = store.read().to_table()
-    assert table.column_names == list(part(0, 1))
-    kinds = [
-        pa.int64(),
-        pa.float64(),
-        pa.float64(),
-        pa.int64(),
-        pa.bool_(),
-        *[pa.dictionary(pa.int32(), pa.string())] * 4,
-    ]
-    assert table.schema.types == kinds
-    made = part(0, 100)
-    assert table["variant"].to_pylist() == list(range(100))
-    assert table[SPEED].to_pylist() == made[SPEED].tolist()
+    table, made = filled(tmp_path / "out").read().to_table(), part(0, 100)
+    assert table.column_names == list(made)
+    numbers, text = [pa.int64(), pa.float64(), pa.float64(), pa.int64()], pa.dictionary(pa.int32(), pa.string())
+    assert table.schema.types == [*numbers, pa.bool_(), text, text, text, text]
+    for name in ("variant", SPEED, "drive.reversed"):
+        assert table[name].to_pylist() == made[name].tolist()
     assert table[MASS].to_pylist() == [None if n % 5 == 0 else 2.0 * n for n in range(100)]
     assert table["drive.law"].to_pylist() == made["drive.law"]
-    assert table["drive.reversed"].to_pylist() == made["drive.reversed"].tolist()
 
 
 def test_schema_tells_units_and_provenance(tmp_path: Path) -> None:
@@ -139,65 +131,50 @@ def test_parts_are_read_by_other_programs(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("values", [[1.0, np.inf, None], np.array([1.0, -np.inf, np.nan])])
 def test_what_is_no_finite_number_is_null(tmp_path: Path, values: Any) -> None:
-    store = Store.create(tmp_path, description(3))
-    with store.lock():
-        store.write_part(
-            0, {"variant": range(3), "status": ["pass"] * 3, MASS: values, "train.teeth": np.array([1.0, np.nan, 3.0])}
-        )
-    table = store.read().to_table()
+    teeth = np.array([1.0, np.nan, 3.0])
+    made = {"variant": range(3), "status": ["pass"] * 3, MASS: values, "train.teeth": teeth}
+    table = stored(tmp_path, description(3), made).read().to_table()
     assert table[MASS].to_pylist() == [1.0, None, None]
     assert table["train.teeth"].to_pylist() == [1, None, 3]
     assert table[SPEED].null_count == 3  # not given: applies to none
 
 
-def test_curves_are_lists(tmp_path: Path) -> None:
-    store = Store.create(tmp_path / "out", description(2, columns=(ResultColumn("drive.torque", "curve", "N*m"),)))
-    with store.lock():
-        store.write_part(
-            0, {"variant": [0, 1], "status": ["pass", "error"], "drive.torque": [np.array([1.0, np.nan]), None]}
-        )
-    assert store.read().to_table()["drive.torque"].to_pylist() == [[1.0, None], None]
-    [told] = export(store, ["csv", "xlsx"])
-    assert "torque" not in (tmp_path / "out/variants.csv").read_text()
-    assert told.startswith(
-        "variants.csv and variants.xlsx: without the curves drive.torque, which only the Parquet files in"
-    )
-
-
-def test_curves_of_unlike_lengths_are_as_they_were(tmp_path: Path) -> None:
-    store = Store.create(tmp_path / "out", description(5, columns=(ResultColumn("drive.torque", "curve", "N*m"),)))
+def test_curves_are_lists_of_unlike_lengths_and_stand_in_the_part_files_alone(tmp_path: Path) -> None:
     given = [np.array([1.0, 2.0, 3.0]), None, np.array([]), [4, np.inf], np.array([5.0])]
-    with store.lock():
-        store.write_part(0, {"variant": range(5), "status": ["pass"] * 5, "drive.torque": given})
+    made = {"variant": range(5), "status": ["pass"] * 5, "drive.torque": given}
+    store = stored(tmp_path / "out", description(5, columns=(ResultColumn("drive.torque", "curve", "N*m"),)), made)
     assert store.read().to_table()["drive.torque"].to_pylist() == [[1, 2, 3], None, [], [4, None], [5]]
     assert store.done_parts() == {0}
     with duckdb.connect() as connection:
         asked = f"select \"drive.torque\"[1] from '{tmp_path}/out/variants/part-*.parquet' order by variant"
         assert connection.execute(asked).fetchall() == [(1.0,), (None,), (None,), (4.0,), (5.0,)]
+    [told] = export(store, ["csv", "xlsx"])
+    assert "torque" not in (tmp_path / "out/variants.csv").read_text()
+    files = "variants.csv and variants.xlsx"
+    assert told.startswith(f"{files}: without the curves drive.torque, which only the Parquet files in")
 
 
 @pytest.mark.parametrize(
     ("columns", "words"),
     [
-        ({"variant": [0], "status": ["pass"], "train.teeth": np.array([0.5])}, "train.teeth cannot hold"),
-        ({"variant": [0], "status": ["pass"], MASS: ["heavy"]}, "cylinder.mass cannot hold"),
-        ({"variant": [0], "status": ["pass"], MASS: [1.0, 2.0]}, "2 values for 1 variants"),
-        ({"variant": [0], "status": ["pass"], "strange": [1.0]}, "strange"),
-        ({"variant": [0], MASS: [1.0]}, "needs its status"),
+        ({"status": ["pass"], "train.teeth": np.array([0.5])}, "train.teeth cannot hold"),
+        ({"status": ["pass"], MASS: ["heavy"]}, "cylinder.mass cannot hold"),
+        ({"status": ["pass"], MASS: [1.0, 2.0]}, "2 values for 1 variants"),
+        ({"status": ["pass"], "strange": [1.0]}, "strange"),
+        ({MASS: [1.0]}, "needs its status"),
     ],
 )
 def test_part_of_another_shape_is_refused(tmp_path: Path, columns: dict[str, Any], words: str) -> None:
     store = Store.create(tmp_path / "out", description())
     with store.lock(), pytest.raises(ValueError, match=words):
-        store.write_part(0, columns)
+        store.write_part(0, {"variant": [0], **columns})
     assert store.done_parts() == set()
 
 
 def test_dropped_rows_leave_their_numbers_free(tmp_path: Path) -> None:
-    store = Store.create(tmp_path / "out", description(20))
+    two, none = {"variant": np.array([2, 7]), "status": ["pass", "fail"]}, {"variant": np.array([], int), "status": []}
+    store = stored(tmp_path / "out", description(20), two, none)
     with store.lock():
-        store.write_part(0, {"variant": np.array([2, 7]), "status": ["pass", "fail"]})
-        store.write_part(1, {"variant": np.array([], int), "status": []})
         store.finish()
         store.note({"seconds": 2.5})
     assert store.read(["variant"]).to_table().to_pydict() == {"variant": [2, 7]}
@@ -247,7 +224,7 @@ def test_files_of_the_study_are_kept(tmp_path: Path) -> None:
     assert (tmp_path / "out/study.yaml").read_text() == "count: 9\n"
     (tmp_path / "out/base.yaml").unlink()  # as if killed before it was there
     with pytest.raises(UserError, match=r"base\.yaml: This copy of press\.yaml is missing.*batch STUDY --resume"):
-        state.kept(tmp_path / "out")
+        kept(tmp_path / "out")
     continued = Store.open(tmp_path / "out", description())
     with continued.lock():
         continued.start({})
@@ -257,48 +234,35 @@ def test_files_of_the_study_are_kept(tmp_path: Path) -> None:
 def test_tables_of_the_study_are_kept_within_the_folder(tmp_path: Path) -> None:
     tables = tuple(source(f"{place}/a.csv", place) for place in ("../data", str(tmp_path), "x"))
     Store.create(tmp_path / "out", description(tables=tables))
-    copies = state.kept(tmp_path / "out")
-    assert {name: path.read_text() for name, path in copies.items() if name != "press.yaml"} == {
-        table.file: str(Path(table.file).parent) for table in tables
-    }
+    copies = kept(tmp_path / "out")
+    texts = {name: path.read_text() for name, path in copies.items() if name != "press.yaml"}
+    assert texts == {table.file: str(Path(table.file).parent) for table in tables}
     assert sorted(tmp_path.iterdir()) == [tmp_path / "out"]
     assert sorted(path.name for path in (tmp_path / "out/tables").iterdir()) == ["1-a.csv", "2-a.csv", "3-a.csv"]
     copies["x/a.csv"].write_text("other")
     with pytest.raises(UserError, match=r"tables/3-a\.csv: This copy of x/a\.csv is missing or has changed"):
-        state.kept(tmp_path / "out")
+        kept(tmp_path / "out")
 
 
-def test_folder_with_anything_in_it_is_refused(tmp_path: Path) -> None:
+def test_folder_with_anything_in_it_is_refused_and_one_without_results_told(tmp_path: Path) -> None:
     (tmp_path / "base.yaml").write_text("mine")
     with pytest.raises(UserError, match=r"not empty \(base.yaml"):
         Store.create(tmp_path, description())
     assert (tmp_path / "base.yaml").read_text() == "mine"
-
-
-def test_folder_with_results_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match=r"study\.json is missing"):
+        Store.open(tmp_path)
     filled(tmp_path / "out")
     with pytest.raises(UserError, match=r"here already.*--resume"):
         Store.create(tmp_path / "out", description())
 
 
-def test_folder_without_results_is_told(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match=r"study\.json is missing"):
-        Store.open(tmp_path)
-
-
-def test_same_study_is_continued_with_the_parts_of_the_folder(tmp_path: Path) -> None:
-    filled(tmp_path / "out")
-    store = Store.open(tmp_path / "out", description(chunk=64))
+def test_same_study_is_continued_with_the_parts_and_the_name_of_the_folder(tmp_path: Path) -> None:
+    """Its copy in the folder, which a run without the study is continued from, has another name."""
+    named = description(chunk=64)
+    filled(tmp_path / "out", description())
+    store = Store.open(tmp_path / "out", replace(named, study=replace(named.study, file="study.yaml")))
     assert store.description.chunk == 10 and store.done_parts() == set(range(10))
-
-
-def test_a_continued_study_keeps_its_name(tmp_path: Path) -> None:
-    """Its copy in the folder, which a run without the study is continued from, has another one."""
-    named = description()
-    filled(tmp_path / "out", named)
-    copy = replace(named, study=replace(named.study, file="study.yaml"))
-    found = Store.open(tmp_path / "out", copy).description.study
-    assert found == named.study and found.file != "study.yaml"
+    assert store.description.study == named.study and named.study.file != "study.yaml"
 
 
 @pytest.mark.parametrize(
@@ -319,7 +283,9 @@ def test_changed_study_is_refused_with_what_changed(tmp_path: Path, changed: dic
     before = description(tables=(source("a.csv", "1"),), plugins={"clutch": "1"})
     filled(tmp_path / "out", before)
     Store.open(tmp_path / "out", before)
-    assert re.search(words, expect(tmp_path / "out", replace(before, **changed)))
+    with pytest.raises(UserError) as caught:
+        Store.open(tmp_path / "out", replace(before, **changed))
+    assert re.search(words, str(caught.value))
 
 
 def test_folder_in_use_tells_who_uses_it(tmp_path: Path) -> None:
@@ -373,13 +339,9 @@ def test_file_that_only_looks_like_a_part_is_told(tmp_path: Path, name: str) -> 
 
 
 def test_mechanism_may_be_called_as_a_column(tmp_path: Path) -> None:
-    store = Store.create(
-        tmp_path / "out", description(2, columns=(ResultColumn("status.mass"), ResultColumn("variant.status", "text")))
-    )
-    with store.lock():
-        store.write_part(
-            0, {"variant": [0, 1], "status": ["pass", "fail"], "status.mass": [1, 2], "variant.status": ["a", "b"]}
-        )
+    columns = (ResultColumn("status.mass"), ResultColumn("variant.status", "text"))
+    made = {"variant": [0, 1], "status": ["pass", "fail"], "status.mass": [1, 2], "variant.status": ["a", "b"]}
+    store = stored(tmp_path / "out", description(2, columns=columns), made)
     assert store.counts() == {"sample": 2, "variants": 2, "pass": 1, "fail": 1}
     assert exported(store, "csv").read_text().splitlines()[1:] == ['0,1,"a","pass",,', '1,2,"b","fail",,']
 
@@ -424,9 +386,8 @@ def test_full_disk_is_told_and_leaves_nothing_half_written(small_disk: Path, mon
     store = Store.create(small_disk / "out", description(100_000, 1000))
     if small_disk.name == "no disk":
         limited(monkeypatch)
-    with pytest.raises(
-        UserError, match=r"(part-.*parquet|study\.json): This cannot be written: the disk is full.*--resume"
-    ):
+    words = r"(part-.*parquet|study\.json): This cannot be written: the disk is full.*--resume"
+    with pytest.raises(UserError, match=words):
         fill(store)
     there = store.done_parts()
     assert hidden(small_disk / "out") == [] and there == set(store.parts()) != set(range(100))
@@ -522,10 +483,8 @@ def test_workbook_has_as_many_sheets_as_the_rows_need(tmp_path: Path, monkeypatc
 
 
 def test_texts_of_a_workbook_stay_texts(tmp_path: Path) -> None:
-    store = Store.create(tmp_path / "out", description(2))
-    with store.lock():
-        store.write_part(0, {"variant": [0, 1], "status": ["error"] * 2, "error": ["=1+1", "a\x00b"]})
-    path = exported(store, "xlsx")
+    made = {"variant": [0, 1], "status": ["error"] * 2, "error": ["=1+1", "a\x00b"]}
+    path = exported(stored(tmp_path / "out", description(2), made), "xlsx")
     rows = list(openpyxl.load_workbook(path).worksheets[0].iter_rows(min_row=2))
     assert [row[-1].value for row in rows] == ["=1+1", "a\N{REPLACEMENT CHARACTER}b"]
     assert rows[0][-1].data_type == "s"

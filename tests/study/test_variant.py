@@ -25,8 +25,8 @@ from diecut_report.study.execution import variant_reports
 from diecut_report.study.storage.description import Kind, ResultColumn
 from tests.configs import EXAMPLES, GOOD, HEAD, PLUGINS, saved
 from tests.shared import once
-from tests.study.questions import variants
-from tests.study.stored_study import BORE, SPEED, ten, written
+from tests.study.stored_study import BORE, SPEED, ten, variants, written
+from tests.study.studies import varied
 
 SHARES = PLUGINS / "shares"
 BASE = """\
@@ -99,7 +99,6 @@ def differences(row: dict[str, Any], results: dict[str, Any]) -> list[str]:
     return found
 
 
-@pytest.mark.nightly
 def test_each_variant_calculated_alone_gives_the_row_that_is_stored(
     out: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -113,22 +112,17 @@ def test_the_config_in_a_variants_report_can_be_run(
     out: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     report = json.loads((out / "reports" / "3.json").read_text("utf-8"))
+    project = report["project"]
     assert report["config"]["file"] == "3.yaml"
-    assert (report["project"]["title"], report["project"]["document_number"]) == (
-        "2026 – variant 3 of study",
-        "0012/V3",
-    )
-    again = calc(saved(tmp_path, report["config"]["source_text"], "3.yaml"), capfd)
-    assert again == report
+    assert (project["title"], project["document_number"]) == ("2026 – variant 3 of study", "0012/V3")
+    assert calc(saved(tmp_path, report["config"]["source_text"], "3.yaml"), capfd) == report
 
 
 def test_a_fault_of_a_variant_names_the_base_that_is_kept(
     out: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    plugin = (
-        (SHARES / "shares.py").read_text("utf-8").replace('"Share", gt=0, le=100)] = 5', '"Share", gt=0, le=1)] = 1')
-    )
-    saved(tmp_path, plugin, "shares.py")
+    plugin = (SHARES / "shares.py").read_text("utf-8")
+    saved(tmp_path, plugin.replace('"Share", gt=0, le=100)] = 5', '"Share", gt=0, le=1)] = 1'), "shares.py")
     assert main(["calc", f"{out}#0", "--plugins", str(tmp_path), "--quiet"]) == 2
     warning, told = capfd.readouterr().err.splitlines()[:2]
     assert warning.startswith("warning: The source of the plugin shares is not what the study was calculated by")
@@ -141,16 +135,12 @@ def test_a_fault_of_a_variant_names_the_base_that_is_kept(
 def test_a_value_that_the_base_gives_in_a_list_stands_in_that_list(tmp_path: Path) -> None:
     text = next(path for path in EXAMPLES if path.stem == "platen_press_zppt30").read_text("utf-8")
     saved(tmp_path, text.replace("friction: 0.1 ", "friction: [0.1, 0.11, 0.12, 0.13] "))
-    path = "mechanisms.platen.friction_platen_pin"
-    study = f"schema_version: 1\nbase: press.yaml\nsample: {{method: grid}}\nvary: {{{path}: [0.02, 0.04]}}\n"
-    assert main(["batch", str(saved(tmp_path, study, "study.yaml")), "-o", str(tmp_path / "out"), "--quiet"]) in (0, 1)
+    study = saved(tmp_path, varied("[0.02, 0.04]", path="mechanisms.platen.friction_platen_pin"), "study.yaml")
+    assert main(["batch", str(study), "-o", str(tmp_path / "out"), "--quiet"]) in (0, 1)
     config = load_config(variant_config(tmp_path / "out", 1, Discovery([]), "one.yaml"), Discovery([]))
     given = config.instances["platen"]
-    assert given is not None and [given.data[f"friction_{name}"] for name in ("guide", "platen_pin", "journal")] == [
-        0.1,
-        0.04,
-        0.13,
-    ]
+    assert given is not None
+    assert [given.data[f"friction_{name}"] for name in ("guide", "platen_pin", "journal")] == [0.1, 0.04, 0.13]
 
 
 texts = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc", "Cf")), max_size=12)
@@ -190,14 +180,12 @@ def test_blocks_that_are_missing_are_made_at_the_place_of_their_parent() -> None
 
 
 def test_two_variants_are_held_against_each_other(out: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    first, second = (rows(out)[number] for number in (0, 1))
-    assert main(["diff", f"{out}#0", f"{out}#1", "--format", "json", "--plugins", str(SHARES), "--quiet"]) in (0, 1)
+    asked = ["diff", f"{out}#0", f"{out}#1", "--format", "json", "--plugins", str(SHARES), "--quiet"]
+    assert main(asked) in (0, 1)
     found = json.loads(capfd.readouterr().out)
-    changed = {
-        row["path"]: (row["old"]["value"], row["new"]["value"]) for row in found["inputs"] if row["old"] and row["new"]
-    }
+    changed = {row["path"]: [row[side]["value"] for side in ("old", "new") if row[side]] for row in found["inputs"]}
     for path in ("mechanisms.a.share", "mechanisms.b.length"):
-        assert changed[path.removeprefix("mechanisms.")] == pytest.approx((first[path], second[path]))
+        assert changed[path.removeprefix("mechanisms.")] == pytest.approx([row[path] for row in rows(out)[:2]])
     assert found["old"]["file"] == "out-0.yaml" and found["new"]["file"] == "out-1.yaml"
 
 
@@ -228,10 +216,7 @@ def test_a_variants_configuration_is_the_base_with_its_values(folder: Path) -> N
     assert data.pop("project") == {"title": "Two mechanisms – variant 4 of study"}
     del base["project"]
     assert data == base
-
-
-def test_problems_of_a_variant_name_the_line_of_the_base(folder: Path) -> None:
-    tree, path = taken(folder, 4), ("mechanisms", "cylinder", "bore_radius")
+    path = ("mechanisms", "cylinder", "bore_radius")  # its problems name the line of the base
     assert tree.position(path) == (9, 18)
     assert tree.typed(path) == "65 mm"
     assert tree.position(("mechanisms", "cylinder", "segment_height")) == (10, 21)
@@ -287,11 +272,8 @@ def test_its_values_are_read_back_as_those_that_were_calculated_and_all_else_sta
     changed = [(old, new) for old, new in zip(base, lines, strict=True) if old != new]
     assert heading == "# Variant 4 of study.yaml" and len(changed) == 2
     assert all(old.partition("#")[2] == new.partition("#")[2] for old, new in changed)
-
-
-def test_its_values_may_be_rounded(folder: Path) -> None:
-    text = taken_config(folder, 4, Discovery([]), digits=2)[0].decode()
-    data = yaml.parse(text, "taken").data["mechanisms"]
+    rounded = taken_config(folder, 4, Discovery([]), digits=2)[0].decode()
+    data = yaml.parse(rounded, "taken").data["mechanisms"]
     assert (data["cylinder"]["bore_radius"], data["drive"]["crank_speed"]) == ("65 mm", "50 rpm")
 
 
@@ -341,18 +323,13 @@ def test_what_the_study_was_made_of_is_not_written_over(
 
 @pytest.mark.usefixtures("without_summary")
 def test_a_stored_variant_is_solved_and_written_with_what_was_found(tmp_path: Path) -> None:
-    press = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 250 N*m}  # the lever\n"
-    saved(tmp_path, press)
-    study = saved(
-        tmp_path,
-        "schema_version: 1\nbase: press.yaml\nsample: {method: grid}\nvary: {mechanisms.a.force: [1 kN, 3 kN]}\n",
-        "study.yaml",
-    )
+    saved(tmp_path, HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 250 N*m}  # the lever\n")
+    study, variant = saved(tmp_path, varied("[1 kN, 3 kN]"), "study.yaml"), f"{tmp_path / 'out'}#1"
     plugins = ("--plugins", str(GOOD))
     assert main(["batch", str(study), "-o", str(tmp_path / "out"), *plugins]) == 1
     target, asked = tmp_path / "solved.yaml", ("--vary", "a.arm", "--for", "a.moment = 240 N*m")
-    assert main(["solve", f"{tmp_path / 'out'}#1", *asked, "-o", str(target), *plugins]) == 0
+    assert main(["solve", variant, *asked, "-o", str(target), *plugins]) == 0
     found = yaml.load(target)
     assert found.data["mechanisms"]["a"] | {"force": "3 kN", "arm": "80 mm"} == found.data["mechanisms"]["a"]
     assert "those that were calculated" not in found.text
-    assert main(["advise", f"{tmp_path / 'out'}#1", "-o", str(tmp_path / "mended.yaml"), *plugins]) == 0
+    assert main(["advise", variant, "-o", str(tmp_path / "mended.yaml"), *plugins]) == 0

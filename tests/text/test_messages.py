@@ -48,7 +48,6 @@ FILLING = (
     "config/parts/reading.py",
     "config/parts/expansion.py",
     "study/definition/study_file.py",
-    "study/definition/wanted_results.py",
 )
 """Whose own ``fault`` takes a template and makes the phrase of it."""
 OF_AUTHORS = ("declaration", "testing")
@@ -58,7 +57,7 @@ OF_PROGRAM = {  # faults of the program itself, or of a plugin's code, which nob
     "mechanism/steps/computed.py": 1, "mechanism/steps/from_curve.py": 1,
     "mechanics/motion_laws.py": 1, "mechanics/timing/intervals.py": 2, "report/mathematics.py": 1,
     "report/figures/drawing.py": 1, "report/pages/pdf_math.py": 1, "report/profile_files.py": 1, "report/equations.py": 1,
-    "study/definition/sample.py": 1, "study/storage/parts.py": 3, "study/storage/store.py": 3,
+    "study/definition/sample.py": 1, "study/storage/store.py": 6,
 }  # fmt: skip
 
 

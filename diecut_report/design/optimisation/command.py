@@ -16,14 +16,13 @@ from diecut_report.design.optimisation.run import SearchRun, run_search
 from diecut_report.design.optimisation.texts import lines, plain
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import write_all
-from diecut_report.study.analysis.answers import answer
-from diecut_report.study.analysis.query import Request
+from diecut_report.study.analysis.answers import Request, answer
 from diecut_report.study.analysis.variants import opened
 from diecut_report.study.command import Shown, in_its_language, loaded, untranslated
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.study_run import LARGEST, Where
 from diecut_report.study.execution.variant_reports import Chosen, best, wanted, write_chosen
-from diecut_report.study.storage import state
+from diecut_report.study.storage.description import STATE
 from diecut_report.study.storage.store import Store
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -135,7 +134,7 @@ def run(
         shown.doing(phrase("the page of the optimisation"))
         csv = _csv(directory, found)
         files = _files(found, csv, where)
-        write_all(files, keep=directory / state.STATE)
+        write_all(files, keep=directory / STATE)
         told, notes = tuple(lines(found)), (*notes, *untranslated(study, where))
         return OptimiseOutcome(told, data(found), csv, tuple(files), search, broken, notes, found.conflict is None)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -10,7 +9,6 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
-from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
@@ -196,8 +194,8 @@ def sheets(found: OptimisationResult) -> bytes:
 def _filled(found: OptimisationResult, kind: str) -> str:
     asked = asked_of(found.study)
     return styled_page(
-        "optimisation.html.j2", kind, ("summary", "optimisation"), r=found, o=asked, title=_title(found), figure=partial(_figure, kind),
-        figures=_figures(found),
+        "optimisation.html.j2", kind, ("summary", "optimisation"), r=found, o=asked, title=_title(found),
+        figure=partial(questions.figure_markup, kind), figures=_figures(found),
         asked=questions.asked_questions(found.stored),
         heads=[titled(column) for column in found.front.columns],
         goals=[goal.label for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
@@ -278,11 +276,3 @@ def _progress(found: OptimisationResult) -> SummaryFigure:
     return SummaryFigure(
         drawn(partial(_progress_chart, found.progress, found.front.objectives), told, "progress"), told, told
     )
-
-
-def _figure(kind: str, fig: Any) -> Markup:
-    """A chart inline on the screen, as an image with its alternative on paper."""
-    if kind == "screen":
-        return Markup(fig.svg.text)  # matplotlib escapes the texts within the drawing
-    content = base64.b64encode(fig.svg.text.encode()).decode()
-    return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(content, fig.alternative)

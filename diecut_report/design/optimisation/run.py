@@ -29,16 +29,13 @@ from diecut_report.quantities.plausible import plausible
 from diecut_report.study.analysis.variant_config import variant_of
 from diecut_report.study.analysis.variants import Stored, opened, quoted
 from diecut_report.study.definition.base_inputs import present_value
-from diecut_report.study.definition.study_file import Optimise, Study
-from diecut_report.study.definition.variables import Values
-from diecut_report.study.definition.wanted_results import Objective
+from diecut_report.study.definition.samples import Values
+from diecut_report.study.definition.study_file import Objective, Optimise, Study
 from diecut_report.study.execution.engines import Engine, WorkerSetup, local_engine, results, settle
 from diecut_report.study.execution.study_run import Counts, Tell, Where, described, engine_for, facts
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
-from diecut_report.study.storage.description import JUDGED, Description, ResultColumn
-from diecut_report.study.storage.parts import columns_of_part
-from diecut_report.study.storage.state import SEARCHED
-from diecut_report.study.storage.store import Store, refuse_used
+from diecut_report.study.storage.description import JUDGED, SEARCHED, Description, ResultColumn
+from diecut_report.study.storage.store import Store, columns_of_part, refuse_used
 from diecut_report.text.phrases import Phrase, phrase
 
 # A generation calculated: many machines at once, what each costs, and by how much each breaks what is asked.

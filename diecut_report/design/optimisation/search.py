@@ -23,8 +23,8 @@ from pymoo.operators.survival.rank_and_crowding import RankAndCrowding
 from pymoo.problems.static import StaticProblem
 
 from diecut_report.formulas import Array
+from diecut_report.study.definition.samples import ChoiceVariable, Values
 from diecut_report.study.definition.study_file import Free, Optimise, count_of
-from diecut_report.study.definition.variables import ChoiceVariable, Values
 
 Kind = Literal["share", "whole", "text", "fixed"]
 Codes = list[dict[str, Any]]

@@ -21,7 +21,7 @@ from diecut_report.quantities.formatting import as_typed
 from diecut_report.quantities.units import unit
 from diecut_report.study.analysis.variants import Stored, StoredColumn, opened, other_code
 from diecut_report.study.definition.base_inputs import MECHANISMS
-from diecut_report.study.storage.state import STATE, kept
+from diecut_report.study.storage.description import STATE, kept
 from diecut_report.text.phrases import Phrase, phrase
 
 

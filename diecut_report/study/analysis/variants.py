@@ -29,10 +29,10 @@ from diecut_report.study.storage.description import (
     VERDICT,
     Description,
     ResultColumn,
+    continuing,
     short_hash,
     source_name,
 )
-from diecut_report.study.storage.state import continuing
 from diecut_report.study.storage.store import Store
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
@@ -40,7 +40,6 @@ from diecut_report.text.translation import decimal_sign, know_plugins, said, say
 
 if TYPE_CHECKING:
     from duckdb import DuckDBPyConnection
-    from rich.table import Table
 
 # the usual units, where a column has none
 DISPLAY = {"m": "mm", "rad": "deg", "rad/s": "rpm", "Pa": "MPa", "1/s": "1/h"}
@@ -289,18 +288,13 @@ def table_text(
     columns: Sequence[StoredColumn], rows: Sequence[Sequence[Any]], width: int | None
 ) -> tuple[str, list[StoredColumn]]:
     """Return the table, and the columns that the line has no room for."""
-    from rich.text import Text
-
     heads = [_head(column) for column in columns]
     texts = [[shown(value, column) for value, column in zip(row, columns, strict=True)] for row in rows]
     wide = [max(map(len, (*head.split("\n"), *column))) for head, *column in zip(heads, *texts, strict=True)]
     kept = _fitting(columns, wide, width or UNBROKEN)
-    table = _empty_table()
-    for index in kept:
-        table.add_column(Text(heads[index]), justify="right" if columns[index].is_number else "left", overflow="fold")
-    for row in texts:
-        table.add_row(*(Text(row[index]) for index in kept))
-    return _printed(table, width), [column for index, column in enumerate(columns) if index not in kept]
+    shown_heads = [(heads[index], not columns[index].is_number) for index in kept]
+    table = _printed(shown_heads, ([row[index] for index in kept] for row in texts), width)
+    return table, [column for index, column in enumerate(columns) if index not in kept]
 
 
 def compared_text(
@@ -317,16 +311,8 @@ def compared_text(
 
 def side_by_side(names: Sequence[str], rows: Iterable[Sequence[str]], width: int | None) -> str:
     """Return a table of texts for people: in each row a quantity, its unit, and what each of those named has."""
-    from rich.text import Text
-
-    table = _empty_table()
-    for head in (say("quantity"), say("unit")):
-        table.add_column(Text(head), justify="left", overflow="fold")
-    for name in names:
-        table.add_column(Text(name), justify="right", overflow="fold")
-    for row in rows:
-        table.add_row(*map(Text, row))
-    return _printed(table, width)
+    heads = [(say("quantity"), True), (say("unit"), True), *((name, False) for name in names)]
+    return _printed(heads, rows, width)
 
 
 def _fitting(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) -> list[int]:
@@ -342,17 +328,18 @@ def _fitting(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) ->
     return sorted(kept)
 
 
-def _empty_table() -> Table:
+def _printed(heads: Iterable[tuple[str, bool]], rows: Iterable[Sequence[str]], width: int | None) -> str:
+    """Return a table of texts; with each head whether its column stands to the left."""
     from rich import box
-    from rich.table import Table
-
-    return Table(box=box.SIMPLE_HEAD, pad_edge=False)
-
-
-def _printed(table: Table, width: int | None) -> str:
     from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
 
-    target = io.StringIO()
+    table, target = Table(box=box.SIMPLE_HEAD, pad_edge=False), io.StringIO()
+    for head, is_left in heads:
+        table.add_column(Text(head), justify="left" if is_left else "right", overflow="fold")
+    for row in rows:
+        table.add_row(*map(Text, row))
     Console(file=target, width=width or UNBROKEN, color_system=None, soft_wrap=False, legacy_windows=False).print(table)
     return "\n".join(line.rstrip() for line in target.getvalue().splitlines())
 

@@ -17,34 +17,8 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.mechanism.inputs import Block, Quantity
 from diecut_report.mechanism.names import SI, Pending
-from diecut_report.study.definition.base_inputs import (
-    Input,
-    UnknownPath,
-    is_of_parts,
-    typed_data,
-    typed_place,
-    varied_input,
-    with_values,
-)
+from diecut_report.study.definition import base_inputs, samples, schema
 from diecut_report.study.definition.constraints import stored_value
-from diecut_report.study.definition.samples import Grid, LatinHypercube, Sample, Sobol, TableSample, Zip
-from diecut_report.study.definition.schema import (
-    DISTRIBUTIONS,
-    DRAWN,
-    SampleForm,
-    TableForm,
-    distribution_form,
-    range_form,
-    value_form,
-)
-from diecut_report.study.definition.variables import (
-    ChoiceVariable,
-    Distribution,
-    RangeVariable,
-    SampleError,
-    Values,
-    Variable,
-)
 from diecut_report.study.tables.reading import ReadColumn, TableFile, read_table
 from diecut_report.text.phrases import Phrase, named, phrase
 
@@ -65,11 +39,11 @@ class Sampled:
     ``bases`` are the base with stand-ins for numbers and, one text at a time, each of its values; never empty.
     """
 
-    inputs: dict[str, Input]
-    sample: Sample | None
+    inputs: dict[str, base_inputs.Input]
+    sample: samples.Sample | None
     bases: list[Config]
     tables: dict[str, str] = field(default_factory=dict)
-    variables: list[Variable] | None = None  # None where they have problems, or where a table has the variants
+    variables: list[samples.Variable] | None = None  # None where they have problems, or where a table has the variants
 
 
 class SampleReader:
@@ -80,7 +54,7 @@ class SampleReader:
         self.vary = ConfigPlace(place.tree, ("vary",))
         self._tables: dict[str, TableFile | None] = {}
 
-    def sampled(self, form: SampleForm | None, vary: Mapping[str, Any]) -> Sampled:
+    def sampled(self, form: schema.SampleForm | None, vary: Mapping[str, Any]) -> Sampled:
         """Return all of it; ``form`` is None where the sample's keys are wrong, so that values alone can be judged."""
         table = self._table(str(form.file), ("sample", "file")) if form and form.method == "table" else None
         if form and form.method == "table":
@@ -91,13 +65,13 @@ class SampleReader:
         else:
             found = dict(self._found(vary))
             bases = self._bases({asked: _texts(vary[path]) for path, asked in found.items()})
-        inputs = {path: varied_input(bases[0], path) for path in found}
+        inputs = {path: base_inputs.varied_input(bases[0], path) for path in found}
         self._require_once(inputs)
         made = Sampled(inputs, None, bases)
         if table:
             values = {path: self._column_values(asked, table.columns[path]) for path, asked in inputs.items()}
             whole = {path: column for path, column in values.items() if column is not None}
-            made.sample = TableSample(whole) if len(whole) == len(table.columns) else None
+            made.sample = samples.TableSample(whole) if len(whole) == len(table.columns) else None
         else:
             variables = [self._variable(asked, vary[path]) for path, asked in inputs.items()]
             known = [variable for variable in variables if variable]
@@ -106,24 +80,24 @@ class SampleReader:
         made.tables = {name: table.sha256 for name, table in self._tables.items() if table}
         return made
 
-    def _found(self, vary: Mapping[str, Any]) -> Iterator[tuple[str, Input]]:
+    def _found(self, vary: Mapping[str, Any]) -> Iterator[tuple[str, base_inputs.Input]]:
         for path in vary:
             try:
-                yield path, varied_input(self.base, path)
-            except UnknownPath as fault:
+                yield path, base_inputs.varied_input(self.base, path)
+            except base_inputs.UnknownPath as fault:
                 self.problems.append(self.vary.problem((path,), str(fault), at_key=True))
 
-    def _headed(self, columns: Mapping[str, ReadColumn]) -> Iterator[tuple[str, Input]]:
+    def _headed(self, columns: Mapping[str, ReadColumn]) -> Iterator[tuple[str, base_inputs.Input]]:
         for path, column in columns.items():
             try:
-                yield path, varied_input(self.base, path)
-            except UnknownPath as fault:
+                yield path, base_inputs.varied_input(self.base, path)
+            except base_inputs.UnknownPath as fault:
                 round_ = re.fullmatch(r"([\w.-]+)\s*\(([^()]*)\)", path)
                 template = " A unit stands in square brackets: {path} [{unit}]."
                 unit = Phrase(template, path=round_[1], unit=round_[2]) if round_ else ""
                 self.problems.append(column.problem(Phrase("the column's name {fault}{unit}", fault=fault, unit=unit)))
 
-    def _require_once(self, inputs: Mapping[str, Input]) -> None:
+    def _require_once(self, inputs: Mapping[str, base_inputs.Input]) -> None:
         """Note what is varied under two names."""
         known: dict[Any, str] = {}
         for path, asked in inputs.items():
@@ -132,17 +106,19 @@ class SampleReader:
                 message = Phrase("{path} is the same place as {first}; vary it once.", path=path, first=first)
                 self.problems.append(self.place.problem(key, message, at_key=True))
 
-    def _sample(self, form: SampleForm, variables: list[Variable]) -> Sample | None:
+    def _sample(self, form: schema.SampleForm, variables: list[samples.Variable]) -> samples.Sample | None:
         try:
             return _made(form, tuple(variables))
-        except SampleError as fault:
+        except samples.SampleError as fault:
             key = ("vary", fault.path) if fault.path in self.place.tree.data.get("vary", {}) else ("sample",)
             self.problems.append(self.place.problem(key, str(fault)))
             return None
 
-    def _bases(self, texts: Mapping[Input, list[str]]) -> list[Config]:
+    def _bases(self, texts: Mapping[base_inputs.Input, list[str]]) -> list[Config]:
         """Return the base with stand-ins; a problem where no variant can have these keys together."""
-        numbers: dict[Input, Any] = {asked: Pending(asked.path, asked.unit) for asked in texts if asked.unit}
+        numbers: dict[base_inputs.Input, Any] = {
+            asked: Pending(asked.path, asked.unit) for asked in texts if asked.unit
+        }
         first = numbers | {asked: given[0] for asked, given in texts.items() if given and not asked.unit}
         others = [first | {asked: text} for asked in first if not asked.unit for text in texts[asked][1:]]
         made = [_with_stand_ins(self.base, values) for values in (first, *others)]
@@ -154,33 +130,33 @@ class SampleReader:
 
     # --- the values of a path ----------------------------------------------------------------------------------------
 
-    def _variable(self, asked: Input, given: Any) -> Variable | None:
+    def _variable(self, asked: base_inputs.Input, given: Any) -> samples.Variable | None:
         try:
             if isinstance(given, list):
                 return self._listed(asked, given)
             if not isinstance(given, dict):
-                raise SampleError("is {given}; {needed}.", given=quoted(given), needed=NEEDED)
+                raise samples.SampleError("is {given}; {needed}.", given=quoted(given), needed=NEEDED)
             if "table" in given:
                 return self._from_table(asked, given)
             if asked.unit is None:
                 options = list(getattr(asked.meta, "options", ()))[:2]
                 example = ", ".join(options) or phrase("first, second")
-                raise SampleError("{texts}, as in [{example}].", texts=TEXTS, example=example)
+                raise samples.SampleError("{texts}, as in [{example}].", texts=TEXTS, example=example)
             if empty := [key for key, value in given.items() if value is None]:
                 place = self._place(asked)
                 self.problems += [place.problem((key,), "{words}.", words=NO_VALUE) for key in empty]
                 return None
             return self._distribution(asked, given) if "distribution" in given else self._range(asked, given)
-        except SampleError as fault:
+        except samples.SampleError as fault:
             self.problems.append(self.vary.problem((asked.path,), str(fault)))
             return None
 
-    def _listed(self, asked: Input, given: list[Any]) -> Variable | None:
-        form = value_form(asked)
+    def _listed(self, asked: base_inputs.Input, given: list[Any]) -> samples.Variable | None:
+        form = schema.value_form(asked)
         values = [self._value(asked, form, index, value) for index, value in enumerate(given)]
-        return ChoiceVariable(asked.path, tuple(values)) if None not in values else None
+        return samples.ChoiceVariable(asked.path, tuple(values)) if None not in values else None
 
-    def _value(self, asked: Input, form: type[Block], index: int, given: Any) -> Any:
+    def _value(self, asked: base_inputs.Input, form: type[Block], index: int, given: Any) -> Any:
         place = ConfigPlace(self.place.tree, ("vary", asked.path), {("value",): (index,)})
         if given is None or (isinstance(given, str) and "${" in given):
             words = NO_VALUE if given is None else Phrase("is {given}; a reference does not vary", given=quoted(given))
@@ -193,31 +169,33 @@ class SampleReader:
             return None
         return stored_value(block.value) if block else None
 
-    def _range(self, asked: Input, given: dict[str, Any]) -> Variable | None:
-        block = self._validated(range_form(asked), given, self._place(asked))
+    def _range(self, asked: base_inputs.Input, given: dict[str, Any]) -> samples.Variable | None:
+        block = self._validated(schema.range_form(asked), given, self._place(asked))
         if block is None:
             return None
         low, high = float(getattr(block, "from")), float(block.to)
-        return RangeVariable(asked.path, low, high, block.count, block.spacing == "log", asked.is_integer)
+        return samples.RangeVariable(asked.path, low, high, block.count, block.spacing == "log", asked.is_integer)
 
-    def _distribution(self, asked: Input, given: dict[str, Any]) -> Variable | None:
+    def _distribution(self, asked: base_inputs.Input, given: dict[str, Any]) -> samples.Variable | None:
         law, place = given["distribution"], self._place(asked)
-        if law not in list(DISTRIBUTIONS):  # a list or a block, too
-            near = nearest(law, DISTRIBUTIONS) if isinstance(law, str) else ""
+        if law not in list(schema.DISTRIBUTIONS):  # a list or a block, too
+            near = nearest(law, schema.DISTRIBUTIONS) if isinstance(law, str) else ""
             template = "is {name}{near}; allowed: {names}"
             self.problems.append(
-                place.problem(("distribution",), template, name=quoted(law), near=near, names=", ".join(DISTRIBUTIONS))
+                place.problem(
+                    ("distribution",), template, name=quoted(law), near=near, names=", ".join(schema.DISTRIBUTIONS)
+                )
             )
             return None
-        block = self._validated(distribution_form(asked, law), given, place)
+        block = self._validated(schema.distribution_form(asked, law), given, place)
         if block is None:
             return None
         keys = {"low": "low", "high": "high", "mean": "middle", "mode": "middle", "sd": "sd"}
         values = {keys[name]: float(value) for name, value in block if name in keys and value is not None}
-        return Distribution(asked.path, law, integer=asked.is_integer, **values)
+        return samples.Distribution(asked.path, law, integer=asked.is_integer, **values)
 
-    def _from_table(self, asked: Input, given: dict[str, Any]) -> Variable | None:
-        block = self._validated(TableForm, given, self._place(asked))
+    def _from_table(self, asked: base_inputs.Input, given: dict[str, Any]) -> samples.Variable | None:
+        block = self._validated(schema.TableForm, given, self._place(asked))
         table = self._table(block.table, ("vary", asked.path, "table")) if block else None
         if block is None or table is None:
             return None
@@ -227,9 +205,9 @@ class SampleReader:
             self.problems += error.problems
             return None
         values = self._column_values(asked, column)
-        return None if values is None else ChoiceVariable(asked.path, tuple(values))
+        return None if values is None else samples.ChoiceVariable(asked.path, tuple(values))
 
-    def _place(self, asked: Input) -> ConfigPlace:
+    def _place(self, asked: base_inputs.Input) -> ConfigPlace:
         return ConfigPlace(self.place.tree, ("vary", asked.path))
 
     def _validated(self, form: type[Block], given: dict[str, Any], place: ConfigPlace) -> Any:
@@ -254,10 +232,10 @@ class SampleReader:
                 self.problems += error.problems
         return self._tables[name]
 
-    def _column_values(self, asked: Input, column: ReadColumn) -> Values | None:
+    def _column_values(self, asked: base_inputs.Input, column: ReadColumn) -> samples.Values | None:
         """Return a column as the values of an input: SI numbers within its bounds, or texts that it takes; None with its problems."""
         try:
-            values: Values
+            values: samples.Values
             if isinstance(asked.meta, Quantity):
                 values = column.si(asked.meta.unit)
                 wrong = list(_outside(asked.meta, column, values))
@@ -269,8 +247,8 @@ class SampleReader:
         self.problems += wrong
         return None if wrong else values
 
-    def _wrong_texts(self, asked: Input, column: ReadColumn, texts: list[str]) -> Iterator[Problem]:
-        form = value_form(asked)
+    def _wrong_texts(self, asked: base_inputs.Input, column: ReadColumn, texts: list[str]) -> Iterator[Problem]:
+        form = schema.value_form(asked)
         wrong: dict[str, str] = {}
         for text in dict.fromkeys(texts):
             if found := validate(form, {"value": text}, self.place)[1]:
@@ -284,17 +262,21 @@ class SampleReader:
         yield from column.faulty(places, lambda place: wrong[texts[place]])
 
 
-def _with_stand_ins(base: Config, values: Mapping[Input, Any]) -> tuple[Config, list[Problem]]:
+def _with_stand_ins(base: Config, values: Mapping[base_inputs.Input, Any]) -> tuple[Config, list[Problem]]:
     """Return the base with other texts and stand-ins for numbers; the parts keep their numbers, by which they are made."""
-    tied = {asked: value for asked, value in values.items() if is_of_parts(base, asked)}
-    texts = {typed_place(base, asked): typed_data(asked, str(value)) for asked, value in tied.items() if not asked.unit}
+    tied = {asked: value for asked, value in values.items() if base_inputs.is_of_parts(base, asked)}
+    texts = {
+        base_inputs.typed_place(base, asked): base_inputs.typed_data(asked, str(value))
+        for asked, value in tied.items()
+        if not asked.unit
+    }
     config, problems = base.retyped(texts) if texts else (base, [])
     if problems:  # which are the reason of such machines
         config = base
-    return with_values(config, {asked: value for asked, value in values.items() if asked not in tied})
+    return base_inputs.with_values(config, {asked: value for asked, value in values.items() if asked not in tied})
 
 
-def _outside(meta: Quantity, column: ReadColumn, values: Values) -> Iterator[Problem]:
+def _outside(meta: Quantity, column: ReadColumn, values: samples.Values) -> Iterator[Problem]:
     """Yield the cells that the input's bounds refuse, with the message that a config has for them."""
     numbers = np.asarray(values)
 
@@ -309,14 +291,14 @@ def _outside(meta: Quantity, column: ReadColumn, values: Values) -> Iterator[Pro
     return column.faulty(np.flatnonzero(~meta.holds(numbers)), refusal)
 
 
-def misused(form: SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Problem]:
+def misused(form: schema.SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Problem]:
     """Yield what the method needs and lacks, and keys that have no use with it."""
-    used = {"count": DRAWN, "seed": DRAWN, "indices": ("sobol",), "file": ("table",)}
+    used = {"count": schema.DRAWN, "seed": schema.DRAWN, "indices": ("sobol",), "file": ("table",)}
     for key, users in used.items():
         if getattr(form, key) not in (None, False) and form.method not in users:
             template = "has no use with method {method}; remove it, or choose {users}."
             yield place.problem(("sample", key), template, at_key=True, method=form.method, users=named(users, " or "))
-    if form.method in DRAWN and form.count is None:
+    if form.method in schema.DRAWN and form.count is None:
         template = "is missing; {method} needs the number of variants."
         yield place.absent(("sample", "count"), template, method=form.method)
     if form.method == "table" and form.file is None:
@@ -330,13 +312,13 @@ def misused(form: SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Pr
         yield place.absent(("vary",), "is missing or empty; vary at least one path.")
 
 
-def _made(form: SampleForm, variables: tuple[Variable, ...]) -> Sample:
+def _made(form: schema.SampleForm, variables: tuple[samples.Variable, ...]) -> samples.Sample:
     count, seed = form.count or 0, form.seed or 0
     if form.method == "latin_hypercube":
-        return LatinHypercube(variables, count, seed)
+        return samples.LatinHypercube(variables, count, seed)
     if form.method == "sobol":
-        return Sobol(variables, count, seed, form.indices)
-    return Grid(variables) if form.method == "grid" else Zip(variables)
+        return samples.Sobol(variables, count, seed, form.indices)
+    return samples.Grid(variables) if form.method == "grid" else samples.Zip(variables)
 
 
 def _texts(given: Any) -> list[str]:

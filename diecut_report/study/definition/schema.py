@@ -23,26 +23,19 @@ def _whole(description: str, symbol: str = "", **limits: Any) -> Quantity:
     return Quantity(symbol, "1", description, integer=True, **limits)
 
 
+# fmt: off
+
+
 class SampleForm(Block):
     """Declare how the variants are taken from what is varied."""
 
-    method: Annotated[
-        Literal["grid", "zip", "latin_hypercube", "sobol", "table"],
-        Text(
-            "grid: each value with each; zip: the first values together, the second together …; "
-            "latin_hypercube, sobol: count variants spread over all; table: the rows of a file"
-        ),
-    ]
+    method: Annotated[Literal["grid", "zip", "latin_hypercube", "sobol", "table"], Text(
+        "grid: each value with each; zip: the first values together, the second together …; "
+        "latin_hypercube, sobol: count variants spread over all; table: the rows of a file")]
     count: Annotated[int | None, _whole("Number of variants of latin_hypercube and sobol", "n", ge=1, le=1e12)] = None
-    seed: Annotated[
-        int | None, _whole("Seed of latin_hypercube and sobol; equal seeds give equal samples", ge=0, le=2**53)
-    ] = None
-    indices: Annotated[
-        bool, Text("For sobol: count groups of variants from which first and total Sobol indices follow")
-    ] = False
-    file: Annotated[
-        str | None, Text("For table: a CSV, Parquet or XLSX file with paths and units as heads, `PATH [rpm]`")
-    ] = None
+    seed: Annotated[int | None, _whole("Seed of latin_hypercube and sobol; equal seeds give equal samples", ge=0, le=2**53)] = None
+    indices: Annotated[bool, Text("For sobol: count groups of variants from which first and total Sobol indices follow")] = False
+    file: Annotated[str | None, Text("For table: a CSV, Parquet or XLSX file with paths and units as heads, `PATH [rpm]`")] = None
 
 
 class ObjectiveForm(Block):
@@ -55,19 +48,13 @@ class ObjectiveForm(Block):
 class OptimiseForm(Block):
     """Declare what `optimise` searches for, and how long."""
 
-    objectives: Annotated[
-        list[ObjectiveForm] | None,
-        Text("What is to be small or great: outputs, or varied inputs such as press.productivity; without it those of the study"),
-    ] = None  # fmt: skip
+    objectives: Annotated[list[ObjectiveForm] | None, Text(
+        "What is to be small or great: outputs, or varied inputs such as press.productivity; without it those of the study")] = None
     evaluations: Annotated[int, _whole("Machines that are tried", ge=1, le=1e8)] = 2000
-    population: Annotated[
-        int | None, _whole("Machines of a generation; without it a fortieth of all, 40 to 500", ge=4, le=1e5)
-    ] = None
+    population: Annotated[int | None, _whole("Machines of a generation; without it a fortieth of all, 40 to 500", ge=4, le=1e5)] = None
     seed: Annotated[int, _whole("Seed of the search; equal seeds search alike", ge=0, le=2**53)] = 1
     passing: Annotated[bool, Text("Only machines of which no check fails")] = True
-    points: Annotated[
-        int, _whole("Points of the front that are listed, and calculated again one by one", ge=1, le=1000)
-    ] = 20
+    points: Annotated[int, _whole("Points of the front that are listed, and calculated again one by one", ge=1, le=1000)] = 20
 
 
 class TableForm(Block):
@@ -83,23 +70,17 @@ class StudyDocument(Block):
     schema_version: Annotated[Literal[1], BeforeValidator(ConfigDocument.a_number)]
     base: Annotated[str, Text("The config that is varied, beside the study file"), Field(min_length=1)]
     sample: Annotated[SampleForm | None, Text("How the variants are taken; not needed beside optimise")] = None
-    vary: Annotated[
-        dict[str, Any], Text("For each varied path its values: a list, a range or a distribution"),
-        Field(default_factory=dict),
-    ]  # fmt: skip
-    constraints: Annotated[
-        Texts, Text("What must hold between inputs, and of outputs; variants where it does not are dropped")
-    ]
-    outputs: Annotated[
-        list[str] | None, Text("The outputs to keep, such as drive.crank_torque_peak; without it all")
-    ] = None
+    vary: Annotated[dict[str, Any], Text("For each varied path its values: a list, a range or a distribution"), Field(default_factory=dict)]
+    constraints: Annotated[Texts, Text("What must hold between inputs, and of outputs; variants where it does not are dropped")]
+    outputs: Annotated[list[str] | None, Text("The outputs to keep, such as drive.crank_torque_peak; without it all")] = None
     curves: Annotated[Texts, Text("The curves to keep; without it none")]
     objectives: Annotated[list[ObjectiveForm], Text("What is to be small or great"), Field(default_factory=list)]
     optimise: Annotated[OptimiseForm | None, Text("What the command optimise searches for in what is varied")] = None
     # judged as a whole where the sample is known: of each type of value two faults would be reported
-    reports: Annotated[
-        Any, Text("The variants that get a full report: none, failed, best N, all, or a list of numbers")
-    ] = None
+    reports: Annotated[Any, Text("The variants that get a full report: none, failed, best N, all, or a list of numbers")] = None
+
+
+# fmt: on
 
 
 def value_form(asked: Input) -> type[Block]:

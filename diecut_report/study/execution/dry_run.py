@@ -16,12 +16,12 @@ import numpy as np
 
 from diecut_report.quantities.units import to_display
 from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.samples import RangeVariable, Values
 from diecut_report.study.definition.study_file import Optimise, Study
-from diecut_report.study.definition.variables import RangeVariable, Values
 from diecut_report.study.execution.study_run import SMALL, described
 from diecut_report.study.execution.worker import Chunk, Done, calculate, judged, judged_rows
 from diecut_report.study.storage.description import JUDGED, Description
-from diecut_report.study.storage.parts import part_content, schema_of, table_of
+from diecut_report.study.storage.store import part_content, schema_of, table_of
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import localised, say, say_counted
 

@@ -241,13 +241,12 @@ def _doubtful(study: Study) -> dict[str, list[str]]:
 
 
 def varied_columns(study: Study) -> list[ResultColumn]:
-    columns = []
-    for path, asked in study.inputs.items():
-        if isinstance(asked.meta, Quantity):
-            columns.append(column_of(path, "float", asked.meta.unit, asked.meta))
-        else:
-            columns.append(ResultColumn(path, "text", description=asked.meta.description))
-    return columns
+    return [
+        column_of(path, "float", asked.meta.unit, asked.meta)
+        if isinstance(asked.meta, Quantity)
+        else ResultColumn(path, "text", description=asked.meta.description)
+        for path, asked in study.inputs.items()
+    ]
 
 
 def result_columns(study: Study) -> list[ResultColumn]:

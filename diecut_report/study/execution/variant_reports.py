@@ -18,7 +18,7 @@ from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.engines import WorkerSetup, local_engine, results
 from diecut_report.study.execution.study_run import Where
-from diecut_report.study.storage.state import continuing
+from diecut_report.study.storage.description import continuing
 from diecut_report.study.storage.store import Store
 from diecut_report.text.phrases import Phrase, phrase
 

@@ -22,31 +22,13 @@ from diecut_report.errors import PluginError, Problem
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
+from diecut_report.mechanism import steps
 from diecut_report.mechanism.checks import Check, by_part
 from diecut_report.mechanism.inputs import POINTS, Quantity, list_inputs
 from diecut_report.mechanism.mechanism import missing_keys
-from diecut_report.mechanism.steps import (
-    CROSSING_COLUMNS,
-    Crossings,
-    PartNames,
-    ResultName,
-    SilentStep,
-    Step,
-    Value,
-    count_name,
-    result_names,
-)
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import (
-    NOT_CHECKED,
-    checks_of,
-    is_of_machine,
-    is_sized,
-    judged,
-    left_out,
-    missing_checks,
-    rests_on_typing,
-)
+from diecut_report.results import checks
+from diecut_report.results.checks import judged
 from diecut_report.results.coherence import DRIVE_LINE, finding_check
 from diecut_report.results.press_run import Tell
 from diecut_report.results.usual import usual_check
@@ -104,7 +86,7 @@ def curve_columns(config: Config, names: Iterable[str]) -> Iterator[ResultColumn
             yield column_of(name, "curve", step.unit, step)
 
 
-def column_of(name: str, kind: Kind, display: str, declared: Step | Quantity) -> ResultColumn:
+def column_of(name: str, kind: Kind, display: str, declared: steps.Step | Quantity) -> ResultColumn:
     """Return the column of a quantity that is declared so, in SI; ``display`` is the unit that people read."""
     si = unit(display).si
     return ResultColumn(name, kind, si, display if display != si else "", declared.symbol, declared.description)
@@ -116,7 +98,7 @@ def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
     counts = _counts(instance)
     for _, step in instance.mechanism.active(instance.given):
         home = axes.get(step.id)
-        if not step.output or isinstance(step, SilentStep) or (home is not None and home not in counts):
+        if not step.output or isinstance(step, steps.SilentStep) or (home is not None and home not in counts):
             continue
         parts = _names(step, counts[home] if home else None, instance.names_of_parts(step.named_by))
         for part in parts:
@@ -132,7 +114,7 @@ def _counts(instance: Instance) -> dict[str, int]:
     assert instance.mechanism is not None
     counts = {path: _length(instance.data, path) for path in list_inputs(instance.model).values()}
     for _, step in instance.mechanism.active(instance.given):
-        if isinstance(step, PartNames) and step.count is not None:
+        if isinstance(step, steps.PartNames) and step.count is not None:
             counts[step.id] = step.count(partial(_length, instance.data))
     return counts
 
@@ -143,16 +125,18 @@ def _length(data: Any, path: str) -> int:
     return len(data or ())
 
 
-def _names(step: Step, parts: int | None, parts_names: Sequence[str] | None) -> list[ResultName]:
+def _names(step: steps.Step, parts: int | None, parts_names: Sequence[str] | None) -> list[steps.ResultName]:
     """Return the results of a step by name, as in the results file, where an extreme's place stands beside its value."""
-    names = result_names(step, CROSSING_COLUMNS if isinstance(step, Crossings) else parts, parts_names)
+    names = steps.result_names(
+        step, steps.CROSSING_COLUMNS if isinstance(step, steps.Crossings) else parts, parts_names
+    )
     return [each for each in names if each.role != "place"]
 
 
-def _kind(step: Step) -> Kind:
+def _kind(step: steps.Step) -> Kind:
     if step.is_text:
         return "text"
-    if isinstance(step, Value) and step.is_condition:
+    if isinstance(step, steps.Value) and step.is_condition:
         return "bool"
     return "int" if step.whole else "float"
 
@@ -163,7 +147,11 @@ def _checks(name: str, instance: Instance) -> Iterator[ResultColumn]:
     assert mechanism is not None
     ids: set[str] = set()
     for check in by_part(mechanism.checks, lambda path: instance.names_of_parts(path) or None):
-        if check.id not in ids and is_of_machine(check) and missing_keys(mechanism, check, instance.given) is not None:
+        if (
+            check.id not in ids
+            and checks.is_of_machine(check)
+            and missing_keys(mechanism, check, instance.given) is not None
+        ):
             ids.add(check.id)
             yield from _check(name, check)
     if ranges_of(mechanism.kind):
@@ -182,17 +170,17 @@ def output_values(name: str, calc: Calculation) -> dict[str, Array]:
     """Return the outputs of many variants by column; NaN (None for texts and flags) where there is none."""
     found: dict[str, Array] = {}
     for step in calc.steps.values():
-        if not step.output or isinstance(step, SilentStep) or step.id not in calc.values:
+        if not step.output or isinstance(step, steps.SilentStep) or step.id not in calc.values:
             continue
         home = calc.steps.get(calc.axis.get(step.id, ""))
-        if isinstance(home, PartNames) and home.count is None:  # how many there are is not known ahead
+        if isinstance(home, steps.PartNames) and home.count is None:  # how many there are is not known ahead
             continue
         values = calc.values[step.id]
-        if isinstance(step, Crossings):  # as many columns as there are for them, NaN where there are fewer
-            places = values[:, :CROSSING_COLUMNS]
-            room = np.full((len(places), CROSSING_COLUMNS - places.shape[1]), np.nan)
-            values = np.concatenate([calc.values[count_name(step.id)], places, room], axis=1)
-        parts = None if isinstance(step, Crossings) or step.id not in calc.axis else values.shape[1]
+        if isinstance(step, steps.Crossings):  # as many columns as there are for them, NaN where there are fewer
+            places = values[:, : steps.CROSSING_COLUMNS]
+            room = np.full((len(places), steps.CROSSING_COLUMNS - places.shape[1]), np.nan)
+            values = np.concatenate([calc.values[steps.count_name(step.id)], places, room], axis=1)
+        parts = None if isinstance(step, steps.Crossings) or step.id not in calc.axis else values.shape[1]
         names = _names(step, parts, calc.inputs.get(step.named_by))
         found |= {f"{name}.{part.name}": values[:, index] for index, part in enumerate(names)}
     return found
@@ -240,18 +228,18 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
     names, codes, ratios, sized, left, unchecked = [], [], [], [], [], []
     faults: dict[int, str] = {}
     for name, calc in calculations.items():
-        for check in checks_of(calc):
+        for check in checks.checks_of(calc):
             if not is_made(calc, check):
-                unchecked += [f"{name}.checks.{check.id}"] if missing_checks(calc, check) else []
+                unchecked += [f"{name}.checks.{check.id}"] if checks.missing_checks(calc, check) else []
                 continue
             found = judged(calc, check)
             there, held, ratio = (found.governing(part) for part in (found.there, found.held, found.ratio))
-            if not is_of_machine(check):
+            if not checks.is_of_machine(check):
                 fault = f"{name}: {check.title}. {check.consequence}"
                 faults |= dict.fromkeys(np.flatnonzero(there & ~held).tolist(), fault)
                 continue
             # what holds by what was typed, or for some parts alone, is not checked
-            unmade = there & held & (rests_on_typing(calc, check) | bool(left_out(calc, check, found)))
+            unmade = there & held & (checks.rests_on_typing(calc, check) | bool(checks.left_out(calc, check, found)))
             there = there & ~unmade
             if unmade.all():
                 unchecked.append(f"{name}.checks.{check.id}")
@@ -260,7 +248,7 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
             left.append(unmade)
             codes.append(np.where(there, np.where(held, PASS, np.where(check.is_failure(ratio), FAIL, WARN)), 0))
             ratios.append(np.where(there, ratio, np.nan))
-            sized.append(is_sized(calc.given, check) or check.presumed)
+            sized.append(checks.is_sized(calc.given, check) or check.presumed)
     shape = (len(names), count)
     unchecked = [name for name in dict.fromkeys(unchecked) if name not in names]
     return Verdicts(names, np.reshape(codes, shape).astype(int), np.reshape(ratios, shape).astype(float),
@@ -327,46 +315,29 @@ def calculate_rows(
     rows = Rows(count, curves, further, tell)
     if not count:  # of a chunk that constraints have emptied
         return rows
-    for machine in _machines_of_parts(base, given, rows):
-        for alike, texts in _groups(machine.given, len(machine.rows)):
+    for machine, own, places in _machines_of_parts(base, given, rows):
+        for alike, texts in _groups(own, len(places)):
             for chosen in np.array_split(alike, -(-len(alike) // TOGETHER)):
-                own = machine.given.items()
-                numbers = {asked: np.asarray(values)[chosen] for asked, values in own if asked not in texts}
-                _group(machine.base, numbers, texts, rows, machine.rows[chosen])
+                numbers = {asked: np.asarray(values)[chosen] for asked, values in own.items() if asked not in texts}
+                _group(machine, numbers, texts, rows, places[chosen])
     return rows
 
 
-@dataclass(frozen=True)
-class _OfParts:
-    """Hold variants of which the parts make the same calculations: a base of these, and what is varied in it; by their rows."""
-
-    base: Config
-    given: Given
-    rows: Array
-
-
-def _machines_of_parts(base: Config, given: Given, rows: Rows) -> Iterator[_OfParts]:
-    """Yield the variants by what their parts make; of those whose parts contradict each other the rows say why."""
+def _machines_of_parts(base: Config, given: Given, rows: Rows) -> Iterator[tuple[Config, Given, Array]]:
+    """Yield the variants by what their parts make: a base, what is varied in it, their rows; of parts that contradict each other rows say why."""
     typed = {asked: values for asked, values in given.items() if is_of_parts(base, asked)}
     if not typed:
-        yield _OfParts(base, given, np.arange(rows.count))
+        yield base, given, np.arange(rows.count)
         return
     others = {asked: values for asked, values in given.items() if asked not in typed}
     for changes, config, chosen in _by_structure(base, typed, rows):
-        numbers = {
-            asked: np.array([own.get(asked, today) for own in changes])
-            for asked, today in _today(base, changes).items()
-        }
-        rest = {
-            asked: np.asarray(values, dtype=None if asked.unit else object)[chosen] for asked, values in others.items()
-        }
-        yield _OfParts(config, rest | numbers, chosen)
-
-
-def _today(base: Config, changes: Sequence[Mapping[Input, float]]) -> dict[Input, float]:
-    """What the base has of all inputs that differ from it in some of the variants."""
-    differing = dict.fromkeys(asked for own in changes for asked in own)
-    return {asked: float(present_value(base, asked) or 0.0) for asked in differing}
+        rest: dict[Input, Array] = {}
+        for asked, values in others.items():
+            rest[asked] = np.asarray(values, dtype=None if asked.unit else object)[chosen]
+        for asked in dict.fromkeys(asked for own in changes for asked in own):
+            today = float(present_value(base, asked) or 0.0)
+            rest[asked] = np.array([own.get(asked, today) for own in changes])
+        yield config, rest, chosen
 
 
 def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list[dict[Input, float]], Config, Array]]:
@@ -579,9 +550,9 @@ def _all_columns(variants: CalculatedVariants, found: Verdicts) -> dict[str, Arr
                 plain[plain != plain] = None  # a text that a machine does not have
             outputs[column] = np.broadcast_to(plain, (variants.count,))
     for name, codes, ratios, left in zip(found.names, found.codes, found.ratios, found.left, strict=True):
-        outputs |= {f"{name}.utilisation": ratios, f"{name}.status": np.where(left, NOT_CHECKED, STATUS[codes])}
+        outputs |= {f"{name}.utilisation": ratios, f"{name}.status": np.where(left, checks.NOT_CHECKED, STATUS[codes])}
     for name in found.unchecked:
-        statuses = np.full(variants.count, NOT_CHECKED, dtype=object)
+        statuses = np.full(variants.count, checks.NOT_CHECKED, dtype=object)
         outputs |= {f"{name}.utilisation": np.full(variants.count, np.nan), f"{name}.status": statuses}
     return outputs
 

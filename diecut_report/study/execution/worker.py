@@ -18,8 +18,8 @@ from diecut_report.errors import refusal
 from diecut_report.formulas import Array
 from diecut_report.formulas.condition_numpy import JudgedRows
 from diecut_report.study.definition.constraints import Constraint
+from diecut_report.study.definition.samples import Values
 from diecut_report.study.definition.study_file import Study, load_study
-from diecut_report.study.definition.variables import Values
 from diecut_report.study.execution.engines import settle
 from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows
 from diecut_report.study.storage.description import JUDGED, source_name

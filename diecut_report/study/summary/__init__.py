@@ -25,7 +25,7 @@ def summarise(directory: Path, formats: Sequence[str] = FORMATS, discovery: Disc
     with opened(directory) as stored:
         found = content(stored, discovery or Discovery())
     from diecut_report.report.pages.pdf import printed_page  # with WeasyPrint
-    from diecut_report.study.summary.pages import page
+    from diecut_report.study.summary.content import page
 
     contents = {"html": lambda: page(found).encode(), "pdf": lambda: printed_page(page(found, "print"))}
     with room():

@@ -14,17 +14,7 @@ from numpy.typing import NDArray
 
 from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variants import Stored, StoredColumn
-from diecut_report.study.summary.data import (
-    BANDS,
-    SOUND,
-    WORST,
-    Utilisation,
-    display,
-    named,
-    number_of,
-    utilised,
-    value_text,
-)
+from diecut_report.study.summary import data
 from diecut_report.text.translation import said, say
 
 # The variants that no other beats in all objectives.
@@ -44,7 +34,7 @@ class StoredObjective:
 
     @property
     def label(self) -> str:
-        return say("{quantity} minimised" if self.is_less else "{quantity} maximised", quantity=named(self.column))
+        return say("{quantity} minimised" if self.is_less else "{quantity} maximised", quantity=data.named(self.column))
 
 
 @dataclass(frozen=True)
@@ -78,7 +68,7 @@ def front(stored: Stored, wanted: tuple[StoredObjective, ...], passing: int) -> 
         return None
     names = ", ".join(f"CAST({objective.column.sql} AS DOUBLE)" for objective in wanted)
     there = " AND ".join(f"{objective.column.sql} IS NOT NULL" for objective in wanted)
-    among = SOUND if passing else "status = 'fail'"
+    among = data.SOUND if passing else "status = 'fail'"
     found = stored.connection.execute(f"SELECT variant, {names} FROM v WHERE {among} AND {there}").fetchnumpy()
     variants, *columns = (np.asarray(column) for column in found.values())
     if not len(variants):
@@ -262,7 +252,7 @@ def _ranks(stored: Stored, target: StoredColumn) -> Influence | None:
 
 
 def _read(stored: Stored, target: StoredColumn) -> tuple[Array, dict[StoredColumn, Array]]:
-    asked = ", ".join(f"{number_of(stored, column)} AS i{index}" for index, column in enumerate(stored.varied))
+    asked = ", ".join(f"{data.number_of(stored, column)} AS i{index}" for index, column in enumerate(stored.varied))
     count = stored.rows(f"SELECT count({target.sql}) FROM w")[0][0]
     every = max(1, math.ceil(count / RANKED))
     drawn = "" if every == 1 else f" AND hash(variant) % {every} = 0"
@@ -393,7 +383,7 @@ def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[tuple[str, l
     if total <= ALL:
         order = "NULLS LAST, variant"
         groups += [
-            (say("Other passing variants, largest margin first"), _numbers(stored, SOUND, order)),
+            (say("Other passing variants, largest margin first"), _numbers(stored, data.SOUND, order)),
             (say("Failing variants, least overloaded first"), _numbers(stored, "status = 'fail'", order)),
             (say("Impossible variants"), _numbers(stored, "status = 'error'", order)),
         ]
@@ -412,7 +402,9 @@ def _cut(title: str, variants: Sequence[int], most: int) -> tuple[str, list[int]
 
 
 def _numbers(stored: Stored, where: str, order: str) -> list[int]:
-    return [number for (number,) in stored.rows(f"SELECT variant FROM w WHERE {where} ORDER BY {WORST.sql} {order}")]
+    return [
+        number for (number,) in stored.rows(f"SELECT variant FROM w WHERE {where} ORDER BY {data.WORST.sql} {order}")
+    ]
 
 
 def _once(groups: Iterable[tuple[str, list[int]]]) -> Iterator[tuple[str, list[int]]]:
@@ -424,7 +416,7 @@ def _once(groups: Iterable[tuple[str, list[int]]]) -> Iterator[tuple[str, list[i
             yield title, new
 
 
-def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
+def telling(used: Sequence[data.Utilisation]) -> list[data.Utilisation]:
     """Return the checks that stand in the matrix: those that do not always pass with ease."""
     return [row for row in used if row.failing or row.warning or (row.greatest or 0.0) > IDLE]
 
@@ -455,7 +447,7 @@ def _cell(value: float | None, made: str | None) -> MatrixCell:
     failing = made == "fail"
     if value is None:
         return MatrixCell("✗" if failing else "–" if made is None else "✓", "u4" if failing else "none", failing)
-    return MatrixCell(utilised(value), f"u{sum(value > limit for limit in BANDS)}", failing)
+    return MatrixCell(data.utilised(value), f"u{sum(value > limit for limit in data.BANDS)}", failing)
 
 
 def columns(stored: Stored, goals: Sequence[StoredObjective]) -> list[StoredColumn]:
@@ -465,14 +457,14 @@ def columns(stored: Stored, goals: Sequence[StoredObjective]) -> list[StoredColu
 
 def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn]) -> list[Best]:
     """Return the rows of that table, in the order of the variants."""
-    rows = _of_variants(stored, variants, ["status", WORST.sql, "governing", *(column.sql for column in shown)])
+    rows = _of_variants(stored, variants, ["status", data.WORST.sql, "governing", *(column.sql for column in shown)])
     found = []
     for one in variants:
         status, worst, governing, *values = rows[one]
-        used = "–" if worst is None else utilised(worst)
+        used = "–" if worst is None else data.utilised(worst)
         check = said(stored.check_label(governing)) if governing else ""
         texts = [
-            "–" if value is None else display(float(value), column) if column.is_number else value_text(value)
+            "–" if value is None else data.display(float(value), column) if column.is_number else data.value_text(value)
             for value, column in zip(values, shown, strict=True)
         ]
         found.append(Best(one, report_of(stored.folder, one), status, used, check, texts))

@@ -18,21 +18,8 @@ from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, can
 from diecut_report.report.text import number
 from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.storage.description import STATUSES
+from diecut_report.study.summary import data
 from diecut_report.study.summary.best import Front, Influence
-from diecut_report.study.summary.data import (
-    WORDS,
-    Density,
-    Histogram,
-    SampledVariants,
-    display,
-    factor,
-    is_utilisation,
-    named,
-    reach,
-    titled,
-    value_text,
-    wrapped,
-)
 from diecut_report.text.translation import decimal_sign, localised, said, say
 
 COLOURS = {"pass": "#6f9fc0", "warn": "#d9a13a", "fail": "#a3161a", "error": "#9aa4ae"}
@@ -63,7 +50,7 @@ def shares(counts: dict[str, int]) -> Figure:
     for status, count in counts.items():
         share = count / total
         axes.barh(0, share, 1, start, color=COLOURS[status], edgecolor="white", linewidth=0.8)
-        words = localised(f"{said(WORDS[status])} {100 * share:.3g} %")
+        words = localised(f"{said(data.WORDS[status])} {100 * share:.3g} %")
         if text_size(words)[0] + 8 < share * WIDTH:
             colour = "white" if status == "fail" else INK
             axes.text(start + share / 2, 0, words, ha="center", va="center_baseline", color=colour)
@@ -75,7 +62,7 @@ def shares(counts: dict[str, int]) -> Figure:
 
 def stacked(rows: Sequence[tuple[str, Sequence[float], str]], colours: Sequence[str]) -> Figure:
     """Build horizontal bars of counts, each with its name, its parts and what stands behind it."""
-    labels = [wrapped(name, LABEL, FONT_SIZE, 1) for name, _, _ in rows]
+    labels = [data.wrapped(name, LABEL, FONT_SIZE, 1) for name, _, _ in rows]
     sheet, names = canvas(WIDTH, 17.0 * len(rows) + 8), max(text_size(label)[0] for label in labels) + 10
     behind = max(text_size(text, 8)[0] for _, _, text in rows) + 10
     axes = panel(sheet, names, 4, WIDTH - names - behind, 17.0 * len(rows))
@@ -105,7 +92,7 @@ def influence(found: Influence) -> Figure:
     """Build the inputs of an influence as bars; for Sobol indices the total behind the first."""
     rows = found.telling[:MOST_BARS]
     sheet = canvas(WIDTH, 17.0 * len(rows) + 26)
-    labels = [wrapped(named(share.column), LABEL, FONT_SIZE, 1) for share in rows]
+    labels = [data.wrapped(data.named(share.column), LABEL, FONT_SIZE, 1) for share in rows]
     names = max(text_size(label)[0] for label in labels) + 10
     axes = panel(sheet, names, 18, WIDTH - names - 12, 17.0 * len(rows))
     whisker: dict[str, Any] = {"elinewidth": 0.7, "capsize": 1.5}
@@ -128,7 +115,7 @@ def influence(found: Influence) -> Figure:
 # --- distributions ---------------------------------------------------------------------------------------------------
 
 
-def distributions(found: Sequence[Histogram]) -> Figure:
+def distributions(found: Sequence[data.Histogram]) -> Figure:
     """Build histograms three in a row, each by status."""
     rows, high = -(-len(found) // 3), 74.0
     wide = (WIDTH - 2 * 16) / 3
@@ -138,12 +125,14 @@ def distributions(found: Sequence[Histogram]) -> Figure:
         left, below = column * (wide + 16) + SCALE, (rows - row - 1) * (high + FOOT + HEAD) + FOOT
         axes = panel(sheet, left, below, wide - SCALE - 12, high)
         _bars(axes, each)
-        axes.set_title(wrapped(titled(each.column), wide - SCALE - 12, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
+        axes.set_title(
+            data.wrapped(data.titled(each.column), wide - SCALE - 12, 7.5, 2), pad=3, size=7.5, linespacing=1.05
+        )
     return sheet
 
 
-def _bars(axes: Axes, each: Histogram) -> None:
-    edges, start = each.edges * factor(each.column), np.zeros(len(each.edges) - 1)
+def _bars(axes: Axes, each: data.Histogram) -> None:
+    edges, start = each.edges * data.factor(each.column), np.zeros(len(each.edges) - 1)
     for status in ORDER:
         counts = each.counts[STATUSES.index(status)]
         axes.bar(edges[:-1], counts, np.diff(edges), start, align="edge", color=COLOURS[status], linewidth=0)
@@ -155,7 +144,7 @@ def _bars(axes: Axes, each: Histogram) -> None:
     axes.set_ylim(0, max(1, most * 1.05))
     axes.set_yticks([most], [number(str(most))], size=6.5)
     axes.tick_params(axis="y", length=2, pad=1)
-    if is_utilisation(each.column) and edges[0] < 1 < edges[-1]:
+    if data.is_utilisation(each.column) and edges[0] < 1 < edges[-1]:
         axes.axvline(1, color=INK, linewidth=0.6, linestyle=(0, (2, 2)))
     axes.locator_params(axis="x", nbins=4)
     if each.is_open:
@@ -175,7 +164,7 @@ MARKERS = {"pass": "o", "warn": "^", "fail": "x"}
 
 
 def scatter(
-    drawn_from: SampledVariants, pairs: Sequence[tuple[StoredColumn, StoredColumn]], front: Front | None = None
+    drawn_from: data.SampledVariants, pairs: Sequence[tuple[StoredColumn, StoredColumn]], front: Front | None = None
 ) -> Figure:
     """Build two quantities of each variant, by status; one pair large, several in rows of three."""
     across = 1 if len(pairs) == 1 else 3
@@ -195,17 +184,17 @@ def scatter(
     return sheet
 
 
-def _points(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredColumn, size: float) -> None:
+def _points(axes: Axes, drawn_from: data.SampledVariants, x: StoredColumn, y: StoredColumn, size: float) -> None:
     for status in reversed(ORDER):
         here = drawn_from.status == STATUSES.index(status)
         if here.any():
-            across, up = (_spread(drawn_from, column, here) * factor(column) for column in (x, y))
+            across, up = (_spread(drawn_from, column, here) * data.factor(column) for column in (x, y))
             look: dict[str, Any] = {"c": COLOURS[status], "marker": MARKERS[status], "alpha": 0.75}
             width = 0.8 if status == "fail" else 0
-            axes.scatter(across, up, s=size, linewidths=width, label=said(WORDS[status]), **look)
+            axes.scatter(across, up, s=size, linewidths=width, label=said(data.WORDS[status]), **look)
 
 
-def cells(found: Density, front: Front | None = None) -> Figure:
+def cells(found: data.Density, front: Front | None = None) -> Figure:
     """Build where all variants of a large study lie over two quantities: a square for each cell that has some."""
     wide, high, foot = WIDTH - 60, 230.0, 40.0 + LEGEND
     sheet = canvas(WIDTH, high + foot + HEAD)
@@ -213,7 +202,7 @@ def cells(found: Density, front: Front | None = None) -> Figure:
     j, i = np.nonzero(found.counts)
     counts, share = found.counts[j, i], found.sound[j, i] / found.counts[j, i]
     across, up = (found.x_edges, found.x), (found.y_edges, found.y)
-    x, y = ((edges[:-1] + edges[1:]) / 2 * factor(each) for edges, each in (across, up))
+    x, y = ((edges[:-1] + edges[1:]) / 2 * data.factor(each) for edges, each in (across, up))
     most = min(wide / len(x), high / len(y)) - 0.6
     side = most * (0.3 + 0.7 * np.log1p(counts) / np.log1p(counts.max()))
     order = np.argsort(share, kind="stable")
@@ -238,10 +227,10 @@ def near(values: NDArray[Any]) -> NDArray[Any]:
     there = values[np.isfinite(values)]
     if not len(there):
         return values
-    return np.asarray(np.minimum(values, reach(there.min(), np.quantile(there, 0.95), there.max())))
+    return np.asarray(np.minimum(values, data.reach(there.min(), np.quantile(there, 0.95), there.max())))
 
 
-def _spread(drawn_from: SampledVariants, column: StoredColumn, here: NDArray[Any]) -> NDArray[Any]:
+def _spread(drawn_from: data.SampledVariants, column: StoredColumn, here: NDArray[Any]) -> NDArray[Any]:
     """Return values of some variants; words a little to both sides of their place, so that points do not cover each other."""
     values: NDArray[Any] = near(drawn_from.values[column.name])
     if column.name in drawn_from.words:
@@ -253,7 +242,7 @@ def _front(axes: Axes, front: Front | None, x: StoredColumn, y: StoredColumn) ->
     names = [objective.column.name for objective in front.objectives] if front else []
     if front is None or x.name not in names or y.name not in names:
         return
-    values = front.values[:, [names.index(x.name), names.index(y.name)]] * (factor(x), factor(y))
+    values = front.values[:, [names.index(x.name), names.index(y.name)]] * (data.factor(x), data.factor(y))
     values = values[np.argsort(values[:, 0])]
     is_less = front.objectives[names.index(x.name)].is_less
     look: dict[str, Any] = {
@@ -264,7 +253,7 @@ def _front(axes: Axes, front: Front | None, x: StoredColumn, y: StoredColumn) ->
     axes.plot(*values.T, marker="D", color=INK, linewidth=0.9, label=say("Pareto front"), **look)
 
 
-def _named(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredColumn, wide: float) -> None:
+def _named(axes: Axes, drawn_from: data.SampledVariants, x: StoredColumn, y: StoredColumn, wide: float) -> None:
     _titles(axes, x, y, wide)
     for column, axis, limits in ((x, axes.xaxis, axes.set_xlim), (y, axes.yaxis, axes.set_ylim)):
         words = drawn_from.words.get(column.name)
@@ -276,8 +265,8 @@ def _named(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredCo
 
 
 def _titles(axes: Axes, x: StoredColumn, y: StoredColumn, wide: float) -> None:
-    axes.set_title(wrapped(titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
-    axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
+    axes.set_title(data.wrapped(data.titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
+    axes.set_xlabel(data.wrapped(data.titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
 
 
 # The chart of parallel coordinates: each variant a line from its inputs to its results, and where on each axis variants pass.
@@ -306,11 +295,11 @@ def evenly(variants: Array) -> Array:
 
 
 def parallel(
-    sample: SampledVariants, lines: Array, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]
+    sample: data.SampledVariants, lines: Array, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]
 ) -> Figure:
     """Build the variants as lines over upright axes, passing ones in front; the darker a field of an axis, the more of it passes."""
     pitch = (WIDTH - 2 * SIDE) / (len(columns) - 1)
-    names = [wrapped(titled(column), min(pitch, 100) - 6, SMALL, 6) for column in columns]
+    names = [data.wrapped(data.titled(column), min(pitch, 100) - 6, SMALL, 6) for column in columns]
     foot = 18 + 8.8 * max(name.count("\n") + 1 for name in names)
     sheet = canvas(WIDTH, HIGH + 14 + foot)
     axes = panel(sheet, SIDE, foot, WIDTH - 2 * SIDE, HIGH)
@@ -328,7 +317,7 @@ def parallel(
     return sheet
 
 
-def _scaled(sample: SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]) -> Array:
+def _scaled(sample: data.SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]) -> Array:
     """Return the heights of all variants on all axes, from 0 to 1; words a little to both sides of their place."""
     found = []
     for column in columns:
@@ -340,7 +329,7 @@ def _scaled(sample: SampledVariants, columns: Sequence[StoredColumn], ends: Mapp
     return np.asarray(np.column_stack(found))
 
 
-def _lines(axes: Axes, sample: SampledVariants, lines: Array, scaled: Array) -> None:
+def _lines(axes: Axes, sample: data.SampledVariants, lines: Array, scaled: Array) -> None:
     across = np.arange(scaled.shape[1])
     for status, look in LOOKS.items():
         here = lines[sample.status[lines] == STATUSES.index(status)]
@@ -364,13 +353,13 @@ def _fields(axes: Axes, place: int, heights: Array, status: Array, wide: float) 
 def _scale(axes: Axes, place: int, column: StoredColumn, ends: Ends, words: list[str] | None, room: float) -> None:
     low, top, is_cut = ends
     if words is None:
-        _fitted(axes, display(low, column), (place, 0), -3, room)
-        _fitted(axes, f"{'≥ ' if is_cut else ''}{display(top, column)}", (place, 1), 3, room)
+        _fitted(axes, data.display(low, column), (place, 0), -3, room)
+        _fitted(axes, f"{'≥ ' if is_cut else ''}{data.display(top, column)}", (place, 1), 3, room)
         return
     box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
     for index, word in list(enumerate(words))[:: -(-len(words) // MOST_WORDS)]:
         height = (index + SPREAD) / (top - low + 2 * SPREAD)
-        said = wrapped(value_text(word), room, 6.0, 2)
+        said = data.wrapped(data.value_text(word), room, 6.0, 2)
         axes.annotate(said, (place, height), ha="center", va="center", size=6.0, bbox=box, zorder=4, linespacing=1.0)
 
 

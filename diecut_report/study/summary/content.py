@@ -1,26 +1,33 @@
-"""What the summary says, in its order: texts, tables and charts, ready for the template."""
+"""What the summary of a study says, in its order (texts, tables and charts), and its page, for the screen and for paper."""
 
 from __future__ import annotations
 
+import base64
+import json
+import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any, NamedTuple
+
+from markupsafe import Markup
 
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.validation import ASSUMED
 from diecut_report.config.yaml import KeyPath, printable
+from diecut_report.quantities.units import pretty, unit
+from diecut_report.report.pages import html
+from diecut_report.report.pages.html import styled_page
 from diecut_report.report.text import number
 from diecut_report.study.analysis.variants import Stored, StoredColumn
 from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.definition.constraints import why_dropped
 from diecut_report.study.storage.description import StudySource, source_name
 from diecut_report.study.summary import best, data
-from diecut_report.study.summary.data import WORST, Spread, named, titled, utilised, value_text, variants
-from diecut_report.study.summary.figures import Figures, Ranked, SummaryFigure, ranked
+from diecut_report.study.summary.figures import Figures, SummaryFigure, ranked
 from diecut_report.text.phrases import phrase
-from diecut_report.text.translation import localised, said, say, say_counted
+from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted
 
 # What the study asks, as its file says it.
 
@@ -87,13 +94,13 @@ def _asked_facts(stored: Stored, tree: yaml.Tree) -> Iterator[tuple[str, str]]:
     if sample.get("indices"):
         yield say("Sobol indices"), say("yes: each of the points above is a group of variants")
     if "sample" in counts and counts["sample"] != sample.get("count"):
-        yield say("Variants of the sample"), variants(int(counts["sample"]))
+        yield say("Variants of the sample"), data.variants(int(counts["sample"]))
     if tree.data.get("constraints"):
         yield say("Excluded by the constraints"), _dropped(counts)
 
 
 def _dropped(counts: Mapping[str, Any]) -> str:
-    return variants(int(counts.get("dropped") or 0)) + said(why_dropped(counts))
+    return data.variants(int(counts.get("dropped") or 0)) + said(why_dropped(counts))
 
 
 def _objective(column: StoredColumn | None, way: str, name: str) -> tuple[str, str]:
@@ -103,7 +110,7 @@ def _objective(column: StoredColumn | None, way: str, name: str) -> tuple[str, s
 
 def _quantities(stored: Stored, expression: str) -> str:
     found = (_column_of(stored, name) for name in dict.fromkeys(NAME.findall(expression)))
-    return ", ".join(f"{named(column)} {column.symbol}".rstrip() for column in found if column)
+    return ", ".join(f"{data.named(column)} {column.symbol}".rstrip() for column in found if column)
 
 
 def _column_of(stored: Stored, name: str) -> StoredColumn | None:
@@ -117,12 +124,12 @@ def _input(stored: Stored, tree: yaml.Tree, path: str) -> AskedInput:
     given = (tree.data.get("vary") or {}).get(path)
     if given is None:
         values = say("a column of {table}", table=tree.typed(("sample", "file")) or phrase("the table"))
-    elif isinstance(given, list) and any(isinstance(each, str) and value_text(each) != each for each in given):
-        told = [(value_text(each), written(tree, (*place, index))) for index, each in enumerate(given)]
+    elif isinstance(given, list) and any(isinstance(each, str) and data.value_text(each) != each for each in given):
+        told = [(data.value_text(each), written(tree, (*place, index))) for index, each in enumerate(given)]
         values = ", ".join(typed if words == typed else f"{words} ({typed})" for words, typed in told)
     else:
         values = written(tree, place)
-    return AskedInput(named(column) if column else path, column.symbol if column else "", path, values)
+    return AskedInput(data.named(column) if column else path, column.symbol if column else "", path, values)
 
 
 def written(tree: yaml.Tree, path: KeyPath) -> str:
@@ -157,60 +164,24 @@ TARGETS, MAX_TARGETS = 5, 12  # quantities that influence is reported of, and wi
 MAX_PANELS, MAX_CHECKS, MAX_RANGES, MAX_QUANTITIES = 12, 4, 36, 30
 
 
-@dataclass
-class Summary:
-    title: str
-    folder: str
-    study: Any
-    files: list[tuple[str, str]]
-    checks: dict[str, str]
-    total: int
-    statuses: dict[str, int]
-    facts: list[tuple[str, str]]
-    asked: Asked | None
-    failures: list[data.Utilisation]
-    governing: list[data.Governing]
-    passing: list[data.PassingValues]
-    utilisations: list[data.Utilisation]
-    unmade: list[str]
-    proved: int  # variants whose verdict is pass
-    unchecked: int
-    assumed: int
-    idle: int
-    matrices: list[best.Matrix]
-    is_whole: bool
-    spreads: list[Spread]
-    more_spreads: int
-    reasons: list[data.Reason]
-    reports: list[best.MatrixRow]
-    more_reports: int
-    front: best.Front | None
-    best_head: list[str]
-    best: list[best.Best]
-    is_sobol: bool
-    ranked: Ranked | None
-    slow: dict[str, str]
-    doubtful: list[str]
-    figures: dict[str, SummaryFigure]
-    any_two: data.SampledVariants
-    varied: list[StoredColumn]
-    choices: list[StoredColumn]
+class Summary(SimpleNamespace):
+    """Hold what the template of the summary shows, by the names that `content` gives it."""
 
     @property
     def example(self) -> int:
         """Return a variant to name in a command: the best, else the first of the matrix."""
         rows = self.matrices[0].rows if self.matrices else []
-        return self.best[0].variant if self.best else rows[0].variant if rows else 0
+        return int(self.best[0].variant if self.best else rows[0].variant if rows else 0)
 
     @property
     def calculated(self) -> int:
         """Return how many variants can exist."""
-        return self.total - self.statuses["error"]
+        return int(self.total - self.statuses["error"])
 
     @property
     def sound(self) -> int:
         """Return how many variants do not fail."""
-        return self.statuses["pass"] + self.statuses["warn"]
+        return int(self.statuses["pass"] + self.statuses["warn"])
 
     @property
     def status(self) -> str:
@@ -226,7 +197,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     total = sum(states.values())
     goals = best.objectives(stored)
     aims = [goal.column for goal in goals]
-    shares = [WORST, *(value for value, _ in stored.checks.values())] if stored.checks else []
+    shares = [data.WORST, *(value for value, _ in stored.checks.values())] if stored.checks else []
     spreads = data.spreads(stored, list(dict.fromkeys([*stored.varied, *stored.outputs, *aims, *shares])), total)
     front = best.front(stored, goals, states["pass"] + states["warn"])
     varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
@@ -246,7 +217,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     # the quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others
     limiting = dict.fromkeys([*(row.check for row in failures), *(row.check for row in governing)])
     limits = [stored.checks[check][0] for check in limiting if check in stored.checks]
-    drawable = dict.fromkeys([*aims, WORST, *limits[:MAX_CHECKS], *stored.varied, *limits, *varying])
+    drawable = dict.fromkeys([*aims, data.WORST, *limits[:MAX_CHECKS], *stored.varied, *limits, *varying])
     panels = [spreads[column.name] for column in drawable if column in varying][:MAX_PANELS]
     groups, shown, matrix = best.chosen(stored, total, first), best.columns(stored, goals), best.telling(made)
     base = _parsed(stored.description.base)
@@ -262,7 +233,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
         spreads=ranges[:MAX_RANGES], more_spreads=max(0, len(ranges) - MAX_RANGES),
         reasons=data.reasons(stored, discovery) if states["error"] else [],
         reports=best.reports(stored, reports[: best.MAX_REPORTS]), more_reports=max(0, len(reports) - best.MAX_REPORTS),
-        front=front, best_head=[titled(column) for column in shown], best=best.best(stored, first[: best.BEST], shown),
+        front=front, best_head=[data.titled(column) for column in shown], best=best.best(stored, first[: best.BEST], shown),
         is_sobol=best.is_saltelli(stored), ranked=ranked(found) if found else None,
         slow=dict(stored.study.get("slow") or {}), doubtful=list(stored.study.get("doubtful") or ()),
         figures=Figures(stored, states, sample, front, main, spreads).all(failures, panels, found),
@@ -282,17 +253,19 @@ def _main(
     asked = [column for column in varying if column.name in wanted]
     failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
     outputs = [column for column in varying if column not in stored.varied]
-    return [column for column in dict.fromkeys([*aims, WORST, *asked, *failing, *outputs]) if column in varying], asked
+    return [
+        column for column in dict.fromkeys([*aims, data.WORST, *asked, *failing, *outputs]) if column in varying
+    ], asked
 
 
-def _is_telling(spread: Spread) -> bool:
+def _is_telling(spread: data.Spread) -> bool:
     """Return whether a quantity varies; a utilisation that is next to nothing tells nothing."""
     return spread.varies and (".checks." not in spread.column.name or spread.values[-1] > best.IDLE)
 
 
 def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
     counts = stored.study.get("counts") or {}
-    yield say("Variants calculated"), variants(total)
+    yield say("Variants calculated"), data.variants(total)
     yield say("Varied"), say_counted(len(stored.varied), "{n} input", "{n} inputs")
     if counts.get("dropped"):
         yield say("Excluded by constraints"), _dropped(counts)
@@ -302,7 +275,7 @@ def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
         others = shared - 1
         words = ", and {n} other variant with the same", ", and {n} other variants with the same"
         more = say_counted(others, *words, n=number(str(others))) if others else ""
-        check, used = said(stored.check_label(governing)), utilised(utilisation)
+        check, used = said(stored.check_label(governing)), data.utilised(utilisation)
         template = "variant {n}{more}: utilisation {used} at most, by “{check}”"
         yield say("Largest margin"), say(template, n=variant, more=more, used=used, check=check)
     seconds = float(stored.study.get("seconds") or 0)
@@ -315,12 +288,78 @@ def _title(stored: Stored, base: yaml.Tree | None) -> str:
     return str((project or {}).get("title") or printable(stored.description.study.file))
 
 
-def _assumed(data: Any) -> int:
-    parts = data.values() if isinstance(data, dict) else data if isinstance(data, list) else ()
-    return (isinstance(data, dict) and data.get("basis") == ASSUMED) + sum(map(_assumed, parts))
+def _assumed(given: Any) -> int:
+    parts = given.values() if isinstance(given, dict) else given if isinstance(given, list) else ()
+    return (isinstance(given, dict) and given.get("basis") == ASSUMED) + sum(map(_assumed, parts))
 
 
 def _files(stored: Stored) -> list[tuple[str, str]]:
     made = stored.description
     code = [(say("the source of the {name}", name=source_name(name)), digest) for name, digest in made.sources.items()]
     return [*((printable(source.file), source.sha256) for source in (made.study, made.base, *made.tables)), *code]
+
+
+DIGITS = 4  # of the numbers that a browser draws
+
+
+def page(summary: Summary, kind: str = "screen") -> str:
+    """Return the summary as one self-contained HTML page."""
+
+    def figure(key: str | SummaryFigure) -> Markup:
+        return figure_markup(kind, summary.figures[key] if isinstance(key, str) else key)
+
+    return styled_page(
+        "summary.html.j2", kind, ("summary",), _script(), s=summary, figure=figure,
+        points=Markup(_points(summary)) if kind == "screen" else "", named=data.named, titled=data.titled, display=data.display,
+        counted=data.counted, variants=data.variants, percent=data.percent, utilised=data.utilised, number=number, pretty=pretty, localised=localised,
+    )  # fmt: skip
+
+
+def _script() -> str:
+    """Return the page's own script, to the letter: it is no template, and all that it tells of a study is data beside it."""
+    found = re.search(r"<script>(.*?)</script>", html._read("summary_scatter.html.j2"), re.DOTALL)
+    assert found is not None
+    return found[1]
+
+
+def figure_markup(kind: str, figure: SummaryFigure) -> Markup:
+    """Return a chart inline on the screen, as an image with its alternative on paper."""
+    if kind == "screen":
+        return Markup(figure.svg.text)  # matplotlib escapes the texts within the drawing
+    content = base64.b64encode(figure.svg.text.encode()).decode()
+    return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(content, figure.alternative)
+
+
+def _points(summary: Summary) -> str:
+    """Return the sample for the page's own chart of any two quantities, in display units, as JSON that cannot end a script."""
+    sample, choices = summary.any_two, summary.choices
+    template = (
+        "{y} over {x}: {n} of {total} variants are drawn; dots pass, triangles have a warning, crosses fail. "
+        "A point names its variant."
+    )
+    made = {
+        "words": {
+            "decimal": decimal_sign(),
+            "states": [said(data.WORDS[status]) for status in ("pass", "warn", "fail")],
+            "point": say("variant {n}, {status}"),
+            "over": say("{y} over {x}"),
+            "told": say(template),
+        },
+        "upwards": next((n for n, column in enumerate(choices) if column not in summary.varied), len(choices) - 1),
+        "total": summary.total,
+        "variants": sample.variants.tolist(),
+        "status": sample.status.tolist(),
+        "columns": [
+            {
+                "title": data.titled(column),
+                "words": sample.words.get(column.name),
+                "values": [_short(value, column) for value in sample.values[column.name]],
+            }
+            for column in choices
+        ],
+    }
+    return json.dumps(made, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")
+
+
+def _short(value: float, column: StoredColumn) -> float | None:
+    return float(f"{value / unit(column.display).factor:.{DIGITS}g}") if math.isfinite(value) else None

@@ -9,8 +9,10 @@ import codecs
 import csv
 import re
 import warnings
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import closing
+from dataclasses import dataclass
 from typing import Any, BinaryIO
 from xml.parsers import expat
 from zipfile import ZipFile
@@ -18,7 +20,7 @@ from zipfile import ZipFile
 import numpy as np
 
 from diecut_report.errors import Problem, UserError, refusal
-from diecut_report.study.tables.cells import Cells
+from diecut_report.formulas import Array
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 MAX_BYTES = {".csv": 200_000_000, ".parquet": 200_000_000, ".xlsx": 25_000_000}
@@ -26,12 +28,72 @@ MAX_UNPACKED = {".parquet": 500_000_000, ".xlsx": 100_000_000}  # what the packe
 MAX_CELLS = {".csv": 10_000_000, ".parquet": 10_000_000, ".xlsx": 500_000}
 MAX_COLUMNS = 16_384  # as many as a sheet of a workbook holds
 CHUNK = 1 << 20  # bytes that are looked at together
+SLICE = 65_536  # cells that are Python values at a time
 SMALLER = phrase("Give fewer rows or columns")
 OTHER_FORM = phrase("save the table as CSV or Parquet, which may be larger")
 ADVICE = {".csv": SMALLER, ".parquet": SMALLER, ".xlsx": joined((SMALLER, OTHER_FORM), ", or ")}
 NO_MEMORY = Phrase("needs more memory than there is. {smaller}", smaller=SMALLER)
 NO_ROWS = phrase("the table has no rows below its header; give at least one")
 NO_HEADER = phrase("row 1 is empty; it must hold the names of the columns")
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """Hold the cells of a column as a file holds them: an Arrow array of numbers or texts, or a list of Python values.
+
+    `first` is the file's row of the first cell; `skipped` are rows of the file without cells, ascending.
+    """
+
+    raw: Any
+    first: int = 2
+    skipped: tuple[int, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.raw)
+
+    def row(self, place: int) -> int:
+        """Return the row of the file, counted from 1, in which a cell stands."""
+        behind = [skipped - count for count, skipped in enumerate(self.skipped)]
+        return place + self.first + bisect_right(behind, place + self.first)
+
+    def floats(self) -> Array | None:
+        """Return the cells as floats, NaN where a number is missing; None unless all are plain numbers."""
+        import pyarrow
+        from pyarrow import compute, types
+
+        if isinstance(self.raw, list):
+            plain = all(isinstance(value, int | float) and not isinstance(value, bool) for value in self.raw)
+            return np.array(self.raw, dtype=float) if plain else None
+        is_text = types.is_string(self.raw.type) or types.is_large_string(self.raw.type)
+        found = np.empty(len(self.raw))
+        for start in range(0, len(self.raw), SLICE):  # all at once would be a second copy of all texts
+            part = self.raw.slice(start, SLICE)
+            part = compute.utf8_trim_whitespace(part) if is_text else part
+            try:
+                found[start : start + SLICE] = compute.cast(part, pyarrow.float64(), safe=False).to_numpy()
+            except pyarrow.ArrowInvalid:  # a text that is not a plain number: the cells are read one by one
+                return None
+        return found
+
+    def items(self) -> Iterator[Any]:
+        """Yield the cells as Python values, some of them at a time; None where there is nothing."""
+        if isinstance(self.raw, list):
+            yield from self.raw
+            return
+        for start in range(0, len(self.raw), SLICE):
+            yield from self.raw.slice(start, SLICE).to_pylist()
+
+    def texts(self) -> list[str]:
+        """Return the cells as texts without blanks around them, "" where there is nothing; whole numbers without a point."""
+        once: dict[str, str] = {}  # a text that repeats is kept once
+        return [once.setdefault(text, text) for text in map(_text, self.items())]
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, float) and value.is_integer():
+        return f"{int(value)}"
+    return "" if value is None else str(value).strip()
+
 
 Columns = tuple[list[tuple[str, str | None]], list[Cells]]
 """What heads each column, with the unit that the file stores beside it, and its cells."""
@@ -270,17 +332,20 @@ def read_xlsx(file: BinaryIO) -> Columns:
     """Return the headers and the cells of the first sheet of a workbook, which is judged before it is unpacked."""
     import openpyxl
 
-    with _damage_reported(), warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of styles and checks of cells that openpyxl leaves out
-        _check_archive(file)
-        book = openpyxl.load_workbook(file, read_only=True, data_only=True, keep_links=False)
-        try:
-            sheet = book.worksheets[0]
-            sheet.reset_dimensions()  # the stored size may be wrong
-            rows = list(_bounded(tuple(map(_shown, row)) for row in sheet.iter_rows()))
-        finally:
-            book.close()
-    return _columns(rows)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of styles and checks of cells that openpyxl leaves out
+            _check_archive(file)
+            with closing(openpyxl.load_workbook(file, read_only=True, data_only=True, keep_links=False)) as book:
+                sheet = book.worksheets[0]
+                sheet.reset_dimensions()  # the stored size may be wrong
+                return _columns(list(_bounded(tuple(map(_shown, row)) for row in sheet.iter_rows())))
+    except (UserError, OSError):
+        raise
+    except MemoryError as error:
+        raise refusal(NO_MEMORY) from error
+    except Exception as error:  # of zipfile, zlib, expat or openpyxl, which trusts what it reads
+        raise refusal(DAMAGED) from error
 
 
 def _shown(cell: Any) -> Any:
@@ -295,19 +360,6 @@ def _shown(cell: Any) -> Any:
         return f"{value} shown as {form}"  # which is refused as it stands there
     beside += "".join(SIGNS.findall(rest))
     return f"{value} {beside}" if beside else value
-
-
-@contextmanager
-def _damage_reported() -> Iterator[None]:
-    """What goes wrong in a damaged file is any exception: of zipfile, zlib, expat or openpyxl, which trusts what it reads."""
-    try:
-        yield
-    except (UserError, OSError):
-        raise
-    except MemoryError as error:
-        raise refusal(NO_MEMORY) from error
-    except Exception as error:
-        raise refusal(DAMAGED) from error
 
 
 def _check_archive(file: BinaryIO) -> None:

@@ -12,24 +12,31 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from diecut_report.config.yaml import forbidden_character
 from diecut_report.errors import Problem, UserError, nearest, refusal
 from diecut_report.files import opened
 from diecut_report.formulas import Array
-from diecut_report.quantities.units import UnitError, unit
-from diecut_report.study.tables.cells import EMPTY, REPORTED, Cells, si_numbers
-from diecut_report.study.tables.formats import (
-    MAX_BYTES,
-    NO_ROWS,
-    Columns,
-    read_csv,
-    read_parquet,
-    read_xlsx,
-)
+from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity, unit
+from diecut_report.study.tables import formats
 from diecut_report.text.phrases import Phrase, phrase
 
-READERS = {".csv": read_csv, ".parquet": read_parquet, ".xlsx": read_xlsx}
+READERS = {".csv": formats.read_csv, ".parquet": formats.read_parquet, ".xlsx": formats.read_xlsx}
+EMPTY = phrase("the cell is empty (or a formula without a stored value); every row needs a value")
+REPORTED = 5  # wrong cells of a column that are reported one by one
+REMEMBERED = 65_536  # different cells that are remembered while a column is read
+
+DECIMAL = re.compile(r"\s*[-+−]?[\d\s']*([.,])\d")
+MIXED = phrase(
+    "the cell has the decimal sign {mark}, but row {row} has {other}; a column has one, and thousands are not set apart by it"
+)
+
+Wrong = tuple[Array, Callable[[int], str]]
+"""The places of wrong cells, counted from 0, and what is wrong with one; asked of the first ones alone."""
+
 _HEADER = re.compile(r"\s*(.*?)\s*(?:\[\s*([^\[\]]*?)\s*\])?\s*", re.DOTALL)
 
 
@@ -41,7 +48,7 @@ class ReadColumn:
     name: str
     unit: str | None
     number: int
-    cells: Cells
+    cells: formats.Cells
 
     def problem(self, message: str, row: int | None = None) -> Problem:
         """Return a problem of this column, or of its cell in a row of the file."""
@@ -130,18 +137,18 @@ def read_table(path: Path) -> TableFile:
         columns.append(ReadColumn(str(path), name, own or stored_unit, number, under))
     problems = list(_wrong_headers(columns))
     if not problems and not (cells and len(cells[0])):
-        problems.append(Problem(NO_ROWS, str(path)))
+        problems.append(Problem(formats.NO_ROWS, str(path)))
     if problems:
         raise UserError(problems)
     return TableFile(str(path), {column.name: column for column in columns}, sha256)
 
 
-def _read(path: Path) -> tuple[Columns, str]:
+def _read(path: Path) -> tuple[formats.Columns, str]:
     kind = path.suffix.lower()
     if kind not in READERS:
         template = "the ending {suffix} is not known; save the table as {known}"
         raise refusal(template, suffix=path.suffix or phrase("(none)"), known=", ".join(READERS))
-    with opened(path, MAX_BYTES[kind], Phrase("a table ({kind})", kind=kind)) as file:
+    with opened(path, formats.MAX_BYTES[kind], Phrase("a table ({kind})", kind=kind)) as file:
         try:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
             file.seek(0)
@@ -160,3 +167,86 @@ def _wrong_headers(columns: list[ReadColumn]) -> Iterator[Problem]:
             template = "columns {seen} and {number} have the same name; keep one of them"
             yield column.problem(Phrase(template, seen=seen[column.name], number=column.number))
         seen.setdefault(column.name, column.number)
+
+
+# --- the cells of a column as SI numbers ------------------------------------------------------------------------------
+
+
+def si_numbers(cells: formats.Cells, unit_text: str, *, own: bool) -> tuple[Array, Wrong]:
+    """Return SI values of cells; bare numbers are in `unit_text`, which is the header's where `own`.
+
+    Cells with a unit must all have the same one, and that of the header where it has one.
+    """
+    floats = cells.floats()
+    if floats is None:
+        return _one_by_one(cells, unit_text, own)
+    infinite = phrase("the number is infinite; a finite one is needed")
+    wrong = np.flatnonzero(~np.isfinite(floats))
+    return _to_si(floats, unit_text), (wrong, lambda place: EMPTY if np.isnan(floats[place]) else infinite)
+
+
+def _to_si(values: Array, unit_text: str) -> Array:
+    # Each number by the same rounding as in a config (2.1 mm are 0.0021 m, not 2.1 / 1000), each different one once.
+    given = unit(unit_text)
+    if given.factor == 1:
+        return values
+    read = np.empty(len(values))
+    for start in range(
+        0, len(values), formats.SLICE
+    ):  # all at once would take several times what the numbers themselves do
+        different, places = np.unique(values[start : start + formats.SLICE], return_inverse=True)
+        finite = np.isfinite(different)
+        different[finite] = [given.to_si(value) for value in different[finite].tolist()]
+        read[start : start + formats.SLICE] = different[places]
+    return read
+
+
+def _one_by_one(cells: formats.Cells, unit_text: str, own: bool) -> tuple[Array, Wrong]:
+    values, is_wrong, messages = np.full(len(cells), np.nan), np.zeros(len(cells), dtype=bool), dict[int, str]()
+    known: dict[Any, tuple[float, str] | str] = {}
+    agreed = (unit(unit_text).text, phrase("the header")) if own else None
+    sign: tuple[str, int] | None = None  # the decimal sign, and the place where it stands first
+    for place, item in enumerate(cells.items()):
+        key = (type(item), item)
+        read = known.get(key)
+        if read is None:
+            if len(known) == REMEMBERED:
+                known.clear()
+            read = known[key] = _read_cell(item, unit_text)
+        if not isinstance(read, str):
+            values[place], given = read
+            agreed = agreed or (given, Phrase("row {row}", row=cells.row(place)))
+            mark = DECIMAL.match(item) if isinstance(item, str) else None
+            sign = sign or (mark and (mark[1], place))
+            if sign and mark and mark[1] != sign[0]:
+                read = Phrase(MIXED, mark=mark[1], other=sign[0], row=cells.row(sign[1]))
+            elif given == agreed[0] or (own and not given):
+                continue
+            else:
+                read = _unlike(given, *agreed)
+        is_wrong[place] = True
+        if len(messages) <= REPORTED:
+            messages[place] = read
+    return values, (np.flatnonzero(is_wrong), messages.__getitem__)
+
+
+def _unlike(given: str, agreed: str, where: str) -> str:
+    mine, other = (Phrase("is in {unit}", unit=text) if text else phrase("has no unit") for text in (given, agreed))
+    return Phrase("the cell {mine}, but {where} {other}; a column has one unit", mine=mine, where=where, other=other)
+
+
+def _read_cell(item: Any, unit_text: str) -> tuple[float, str] | str:
+    """Return the SI value of a cell and its own unit ("" where it is bare), or what is wrong with it."""
+    if item is None or (isinstance(item, str) and not item.strip()):
+        return EMPTY
+    if isinstance(item, str) and item.strip().lower() in ("nan", "null", "na", "n/a", "#n/a"):
+        return Phrase("{text} is not a value; every row needs a number", text=repr(item.strip()))
+    if not isinstance(item, str | int | float):
+        template = "{item} is not a number (the cell holds a {name}); format the cell as a number"
+        return Phrase(template, item=item, name=type(item).__name__)
+    try:
+        value = parse_quantity(item, unit_text)
+        own = number_and_unit(item)[1] if isinstance(item, str) else ""
+        return value, unit(own).text if own else ""
+    except UnitError as error:
+        return str(error)

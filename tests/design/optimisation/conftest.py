@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from diecut_report.study.storage import parts
+from diecut_report.study.storage import store
 
 NO_PAGE = SimpleNamespace(page=lambda _: "", sheets=lambda _: b"")
 
@@ -15,7 +15,7 @@ NO_PAGE = SimpleNamespace(page=lambda _: "", sheets=lambda _: b"")
 @pytest.fixture(autouse=True)
 def _without_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing of a test stays in the user's cache."""
-    monkeypatch.setattr(parts, "REMEMBERED_SIZE", float("inf"))
+    monkeypatch.setattr(store, "REMEMBERED_SIZE", float("inf"))
 
 
 @pytest.fixture

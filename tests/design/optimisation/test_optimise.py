@@ -181,9 +181,8 @@ def test_what_is_stored_is_asked_as_a_study(tmp_path: Path, capfd: Any) -> None:
 
 
 def test_equal_searches_ask_for_equal_machines() -> None:
-    from diecut_report.study.definition.study_file import Optimise
-    from diecut_report.study.definition.variables import ChoiceVariable, RangeVariable
-    from diecut_report.study.definition.wanted_results import Objective
+    from diecut_report.study.definition.samples import ChoiceVariable, RangeVariable
+    from diecut_report.study.definition.study_file import Objective, Optimise
 
     variables = (RangeVariable("x", 0.0, 1.0), ChoiceVariable("t", ("p", "q", "r")))
     asked = Optimise((Objective("a", True), Objective("b", True)), variables, 400, 20, 3, True, 5)
