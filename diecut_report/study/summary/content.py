@@ -7,7 +7,7 @@ import json
 import math
 import re
 from collections.abc import Iterator, Mapping
-from types import SimpleNamespace
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from markupsafe import Markup
@@ -25,7 +25,7 @@ from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.definition.constraints import why_dropped
 from diecut_report.study.storage.description import StudySource, source_name
 from diecut_report.study.summary import best, data
-from diecut_report.study.summary.figures import Figures, SummaryFigure, ranked
+from diecut_report.study.summary.figures import Figures, Ranked, SummaryFigure, ranked
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted
 
@@ -164,24 +164,62 @@ TARGETS, MAX_TARGETS = 5, 12  # quantities that influence is reported of, and wi
 MAX_PANELS, MAX_CHECKS, MAX_RANGES, MAX_QUANTITIES = 12, 4, 36, 30
 
 
-class Summary(SimpleNamespace):
-    """Hold what the template of the summary shows, by the names that `content` gives it."""
+@dataclass
+class Summary:
+    """Hold what the template of the summary shows."""
+
+    title: str
+    folder: str
+    study: Any
+    files: list[tuple[str, str]]
+    checks: dict[str, str]
+    total: int
+    statuses: dict[str, int]
+    facts: list[tuple[str, str]]
+    asked: Asked | None
+    failures: list[data.Utilisation]
+    governing: list[data.Governing]
+    passing: list[data.PassingValues]
+    utilisations: list[data.Utilisation]
+    unmade: list[str]
+    proved: int  # variants whose verdict is pass
+    unchecked: int
+    assumed: int
+    idle: int
+    matrices: list[best.Matrix]
+    is_whole: bool
+    spreads: list[data.Spread]
+    more_spreads: int
+    reasons: list[data.Reason]
+    reports: list[best.MatrixRow]
+    more_reports: int
+    front: best.Front | None
+    best_head: list[str]
+    best: list[best.Best]
+    is_sobol: bool
+    ranked: Ranked | None
+    slow: dict[str, str]
+    doubtful: list[str]
+    figures: dict[str, SummaryFigure]
+    any_two: data.SampledVariants
+    varied: list[StoredColumn]
+    choices: list[StoredColumn]
 
     @property
     def example(self) -> int:
         """Return a variant to name in a command: the best, else the first of the matrix."""
         rows = self.matrices[0].rows if self.matrices else []
-        return int(self.best[0].variant if self.best else rows[0].variant if rows else 0)
+        return self.best[0].variant if self.best else rows[0].variant if rows else 0
 
     @property
     def calculated(self) -> int:
         """Return how many variants can exist."""
-        return int(self.total - self.statuses["error"])
+        return self.total - self.statuses["error"]
 
     @property
     def sound(self) -> int:
         """Return how many variants do not fail."""
-        return int(self.statuses["pass"] + self.statuses["warn"])
+        return self.statuses["pass"] + self.statuses["warn"]
 
     @property
     def status(self) -> str:
