@@ -6,7 +6,7 @@ import numpy as np
 
 from diecut_report.api import Chapter, Formula, Steps, as_number, bind
 from diecut_report.mechanics import cam, common, contact
-from diecut_report.plugins.cam_gear_transport import arms, loads
+from diecut_report.plugins.cam_gear_transport import arms, formulas
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, TORQUE
 
 # fmt: off
@@ -23,7 +23,7 @@ OTHER_ARM = (
 
 def _one_side(number: str) -> Steps:
     steps = Steps()
-    steps.require(f"arm_{number}_side", bind(loads.stays_on_one_side, lowest=f"arm_{number}_lowest", highest=f"arm_{number}_highest"),
+    steps.require(f"arm_{number}_side", bind(formulas.stays_on_one_side, lowest=f"arm_{number}_lowest", highest=f"arm_{number}_highest"),
         key=f"arm_angle_{number}",
         message=f"is {{arm_angle_{number}}}; the arm would swing from {{arm_{number}_lowest}} to {{arm_{number}_highest}} across {OTHER_ARM}")
     return steps
@@ -33,9 +33,9 @@ def _swing(number: str) -> Steps:
     """Between which directions an arm swings."""
     steps = Steps()
     steps.value(f"arm_{number}_lowest", f"ψ_min,{number}", "deg", f"Direction of arm {number} at the start of phase I",
-        bind(loads.lowest_direction, arm_angle=f"arm_angle_{number}"), source="geometry", output=False)
+        bind(formulas.lowest_direction, arm_angle=f"arm_angle_{number}"), source="geometry", output=False)
     steps.value(f"arm_{number}_highest", f"ψ_max,{number}", "deg", f"Direction of arm {number} at the end of phase III",
-        bind(loads.highest_direction, lowest=f"arm_{number}_lowest"), source="geometry", output=False)
+        bind(formulas.highest_direction, lowest=f"arm_{number}_lowest"), source="geometry", output=False)
     return steps
 
 
@@ -152,7 +152,7 @@ def _loaded(number: str) -> Steps:
     """Force and pressure of a roller."""
     steps = Steps()
     steps.value(f"carried_moment_{number}", f"M_c{number}", "N*m", f"Moment of cam {number} about O₃",
-        bind(loads.carried_moment, arm_direction=f"arm_{number}_direction"), source="statics", output=False)
+        bind(formulas.carried_moment, arm_direction=f"arm_{number}_direction"), source="statics", output=False)
     steps.value(f"roller_force_{number}", f"F_{number}", "N", f"Force of cam {number} on its roller",
         bind(lambda carried_moment, arm_length, pressure_angle: carried_moment / (arm_length * np.cos(pressure_angle)),
             carried_moment=f"carried_moment_{number}", pressure_angle=f"cam_{number}_pressure_angle"), source="statics")
@@ -177,7 +177,7 @@ forces = Chapter("Forces on the rollers",
         "so the cam of the left arm turns the sector clockwise and that of the right arm counter-clockwise. The force acts normal to the profile, "
         "at the pressure angle from the roller's direction of motion. A preload of the rollers is not included.", needs=(*CAMS, *TORQUE),
     absent="not calculated: {missing} not given")
-forces.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", loads.rocker_moment, source="statics", output=False)
+forces.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", formulas.rocker_moment, source="statics", output=False)
 forces.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz",
     needs=("roller_width",))
 forces.add(_loaded("1"))

@@ -1,4 +1,4 @@
-"""Formulas of the cam-gear stepper: rolling, teeth, times, motion of sector, gear and sheet."""
+"""Formulas of the cam-gear stepper, and of the loads on it."""
 
 from __future__ import annotations
 
@@ -88,21 +88,9 @@ def return_peak(peak_velocity: Any, sector_sweep: Any, time_return: Any) -> Any:
 
 
 @formula
-def stopping_share(disc_angle: Any, dwell_angle: Any, time_stop: Any) -> Any:
-    """Share of the rise in phase III, its second half."""
-    return 1 / 2 + (disc_angle - dwell_angle) / (2 * np.pi * time_stop)
-
-
-@formula
 def starting_angle(sector_stop_sweep: Any, law_position: Any) -> Any:
     """Sector angle in phase I."""
     return sector_stop_sweep * (law_position - 1 / 2)
-
-
-@formula
-def stopping_angle(sector_dwell_sweep: Any, sector_stop_sweep: Any, law_position: Any) -> Any:
-    """Sector angle in phase III."""
-    return sector_dwell_sweep + starting_angle(sector_stop_sweep, law_position)
 
 
 @formula
@@ -118,21 +106,9 @@ def rise_speed(sweep: Any, time: Any, law_velocity: Any) -> Any:
 
 
 @formula
-def fall_speed(sweep: Any, time: Any, law_velocity: Any) -> Any:
-    """Speed of a return by the law."""
-    return -sweep / time * law_velocity
-
-
-@formula
 def rise_acceleration(sweep: Any, time: Any, law_acceleration: Any, cycles_per_hour: Any) -> Any:
     """Acceleration of a rise by the law."""
     return sweep * (cycles_per_hour / time) ** 2 * law_acceleration
-
-
-@formula
-def fall_acceleration(sweep: Any, time: Any, law_acceleration: Any, cycles_per_hour: Any) -> Any:
-    """Acceleration of a return by the law."""
-    return -sweep * (cycles_per_hour / time) ** 2 * law_acceleration
 
 
 @formula
@@ -151,3 +127,46 @@ def gear_acceleration(sector_acceleration: Any, sector_radius: Any, gear_radius:
 def sheet_step(sprocket_teeth: Any, chain_pitch: Any, sprocket_ratio: Any) -> Any:
     """Step of the conveyor in a cycle."""
     return sprocket_teeth * chain_pitch * sprocket_ratio
+
+
+@formula
+def gear_torque(conveyor_mass: Any, sheet_acceleration: Any, sheet_step: Any) -> Any:
+    """Torque at the gear's shaft that moves the conveyor."""
+    return conveyor_mass * sheet_acceleration * sheet_step / (2 * np.pi)
+
+
+@formula
+def tooth_force(gear_torque: Any, gear_radius: Any) -> Any:
+    """Tangential force between the teeth of sector and gear."""
+    return gear_torque / gear_radius
+
+
+@formula
+def rocker_moment(sector_inertia: Any, sector_acceleration: Any, tooth_force: Any, sector_radius: Any) -> Any:
+    """Moment about O₃ that the cams give the rocker: it accelerates the sector and bears the teeth's reaction."""
+    return sector_inertia * sector_acceleration - tooth_force * sector_radius
+
+
+@formula
+def carried_moment(rocker_moment: Any, arm_direction: Any) -> Any:
+    """Part of the moment that this roller's cam gives: it can only push the roller outwards."""
+    asked = -np.sign(np.sin(arm_direction)) * rocker_moment
+    return (asked + abs(asked)) / 2
+
+
+@formula
+def lowest_direction(arm_angle: Any, sector_stop_sweep: Any) -> Any:
+    """Direction of an arm at the start of phase I."""
+    return arm_angle - sector_stop_sweep / 2
+
+
+@formula
+def highest_direction(lowest: Any, sector_sweep: Any) -> Any:
+    """Direction of an arm at the end of phase III."""
+    return lowest + sector_sweep
+
+
+@formula
+def stays_on_one_side(lowest: Any, highest: Any) -> Any:
+    """Whether an arm stays on one side of the line O₁O₃ (its sweep is below half a turn)."""
+    return np.sin(lowest) * np.sin(highest) > 1e-12  # on the line itself the cams could not move the arm

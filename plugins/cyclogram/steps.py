@@ -11,10 +11,10 @@ from diecut_report.mechanics import common
 from diecut_report.mechanics.timing.clearance import LeastClearance
 from diecut_report.plugins.cyclogram import listings
 from diecut_report.plugins.cyclogram.clearances import clearance_of
+from diecut_report.plugins.cyclogram.listings import verdicts
 from diecut_report.plugins.cyclogram.passing import stretches
 from diecut_report.plugins.cyclogram.timing import Timing, timing_of
 from diecut_report.plugins.cyclogram.torques import motions_of, torques_of
-from diecut_report.plugins.cyclogram.words import verdicts
 
 # fmt: off
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from diecut_report.api import Annotated, Block, FromPress, Inputs, OneOf, Quantity
-from diecut_report.plugins.damper.formulas import USUAL_LOSS, half_the_sheets
+from diecut_report.api import Annotated, Block, FromPress, Inputs, OneOf, Quantity, formula
 
 # fmt: off
 
+USUAL_LOSS = 0.2
 CYLINDER = ("mass", "inertia", "rolling_radius", "velocity")
 STOPPED = ("carriage_mass", "static_unbalance", "contact_distance")
 """What is stopped beside a balanced cylinder: without it nothing that follows from the energy is checked."""
@@ -60,7 +60,7 @@ class Damper(Inputs):
     loss_tangent: Annotated[float | None, Quantity("η", "1", "Loss tangent of the rubber, tan δ; gives the fraction that is lost", ge=0, le=1)] = None
     impacts_per_hour: Annotated[float | None,
         Quantity("z", "1/h", "Impacts at one end of the travel per unit time, for the heat", gt=0,
-            press=FromPress("press.productivity", half_the_sheets, optional=True))] = None
+            press=FromPress("press.productivity", formula(lambda productivity: productivity / 2), optional=True))] = None
     allowable_force: Annotated[float | None, Quantity("[P]", "N", "Allowable force on carriage and frame at one damper", gt=0)] = None
     allowable_deceleration: Annotated[float | None, Quantity("[a]", "m/s**2", "Allowable deceleration of the stop", gt=0)] = None
     allowable_heat_power: Annotated[float | None, Quantity("[P_h]", "W", "Allowable heat flow from the dampers of one end", gt=0)] = None

@@ -6,12 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import ByText, Chapter, Formula, Steps, bind, case
+from diecut_report.api import ByText, Chapter, Formula, Steps, bind, case, formula
 from diecut_report.mechanics import common, followers
 from diecut_report.mechanics.motion_laws import ACCELERATION, JOINT, PEAK_ACCELERATION, POSITION
-from diecut_report.plugins.elastic_follower import formulas, rests
+from diecut_report.plugins.elastic_follower import rests
 
 # fmt: off
+
+@formula
+def law_acceleration(rise: Any, rise_duration: Any, acceleration: Any) -> Any:
+    """Acceleration of a rise by a law, of the law's acceleration."""
+    return rise / rise_duration**2 * acceleration
+
 
 STRAIGHT = (("mass", "mm"),)
 STRAIGHT_SPEED = (("mass", "m/s"),)
@@ -115,10 +121,10 @@ by_law.value("law_acceleration", "s″", "1", "Law of motion: acceleration at k"
 by_law.value("law_peak", "A", "1", "Law of motion: maximum acceleration", ByText("motion_law", PEAK_ACCELERATION), source="motion laws", output=False)
 by_law.value("input", "y", "deg", "Position of the input", lambda rise, law_position: rise * law_position, units=STRAIGHT, source="motion laws")
 by_law.choice("rigid_acceleration", "a_y", "rad/s**2", "Acceleration of the input, and of a rigidly driven link",
-    case(bind(formulas.law_acceleration, acceleration="law_acceleration"), "the input rises", MOVING), case(lambda: 0, "the input rests"),
+    case(bind(law_acceleration, acceleration="law_acceleration"), "the input rises", MOVING), case(lambda: 0, "the input rests"),
     units=STRAIGHT_ACCELERATION, source="motion laws")
 by_law.value("acceleration_rigid", "a_r", "rad/s**2", "Peak acceleration of the input, and of a rigidly driven link",
-    bind(formulas.law_acceleration, acceleration="law_peak"), units=STRAIGHT_ACCELERATION, source="motion laws")
+    bind(law_acceleration, acceleration="law_peak"), units=STRAIGHT_ACCELERATION, source="motion laws")
 
 by_curve = Chapter("Motion of the input",
     text="y is the referred curve, from the start s_0 of its motion on (t = 0); one cycle of it lasts T. Its speed and acceleration follow from the "

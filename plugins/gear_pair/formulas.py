@@ -290,9 +290,3 @@ def limited_for_flank(factor: Any, contact_ratio: Any, overlap_ratio: Any, conta
     """K_Hα: at least 1, at most what a single pair of teeth carries."""
     limit = contact_ratio_total / (contact_ratio * contact_ratio_factor(contact_ratio, overlap_ratio) ** 2)
     return np.maximum(np.minimum(factor, limit), 1)
-
-
-@formula
-def limited_for_root(factor: Any, contact_ratio: Any, contact_ratio_total: Any) -> Any:
-    """K_Fα: at least 1, at most what a single pair of teeth carries."""
-    return np.maximum(np.minimum(factor, contact_ratio_total / (0.25 * contact_ratio + 0.75)), 1)

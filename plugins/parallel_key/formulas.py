@@ -19,15 +19,3 @@ def key_force(torque: Any, shaft_diameter: Any, key_count: Any, key_share: Any) 
 def direction_factor(changes_of_flank: Any) -> Any:
     """Load direction factor by the changes of flank in the life (DIN 6892, method B)."""
     return np.minimum(1, 2 * np.maximum(changes_of_flank, 1) ** -0.1)
-
-
-@formula
-def least_of_six(shaft: Any, hub: Any, key: Any, shaft_peak: Any, hub_peak: Any, key_peak: Any) -> Any:
-    """The least of three parts under two loads."""
-    return np.minimum(np.minimum(np.minimum(shaft, hub), key), np.minimum(np.minimum(shaft_peak, hub_peak), key_peak))
-
-
-@formula
-def greatest_of_six(shaft: Any, hub: Any, key: Any, shaft_peak: Any, hub_peak: Any, key_peak: Any) -> Any:
-    """The greatest of three parts under two loads."""
-    return np.maximum(np.maximum(np.maximum(shaft, hub), key), np.maximum(np.maximum(shaft_peak, hub_peak), key_peak))

@@ -44,12 +44,6 @@ def bearing_area(pin_diameter: Any, inner_width: Any, plate_thickness: Any) -> A
 
 
 @formula
-def is_of_table(given: Any, own: Any, least: Any, most: Any) -> Any:
-    """Whether a value can be that of the chain that its designation names, whoever makes it."""
-    return (given >= least * own) & (given <= most * own)
-
-
-@formula
 def mean_velocity(teeth: Any, pitch: Any, speed: Any) -> Any:
     """Mean velocity of a chain: so many pitches a turn."""
     return teeth * pitch * speed / (2 * np.pi)

@@ -22,12 +22,6 @@ def static_load(radial: Any, axial: Any, x0: Any, y0: Any) -> Any:
 
 
 @formula
-def is_of_table(share: Any) -> Any:
-    """Return whether a rating can be that of the bearing that its designation names, whoever makes it."""
-    return (share >= 0.5) & (share <= 1.25)
-
-
-@formula
 def relative_axial(f0: Any, axial: Any, static_rating: Any) -> Any:
     """Return by what the factors of deep groove ball bearings go."""
     return f0 * axial / static_rating
