@@ -177,7 +177,10 @@ forces = Chapter("Forces on the rollers",
         "so the cam of the left arm turns the sector clockwise and that of the right arm counter-clockwise. The force acts normal to the profile, "
         "at the pressure angle from the roller's direction of motion. A preload of the rollers is not included.", needs=(*CAMS, *TORQUE),
     absent="not calculated: {missing} not given")
-forces.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", formulas.rocker_moment, source="statics", output=False)
+forces.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃",
+    lambda sector_inertia, sector_acceleration, tooth_force, sector_radius:
+        sector_inertia * sector_acceleration - tooth_force * sector_radius,
+    source="statics", output=False)
 forces.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz",
     needs=("roller_width",))
 forces.add(_loaded("1"))

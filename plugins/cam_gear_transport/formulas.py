@@ -40,18 +40,6 @@ def radius_ratio(sweep: Any, dwell_angle: Any) -> Any:
 
 
 @formula
-def gear_radius(center_distance: Any, radius_ratio: Any) -> Any:
-    """Pitch radius of the gear."""
-    return center_distance * radius_ratio
-
-
-@formula
-def sector_radius(center_distance: Any, gear_radius: Any) -> Any:
-    """Pitch radius of the sector."""
-    return center_distance - gear_radius
-
-
-@formula
 def share_of_turn(angle: Any) -> Any:
     """Share of a turn."""
     return angle / (2 * np.pi)
@@ -121,30 +109,6 @@ def gear_speed(sector_speed: Any, sector_radius: Any, gear_radius: Any) -> Any:
 def gear_acceleration(sector_acceleration: Any, sector_radius: Any, gear_radius: Any) -> Any:
     """Angular acceleration of the gear."""
     return -sector_radius / gear_radius * sector_acceleration
-
-
-@formula
-def sheet_step(sprocket_teeth: Any, chain_pitch: Any, sprocket_ratio: Any) -> Any:
-    """Step of the conveyor in a cycle."""
-    return sprocket_teeth * chain_pitch * sprocket_ratio
-
-
-@formula
-def gear_torque(conveyor_mass: Any, sheet_acceleration: Any, sheet_step: Any) -> Any:
-    """Torque at the gear's shaft that moves the conveyor."""
-    return conveyor_mass * sheet_acceleration * sheet_step / (2 * np.pi)
-
-
-@formula
-def tooth_force(gear_torque: Any, gear_radius: Any) -> Any:
-    """Tangential force between the teeth of sector and gear."""
-    return gear_torque / gear_radius
-
-
-@formula
-def rocker_moment(sector_inertia: Any, sector_acceleration: Any, tooth_force: Any, sector_radius: Any) -> Any:
-    """Moment about O₃ that the cams give the rocker: it accelerates the sector and bears the teeth's reaction."""
-    return sector_inertia * sector_acceleration - tooth_force * sector_radius
 
 
 @formula

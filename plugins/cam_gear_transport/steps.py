@@ -47,8 +47,10 @@ rolling.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during 
     bind(lambda sector_dwell_sweep: sector_dwell_sweep, sector_dwell_sweep="inputs.sector_dwell_sweep"), source="input", lacks=("module",), digits=6)
 rolling.value("radius_ratio", "R_12", "1", "Ratio of gear radius to pin radius, R_1/R_2", bind(formulas.radius_ratio, sweep="sector_dwell_sweep"),
     source="003 eq. 1")
-rolling.value("gear_radius", "R_1", "mm", "Pitch radius of the gear", formulas.gear_radius, source="003 eq. 1")
-rolling.value("sector_radius", "R_3", "mm", "Pitch radius of the sector", formulas.sector_radius, source="003 eq. 1")
+rolling.value("gear_radius", "R_1", "mm", "Pitch radius of the gear",
+    lambda center_distance, radius_ratio: center_distance * radius_ratio, source="003 eq. 1")
+rolling.value("sector_radius", "R_3", "mm", "Pitch radius of the sector",
+    lambda center_distance, gear_radius: center_distance - gear_radius, source="003 eq. 1")
 rolling.value("sector_sweep", "γ_Σ", "deg", "Total sweep of the sector",
     lambda sector_dwell_sweep, sector_stop_sweep: sector_dwell_sweep + sector_stop_sweep, source="003, Fig. 4")
 rolling.value("sector_teeth", "z_3′", "1", "Number of teeth of the sector: those of the swept arc, and one on each side",
@@ -159,17 +161,17 @@ sector.value("law_side", "k", "1", "Fraction k just inside its piece: selects th
 sector.value("law_acceleration", "f″", "1", "Law of motion: acceleration at k", ByText("motion_law", ACCELERATION, k="law_side"),
     source="motion laws", output=False)
 sector.choice("sector_angle", "γ", "deg", "Angle of the sector relative to the disc",
-    *by_phase(bind(lambda disc_angle, sector_dwell_sweep, dwell_angle: sector_dwell_sweep * disc_angle / dwell_angle), bind(
-            lambda sector_dwell_sweep, sector_stop_sweep, law_position:
+    *by_phase(bind(lambda disc_angle, sector_dwell_sweep, dwell_angle: sector_dwell_sweep * disc_angle / dwell_angle),
+        bind(lambda sector_dwell_sweep, sector_stop_sweep, law_position:
                 sector_dwell_sweep + formulas.starting_angle(sector_stop_sweep, law_position)),
         bind(formulas.returning_angle), bind(formulas.starting_angle)), source="003, Fig. 4")
 sector.choice("sector_speed", "ω_3", "rad", "Speed of the sector relative to the disc, per revolution of the disc",
-    *by_phase(bind(common.same, quantity="sector_speed_dwell"), bind(formulas.rise_speed, **RISE), bind(
-            lambda sweep, time, law_velocity: -sweep / time * law_velocity, **FALL),
+    *by_phase(bind(common.same, quantity="sector_speed_dwell"), bind(formulas.rise_speed, **RISE),
+        bind(lambda sweep, time, law_velocity: -sweep / time * law_velocity, **FALL),
         bind(formulas.rise_speed, **RISE)), source="003 eq. 1, 2, Fig. 6")
 sector.choice("sector_acceleration", "ε_3", "rad/s**2", "Angular acceleration of the sector",
-    *by_phase(common.zero, bind(formulas.rise_acceleration, **RISE), bind(
-            lambda sweep, time, law_acceleration, cycles_per_hour: -sweep * (cycles_per_hour / time) ** 2 * law_acceleration, **FALL),
+    *by_phase(common.zero, bind(formulas.rise_acceleration, **RISE),
+        bind(lambda sweep, time, law_acceleration, cycles_per_hour: -sweep * (cycles_per_hour / time) ** 2 * law_acceleration, **FALL),
         bind(formulas.rise_acceleration, **RISE)), source="kinematics")
 sector.value("rocker_turn", "w", "1", "Ratio of the angular speed of sector and rocker to that of the disc",
     lambda sector_speed: 1 + sector_speed / (2 * np.pi), source="kinematics", output=False)
@@ -204,7 +206,8 @@ gear.value("gear_rotation_error", "Δφ_1", "deg", "Deviation from one revolutio
 
 conveyor = Chapter("Motion of the sheet", text="The gear drives the conveyor's sprocket; one cycle makes one step.", needs=SHEET,
     absent="not calculated: {missing} not given")
-conveyor.value("sheet_step", "S", "mm", "Step of the conveyor per cycle", formulas.sheet_step, source="this method")
+conveyor.value("sheet_step", "S", "mm", "Step of the conveyor per cycle",
+    lambda sprocket_teeth, chain_pitch, sprocket_ratio: sprocket_teeth * chain_pitch * sprocket_ratio, source="this method")
 conveyor.value("sheet_position", "x", "mm", "Position of the sheet from its dwell position",
     lambda gear_angle, sheet_step: sheet_step * gear_angle / (2 * np.pi), source="kinematics")
 conveyor.value("sheet_velocity", "V", "m/s", "Velocity of the sheet",
@@ -235,8 +238,10 @@ torques = Chapter("Torque",
     text="Losses are neglected: only the conveyor's mass is moved, and the sector with its rocker where their inertia is given. The fixed cams do "
         "no work, since the rollers move along them; the disc therefore supplies the power of gear and sector.", needs=TORQUE,
     absent="not calculated: {missing} not given")
-torques.value("gear_torque", "M_1", "N*m", "Torque at the gear's shaft", formulas.gear_torque, source="statics")
-torques.value("tooth_force", "F_t", "N", "Tangential force between the teeth of sector and gear", formulas.tooth_force, source="statics")
+torques.value("gear_torque", "M_1", "N*m", "Torque at the gear's shaft",
+    lambda conveyor_mass, sheet_acceleration, sheet_step: conveyor_mass * sheet_acceleration * sheet_step / (2 * np.pi), source="statics")
+torques.value("tooth_force", "F_t", "N", "Tangential force between the teeth of sector and gear",
+    lambda gear_torque, gear_radius: gear_torque / gear_radius, source="statics")
 torques.value("drive_torque", "M_2", "N*m", "Torque at the disc's shaft",
     lambda gear_torque, gear_speed, sector_inertia, sector_acceleration, rocker_turn:
         gear_torque * gear_speed / (2 * np.pi) + sector_inertia * sector_acceleration * rocker_turn, source="energy")

@@ -2,25 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind, case, formula
+from diecut_report.api import Chapter, as_number, bind, case
 
 # fmt: off
-
-@formula
-def slip_time(driven_inertia: Any, speed: Any, accelerating_torque: Any) -> Any:
-    """Time until the driven side runs with the driving shaft."""
-    return driven_inertia * as_number(speed) / accelerating_torque
-
-
-@formula
-def heat_flux(design_torque: Any, speed: Any, shoe_radius: Any, lining_width: Any) -> Any:
-    """Heat flux into the drum's swept surface as slipping begins."""
-    return design_torque * speed / (2 * np.pi * shoe_radius * lining_width)
-
 
 torque = Chapter("Torque")
 torque.value("torque", "M", "N*m", "Torque to be transmitted by the clutch", lambda power, speed: power / speed, source="002 eq. 16",
@@ -115,7 +101,8 @@ heat = Chapter("Heat of the engagement",
         "speeds up, and all friction work becomes heat.", needs=("driven_inertia", "speed"), absent="not calculated: {missing} not given")
 heat.value("accelerating_torque", "M_a", "N*m", "Torque that accelerates the driven side",
     lambda design_torque, load_torque_at_engagement: design_torque - load_torque_at_engagement, source="statics")
-heat.value("slip_time", "t_s", "s", "Slip time of the clutch", slip_time, source="energy")
+heat.value("slip_time", "t_s", "s", "Slip time of the clutch",
+    lambda driven_inertia, speed, accelerating_torque: driven_inertia * as_number(speed) / accelerating_torque, source="energy")
 heat.value("engagement_energy", "Q", "J", "Heat of one engagement",
     lambda driven_inertia, speed, design_torque, accelerating_torque: driven_inertia * speed**2 * design_torque / (2 * accelerating_torque),
     source="energy")
@@ -136,12 +123,13 @@ temperature = Chapter("Temperature of the lining",
         "flow. During slip the drum is a thick body whose surface receives a heat flux that falls linearly to zero; the surface is hottest at half "
         "the slip time. A drum thinner than the penetration depth gets hotter; with drum_mass its own rise is used where it is greater. Over many "
         "engagements the drum warms up until its cooled surface dissipates the mean friction power.", needs=("driven_inertia", "speed"))
-temperature.value("heat_flux", "p_0", "W/cm**2", "Heat flux into the drum at the start of slip", heat_flux, source="energy")
-temperature.value("heat_depth", "x_h", "mm", "Depth of drum that absorbs the heat during slip", bind(
-        lambda slip_time, conductivity, density, specific_heat: 2 * np.sqrt(conductivity * slip_time / (density * specific_heat)), **DRUM),
+temperature.value("heat_flux", "p_0", "W/cm**2", "Heat flux into the drum at the start of slip",
+    lambda design_torque, speed, shoe_radius, lining_width: design_torque * speed / (2 * np.pi * shoe_radius * lining_width), source="energy")
+temperature.value("heat_depth", "x_h", "mm", "Depth of drum that absorbs the heat during slip",
+    bind(lambda slip_time, conductivity, density, specific_heat: 2 * np.sqrt(conductivity * slip_time / (density * specific_heat)), **DRUM),
     source="heat conduction")
-temperature.value("surface_temperature_rise", "ΔT_s", "K", "Temperature rise of the friction surface in one engagement", bind(
-        lambda heat_flux, slip_time, conductivity, density, specific_heat:
+temperature.value("surface_temperature_rise", "ΔT_s", "K", "Temperature rise of the friction surface in one engagement",
+    bind(lambda heat_flux, slip_time, conductivity, density, specific_heat:
             4 / 3 * heat_flux * np.sqrt(slip_time / (2 * as_number(np.pi) * conductivity * density * specific_heat)),
     **DRUM),
     source="heat conduction")

@@ -14,7 +14,8 @@ from diecut_report.plugins.cylinder_drive.linkage import TECHNOLOGICAL
 SHAFTS = ("pinion_inertia", "rocker_inertia")
 
 moments = Chapter("Moments on the cylinder", text="The flat is down at θ = 0; the technological moment always resists the motion.")
-moments.value("reduced_inertia", "I_r", "kg*m**2", "Equivalent inertia of the rolling cylinder, translation included", loads.reduced_inertia,
+moments.value("reduced_inertia", "I_r", "kg*m**2", "Equivalent inertia of the rolling cylinder, translation included",
+    lambda cylinder_inertia, cylinder_mass, cylinder_radius: cylinder_inertia + cylinder_mass * cylinder_radius**2,
     source="000 eq. 12")
 moments.value("greatest_unbalance", "me_max", "kg*m", "Unbalance if the centre of mass were at the cylinder's surface",
     lambda cylinder_mass, cylinder_radius: cylinder_mass * cylinder_radius, output=False)

@@ -10,12 +10,6 @@ from diecut_report.api import GRAVITY, arccos, formula
 
 
 @formula
-def reduced_inertia(cylinder_inertia: Any, cylinder_mass: Any, cylinder_radius: Any) -> Any:
-    """Inertia of the rolling cylinder about its axis, its translation included."""
-    return cylinder_inertia + cylinder_mass * cylinder_radius**2
-
-
-@formula
 def inertia_moment(
     reduced_inertia: Any,
     cylinder_radius: Any,

@@ -45,23 +45,11 @@ def whole_steps_above(length: Any, length_step: Any) -> Any:
 
 
 @formula
-def stress(kinetic_energy: Any, elastic_modulus: Any, damper_count: Any, area: Any, adopted_length: Any) -> Any:
-    """Greatest compression stress while the dampers take up the energy."""
-    return np.sqrt(2 * kinetic_energy * elastic_modulus / (damper_count * area * adopted_length))
-
-
-@formula
 def stiffness_borne(
     kinetic_energy: Any, modulus: Any, damper_count: Any, area: Any, adopted_length: Any, allowable_stress: Any
 ) -> Any:
     """How much stiffer than at rest the rubber may be, so that the stress does not exceed the allowable one."""
     return damper_count * area * adopted_length * allowable_stress**2 / (2 * kinetic_energy * modulus)
-
-
-@formula
-def reduced_mass(kinetic_energy: Any, velocity: Any) -> Any:
-    """Mass that has the energy at the speed."""
-    return 2 * kinetic_energy / velocity**2
 
 
 @formula
@@ -71,22 +59,10 @@ def three_sides(side: Any) -> Any:
 
 
 @formula
-def stiffness(damper_count: Any, area: Any, elastic_modulus: Any, adopted_length: Any) -> Any:
-    """Stiffness of all dampers together."""
-    return damper_count * area * elastic_modulus / adopted_length
-
-
-@formula
 def driven_stop_time(reduced_mass: Any, stiffness: Any, driving_force: Any, velocity: Any) -> Any:
     """Time from contact to rest of a mass on a spring with a constant force behind it."""
     late = np.arctan(driving_force / (velocity * np.sqrt(stiffness * reduced_mass)))
     return np.sqrt(reduced_mass / stiffness) * as_number(np.pi / 2 + late)
-
-
-@formula
-def stress_limit(allowable_stress: Any, elastic_modulus: Any, max_strain: Any) -> Any:
-    """Stress that is allowed and strains the rubber within its linear law."""
-    return np.minimum(allowable_stress, elastic_modulus * max_strain)
 
 
 @formula
@@ -143,7 +119,10 @@ length.value("adopted_length", "H_a", "mm", "Adopted length: rounded up to the s
     source="this method", lacks=("adopted_length",))
 
 load = Chapter("Load at the adopted length")
-load.value("stress", "σ", "MPa", "Maximum compressive stress", stress, source="002 eq. 22")
+load.value("stress", "σ", "MPa", "Maximum compressive stress",
+    lambda kinetic_energy, elastic_modulus, damper_count, area, adopted_length:
+        np.sqrt(2 * kinetic_energy * elastic_modulus / (damper_count * area * adopted_length)),
+    source="002 eq. 22")
 load.value("strain", "ε", "1", "Maximum strain", lambda stress, elastic_modulus: stress / elastic_modulus, source="002 eq. 19")
 load.value("peak_force", "P", "N", "Maximum force on one damper", lambda stress, area: stress * area, source="002 eq. 20")
 load.value("stiffness_borne", "k_d,max", "1", "Ratio of dynamic to static stiffness at which the allowable stress is reached",
@@ -167,7 +146,8 @@ loss.value("loss_fraction", "ψ", "1", "Fraction of the energy lost in one impac
 
 stop = Chapter("Stop and rebound", text="Mass and dampers oscillate as a mass–spring system: the stop is a quarter of the period.",
     needs=("velocity",), absent="not calculated: velocity is not given")
-stop.value("reduced_mass", "m_red", "kg", "Equivalent mass at the speed of contact", reduced_mass, source="energy")
+stop.value("reduced_mass", "m_red", "kg", "Equivalent mass at the speed of contact",
+    lambda kinetic_energy, velocity: 2 * kinetic_energy / velocity**2, source="energy")
 stop.value("stop_time", "t_s", "ms", "Time from contact to rest", lambda deflection, velocity: as_number(np.pi) * deflection / (2 * velocity),
     source="this method")
 stop.value("peak_deceleration", "a_max", "m/s**2", "Maximum deceleration",
@@ -207,7 +187,8 @@ drive.value("driving_force", "F", "N", "Force of the drive: as given", bind(lamb
 drive.value("driving_force", "F", "N", "Force of the drive",
     bind(lambda torque, rolling_radius: torque / rolling_radius, torque="drive.torque", rolling_radius="drive.rolling_radius"), source="statics",
     lacks=("drive.force",))
-drive.value("stiffness", "k", "N/mm", "Total stiffness of the dampers", stiffness, source="002 eq. 21")
+drive.value("stiffness", "k", "N/mm", "Total stiffness of the dampers",
+    lambda damper_count, area, elastic_modulus, adopted_length: damper_count * area * elastic_modulus / adopted_length, source="002 eq. 21")
 drive.value("driven_deflection", "h_d", "mm", "Maximum deflection with the drive",
     lambda driving_force, stiffness, kinetic_energy: (driving_force + np.sqrt(driving_force**2 + 2 * stiffness * kinetic_energy)) / stiffness,
     source="energy")
@@ -225,7 +206,8 @@ drive.value("driven_peak_deceleration", "a_d", "m/s**2", "Maximum deceleration w
 drive.value("driven_stop_time", "t_d", "ms", "Time from contact to rest with the drive", driven_stop_time, source="dynamics", needs=("velocity",))
 drive.value("resting_deflection", "h_0", "mm", "Deflection at which the drive holds the dampers at rest",
     lambda driving_force, stiffness: driving_force / stiffness, source="statics")
-drive.value("stress_limit", "σ_lim", "MPa", "Stress within the allowable one and the linear law", stress_limit, output=False)
+drive.value("stress_limit", "σ_lim", "MPa", "Stress within the allowable one and the linear law",
+    lambda allowable_stress, elastic_modulus, max_strain: np.minimum(allowable_stress, elastic_modulus * max_strain), output=False)
 drive.value("force_limit", "F_lim", "N", "Force from which no length is sufficient",
     lambda damper_count, area, stress_limit: damper_count * area * stress_limit / 2, source="energy")
 drive.value("driven_free_length", "H_d", "mm", "Minimum length that withstands the drive", driven_length, source="energy",

@@ -35,12 +35,6 @@ def rim_speed(speed: Any, diameter: Any) -> Any:
 
 
 @formula
-def tension_ratio(groove_friction: Any, wrap: Any) -> Any:
-    """Ratio of the tensions of the tight and the slack side (Euler, with the friction of the groove)."""
-    return np.exp(groove_friction * as_number(wrap))
-
-
-@formula
 def length_factor(length: Any, reference: Any) -> Any:
     """Factor of the belt's length: a longer belt bends less often."""
     ratio = length / reference
@@ -80,8 +74,7 @@ vbelt.lookup("shortest_belt", "L_min", "mm", "Shortest standard belt of the sect
     {name: series.values[0] for name, series in LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
 vbelt.lookup("longest_belt", "L_max", "mm", "Longest standard belt of the section",
     {name: series.values[-1] for name, series in LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
-vbelt.require("ratio_leaves_room", bind(
-        lambda ratio, largest, least, distance: (ratio <= largest) | (least < distance),
+vbelt.require("ratio_leaves_room", bind(lambda ratio, largest, least, distance: (ratio <= largest) | (least < distance),
     least="least_center_distance", **RATIO), key="gears", message=RATIO_TOO_GREAT,
     advise=("gears.driven_teeth",))
 vbelt.require("driver_large_enough",
@@ -89,18 +82,16 @@ vbelt.require("driver_large_enough",
     key="vbelt.driver_diameter",
     message="is {vbelt.driver_diameter}, but a belt of section {vbelt.section} needs pulleys of {least_driver_diameter} or more: take a larger "
         "pulley or a smaller section", advise=(Vary("vbelt.driver_diameter", "up", PULLEYS),))
-vbelt.require("pulleys_apart", bind(
-        lambda ratio, largest, least, distance: (ratio > largest) | (least < distance),
+vbelt.require("pulleys_apart", bind(lambda ratio, largest, least, distance: (ratio > largest) | (least < distance),
     least="least_center_distance", **RATIO), key="vbelt.center_distance",
     message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} overlap up to {least_center_distance:up}",
     advise=DISTANCE)
 vbelt.value("vbelt_length", "L_0", "mm", "Belt length at the wanted centre distance",
     bind(belt_path.open_belt_length, center_distance="vbelt.center_distance", **PAIR), source="geometry")
-vbelt.require("ratio_leaves_belt", bind(
-        lambda ratio, largest, shortest, length, longest: (ratio <= largest) | ((length >= shortest) & (length <= longest)),
+vbelt.require("ratio_leaves_belt",
+    bind(lambda ratio, largest, shortest, length, longest: (ratio <= largest) | ((length >= shortest) & (length <= longest)),
     **RANGE), key="gears", message=RATIO_TOO_GREAT, advise=("gears.driven_teeth",))
-vbelt.require("belt_exists", bind(
-        lambda ratio, largest, shortest, length, longest: (ratio > largest) | ((length >= shortest) & (length <= longest)),
+vbelt.require("belt_exists", bind(lambda ratio, largest, shortest, length, longest: (ratio > largest) | ((length >= shortest) & (length <= longest)),
     **RANGE), key="vbelt.center_distance",
     message="is {vbelt.center_distance}; that takes a belt of {vbelt_length}, but section {vbelt.section} has standard lengths of {shortest_belt} … "
         "{longest_belt}", advise=DISTANCE)
@@ -112,13 +103,11 @@ vbelt.require("standard_belt_fits", lambda least_belt, vbelt_standard_length: le
     message="is {vbelt.center_distance}; the nearest standard belt, {vbelt_standard_length} long, draws the pulleys into each other "
         "({least_belt:up} is the least)", advise=DISTANCE)
 vbelt.root("center_distance", "a", "mm", "Centre distance, corrected for the standard belt",
-    bind(
-            lambda center_distance, small, large, belt: belt_path.open_belt_length(center_distance, small, large) - belt,
+    bind(lambda center_distance, small, large, belt: belt_path.open_belt_length(center_distance, small, large) - belt,
         belt="vbelt_standard_length", **PAIR), low=lambda least_center_distance: least_center_distance,
     high=lambda vbelt_standard_length: vbelt_standard_length / 2, left=bind(belt_path.run_length, radius="small_radius", next_radius="large_radius"),
-    right=bind(
-            lambda center_distance, small, large, belt:
-                (belt - np.pi * (large + small)) / 2 - (large - small) * np.arcsin((large - small) / center_distance),
+    right=bind(lambda center_distance, small, large, belt:
+            (belt - np.pi * (large + small)) / 2 - (large - small) * np.arcsin((large - small) / center_distance),
         belt="vbelt_standard_length", **PAIR), source="geometry")
 vbelt.value("vbelt_wrap", "β_1", "deg", "Wrap on the smaller pulley", bind(belt_path.wrap_small, **PAIR), source="geometry")
 vbelt.value("vbelt_wrap_large", "β_2", "deg", "Wrap on the larger pulley", bind(belt_path.wrap_large, wrap_small="vbelt_wrap"), source="geometry",
@@ -133,7 +122,8 @@ count = Chapter("Number of belts",
     text="The manufacturer states the power of one belt for half a turn of wrap and the reference length. The belts must transmit the motor's rated "
         "power with the service factor.")
 count.value("tension_ratio", "m", "1", "Ratio of tight-side to slack-side tension",
-    bind(tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
+    bind(lambda groove_friction, wrap: np.exp(groove_friction * as_number(wrap)),
+        groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
 count.value("wrap_factor", "c_1", "1", "Arc of contact factor", lambda vbelt_wrap: 1.25 * (1 - 5 ** (-vbelt_wrap / np.pi)), source="ISO 5292")
 count.lookup("reference_length", "L_r", "mm", "Reference length of the section", REFERENCE_LENGTHS, by="vbelt.section", source="Optibelt",
     output=False)
@@ -168,18 +158,16 @@ tensions.lookup("vbelt_mass", "q", "kg/m", "Mass of one belt from its length", M
 for known in (("power_per_belt",), (COUNT,)):
     lacks = (COUNT,) if known == ("power_per_belt",) else ()
     tensions.value("vbelt_tension_needed", "F_T,req", "N", "Required static tension of one belt",
-        bind(
-                lambda pull, tension_ratio, count, mass_per_length, speed:
-                    pull * (tension_ratio + 1) / (2 * count * (tension_ratio - 1)) + mass_per_length * speed**2,
+        bind(lambda pull, tension_ratio, count, mass_per_length, speed:
+                pull * (tension_ratio + 1) / (2 * count * (tension_ratio - 1)) + mass_per_length * speed**2,
             pull="vbelt_pull", **PULL), source="GB/T 13575.1", needs=known, lacks=lacks)
     tensions.value("vbelt_tension", "F_T", "N", "Static tension of one belt: the required one", lambda vbelt_tension_needed: vbelt_tension_needed,
         source="this method", needs=known, lacks=(*lacks, "vbelt.tension"))
     tensions.value("vbelt_tension", "F_T", "N", "Static tension of one belt: as given", bind(lambda given: given, given="vbelt.tension"),
         source="input", needs=(*known, "vbelt.tension"), lacks=lacks)
     tensions.value("vbelt_slip_pull", "F_slip", "N", "Effective pull at which the belts begin to slip",
-        bind(
-                lambda tension, tension_ratio, count, mass_per_length, speed:
-                    2 * count * (tension - mass_per_length * speed**2) * (tension_ratio - 1) / (tension_ratio + 1),
+        bind(lambda tension, tension_ratio, count, mass_per_length, speed:
+                2 * count * (tension - mass_per_length * speed**2) * (tension_ratio - 1) / (tension_ratio + 1),
             tension="vbelt_tension", **PULL), source="Euler", needs=(*known, "vbelt.tension"), lacks=lacks)
     tensions.value("shaft_load", "F_s", "N", "Static load of the belts on the shafts of motor and flywheel",
         lambda vbelt_count, vbelt_tension, vbelt_wrap: 2 * vbelt_count * vbelt_tension * np.sin(vbelt_wrap / 2), source="statics", needs=known,

@@ -169,7 +169,8 @@ for g in TEETH:
 dynamic = Chapter("Dynamic load", needs=CALCULATED, text="Method C: below the resonance, for the worse grade of the pair.")
 dynamic.value("line_load", "w_A", "N/mm", "Line load with the application factor",
     lambda application_factor, tangential_force, face_width: application_factor * tangential_force / face_width, source=ISO)
-dynamic.value("speed_parameter", "X", "m/s", "Speed that the dynamic factor depends on", bind(f.speed_parameter, velocity="pitch_velocity"),
+dynamic.value("speed_parameter", "X", "m/s", "Speed that the dynamic factor depends on",
+    bind(lambda velocity, teeth_1, ratio: velocity * teeth_1 / 100 * np.sqrt(ratio**2 / (1 + ratio**2)), velocity="pitch_velocity"),
     source=f"{ISO}, 6", lacks=KEYS[1:2])
 dynamic.fact(DYNAMIC_KNOWN, lambda speed_parameter: speed_parameter <= METHOD_C,
     "not calculated: so fast teeth come near their resonance, where method C does not hold; give dynamic_factor", lacks=KEYS[1:2])
@@ -208,12 +209,15 @@ face.value("misalignment_run_in", "F_βy", "um", "Equivalent misalignment after 
 face.value("opening", "ρ_β", "1", "Half the ratio of the load that the misalignment causes to the mean one",
     lambda misalignment_run_in, mesh_stiffness, mean_line_load: misalignment_run_in * 0.85 * mesh_stiffness / (2 * mean_line_load),
     source=f"{ISO}, 7", output=False, **GIVEN)
-face.value("face_load_factor", "K_Hβ", "1", "Face load factor for contact stress", f.face_load_factor, source=f"{ISO}, 7", **GIVEN)
+face.value("face_load_factor", "K_Hβ", "1", "Face load factor for contact stress",
+    lambda opening: np.where(opening < 1, 1 + opening, 2 * np.sqrt(opening)), source=f"{ISO}, 7", **GIVEN)
 
 transverse = Chapter("Distribution of the load over the teeth in mesh", needs=(*CALCULATED, DYNAMIC_KNOWN),
     text="Method B. The base pitch deviation is taken as that of the pitch of the wheel, which is on the safe side.")
 TYPED: dict[str, Any] = {"lacks": ("transverse_load_factor",)}
-transverse.value("pitch_deviation", "f_pb", "um", "Base pitch deviation", bind(f.pitch_deviation, diameter="pitch_diameter_2"),
+transverse.value("pitch_deviation", "f_pb", "um", "Base pitch deviation",
+    bind(lambda diameter, module, grade_step: (0.001 * diameter / f.MILLIMETRE + 0.4 * module / f.MILLIMETRE + 5) * grade_step * f.MICROMETRE,
+        diameter="pitch_diameter_2"),
     source="ISO 1328-1:2013", output=False, **TYPED)
 for g in TEETH:
     transverse.value(f"run_in_pitch_{g}", f"f_p{g}", "um", f"Pitch deviation that gear {g} reduces by running in",
@@ -230,7 +234,6 @@ transverse.value("transverse_factor", "K_α", "1", "Transverse load factor befor
 transverse.value("transverse_load_factor", "K_Hα", "1", "Transverse load factor for contact stress",
     bind(f.limited_for_flank, factor="transverse_factor"), source=f"{ISO}, 8", **TYPED)
 transverse.value("transverse_load_root", "K_Fα", "1", "Transverse load factor for tooth root stress",
-    bind(
-            lambda factor, contact_ratio, contact_ratio_total:
-                np.maximum(np.minimum(factor, contact_ratio_total / (0.25 * contact_ratio + 0.75)), 1),
+    bind(lambda factor, contact_ratio, contact_ratio_total:
+            np.maximum(np.minimum(factor, contact_ratio_total / (0.25 * contact_ratio + 0.75)), 1),
         factor="transverse_factor"), source=f"{ISO}, 8", **TYPED)

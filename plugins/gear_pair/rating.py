@@ -30,7 +30,8 @@ root_form.require("below_two_pairs", lambda virtual_contact_ratio: virtual_conta
 for g, teeth in TEETH.items():
     own = {"virtual_teeth": f"virtual_teeth_{g}", "theta": f"root_angle_{g}", "center_height": f"rounding_height_{g}"}
     load = {"half_thickness": f"load_half_angle_{g}", "load_angle": f"load_angle_{g}", "diameter": f"load_diameter_{g}"}
-    root_form.value(f"virtual_teeth_{g}", f"z_n{g}", "1", f"Number of teeth of virtual spur gear {g}", bind(f.virtual_teeth, teeth=teeth),
+    root_form.value(f"virtual_teeth_{g}", f"z_n{g}", "1", f"Number of teeth of virtual spur gear {g}",
+        bind(lambda teeth, base_helix_angle, helix_angle: teeth / (np.cos(base_helix_angle) ** 2 * np.cos(helix_angle)), teeth=teeth),
         source=FORM, output=False, digits=6)
     root_form.value(f"rounding_height_{g}", f"G_{g}", "1", f"Height of the fillet centre on gear {g}",
         bind(lambda root_radius, dedendum, shift: root_radius - dedendum + shift, shift=f"shift_{g}"), source=FORM, output=False)
@@ -159,9 +160,14 @@ forces.value("power_peak", "P", "kW", "Power at the maximum torque", lambda torq
 
 pitting = Chapter("Pitting",
     text="Load at the pitch point, converted to the inner points of single pair tooth contact by Z_B and Z_D. Z_E is for Poisson's ratio 0.3.")
-pitting.value("zone_factor", "Z_H", "1", "Zone factor", bind(f.zone_factor, working_angle="working_pressure_angle", alpha="transverse_angle"),
+pitting.value("zone_factor", "Z_H", "1", "Zone factor", bind(lambda base_helix_angle, working_angle, alpha:
+        np.sqrt(2 * np.cos(base_helix_angle) * np.cos(working_angle) / (np.cos(alpha) ** 2 * np.sin(working_angle))),
+    working_angle="working_pressure_angle", alpha="transverse_angle"),
     source=f"{PITTING}, 6")
-pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E", f.elasticity, source=f"{PITTING}, 7", output=False)
+pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E",
+    lambda elastic_modulus_1, elastic_modulus_2:
+        1 / (as_number(np.pi) * ((1 - 0.3**2) / elastic_modulus_1 + (1 - 0.3**2) / elastic_modulus_2)),
+    source=f"{PITTING}, 7", output=False)
 pitting.value("contact_ratio_factor", "Z_ε", "1", "Contact ratio factor", f.contact_ratio_factor, source=f"{PITTING}, 8")
 pitting.value("helix_factor", "Z_β", "1", "Helix angle factor", lambda helix_angle: 1 / np.sqrt(np.cos(helix_angle)),
     source=f"{PITTING}, 9, corrigendum 2008", output=False)
@@ -204,7 +210,8 @@ for g in TEETH:
                 force * form_factor * stress_factor * helix_factor / (face_width * module), force="root_force", form_factor=f"form_factor_{g}",
             stress_factor=f"stress_factor_{g}", helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
     root_stress.value(f"root_stress_{g}", f"σ_F{g}", "MPa", f"Tooth root stress of gear {g}",
-        bind(f.root_stress, nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5", needs=RATED)
+        bind(lambda nominal, application, dynamic, face, transverse: nominal * application * dynamic * face * transverse,
+            nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5", needs=RATED)
     root_stress.value(f"root_safety_{g}", f"S_F{g}", "1", f"Safety factor of gear {g} against tooth breakage",
         bind(lambda limit, life, notch, alternating, stress: 2 * limit * life * notch * alternating / stress, limit=f"sigma_f_lim_{g}",
             life=f"life_factor_f_{g}", notch="notch_size_factor", alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5",

@@ -10,12 +10,6 @@ from diecut_report.api import arccos, as_angle, formula
 
 
 @formula
-def step_angle(slots: Any) -> Any:
-    """Angle by which the wheel turns for each turn of the crank."""
-    return 2 * np.pi / slots
-
-
-@formula
 def crank_ratio(slots: Any) -> Any:
     """Crank radius to centre distance: the roller enters along the slot."""
     return np.sin(np.pi / slots)
@@ -101,12 +95,6 @@ def rate_of_rate(ratio: Any, crank_speed: Any) -> Any:
 
 
 @formula
-def travel_radius(sprocket_teeth: Any, chain_pitch: Any, gear_ratio: Any) -> Any:
-    """Conveyor displacement per radian of the wheel."""
-    return sprocket_teeth * chain_pitch * gear_ratio / (2 * np.pi)
-
-
-@formula
 def travel(angle: Any, travel_radius: Any) -> Any:
     """Way, speed or acceleration of the conveyor from the wheel's."""
     return angle * travel_radius
@@ -149,12 +137,6 @@ def driving_torque(driven_inertia: Any, crank_speed: Any, acceleration_ratio: An
 
 
 @formula
-def energy_lost(kinetic_energy_max: Any, driven_inertia: Any, own_inertia: Any, efficiency: Any) -> Any:
-    """Energy that the gear takes while it drives what is behind it, and while it is driven by that."""
-    return kinetic_energy_max * (1 - own_inertia / driven_inertia) * (1 / efficiency - efficiency)
-
-
-@formula
 def roller_distance(crank_angle: Any, center_distance: Any, crank_ratio: Any) -> Any:
     """Distance of the roller from the wheel's axis."""
     return center_distance * np.sqrt(1 - 2 * crank_ratio * np.cos(crank_angle) + crank_ratio**2)
@@ -164,18 +146,6 @@ def roller_distance(crank_angle: Any, center_distance: Any, crank_ratio: Any) ->
 def roller_force(driven_inertia: Any, wheel_acceleration: Any, roller_distance: Any) -> Any:
     """Force of the roller on the slot's flank, square to the slot."""
     return driven_inertia * wheel_acceleration / roller_distance
-
-
-@formula
-def flank_distance(crank_radius: Any, roller_radius: Any) -> Any:
-    """Distance of the nearest flanks of the two neighbouring slots from the crank's axis in the dwell."""
-    return crank_radius - roller_radius
-
-
-@formula
-def rim_distance(center_distance: Any, rim_radius: Any) -> Any:
-    """Distance of the wheel's rim, before its arcs are cut, from the crank's axis."""
-    return center_distance - rim_radius
 
 
 @formula
@@ -208,15 +178,3 @@ def tip_half_angle(center_distance: Any, rim_radius: Any, locking_radius: Any) -
     """Half the angle of a locking arc at the wheel's axis; zero where it does not reach the rim."""
     cosine = (center_distance**2 + rim_radius**2 - locking_radius**2) / (2 * center_distance * rim_radius)
     return arccos(np.minimum(cosine, 1))
-
-
-@formula
-def corner_place(wheel_angle: Any, turns: Any, step_angle: Any, tip_half_angle: Any, slots: Any) -> Any:
-    """Angle of the corner between locking arc and rim at the wheel's axis, from the line of centres."""
-    return wheel_angle - turns * step_angle + tip_half_angle - np.pi / slots
-
-
-@formula
-def corner_along(center_distance: Any, rim_radius: Any, corner_place: Any, crank_angle: Any) -> Any:
-    """Distance of the corner from the crank's axis, along the crank."""
-    return center_distance * np.cos(crank_angle) - rim_radius * np.cos(crank_angle + corner_place)

@@ -15,7 +15,7 @@ CONVEYOR_NEEDS = ("sprocket_teeth", "chain_pitch")
 
 geometry = Chapter("Wheel, crank and slots",
     text="The roller enters and leaves the slots along their direction, hence without impact: crank and slot are then perpendicular to each other.")
-geometry.value("step_angle", "τ", "deg", "Step of the wheel", formulas.step_angle, source="000, Fig. 1", digits=6)
+geometry.value("step_angle", "τ", "deg", "Step of the wheel", lambda slots: 2 * np.pi / slots, source="000, Fig. 1", digits=6)
 geometry.value("crank_ratio", "λ", "1", "Ratio of crank radius to centre distance", formulas.crank_ratio, source="geometry")
 geometry.value("crank_radius", "r", "mm", "Radius of the crank", lambda crank_ratio, center_distance: crank_ratio * center_distance,
     source="geometry")
@@ -107,7 +107,8 @@ motion.value("wheel_acceleration_max", "ε_2,max", "rad/s**2", "Maximum angular 
     bind(formulas.rate_of_rate, ratio="acceleration_peak"), source="kinematics")
 
 conveyor = Chapter("Motion of the sheet", needs=CONVEYOR_NEEDS, absent="not calculated: {missing} not given")
-conveyor.value("travel_radius", "r_c", "mm", "Conveyor displacement per radian of the wheel", formulas.travel_radius, source="000, Fig. 1")
+conveyor.value("travel_radius", "r_c", "mm", "Conveyor displacement per radian of the wheel",
+    lambda sprocket_teeth, chain_pitch, gear_ratio: sprocket_teeth * chain_pitch * gear_ratio / (2 * np.pi), source="000, Fig. 1")
 conveyor.value("sheet_step", "S", "mm", "Step of the conveyor per revolution of the crank",
     lambda sprocket_teeth, chain_pitch, gear_ratio, slots: sprocket_teeth * chain_pitch * gear_ratio / slots, source="000, Fig. 1")
 conveyor.value("sheet_position", "x", "mm", "Position of the sheet from that in the middle of its motion", bind(formulas.travel, angle="wheel_angle"),
@@ -159,8 +160,8 @@ torque.value("roller_distance", "d", "mm", "Distance of the roller from the whee
 torque.value("roller_force", "F", "N", "Force of the roller on the flank of the slot (positive: it drives)",
     bind(formulas.roller_force, driven_inertia="felt_inertia"), source="statics")
 torque.value("crank_force_x", "F_x", "N", "Force on the crank along the line of centres, towards the wheel",
-        lambda roller_force, crank_angle, center_distance, crank_ratio, roller_distance:
-            -roller_force * center_distance * crank_ratio * np.sin(crank_angle) / roller_distance,
+    lambda roller_force, crank_angle, center_distance, crank_ratio, roller_distance:
+        -roller_force * center_distance * crank_ratio * np.sin(crank_angle) / roller_distance,
     source="statics",
     output=False)
 torque.value("crank_force_y", "F_y", "N", "Force on the crank across the line of centres, in the direction in which its roller passes the line",
@@ -173,7 +174,10 @@ torque.reduction("roller_force_peak", "F_peak", "N", "Maximum roller force", "ma
 torque.value("kinetic_energy_max", "E_k", "J", "Energy exchanged with the wheel at each step",
     lambda driven_inertia, speed_ratio_peak, crank_speed: driven_inertia * (speed_ratio_peak * crank_speed) ** 2 / 2, source="energy")
 torque.reduction("energy_turn", "E_Σ", "J", "Work of the torque over a revolution", "integral", of="torque", output=False, source="energy")
-torque.value("energy_lost", "E_v", "J", "Energy that the gear behind the wheel takes in a step", formulas.energy_lost, source="energy", output=False)
+torque.value("energy_lost", "E_v", "J", "Energy that the gear behind the wheel takes in a step",
+    lambda kinetic_energy_max, driven_inertia, own_inertia, efficiency:
+        kinetic_energy_max * (1 - own_inertia / driven_inertia) * (1 / efficiency - efficiency),
+    source="energy", output=False)
 torque.value("energy_residual", "r_E", "1", "Ratio of the work over a revolution, but for the losses, to the energy of a step",
     lambda energy_turn, energy_lost, kinetic_energy_max: abs(energy_turn - energy_lost) / kinetic_energy_max, source="energy", output=False)
 
@@ -193,9 +197,11 @@ locking = Chapter("Locking arc",
     text="During the dwell the disc on the crank's shaft runs in an arc of the wheel. Its cut-out spans the angle of engagement, so that the disc's "
         "edge is on the line of centres at the instant of entry: until then it holds the wheel, from then on the wheel is free to turn. Just after "
         "the exit and just before the entry the disc hardly covers its arc on one side, and the less it covers, the more play the wheel has.")
-locking.value("flank_distance", "r_f", "mm", "Distance of the neighbouring slots' flanks from the crank's axis in the dwell", formulas.flank_distance,
+locking.value("flank_distance", "r_f", "mm", "Distance of the neighbouring slots' flanks from the crank's axis in the dwell",
+    lambda crank_radius, roller_radius: crank_radius - roller_radius,
     source="geometry")
-locking.value("rim_distance", "r_o", "mm", "Distance of the wheel's rim from the crank's axis", formulas.rim_distance, source="geometry")
+locking.value("rim_distance", "r_o", "mm", "Distance of the wheel's rim from the crank's axis",
+    lambda center_distance, rim_radius: center_distance - rim_radius, source="geometry")
 locking.value("locking_radius", "r_l", "mm", "Radius of the wheel's locking arcs: as given",
     bind(lambda locking_radius: locking_radius, locking_radius="inputs.locking_radius"), source="input", needs=("locking_radius",))
 locking.choice("locking_radius", "r_l", "mm", "Radius of the wheel's locking arcs",
@@ -227,11 +233,15 @@ locking.value("relief_distance", "C_c", "mm", "Distance of the hollow's centre f
     lambda center_distance, disc_radius, crank_radius: center_distance * disc_radius / crank_radius, source="practice")
 locking.value("tip_half_angle", "δ_l", "deg", "Half the angle of a locking arc at the wheel's axis", formulas.tip_half_angle, source="geometry",
     output=False)
-locking.value("corner_place", "δ", "deg", "Angle of an arm's inner corner, next to its locking arc, from the line of centres", formulas.corner_place,
+locking.value("corner_place", "δ", "deg", "Angle of an arm's inner corner, next to its locking arc, from the line of centres",
+    lambda wheel_angle, turns, step_angle, tip_half_angle, slots: wheel_angle - turns * step_angle + tip_half_angle - np.pi / slots,
     source="geometry", output=False)
 locking.value("corner_distance", "d_δ", "mm", "Distance of this corner from the crank's axis", lambda center_distance, rim_radius, corner_place:
         np.sqrt(center_distance**2 + rim_radius**2 - 2 * center_distance * rim_radius * np.cos(corner_place)), source="geometry", output=False)
-locking.value("corner_along", "x_δ", "mm", "Its component along the crank", formulas.corner_along, source="geometry", output=False)
+locking.value("corner_along", "x_δ", "mm", "Its component along the crank",
+    lambda center_distance, rim_radius, corner_place, crank_angle:
+        center_distance * np.cos(crank_angle) - rim_radius * np.cos(crank_angle + corner_place),
+    source="geometry", output=False)
 locking.value("corner_to_hollow", "h_δ", "mm", "Distance of this corner from the hollow's centre",
     lambda corner_distance, relief_distance, corner_along: np.sqrt(corner_distance**2 + relief_distance**2 - 2 * relief_distance * corner_along),
     source="geometry", output=False)

@@ -41,9 +41,8 @@ for part, load in CASES:
 needed.value("length_shear", "l_τ", "mm", "Bearing length required by the shear of the key",
     lambda key_force_peak, width, allowed_shear: key_force_peak / (width * allowed_shear), source="strength of materials", output=False)
 needed.value("length_pressed", "l_p", "mm", "Bearing length required by the pressures",
-    bind(
-            lambda shaft, hub, key, shaft_peak, hub_peak, key_peak:
-                np.maximum(np.maximum(np.maximum(shaft, hub), key), np.maximum(np.maximum(shaft_peak, hub_peak), key_peak)),
+    bind(lambda shaft, hub, key, shaft_peak, hub_peak, key_peak:
+            np.maximum(np.maximum(np.maximum(shaft, hub), key), np.maximum(np.maximum(shaft_peak, hub_peak), key_peak)),
         **{name: f"length_{name}" for name in SIX}), source=METHOD, output=False)
 needed.value("bearing_length_needed", "l_tr,req", "mm", "Required bearing length",
     lambda length_pressed, length_shear: np.maximum(length_pressed, length_shear), source="this method", output=False)
@@ -84,9 +83,8 @@ for part, load in CASES:
     pressures.value(f"safety_{part}{load}", f"S_{PARTS[part]}{LOADS[load][2]}", "1", f"Safety factor of the {part}, {LOADS[load][3]} load",
         bind(lambda limit, pressure: limit / pressure, limit=f"allowed_{part}{load}", pressure=f"pressure_{part}{load}"), source=METHOD,
         output=False)
-pressures.value("safety", "S", "1", "Minimum safety factor", bind(
-        lambda shaft, hub, key, shaft_peak, hub_peak, key_peak:
-            np.minimum(np.minimum(np.minimum(shaft, hub), key), np.minimum(np.minimum(shaft_peak, hub_peak), key_peak)),
+pressures.value("safety", "S", "1", "Minimum safety factor", bind(lambda shaft, hub, key, shaft_peak, hub_peak, key_peak:
+        np.minimum(np.minimum(np.minimum(shaft, hub), key), np.minimum(np.minimum(shaft_peak, hub_peak), key_peak)),
     **{name: f"safety_{name}" for name in SIX}), source=METHOD)
 pressures.value("safety_peak", "S_max", "1", "Minimum safety factor under the maximum load",
     lambda safety_shaft_peak, safety_hub_peak, safety_key_peak: np.minimum(np.minimum(safety_shaft_peak, safety_hub_peak), safety_key_peak),

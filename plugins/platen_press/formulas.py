@@ -51,12 +51,6 @@ def true_travel(platen_displacement: Any, material_thickness: Any, drive_deforma
 
 
 @formula
-def standing_distance(rod_length: Any, drive_deformation: Any, crank_radius: Any) -> Any:
-    """Distance of the platen's pins from the shaft while the platen stands on the die."""
-    return rod_length + drive_deformation - crank_radius
-
-
-@formula
 def stretched_length(standing_distance: Any, crank_radius: Any, crank_angle: Any) -> Any:
     """Distance between crank pin and platen pin while the platen stands."""
     along = 2 * standing_distance * crank_radius * np.cos(crank_angle)

@@ -24,7 +24,8 @@ LOAD = (
 forces = Chapter("Force of the rods",
     text="Both rods together, along the guides, tension positive. The force from the rods' elongation equals the cutting force up to the dead "
         "centre; after it the platen stands and the rods relax.")
-forces.value("standing_distance", "x_p", "mm", "Distance of the standing platen's pins from the shaft", formulas.standing_distance,
+forces.value("standing_distance", "x_p", "mm", "Distance of the standing platen's pins from the shaft",
+    lambda rod_length, drive_deformation, crank_radius: rod_length + drive_deformation - crank_radius,
     source="001 eq. 16", output=False)
 forces.value("stretched_length", "L", "mm", "Length of the rods while the platen stands", formulas.stretched_length, source="001 eq. 16, exact",
     output=False)

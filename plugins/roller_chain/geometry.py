@@ -47,8 +47,7 @@ for key, (symbol, unit, words) in TAKEN.items():
 chain.value("bearing_area_of_table", "A_t", "mm**2", "Bearing area of a joint: that of the table",
     bind(f.bearing_area, pin_diameter="pin_diameter_of_table"), needs=("chain",), lacks=(CUSTOM,), source="geometry", output=False)
 for key, (least, most) in SHARES.items():
-    chain.require(f"{key}_as_table", bind(
-            lambda given, own, least, most: (given >= least * own) & (given <= most * own),
+    chain.require(f"{key}_as_table", bind(lambda given, own, least, most: (given >= least * own) & (given <= most * own),
         given=f"inputs.{key}", own=f"{key}_of_table", least=least, most=most), key=key,
         needs=("chain", key), lacks=(CUSTOM,),
         message=f"is {{inputs.{key}}}, but the table has {{{key}_of_table}} for this designation, and no maker less than {least:g} or more than "
