@@ -1,4 +1,4 @@
-"""Chapters on the rolling of sector and gear, the phases and the motion of the cycle, the sheet, and the torque that it takes."""
+"""The calculation of the cam-gear stepper: rolling of sector and gear, phases and motion of a cycle, the sheet, and the torque."""
 
 from __future__ import annotations
 
@@ -20,6 +20,18 @@ from diecut_report.plugins.cam_gear_transport import formulas
 from diecut_report.plugins.cam_gear_transport.inputs import GRIPPED, MODULES, SHEET, TORQUE
 
 # fmt: off
+
+
+"""The usual modules, in mm."""
+
+"""The keys with which the cams are synthesised."""
+
+"""The keys with which the motion of the sheet is known."""
+
+"""The keys with which the pull of the sheet at its grippers is known."""
+
+"""The keys with which torque and forces are known."""
+
 
 LEAST_RETURN = 1e-6  # share of a turn: what is left below it is mostly rounding, and its speeds with it
 

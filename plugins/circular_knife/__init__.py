@@ -5,7 +5,7 @@ from __future__ import annotations
 from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary
 from diecut_report.plugins.circular_knife import steps
 from diecut_report.plugins.circular_knife.figures import FIGURES
-from diecut_report.plugins.circular_knife.inputs import CircularKnife
+from diecut_report.plugins.circular_knife.steps import CircularKnife
 
 PLACE = ("front_distance", Vary("cut_length", "down"), "eccentricity", "depth")
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired
 from diecut_report.plugins.clutch.figures import FIGURES
-from diecut_report.plugins.clutch.inputs import Clutch
-from diecut_report.plugins.clutch.steps import SECTIONS
+from diecut_report.plugins.clutch.steps import SECTIONS, Clutch
 
 EXAMPLE = ExampleBlock(
     "clutch",

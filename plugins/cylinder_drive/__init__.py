@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Check, Erratum, ExampleBlock, Mechanism, Port, Source, Vary, Wired
-from diecut_report.plugins.cylinder_drive import forces, linkage, timing
+from diecut_report.plugins.cylinder_drive import steps
 from diecut_report.plugins.cylinder_drive.figures import FIGURES
 from diecut_report.plugins.cylinder_drive.inputs import CylinderDrive
 
@@ -38,8 +38,8 @@ MECHANISM = Mechanism(
             "crank.",
     inputs=CylinderDrive,
     example=EXAMPLE,
-    chapters=(linkage.linkage, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
-              timing.contact, forces.clearance, timing.phases, forces.teeth, forces.joints),
+    chapters=(steps.linkage, steps.stroke, steps.cutting, steps.kinematics, steps.moments, steps.torque, steps.energy,
+              steps.contact, steps.clearance, steps.phases, steps.teeth, steps.joints),
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
                  "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",
                  "tooth_force_max", "joint_force_max"),

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Check, Erratum, ExampleBlock, Mechanism, Source, Vary
-from diecut_report.plugins.cylinder_sizing.calculation import CHAPTERS, CylinderSizing
-from diecut_report.plugins.cylinder_sizing.drawing import FIGURES
+from diecut_report.plugins.cylinder_sizing.calculation import CHAPTERS, FIGURES, CylinderSizing
 
 EXAMPLE = ExampleBlock(
     "cylinder",

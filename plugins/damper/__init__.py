@@ -6,8 +6,7 @@ from dataclasses import replace
 
 from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired
 from diecut_report.plugins.damper.figures import FIGURES
-from diecut_report.plugins.damper.inputs import STOPPED, Damper
-from diecut_report.plugins.damper.steps import SECTIONS, SLENDEREST
+from diecut_report.plugins.damper.steps import SECTIONS, SLENDEREST, STOPPED, Damper
 
 EXAMPLE = ExampleBlock(
     "damper",

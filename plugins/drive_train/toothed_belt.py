@@ -45,10 +45,6 @@ def teeth_apart(radius: Any, other: Any, pitch: Any) -> Any:
     return as_number(2 * np.pi) * abs(radius - other) / pitch
 
 
-
-
-
-
 @formula
 def angle_from_top(height: Any) -> Any:
     """Angle from the upper side."""
@@ -209,20 +205,6 @@ def speed_away(velocity: Any, driven_radius: Any, cylinder_radius: Any) -> Any:
 def speed_at_die(velocity: Any, driven_radius: Any, cylinder_radius: Any) -> Any:
     """Speed of the belt on the die's side of the axis."""
     return velocity * (1 - driven_radius / cylinder_radius)
-
-
-
-
-
-
-
-
-
-
-
-
-
-
 
 
 def alone(x: Any) -> Any:

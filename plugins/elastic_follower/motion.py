@@ -13,6 +13,7 @@ from diecut_report.plugins.elastic_follower import rests
 
 # fmt: off
 
+
 @formula
 def law_acceleration(rise: Any, rise_duration: Any, acceleration: Any) -> Any:
     """Acceleration of a rise by a law, of the law's acceleration."""

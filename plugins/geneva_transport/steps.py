@@ -1,4 +1,4 @@
-"""Chapters on the wheel's geometry, its motion over a turn of the crank, the conveyor's, and the forces on roller and locking disc."""
+"""The calculation of the Geneva drive: the wheel, its motion over a turn of the crank, the conveyor's, and the forces."""
 
 from __future__ import annotations
 
@@ -10,6 +10,10 @@ from diecut_report.plugins.geneva_transport import formulas
 from diecut_report.plugins.geneva_transport.inputs import GRIPPED
 
 # fmt: off
+
+
+"""The keys with which the pull of the sheet at its grippers is known."""
+
 
 CONVEYOR_NEEDS = ("sprocket_teeth", "chain_pitch")
 

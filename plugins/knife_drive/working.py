@@ -14,6 +14,7 @@ from diecut_report.mechanics import common
 
 # fmt: off
 
+
 @formula
 def planetary_velocity(crank_angle: Any, carrier_radius: Any, crank_speed: Any) -> Any:
     """Velocity of the edge, upwards."""

@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Chapter, bind, case
-from diecut_report.plugins.rolling_bearing import formulas as f
-from diecut_report.plugins.rolling_bearing.bearings import TAKEN, Bearings, bearings, shares
-from diecut_report.plugins.rolling_bearing.factors import between
-from diecut_report.plugins.rolling_bearing.listings import CHOICE, choice
-from diecut_report.plugins.rolling_bearing.part import EXPONENTS
+from diecut_report.plugins.rolling_bearing import ratings as f
+from diecut_report.plugins.rolling_bearing.bearings import EXPONENTS, TAKEN, Bearings, bearings, shares
+from diecut_report.plugins.rolling_bearing.figures import CHOICE, choice
+from diecut_report.plugins.rolling_bearing.ratings import between
 
 # fmt: off
 
