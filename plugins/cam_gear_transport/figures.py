@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import cos, pi, sin
 
 import numpy as np
@@ -115,13 +116,16 @@ def _profile(view: View, number: str, most: int = MOST_POINTS) -> list[Shape]:
     ]
 
 
+PROFILES = {number: partial(_profile, number=number, most=MOST_MOVING) for number in "12"}
+
+
 def _arm(view: View, number: str, disc_angle: float) -> tuple[Point, Point]:
     """The pin O₃ and the roller's centre at a disc angle."""
     pin = polar((0.0, 0.0), view["center_distance"], disc_angle)
     return pin, polar(pin, view["arm_length"], disc_angle + view.at(f"arm_{number}_direction", disc_angle))
 
 
-def _cam(view: View, number: str) -> list[Shape]:
+def one_cam(view: View, number: str) -> list[Shape]:
     """One cam with arm and roller in the middle of the dwell, and at the start of the return."""
     center = (0.0, 0.0)
     distance = view["center_distance"]
@@ -138,45 +142,17 @@ def _cam(view: View, number: str) -> list[Shape]:
     ]
 
 
-def cam_1(view: View) -> list[Shape]:
-    """The first cam."""
-    return _cam(view, "1")
-
-
-def cam_2(view: View) -> list[Shape]:
-    """The second cam."""
-    return _cam(view, "2")
-
-
-def _cam_at(view: View, number: str, disc_angle: float) -> list[Shape]:
+def _cam_at(view: View, disc_angle: float, number: str) -> list[Shape]:
     """One cam with disc, arm and roller at a disc angle."""
     pin, roller = _arm(view, number, disc_angle)
     return [
-        *view.once(_profile_1 if number == "1" else _profile_2),
+        *view.once(PROFILES[number]),
         polyline([(0.0, 0.0), pin], "outline"),
         polyline([pin, roller], "link"),
         circle(roller, view["roller_radius"], "mark"),
         point((0.0, 0.0), "pivot"),
         point(pin, "joint"),
     ]
-
-
-def _profile_1(view: View) -> list[Shape]:
-    return _profile(view, "1", MOST_MOVING)
-
-
-def _profile_2(view: View) -> list[Shape]:
-    return _profile(view, "2", MOST_MOVING)
-
-
-def cam_1_at(view: View, disc_angle: float) -> list[Shape]:
-    """The first cam at a disc angle."""
-    return _cam_at(view, "1", disc_angle)
-
-
-def cam_2_at(view: View, disc_angle: float) -> list[Shape]:
-    """The second cam at a disc angle."""
-    return _cam_at(view, "2", disc_angle)
 
 
 BETWEEN = "Between the shaded phases II (dwell) and IV (return) the sector stops in phase III; after IV it starts again in phase I."
@@ -283,11 +259,12 @@ FIGURES = (
     Plot(id="torque", title="Torque", abscissa="disc_angle", needs=TORQUE,
          caption="Torque at the shafts of disc and gear, without losses; negative where the conveyor drives back. " + SHADED,
          panels=(_panel("Torque", "N*m", ("drive_torque", "disc"), ("gear_torque", "gear"), named=True),)),
-    *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=build, moving=moving, over="disc_angle", needs=CAMS,
+    *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=partial(one_cam, number=number),
+              moving=partial(_cam_at, number=number), over="disc_angle", needs=CAMS,
               caption=f"Cam {number} to scale, with the path of its roller's centre (dashed) and that of the pin O₃ (dash-dotted); arm and roller in "
               "the middle of the dwell, light: where the sector stops. The cam stands still, the disc turns counter-clockwise; its angle counts "
               "from the right.")
-      for number, build, moving in (("1", cam_1, cam_1_at), ("2", cam_2, cam_2_at))),
+      for number in "12"),
     Plot(id="cam_angles", title="Pressure angle and curvature of the cams", abscissa="disc_angle", needs=CAMS,
          caption="Pressure angle, and curvature of the pitch curves: positive where convex, negative where concave. " + SHADED,
          panels=(_panel("Pressure angle", "deg", ("cam_1_pressure_angle", "cam 1"), ("cam_2_pressure_angle", "cam 2"),

@@ -153,7 +153,7 @@ sector.value("piece_middle", "φ_m", "deg", "Disc angle in the middle of the pre
     source="this method", output=False, per_piece=True)
 sector.choice("law_share", "k", "1", "Elapsed fraction of the rise or return",
     *by_phase(bind(common.same, quantity=0.5),
-            lambda disc_angle, dwell_angle, time_stop: 1 / 2 + (disc_angle - dwell_angle) / (2 * np.pi * time_stop),
+        bind(lambda disc_angle, dwell_angle, time_stop: 1 / 2 + (disc_angle - dwell_angle) / (2 * np.pi * time_stop)),
         bind(lambda disc_angle, start, time: (disc_angle - start) / (2 * np.pi * time), start="angle_stop", time="time_return"),
         bind(lambda disc_angle, start, time: (disc_angle - start) / (2 * np.pi * time), start="angle_start", time="time_stop")), source="003 eq. 2",
     output=False)

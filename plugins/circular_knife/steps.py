@@ -159,15 +159,13 @@ reach.require("enters_counter", lambda lowest_at_counter, lowest_at_face, front_
         "√(r² − (H − R)²) is needed", advise=PLACE)
 
 
-def _at_distance(name: str, symbol: str, description: str, distance: str) -> Steps:
+def _at_distance(chapter: Steps, name: str, symbol: str, description: str, distance: str) -> None:
     """The knife angle at which the cutting point is at a distance from the axis."""
-    steps = Steps()
-    steps.root(name, symbol, "deg", description, bind(past_centre, angle=name, distance=distance), low=lambda touch_angle: touch_angle,
+    chapter.root(name, symbol, "deg", description, bind(past_centre, angle=name, distance=distance), low=lambda touch_angle: touch_angle,
         high=lambda return_angle: return_angle,
         left=bind(
             lambda angle, distance, eccentricity, depth: (distance - eccentricity * np.cos(angle)) ** 2 + (depth - eccentricity * np.sin(angle)) ** 2,
             angle=name, distance=distance), right=lambda edge_radius: edge_radius ** 2, source=OWN, unknown=name)
-    return steps
 
 
 shear_range = Chapter("Range of the cut",
@@ -178,8 +176,8 @@ shear_range.value("touch_angle", "φ_0", "deg", "Knife angle at which the edge t
     lambda depth, edge_radius, eccentricity: np.arcsin((depth - edge_radius) / eccentricity), source=OWN, output=False)
 shear_range.value("return_angle", "φ_r", "deg", "Knife angle at which the cutting point reverses",
     lambda depth, edge_radius, eccentricity: np.arcsin(depth / (edge_radius + eccentricity)), source=OWN, output=False)
-shear_range.add(_at_distance("angle_start", "φ_1", "Knife angle at the start of the cut", "front_distance"))
-shear_range.add(_at_distance("angle_end", "φ_2", "Knife angle at the end of the cut", "cut_end"))
+_at_distance(shear_range, "angle_start", "φ_1", "Knife angle at the start of the cut", "front_distance")
+_at_distance(shear_range, "angle_end", "φ_2", "Knife angle at the end of the cut", "cut_end")
 shear_range.value("cut_angle", "Δφ", "deg", "Angle of the cut", lambda angle_end, angle_start: angle_end - angle_start, source="kinematics")
 shear_range.value("cut_time", "t", "ms", "Time of the cut", lambda cut_angle, speed: cut_angle / speed, source="kinematics")
 shear_range.value("shear_angle_min", "τ_min", "deg", "Minimum shear angle: at the start of the cut", bind(edge_slope, angle="angle_start"),
@@ -228,12 +226,11 @@ INSIDE, OUTSIDE = "the knife is in its cut", "the knife is outside its cut"
 
 
 def _in_cut(
+    chapter: Steps,
     name: str, symbol: str, unit: str, description: str, formula: Binding, *, source: str = OWN, output: bool = True
-) -> Steps:
+) -> None:
     """A curve that is zero outside the cut."""
-    steps = Steps()
-    steps.choice(name, symbol, unit, description, case(formula, INSIDE, CUTTING), case(lambda: 0, OUTSIDE), source=source, output=output)
-    return steps
+    chapter.choice(name, symbol, unit, description, case(formula, INSIDE, CUTTING), case(lambda: 0, OUTSIDE), source=source, output=output)
 
 
 motion = Chapter("Motion over a revolution of the knife",
@@ -256,11 +253,11 @@ motion.choice("cut_place", "φ_c", "deg", "Knife angle in the cut, or at its sta
     case(lambda angle_start: angle_start, OUTSIDE), output=False)
 motion.value("cut_position", "x_c", "mm", "Distance of the cutting point from the axis", bind(edge_position, angle="cut_place"), source=OWN)
 motion.value("shear_angle", "τ", "deg", "Shear angle between edge and counter-knife", bind(edge_slope, angle="cut_place"), source=OWN)
-motion.add(_in_cut("cut_speed", "v_c", "m/s", "Speed of the cutting point along the counter-knife",
+_in_cut(motion, "cut_speed", "v_c", "m/s", "Speed of the cutting point along the counter-knife",
         bind(lambda speed, eccentricity, angle, shear_angle: speed * eccentricity * np.cos(angle + shear_angle) / np.sin(shear_angle),
-            angle="cut_place"), source="kinematics"))
-motion.add(_in_cut("sliding_ratio", "k", "1", "Sliding ratio: speed of the edge along itself divided by its normal speed",
-        bind(sliding_ratio, angle="cut_place")))
+            angle="cut_place"), source="kinematics")
+_in_cut(motion, "sliding_ratio", "k", "1", "Sliding ratio: speed of the edge along itself divided by its normal speed",
+        bind(sliding_ratio, angle="cut_place"))
 motion.reduction("cut_speed_max", "v_c,max", "m/s", "Maximum speed of the cutting point", "max", of="cut_speed", source="kinematics")
 motion.reduction("sliding_ratio_max", "k_max", "1", "Maximum sliding ratio", "max", of="sliding_ratio", source=OWN)
 motion.value("effective_sharpening_angle_min", "δ_e", "deg", "Minimum effective sharpening angle, in the direction of motion",
@@ -279,19 +276,19 @@ forces.value("face_angle", "τ_h", "deg", "Slope of the edge in the board's uppe
     source=OWN, output=False)
 forces.value("front_half_angle", "α", "deg", "Half the angle of the working front", lambda shear_angle, face_angle: (face_angle - shear_angle) / 2,
     source=OWN, output=False)
-forces.add(_in_cut("front_length", "a", "mm", "Length of the working front", bind(front_length), output=False))
+_in_cut(forces, "front_length", "a", "mm", "Length of the working front", bind(front_length), output=False)
 forces.value("bow_area", "A_b", "mm**2", "Area between the working front and its chord",
     bind(circular_segment.area, radius="edge_radius", half_angle="front_half_angle"), source=OWN, output=False)
-forces.add(_in_cut("force", "F_v", "N", "Downward force on the board", bind(force), source=OWN))
-forces.add(_in_cut("working_force", "F_w", "N", "Downward force by virtual work",
+_in_cut(forces, "force", "F_v", "N", "Downward force on the board", bind(force), source=OWN)
+_in_cut(forces, "working_force", "F_w", "N", "Downward force by virtual work",
         bind(lambda shear_resistance, thickness, front_length, bow_area: shear_resistance * (thickness * front_length / 2 - bow_area)),
-        source="energy", output=False))
+        source="energy", output=False)
 forces.value("thrust", "F_h", "N", "Force along the cut by virtual work", lambda shear_resistance, thickness: shear_resistance * thickness**2 / 2,
     source="energy")
-forces.add(_in_cut("useful_torque", "M_u", "N*m", "Torque of cutting",
+_in_cut(forces, "useful_torque", "M_u", "N*m", "Torque of cutting",
         bind(lambda eccentricity, working_force, thrust, angle: eccentricity * (working_force * np.cos(angle) - thrust * np.sin(angle)),
-            angle="cut_place"), source="statics", output=False))
-forces.add(_in_cut("friction_torque", "M_f", "N*m", "Torque of friction", bind(friction_torque, angle="cut_place"), source=OWN))
+            angle="cut_place"), source="statics", output=False)
+_in_cut(forces, "friction_torque", "M_f", "N*m", "Torque of friction", bind(friction_torque, angle="cut_place"), source=OWN)
 forces.value("torque", "M", "N*m", "Torque at the knife's shaft", lambda useful_torque, friction_torque: useful_torque + friction_torque,
     source="statics")
 forces.reduction("front_length_max", "a_max", "mm", "Maximum length of the working front", "max", of="front_length", source=OWN)

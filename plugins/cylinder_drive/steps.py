@@ -78,7 +78,7 @@ def moves_at_all(standstill_swing: Any, swing_angle: Any) -> Any:
     return standstill_swing < swing_angle
 
 
-def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, inverse: Formula, edge: str) -> Steps:
+def _cutting_edge(chapter: Steps, name: str, symbol: str, description: str, dead_center: Bound, inverse: Formula, edge: str) -> None:
     """A crank angle where cutting begins or ends: a dead centre where the whole stroke cuts.
 
     There the general formula is left out, for its root turns the last digit of a cosine into 1e-8 rad beside the dead centre.
@@ -86,9 +86,7 @@ def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, 
     inside = bind(inverse, rocker_direction=f"cut_{edge}_direction", joint_distance=f"cut_{edge}_distance")
     cases = (case(dead_center, "the whole stroke cuts, from one dead centre to the other", lambda cutting_arc_fraction: cutting_arc_fraction >= 1),
              case(inside, "only the middle of the stroke cuts"))
-    steps = Steps()
-    steps.choice(name, symbol, "deg", description, *cases)
-    return steps
+    chapter.choice(name, symbol, "deg", description, *cases)
 
 
 linkage = Chapter("Linkage and its dead centres",
@@ -149,14 +147,14 @@ cutting.value("cut_end_direction", "β_2", "deg", "Direction of the rocker there
     lambda outer_direction, cut_end_swing: outer_direction + cut_end_swing, output=False)
 cutting.value("cut_end_distance", "q_2", "1", "Distance of the rocker's joint from the crank's pivot there, in crank lengths",
     bind(four_bar.joint_distance, rocker_direction="cut_end_direction"), output=False)
-cutting.add(_cutting_edge("cut_begin_forward", "φ_1", "Crank angle where cutting begins, forward stroke",
-        bind(common.same, quantity="dead_center_outer"), four_bar.crank_angle_forward, "begin"))
-cutting.add(_cutting_edge("cut_end_forward", "φ_2", "Crank angle where cutting ends, forward stroke", bind(common.same, quantity="dead_center_inner"),
-        four_bar.crank_angle_forward, "end"))
-cutting.add(_cutting_edge("cut_begin_return", "φ_3", "Crank angle where cutting begins, return stroke",
-        bind(common.same, quantity="dead_center_inner"), four_bar.crank_angle_return, "end"))
-cutting.add(_cutting_edge("cut_end_return", "φ_4", "Crank angle where cutting ends, return stroke (counted on)",
-        bind(lambda angle: angle + 2 * np.pi, angle="dead_center_outer"), four_bar.crank_angle_return, "begin"))
+_cutting_edge(cutting, "cut_begin_forward", "φ_1", "Crank angle where cutting begins, forward stroke",
+        bind(common.same, quantity="dead_center_outer"), four_bar.crank_angle_forward, "begin")
+_cutting_edge(cutting, "cut_end_forward", "φ_2", "Crank angle where cutting ends, forward stroke", bind(common.same, quantity="dead_center_inner"),
+        four_bar.crank_angle_forward, "end")
+_cutting_edge(cutting, "cut_begin_return", "φ_3", "Crank angle where cutting begins, return stroke",
+        bind(common.same, quantity="dead_center_inner"), four_bar.crank_angle_return, "end")
+_cutting_edge(cutting, "cut_end_return", "φ_4", "Crank angle where cutting ends, return stroke (counted on)",
+        bind(lambda angle: angle + 2 * np.pi, angle="dead_center_outer"), four_bar.crank_angle_return, "begin")
 
 kinematics = Chapter("Kinematics over a revolution of the crank")
 kinematics.abscissa("crank_angle", "φ", "deg", "Crank angle from the frame line", 2 * np.pi, shown_at="crank_torque_peak_at", intervals=32,
@@ -207,14 +205,12 @@ TECHNOLOGICAL.value("direction", "s", "1", "Direction of motion (+1 forward, −
     per_piece=True)
 
 
-def _at_swing(name: str, mark: str, place: str, swing: str) -> Steps:
+def _at_swing(chapter: Steps, name: str, mark: str, place: str, swing: str) -> None:
     """Direction of the rocker at an angle of its swing, and the distance of its joint from the crank's pivot there."""
-    steps = Steps()
-    steps.value(f"{name}_direction", f"β_{mark}", "deg", f"Direction of the rocker where {place}",
+    chapter.value(f"{name}_direction", f"β_{mark}", "deg", f"Direction of the rocker where {place}",
         bind(common.sum_of, first="outer_direction", second=swing), output=False)
-    steps.value(f"{name}_distance", f"q_{mark}", "1", f"Distance of the rocker's joint from the crank's pivot where {place}, in crank lengths",
+    chapter.value(f"{name}_distance", f"q_{mark}", "1", f"Distance of the rocker's joint from the crank's pivot where {place}, in crank lengths",
         bind(four_bar.joint_distance, rocker_direction=f"{name}_direction"), output=False)
-    return steps
 
 
 def _forward(name: str) -> Bound:
@@ -238,8 +234,8 @@ contact.value("contact_swing", "δ_z", "deg", "Rocker angle where contact with t
     lambda contact_rotation, sector_ratio: contact_rotation / sector_ratio, output=False)
 contact.value("contact_swing_far", "δ_z′", "deg", "Rocker angle where contact with the board ends, or the whole swing",
     lambda contact_rotation, sector_ratio, swing_angle: far_swing(contact_rotation, sector_ratio, swing_angle), output=False)
-contact.add(_at_swing("contact", "z", "contact with the board begins", "contact_swing"))
-contact.add(_at_swing("contact_far", "z′", "contact with the board ends", "contact_swing_far"))
+_at_swing(contact, "contact", "z", "contact with the board begins", "contact_swing")
+_at_swing(contact, "contact_far", "z′", "contact with the board ends", "contact_swing_far")
 INNER_END = case(bind(common.same, quantity="dead_center_inner"), "the cylinder touches the board up to the inner end of the stroke",
                  lambda contact_swing_far, swing_angle: contact_swing_far >= swing_angle)
 contact.value("contact_begin_forward", "φ_z1", "deg", "Crank angle at which the contact begins, forward stroke", _forward("contact"),
@@ -259,8 +255,8 @@ phases.value("standstill_swing", "δ_s", "deg", "Rocker angle that counts as sta
     lambda standstill_rotation, sector_ratio: standstill_rotation / sector_ratio, output=False)
 phases.value("standstill_swing_far", "δ_s′", "deg", "Rocker angle at which the standstill at the inner end begins",
     lambda swing_angle, standstill_swing: swing_angle - standstill_swing, output=False)
-phases.add(_at_swing("standstill", "s", "the standstill at the outer end ends", "standstill_swing"))
-phases.add(_at_swing("standstill_far", "s′", "the standstill at the inner end begins", "standstill_swing_far"))
+_at_swing(phases, "standstill", "s", "the standstill at the outer end ends", "standstill_swing")
+_at_swing(phases, "standstill_far", "s′", "the standstill at the inner end begins", "standstill_swing_far")
 phases.value("standstill_outer_start", "φ_s1", "deg", "Crank angle at which the standstill at the outer end begins (counted on)",
     _return("standstill"), exists=moves_at_all)
 phases.value("standstill_outer_end", "φ_s2", "deg", "Crank angle at which the standstill at the outer end ends", _forward("standstill"),

@@ -45,18 +45,6 @@ def teeth_apart(radius: Any, other: Any, pitch: Any) -> Any:
     return as_number(2 * np.pi) * abs(radius - other) / pitch
 
 
-@formula
-def angle_from_top(height: Any) -> Any:
-    """Angle from the upper side."""
-    return arccos(height)
-
-
-@formula
-def angle_from_bottom(height: Any) -> Any:
-    """Angle from the lower side, that of the die."""
-    return arccos(-height)
-
-
 def next_marked(is_cylinder: Any) -> Any:
     """For the first of several marked pulleys the index of the second, else -1."""
     found = np.full(is_cylinder.shape, -1)
@@ -127,7 +115,8 @@ listed.value("cylinder_wrap_height", "h_c", "1", "Height of the middle of its wr
         -cylinder_pulley_side * np.cos(cylinder_direction_before + cylinder_pulley_side * cylinder_wrap / 2), output=False, source="geometry",
     exists=IS_MARKED)
 listed.value("engagement_angle", "γ", "deg", "Angle of the middle of the wrap from the side of engagement",
-    ByText("toothed_belt.engagement", {"away": angle_from_top, "die": angle_from_bottom}, height="cylinder_wrap_height"), source="geometry",
+    ByText("toothed_belt.engagement", {"away": formula(lambda height: arccos(height)), "die": formula(lambda height: arccos(-height))},
+        height="cylinder_wrap_height"), source="geometry",
     output=False, exists=IS_MARKED)
 MARKS = Steps()
 MARKS.lookup("is_cylinder_pulley", "κ", "1", "Cylinder's pulley: 1, other pulleys: −1", {"cylinder": 1.0, "other": -1.0}, by=f"{PULLEYS}.role",
@@ -195,18 +184,6 @@ class ToothedBelt(Block):
                 "belt")] = []  # noqa: RUF012
 
 
-@formula
-def speed_away(velocity: Any, driven_radius: Any, cylinder_radius: Any) -> Any:
-    """Speed of the belt on the side away from the die."""
-    return velocity * (1 + driven_radius / cylinder_radius)
-
-
-@formula
-def speed_at_die(velocity: Any, driven_radius: Any, cylinder_radius: Any) -> Any:
-    """Speed of the belt on the die's side of the axis."""
-    return velocity * (1 - driven_radius / cylinder_radius)
-
-
 def alone(x: Any) -> Any:
     """For a single pulley the index of itself, else -1 for each."""
     return np.zeros_like(x, dtype=int) if x.shape[1] == 1 else np.full(x.shape, -1)
@@ -227,7 +204,10 @@ speed = Chapter("Toothed belt: speed and driving pulley",
         "the side away from the die, and slower by as much on the die side.", needs=("toothed_belt",),
     absent="not calculated: toothed_belt is not given")
 speed.value("belt_speed", "V_b", "m/s", "Speed of the toothed belt",
-    ByText("toothed_belt.engagement", {"away": speed_away, "die": speed_at_die}, **ROLLING), source="002 eq. 7–9")
+    ByText("toothed_belt.engagement", {
+        "away": formula(lambda velocity, driven_radius, cylinder_radius: velocity * (1 + driven_radius / cylinder_radius)),
+        "die": formula(lambda velocity, driven_radius, cylinder_radius: velocity * (1 - driven_radius / cylinder_radius)),
+    }, **ROLLING), source="002 eq. 7–9")
 speed.require("belt_moves", lambda belt_speed: belt_speed > 0, key="toothed_belt.driven_radius",
     message="gives a belt speed of {belt_speed} with engagement: die; there the driven pulley must be smaller than the cylinder (or take "
         "engagement: away)")

@@ -60,16 +60,6 @@ def _longest_rest(edges: Array, still: NDArray[np.bool_]) -> tuple[float, float]
     return float(best[0]), float(best[1])
 
 
-def start(curve: Curve) -> Array:
-    """Share of the period at which the motion begins."""
-    return moving(curve)[0]
-
-
-def share(curve: Curve) -> Array:
-    """Share of the period that the motion takes."""
-    return moving(curve)[1]
-
-
 def jump(curve: Curve) -> Array:
     """Greatest jump of position (to the motion's range) or of speed (to the greatest speed) from piece to piece, (variants, 1)."""
     edges, positions = pieces(curve)

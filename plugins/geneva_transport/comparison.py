@@ -224,14 +224,6 @@ dwell.value("geneva_time_dwell", "t_g", "ms", "Geneva: time of the dwell", lambd
 dwell.value("dwell_ratio", "q_d", "1", "Dwell, ratio of Geneva to cam-gear", lambda geneva_dwell, dwell_share: geneva_dwell / dwell_share,
     source="kinematics")
 
-
-def _ratio(what: str, symbol: str, title: str) -> Steps:
-    steps = Steps()
-    steps.value(f"{what}_ratio", symbol, "1", f"{title}, ratio of Geneva to cam-gear",
-        bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
-    return steps
-
-
 IN_SLOT = bind(lambda flag: flag == 1, flag="engaged")
 
 motion = Chapter("Motion of the sheet over a cycle",
@@ -282,35 +274,34 @@ for what, letter, told in (("velocity", "v", "velocity in units of S/T"), ("acce
             source="kinematics")
 motion.value("geneva_jump", "a_g,e", "1", "Geneva: jump of the acceleration at entry and exit in units of S/T²",
     lambda slots: as_number(2 * np.pi) * slots * np.tan(np.pi / slots), source="kinematics")
-motion.add(_ratio("velocity", "q_v", "Maximum velocity"))
-motion.add(_ratio("acceleration", "q_a", "Maximum acceleration"))
+for what, symbol in (("velocity", "q_v"), ("acceleration", "q_a")):
+    motion.value(f"{what}_ratio", symbol, "1", f"Maximum {what}, ratio of Geneva to cam-gear",
+        bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
 motion.value("torque_ratio", "q_M", "1", "Maximum torque for the same mass, ratio of Geneva to cam-gear",
     lambda geneva_power_peak, cam_power_peak: geneva_power_peak / cam_power_peak, source="energy")
 
 
-def _in_units(step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> Steps:
+def _in_units(chapter: Steps, step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> None:
     """Peaks of both drives with the step of one of them."""
     drives = (("cam", "Cam-gear"), ("geneva", "Geneva"))
-    steps = Steps()
     for drive, name in drives:
-        steps.value(f"{drive}_sheet_velocity_max", f"V_{drive[0]}", "m/s", f"{name}: maximum velocity of the sheet",
+        chapter.value(f"{drive}_sheet_velocity_max", f"V_{drive[0]}", "m/s", f"{name}: maximum velocity of the sheet",
             bind(lambda relative, step, cycle_time: relative * step / cycle_time, relative=f"{drive}_velocity_peak", step=step), source="kinematics",
             needs=needs, lacks=lacks)
     for drive, name in drives:
-        steps.value(f"{drive}_sheet_acceleration_max", f"a_s{drive[0]}", "m/s**2", f"{name}: maximum acceleration of the sheet",
+        chapter.value(f"{drive}_sheet_acceleration_max", f"a_s{drive[0]}", "m/s**2", f"{name}: maximum acceleration of the sheet",
             bind(lambda relative, step, cycle_time: relative * step / cycle_time**2, relative=f"{drive}_acceleration_peak", step=step),
             source="kinematics", needs=needs, lacks=lacks)
     for drive, name in drives:
-        steps.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: maximum torque for the conveyor's mass alone",
+        chapter.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: maximum torque for the conveyor's mass alone",
             bind(lambda relative, mass, step, cycle_time: relative * mass * (step / cycle_time) ** 2 / (2 * np.pi), relative=f"{drive}_power_peak",
                 mass="conveyor_mass", step=step), source="energy", needs=(*needs, "conveyor_mass"), lacks=lacks)
-    return steps
 
 
 sheet = Chapter("Velocity, acceleration and torque",
     text="With the step of the cam-gear, or of the Geneva drive where the cam-gear has none, and with the conveyor's mass of the cam-gear.")
-sheet.add(_in_units("cam_step", ("cam_step",), ()))
-sheet.add(_in_units("geneva_step", ("geneva_step",), ("cam_step",)))
+_in_units(sheet, "cam_step", ("cam_step",), ())
+_in_units(sheet, "geneva_step", ("geneva_step",), ("cam_step",))
 
 same_dwell = Chapter("Cam-gear with the Geneva drive's dwell",
     text="A cam-gear stepper with this dwell has little time to stop, return and start. The time for stop and start is lost to the return: a wide "

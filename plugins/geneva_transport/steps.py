@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Case, Chapter, Steps, as_angle, bind, case
+from diecut_report.api import Chapter, as_angle, bind, case
 from diecut_report.mechanics import common, contact
 from diecut_report.plugins.geneva_transport import formulas
 from diecut_report.plugins.geneva_transport.inputs import GRIPPED
@@ -65,14 +65,6 @@ dwell.value("acceleration_entry", "ε_21,e", "1", "Ratio of the jump of the whee
 dwell.value("acceleration_peak_angle", "α_ε", "deg", "Crank angle before and after the middle of the motion at which the acceleration is largest",
     formulas.acceleration_peak_angle, source="kinematics", digits=6)
 
-
-def _moving(name: str, symbol: str, unit: str, description: str, moving: Case, rest: Case, *, output: bool) -> Steps:
-    """A curve of the wheel: one formula while the roller is in a slot, another one in the dwell."""
-    steps = Steps()
-    steps.choice(name, symbol, unit, description, moving, rest, source="kinematics", output=output)
-    return steps
-
-
 IN_SLOT = bind(lambda flag: flag == 1, flag="engaged")
 MOVING, RESTING = "the roller is in a slot", "the locking disc holds the wheel"
 
@@ -94,12 +86,12 @@ motion.choice("turns", "n", "1", "Number of completed steps of the wheel",
     case(lambda: 0, "the roller has not yet entered the next slot"), output=False, per_piece=True)
 motion.value("middle_angle", "α′", "deg", "Crank angle from the middle of the present engagement",
     lambda crank_angle, turns: crank_angle - 2 * np.pi * turns, output=False, source="kinematics")
-motion.add(_moving("wheel_angle", "ψ", "deg", "Angle of the wheel from its position in the middle of its motion",
-        case(bind(formulas.wheel_angle, angle="middle_angle"), MOVING, IN_SLOT), case(lambda step_angle: step_angle / 2, RESTING), output=True))
-motion.add(_moving("speed_ratio", "ω_21", "1", "Ratio of the wheel's angular speed to the crank's",
-        case(bind(formulas.speed_ratio, angle="middle_angle"), MOVING, IN_SLOT), case(lambda: 0, RESTING), output=False))
-motion.add(_moving("acceleration_ratio", "ε_21", "1", "Ratio of the wheel's angular acceleration to the square of the crank's speed",
-        case(bind(formulas.acceleration_ratio, angle="middle_angle"), MOVING, IN_SLOT), case(lambda: 0, RESTING), output=False))
+motion.choice("wheel_angle", "ψ", "deg", "Angle of the wheel from its position in the middle of its motion",
+    case(bind(formulas.wheel_angle, angle="middle_angle"), MOVING, IN_SLOT), case(lambda step_angle: step_angle / 2, RESTING), source="kinematics")
+motion.choice("speed_ratio", "ω_21", "1", "Ratio of the wheel's angular speed to the crank's",
+    case(bind(formulas.speed_ratio, angle="middle_angle"), MOVING, IN_SLOT), case(lambda: 0, RESTING), source="kinematics", output=False)
+motion.choice("acceleration_ratio", "ε_21", "1", "Ratio of the wheel's angular acceleration to the square of the crank's speed",
+    case(bind(formulas.acceleration_ratio, angle="middle_angle"), MOVING, IN_SLOT), case(lambda: 0, RESTING), source="kinematics", output=False)
 motion.reduction("acceleration_peak", "ε_21,max", "1", "Maximum ratio of the wheel's acceleration to the square of the crank's speed", "max",
     of="acceleration_ratio", source="kinematics")
 motion.value("wheel_speed", "ω_2", "rad/s", "Angular speed of the wheel", bind(formulas.rate, ratio="speed_ratio"), source="kinematics")

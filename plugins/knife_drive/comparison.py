@@ -123,34 +123,30 @@ def _least(drives: Drives) -> Binding:
     return bind(lambda first, second, third: np.minimum(np.minimum(first, second), third), first=peaks[0], second=peaks[1], third=peaks[2])
 
 
-def _best(drives: Drives) -> Steps:
+def _best(chapter: Steps, drives: Drives) -> None:
     """The best of several drives, and its numbers."""
     given: dict[str, Any] = {"needs": keys(drives), "lacks": lacking(drives)}
     *first, last = drives
     words = {drive: f"the {drive.name} has the lowest acceleration" for drive in drives}
-    steps = Steps()
-    steps.value(f"best_{PEAK}", "a_m,best", "m/s**2", "Lowest of the maximum accelerations in the working stroke", _least(drives), output=False,
+    chapter.value(f"best_{PEAK}", "a_m,best", "m/s**2", "Lowest of the maximum accelerations in the working stroke", _least(drives), output=False,
         **given)
-    steps.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper", *(case(d.key, words[d], _is_best(d)) for d in first),
+    chapter.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper", *(case(d.key, words[d], _is_best(d)) for d in first),
         case(last.key, words[last]), **given)
     for name, symbol, title, unit in COMPARED:
         if name != PEAK:
-            steps.choice(f"best_{name}", _indexed(symbol, "best"), unit, f"{title}, best drive",
+            chapter.choice(f"best_{name}", _indexed(symbol, "best"), unit, f"{title}, best drive",
                 *(case(bind(common.same, quantity=f"{d.key}_{name}"), words[d], _is_best(d)) for d in first),
                 case(bind(common.same, quantity=f"{last.key}_{name}"), words[last]), output=False, **given)
-    return steps
 
 
-def _ratios(drive: DriveKind) -> Steps:
+def _ratios(chapter: Steps, drive: DriveKind) -> None:
     """A drive's numbers to those of the best one, where there is another to compare it with."""
-    steps = Steps()
     for name, symbol, title, _ in COMPARED:
         for pair, lacks in _with_another(drive):
-            steps.value(f"{drive.key}_{name}_ratio", f"q_{symbol[0]}{symbol[2:]},{drive.letter}", "1", f"{title}: {drive.name} to best drive",
+            chapter.value(f"{drive.key}_{name}_ratio", f"q_{symbol[0]}{symbol[2:]},{drive.letter}", "1", f"{title}: {drive.name} to best drive",
                 bind(common.quotient, quantity=f"{drive.key}_{name}", by=f"best_{name}"),
                 exists=bind(working.holds, flag=f"best_{name}") if name in MAY_VANISH else None, source="this method", needs=keys(pair),
                 lacks=lacks)
-    return steps
 
 
 def _with_another(drive: DriveKind) -> list[tuple[Drives, tuple[str, ...]]]:
@@ -159,7 +155,7 @@ def _with_another(drive: DriveKind) -> list[tuple[Drives, tuple[str, ...]]]:
     return [((drive, one), ()), ((drive, two), (one.key,))]
 
 
-def _verdict(drives: Drives) -> Steps:
+def _verdict(chapter: Steps, drives: Drives) -> None:
     """In words: which drive, and whether the paper stands it."""
     kept = [case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed",
                  f"the {d.name} has the lowest acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
@@ -167,23 +163,19 @@ def _verdict(drives: Drives) -> Steps:
                f"the {d.name} has the lowest acceleration, but it is above the allowed one", d) for d in drives]  # fmt: skip
     text, words, _ = broken[-1]
     cases = (*kept, *(case(text, words, _is_best(d)) for text, words, d in broken[:-1]), case(text, words))
-    steps = Steps()
-    steps.choice("verdict", "→", "1", "Verdict", *cases, needs=keys(drives), lacks=lacking(drives))
-    return steps
+    chapter.choice("verdict", "→", "1", "Verdict", *cases, needs=keys(drives), lacks=lacking(drives))
 
 
-def _alone(drive: DriveKind) -> Steps:
+def _alone(chapter: Steps, drive: DriveKind) -> None:
     """A drive that is given alone is the best one."""
     given: dict[str, Any] = {"needs": (drive.key,), "lacks": lacking((drive,))}
     stands = bind(common.is_at_most, smaller=f"{drive.key}_{PEAK}", greater=ALLOWED)
-    steps = Steps()
-    steps.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper",
+    chapter.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper",
         case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
         case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"), **given)
-    steps.choice("verdict", "→", "1", "Verdict",
+    chapter.choice("verdict", "→", "1", "Verdict",
         case(f"only the {drive.name} is given; its acceleration is allowed", "its acceleration is allowed", stands),
         case(f"only the {drive.name} is given; its acceleration is above the allowed one", "it is not allowed"), **given)
-    return steps
 
 
 SEVERAL = groups(least=2)
@@ -191,49 +183,48 @@ SEVERAL = groups(least=2)
 best = Chapter("Comparison", text="The best drive is the one with the lowest maximum acceleration in the working stroke; ratios refer to its values.")
 best.add(SIGNATURE_BEYOND_DEPTH)
 best.add(grips(drive) for drive in ALL)
-best.add(_alone(drive) for drive in ALL)
-best.add(_best(drives) for drives in SEVERAL)
-best.add(_ratios(drive) for drive in ALL)
-best.add(_verdict(drives) for drives in SEVERAL)
+for drive in ALL:
+    _alone(best, drive)
+for drives in SEVERAL:
+    _best(best, drives)
+for drive in ALL:
+    _ratios(best, drive)
+for drives in SEVERAL:
+    _verdict(best, drives)
 
 OTHERS = (("acceleration_peak", "a_m", "Maximum acceleration in the working stroke", "m/s**2"), ("stroke", "H", "Stroke", "mm"),
           ("end_factor", "k", "Factor of the acceleration at the lowest point", "1"))
 
 
-def _best_other() -> Steps:
+def _best_other(chapter: Steps) -> None:
     """The numbers of the better one of the two other drives."""
     is_slider = bind(common.is_at_most, smaller=f"{CRANK_SLIDER.key}_{PEAK}", greater=f"{CRANK_ROCKER.key}_{PEAK}")
-    steps = Steps()
     for name, symbol, title, unit in OTHERS:
-        steps.choice(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, best other drive",
+        chapter.choice(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, best other drive",
             case(bind(common.same, quantity=f"{CRANK_SLIDER.key}_{name}"), "the crank-slider is the gentler one", is_slider),
             case(bind(common.same, quantity=f"{CRANK_ROCKER.key}_{name}"), "the crank-rocker is the gentler one"),
             needs=(PLANETARY.key, CRANK_SLIDER.key, CRANK_ROCKER.key), output=False)
     for drive in (CRANK_SLIDER, CRANK_ROCKER):
         for name, symbol, title, unit in OTHERS:
-            steps.value(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, other drive", bind(common.same, quantity=f"{drive.key}_{name}"),
-                needs=(PLANETARY.key, drive.key), lacks=lacking((PLANETARY, drive)), output=False)
-    return steps
+            chapter.value(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, other drive",
+                bind(common.same, quantity=f"{drive.key}_{name}"), needs=(PLANETARY.key, drive.key), lacks=lacking((PLANETARY, drive)), output=False)
 
 
-def _of_planetary(lacks: tuple[str, ...], *pair: str) -> Steps:
+def _of_planetary(chapter: Steps, lacks: tuple[str, ...], *pair: str) -> None:
     """Why the planetary drive differs from the best other one: its acceleration is stroke times factor times ω²/2."""
     given: dict[str, Any] = {"needs": pair, "lacks": lacks}
 
-    steps = Steps()
-
     def ratio(name: str, symbol: str, title: str, of: str) -> None:
-        steps.value(name, symbol, "1", f"{title}: planetary drive to best other drive",
+        chapter.value(name, symbol, "1", f"{title}: planetary drive to best other drive",
             bind(common.quotient, quantity=f"{PLANETARY.key}_{of}", by=f"other_{of}"), source="this method", **given)
 
     ratio("acceleration_ratio_planetary", "q_W", "Maximum acceleration", PEAK)
     ratio("stroke_ratio_planetary", "q_H", "Stroke", "stroke")
     ratio("factor_ratio_planetary", "q_k", "Factor of the acceleration at the lowest point", "end_factor")
-    steps.choice("reason", "→", "1", "Cause of the difference in the planetary drive's acceleration",
+    chapter.choice("reason", "→", "1", "Cause of the difference in the planetary drive's acceleration",
         case("mostly its stroke", "the strokes differ more than the factors of the drives", lambda stroke_ratio_planetary, factor_ratio_planetary:
                 np.maximum(stroke_ratio_planetary, 1 / stroke_ratio_planetary) >= np.maximum(factor_ratio_planetary, 1 / factor_ratio_planetary)),
         case("mostly the kind of drive", "the factors of the drives differ more than the strokes"), **given)
-    return steps
 
 
 why = Chapter("Why the drives differ",
@@ -241,21 +232,15 @@ why = Chapter("Why the drives differ",
         "and 1 + r/l for the crank-slider. With usual links the factors are near 1, so for equal strokes the drives differ little; a shorter stroke "
         "at the same working depth lowers the acceleration in proportion.", needs=(PLANETARY.key,),
     absent="The planetary drive against the others: there is no block planetary.")
-why.add(_best_other())
-why.add(_of_planetary((), PLANETARY.key, CRANK_SLIDER.key))
-why.add(_of_planetary((CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key))
+_best_other(why)
+_of_planetary(why, (), PLANETARY.key, CRANK_SLIDER.key)
+_of_planetary(why, (CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key)
 
-
-def _grip(drives: Drives) -> Steps:
-    steps = Steps()
-    steps.choice("grip_verdict", "→", "1", "More severe for the paper",
+grip = Chapter("Knife and rollers",
+    text="No drive spares the signature the jump from the knife's speed, which falls to zero at the lowest point, to that of the rollers.")
+for drives in SEVERAL:
+    grip.choice("grip_verdict", "→", "1", "More severe for the paper",
         case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
             bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
         case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much"),
         needs=keys(drives), lacks=lacking(drives))
-    return steps
-
-
-grip = Chapter("Knife and rollers",
-    text="No drive spares the signature the jump from the knife's speed, which falls to zero at the lowest point, to that of the rollers.")
-grip.add(_grip(drives) for drives in SEVERAL)

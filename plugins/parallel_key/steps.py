@@ -249,7 +249,7 @@ load.value("key_force_peak", "F_max", "N", "Force on one key, maximum", bind(key
 PARTS = {"shaft": "W", "hub": "N", "key": "P"}
 LOADS = {"": ("key_force", "direction_factor", "", "equivalent"), "_peak": ("key_force_peak", "load_peak_factor", "max", "maximum")}
 """Of the regular load and the peak: the force, the factor of what is allowed, the symbol's end, and words."""
-PRESSED = [(part, load) for load in LOADS for part in PARTS]
+PRESSED = [(part, peak) for peak in LOADS for part in PARTS]
 SIX = ("shaft", "hub", "key", "shaft_peak", "hub_peak", "key_peak")
 
 allowed = Chapter("Allowable stresses",
@@ -262,18 +262,18 @@ allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of steel",
 allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of cast iron", lambda: 2, source=METHOD, needs=("brittle_hub=true",),
     output=False)
 allowed.value("support_key", "f_SP", "1", "Support factor of the key", lambda: 1.1, source=METHOD, output=False)
-for part, load in PRESSED:
-    _, factor, end, words = LOADS[load]
-    allowed.value(f"allowed_{part}{load}", f"p_{PARTS[part]}zul{end}", "MPa", f"Allowable pressure on the {part}, {words} load",
+for part, peak in PRESSED:
+    _, factor, end, words = LOADS[peak]
+    allowed.value(f"allowed_{part}{peak}", f"p_{PARTS[part]}zul{end}", "MPa", f"Allowable pressure on the {part}, {words} load",
         bind(lambda factor, support, strength: factor * support * strength, factor=factor, support=f"support_{part}", strength=f"yield_{part}"),
         source=METHOD, output=False)
 allowed.value("allowed_shear", "τ_zul", "MPa", "Allowable shear stress of the key", lambda yield_key: yield_key / np.sqrt(3),
     source="strength of materials", output=False)
-for part, load in PRESSED:
-    force, _, end, words = LOADS[load]
-    needed.value(f"length_{part}{load}", f"l_{PARTS[part]}{end}", "mm", f"Bearing length required by the {part}, {words} load",
+for part, peak in PRESSED:
+    force, _, end, words = LOADS[peak]
+    needed.value(f"length_{part}{peak}", f"l_{PARTS[part]}{end}", "mm", f"Bearing length required by the {part}, {words} load",
         bind(lambda force, height, allowed, load_distribution_factor: load_distribution_factor * force / (height * allowed), force=force,
-            height=f"height_{part}", allowed=f"allowed_{part}{load}"), source=METHOD, output=False)
+            height=f"height_{part}", allowed=f"allowed_{part}{peak}"), source=METHOD, output=False)
 needed.value("length_shear", "l_τ", "mm", "Bearing length required by the shear of the key",
     lambda key_force_peak, width, allowed_shear: key_force_peak / (width * allowed_shear), source="strength of materials", output=False)
 needed.value("length_pressed", "l_p", "mm", "Bearing length required by the pressures",
@@ -308,16 +308,16 @@ BEARING = ("bearing_length", "l_tr", "mm")
 pressures.value(*BEARING, "Bearing length, no longer than the hub",
     lambda key_length, round_ends, hub_length: np.minimum(key_length - round_ends, hub_length), needs=("hub_length",), source=METHOD)
 pressures.value(*BEARING, "Bearing length", lambda key_length, round_ends: key_length - round_ends, lacks=("hub_length",), source=METHOD)
-for part, load in PRESSED:
-    force, _, end, words = LOADS[load]
-    pressures.value(f"pressure_{part}{load}", f"p_{PARTS[part]}{end}", "MPa", f"Pressure on the {part}, {words} load",
+for part, peak in PRESSED:
+    force, _, end, words = LOADS[peak]
+    pressures.value(f"pressure_{part}{peak}", f"p_{PARTS[part]}{end}", "MPa", f"Pressure on the {part}, {words} load",
         bind(lambda force, height, length, load_distribution_factor: load_distribution_factor * force / (height * length), force=force,
             height=f"height_{part}", length="bearing_length"), source=METHOD)
 pressures.value("shear_stress", "τ", "MPa", "Shear stress of the key, maximum load",
     lambda key_force_peak, width, bearing_length: key_force_peak / (width * bearing_length), source="strength of materials")
-for part, load in PRESSED:
-    pressures.value(f"safety_{part}{load}", f"S_{PARTS[part]}{LOADS[load][2]}", "1", f"Safety factor of the {part}, {LOADS[load][3]} load",
-        bind(lambda limit, pressure: limit / pressure, limit=f"allowed_{part}{load}", pressure=f"pressure_{part}{load}"), source=METHOD,
+for part, peak in PRESSED:
+    pressures.value(f"safety_{part}{peak}", f"S_{PARTS[part]}{LOADS[peak][2]}", "1", f"Safety factor of the {part}, {LOADS[peak][3]} load",
+        bind(lambda limit, pressure: limit / pressure, limit=f"allowed_{part}{peak}", pressure=f"pressure_{part}{peak}"), source=METHOD,
         output=False)
 pressures.value("safety", "S", "1", "Minimum safety factor", bind(lambda shaft, hub, key, shaft_peak, hub_peak, key_peak:
         np.minimum(np.minimum(np.minimum(shaft, hub), key), np.minimum(np.minimum(shaft_peak, hub_peak), key_peak)),
@@ -326,8 +326,8 @@ pressures.value("safety_peak", "S_max", "1", "Minimum safety factor under the ma
     lambda safety_shaft_peak, safety_hub_peak, safety_key_peak: np.minimum(np.minimum(safety_shaft_peak, safety_hub_peak), safety_key_peak),
     source=METHOD, output=False)
 pressures.choice("governing", "G", "1", "Governing part and load",
-    *(case(f"{part}, {LOADS[load][3]} load", f"the {part} has the lowest safety factor, under the {LOADS[load][3]} load",
-           bind(lambda own, safety: own <= safety, own=f"safety_{part}{load}")) for part, load in PRESSED[:-1]),
+    *(case(f"{part}, {LOADS[peak][3]} load", f"the {part} has the lowest safety factor, under the {LOADS[peak][3]} load",
+           bind(lambda own, safety: own <= safety, own=f"safety_{part}{peak}")) for part, peak in PRESSED[:-1]),
     case("key, maximum load", "the key has the lowest safety factor, under the maximum load"), source=METHOD)
 pressures.value("longest_wanted", "l_max", "mm", "Maximum bearing length over which the load still distributes",
     lambda shaft_diameter: 1.3 * shaft_diameter, source=METHOD, output=False)

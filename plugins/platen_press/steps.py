@@ -17,7 +17,6 @@ from diecut_report.api import (
     Inputs,
     OneOf,
     Quantity,
-    Steps,
     bind,
     case,
     formula,
@@ -201,17 +200,6 @@ def by_phase(relaxing: Bound, free: Bound, cutting: Bound) -> tuple[Case, ...]:
             case(free, "the platen travels freely"))
 
 
-def _frictions() -> Steps:
-    """The coefficient of each place: its own where it is given, else that of all."""
-    steps = Steps()
-    for name, symbol, place in ADOPTED:
-        steps.value(name, symbol, "1", f"Coefficient of friction of the {place}: individual value", bind(common.same, quantity=f"inputs.{name}"),
-            needs=(name,), source="input", output=False)
-        steps.value(name, symbol, "1", f"Coefficient of friction of the {place}: common value", lambda friction: friction, lacks=(name,),
-            source="input", output=False)
-    return steps
-
-
 machine = Chapter("Machine",
     text="The crank angle φ is measured from the inner dead centre, where crank and rods are folded and the platen is closest to the shaft.")
 machine.require("rod_longer", lambda rod_length, crank_radius: rod_length > 1.001 * crank_radius, key="rod_length",
@@ -241,7 +229,11 @@ machine.require("within_stroke",
 machine.require("guides_given", lambda offset_force, offset_weight: (offset_force == 0) & (offset_weight == 0), key="guide_length",
     message="is needed: with offset_force = {offset_force} and offset_weight = {offset_weight} the platen presses on its guides",
     lacks=("guide_length",))
-machine.add(_frictions())
+for name, symbol, place in ADOPTED:
+    machine.value(name, symbol, "1", f"Coefficient of friction of the {place}: individual value", bind(common.same, quantity=f"inputs.{name}"),
+        needs=(name,), source="input", output=False)
+    machine.value(name, symbol, "1", f"Coefficient of friction of the {place}: common value", lambda friction: friction, lacks=(name,),
+        source="input", output=False)
 
 contact = Chapter("Contact, dead centre and dwell",
     text="The travel of the drive covers both the thickness of the board and its own elongation. After the dead centre the platen stands on the die "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -89,26 +90,6 @@ LOADS: Keys = {"cylinder_mass": ("mass", "kg"), "mass": ("mass", "kg"), "cylinde
 """By the keys of the others: results of the cylinder that a key is, and those that it is at least, as the carriages are in it, too."""
 
 
-def sizes_apart(cylinder: GivenMechanism, *others: GivenMechanism) -> Any:
-    """Return how many sizes of the cylinder are others than those that are sized, of all machines."""
-    return _counted(cylinder, others, SIZES, _is_another)
-
-
-def sizes_listed(cylinder: GivenMechanism, *others: GivenMechanism) -> str:
-    """Return them in words."""
-    return _listed(cylinder, others, SIZES, _is_another)
-
-
-def loads_short(cylinder: GivenMechanism, *others: GivenMechanism) -> Any:
-    """Return how many masses, inertias and the like are less than those of the cylinder that is sized, of all machines."""
-    return _counted(cylinder, others, LOADS, _is_less)
-
-
-def loads_listed(cylinder: GivenMechanism, *others: GivenMechanism) -> str:
-    """Return them in words."""
-    return _listed(cylinder, others, LOADS, _is_less)
-
-
 def _is_another(own: Any, sized: Any) -> Any:
     return np.abs(own - sized) > ROUNDED * np.abs(sized)
 
@@ -117,13 +98,15 @@ def _is_less(own: Any, sized: Any) -> Any:
     return own < sized * (1 - ROUNDED)
 
 
-def _counted(cylinder: GivenMechanism, others: tuple[GivenMechanism, ...], keys: Keys, is_wrong: Judge) -> Any:
+def _counted(cylinder: GivenMechanism, *others: GivenMechanism, keys: Keys, is_wrong: Judge) -> Any:
+    """How many values of the others are wrong beside those of the cylinder that is sized, of all machines."""
     pairs = ((other.numbers(key), cylinder.numbers(result)) for other in others for key, (result, _) in keys.items())
     wrong = (is_wrong(own, sized) for own, sized in pairs if own is not None and sized is not None)
     return sum(wrong, np.zeros((cylinder.count, 1)))
 
 
-def _listed(cylinder: GivenMechanism, others: tuple[GivenMechanism, ...], keys: Keys, is_wrong: Judge) -> str:
+def _listed(cylinder: GivenMechanism, *others: GivenMechanism, keys: Keys, is_wrong: Judge) -> str:
+    """These values in words."""
     found = []
     for other, (key, (result, unit)) in product(others, keys.items()):
         own, sized = other.number(key), cylinder.number(result)
@@ -142,38 +125,18 @@ sizes = Chapter("Cylinder of the press", needs=("cylinder",),
     absent="not calculated: there is no cylinder to use, or there are several")
 for needs, lacks in ((("drive", "damper"), ()), (("drive",), ("damper",)), (("damper",), ("drive",))):
     forms: dict[str, Any] = {"needs": needs, "lacks": lacks, "output": False}
-    sizes.computed("cylinder_sizes_apart", "N_s", "1", "Number of sizes that are not those of the cylinder", sizes_apart, ("cylinder", *needs),
-        "compared one by one", **forms)
-    sizes.computed("cylinder_loads_short", "N_l", "1", "Number of masses and moments that are less than those of the cylinder", loads_short,
-        ("cylinder", *needs), "compared one by one", **forms)
-    sizes.words("cylinder_sizes", sizes_listed, ("cylinder", *needs), needs=needs, lacks=lacks)
-    sizes.words("cylinder_loads", loads_listed, ("cylinder", *needs), needs=needs, lacks=lacks)
+    sizes.computed("cylinder_sizes_apart", "N_s", "1", "Number of sizes that are not those of the cylinder",
+        partial(_counted, keys=SIZES, is_wrong=_is_another), ("cylinder", *needs), "compared one by one", **forms)
+    sizes.computed("cylinder_loads_short", "N_l", "1", "Number of masses and moments that are less than those of the cylinder",
+        partial(_counted, keys=LOADS, is_wrong=_is_less), ("cylinder", *needs), "compared one by one", **forms)
+    sizes.words("cylinder_sizes", partial(_listed, keys=SIZES, is_wrong=_is_another), ("cylinder", *needs), needs=needs, lacks=lacks)
+    sizes.words("cylinder_loads", partial(_listed, keys=LOADS, is_wrong=_is_less), ("cylinder", *needs), needs=needs, lacks=lacks)
 
 
 Array = NDArray[np.float64]
 PARTS, LOOKS_CLOSER = 32, 8  # of a bracket, and how often it is looked at closer
 LOOKS = 181  # places of a stroke at which its speed is looked at
 INNER = ("displacement", "velocity", "stroke", "dead_center_outer", "dead_center_inner")
-
-
-def inner_speed(displacement: Curve, velocity: Curve, stroke: Array, outer: Array, inner: Array, way: Array) -> Array:
-    """Speed at a way before the inner end."""
-    return _speed_at(displacement, velocity, outer, inner, stroke - way)
-
-
-def outer_speed(displacement: Curve, velocity: Curve, stroke: Array, outer: Array, inner: Array, way: Array) -> Array:
-    """Speed at a way before the outer end."""
-    return _speed_at(displacement, velocity, inner, outer + TURN, way)
-
-
-def inner_way(displacement: Curve, velocity: Curve, stroke: Array, outer: Array, inner: Array, speed: Array) -> Array:
-    """Way before the inner end from which the cylinder is slower than a speed; the stroke where it always is."""
-    return _way_below(displacement, velocity, outer, inner, speed, stroke)
-
-
-def outer_way(displacement: Curve, velocity: Curve, stroke: Array, outer: Array, inner: Array, speed: Array) -> Array:
-    """Way before the outer end from which the cylinder is slower than a speed; the stroke where it always is."""
-    return _way_below(displacement, velocity, inner, outer + TURN, speed, stroke)
 
 
 def _at(curve: Curve, angle: Array) -> Array:
@@ -186,14 +149,14 @@ def _first(passed: Callable[[Array], NDArray[np.bool_]], low: Array, high: Array
     return first(lambda angles, _: passed(angles), low[:, 0], high[:, 0], PARTS, LOOKS_CLOSER)[1][:, None]
 
 
-def _speed_at(displacement: Curve, velocity: Curve, start: Array, end: Array, place: Array) -> Array:
+def speed_at(displacement: Curve, velocity: Curve, start: Array, end: Array, place: Array) -> Array:
     """Speed where a stroke comes to a place."""
     rises = _at(displacement, start) < _at(displacement, end)
     angle = _first(lambda x: (_at(displacement, x) >= place) == rises, start, end)
     return np.abs(_at(velocity, angle))
 
 
-def _way_below(displacement: Curve, velocity: Curve, start: Array, end: Array, speed: Array, stroke: Array) -> Array:
+def way_below(displacement: Curve, velocity: Curve, start: Array, end: Array, speed: Array, stroke: Array) -> Array:
     """Way to the end of a stroke from where its speed last is the given one."""
     angles = start + (end - start) * np.linspace(0, 1, LOOKS)
     fast = np.abs(_at(velocity, angles)) >= speed
@@ -245,17 +208,7 @@ def lines_out_of_step(drives: tuple[str, ...], single_position: bool, timing: Gi
     return 0.0 if single_position or set(drives) == set(lines) else float(len(set(drives)))
 
 
-def held_in_dwell(timing: GivenMechanism, wheel: GivenMechanism) -> int:
-    """Return how many interlocks hold something within the dwell of the wheel."""
-    return len(_dwell_margins(timing, wheel))
-
-
-def dwell_margin(timing: GivenMechanism, wheel: GivenMechanism) -> float:
-    """Return the least angle of the wheel's crank between an end of its dwell and what must lie within, rad; 0 where nothing must."""
-    return min(_dwell_margins(timing, wheel), default=0.0)
-
-
-def _dwell_margins(timing: GivenMechanism, wheel: GivenMechanism) -> list[float]:
+def dwell_margins(timing: GivenMechanism, wheel: GivenMechanism) -> list[float]:
     """The margins of what must lie within the dwell, or apart from the motion, of the wheel, whichever of both is named first."""
     turns = dict(zip(timing.texts("lines.mechanism"), timing.parts("line_turns"), strict=True))
     sides = (timing.texts(f"interlocks.{side}") for side in ("phase", "within", "apart_from"))
@@ -272,16 +225,6 @@ def _of(named: str, line: str) -> str:
     """The phase that a name means, be it of all its turns or of a numbered one; empty where it is another line's."""
     home, _, phase = named.partition(".")
     return phase.partition(".")[0] if home == line else ""
-
-
-def is_coupled(drives: tuple[str, ...], drive: GivenMechanism) -> float:
-    """Return whether the clutch drives the cylinder."""
-    return float(drive.name in drives)
-
-
-def lines_beside(drives: tuple[str, ...], drive: GivenMechanism) -> float:
-    """Return how many lines a clutch drives beside the cylinder's."""
-    return float(len({*drives} - {drive.name}))
 
 
 def listed(drives: tuple[str, ...]) -> str:

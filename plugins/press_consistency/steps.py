@@ -106,10 +106,11 @@ conveyor.value("inertia_error", "Δ_J", "%", "Relative difference of the inertia
 dwell = Chapter("Dwell and the phases within it", needs=("timing", "wheel", "cover_angle"),
     text="The wheel has the largest play just after its exit and just before its entry; the smaller the margins of the timing, the larger the play.",
     absent="not calculated: there is no cyclogram, or the wheel's cover_angle is not given")
-dwell.computed("held_in_dwell", "N_d", "1", "Number of interlocks that contain something within the wheel's dwell", relations.held_in_dwell,
-    ("timing", "wheel"), "as given", output=False)
+dwell.computed("held_in_dwell", "N_d", "1", "Number of interlocks that contain something within the wheel's dwell",
+    lambda timing, wheel: len(relations.dwell_margins(timing, wheel)), ("timing", "wheel"), "as given", output=False)
 dwell.computed("dwell_margin", "φ_m", "deg", "Minimum angle of the wheel's crank between an end of the dwell and what must lie within it",
-    relations.dwell_margin, ("timing", "wheel"), "smaller margin of each interlock, multiplied by the revolutions of the line per sheet",
+    lambda timing, wheel: min(relations.dwell_margins(timing, wheel), default=0.0), ("timing", "wheel"),
+    "smaller margin of each interlock, multiplied by the revolutions of the line per sheet",
     exists=lambda held_in_dwell: held_in_dwell > 0)
 
 register = Chapter("Register",
@@ -193,7 +194,7 @@ engagement.value("lag_angle", "Δφ_l", "deg", "Additional rotation of the drivi
 engagement.value("slip_heat", "Q", "J", "Heat of the engagement, with the varying inertia",
     lambda clutch_torque, clutch_ratio, lag_angle: clutch_torque * clutch_ratio * lag_angle, source="energy")
 BEHIND, NAMED = ("is_behind", "b_z", "1", "Cylinder behind the clutch (1) or not (0)"), ("clutch_drives", "drive")
-engagement.computed(*BEHIND, relations.is_coupled, NAMED, "as given", needs=NAMED, output=False, printed=False)
+engagement.computed(*BEHIND, lambda drives, drive: float(drive.name in drives), NAMED, "as given", needs=NAMED, output=False, printed=False)
 for lacks in (("clutch_drives",), ("drive",)):
     engagement.value(*BEHIND, lambda: 1, needs=NAMED[: NAMED.index(lacks[0])], lacks=lacks, output=False, printed=False)
 engagement.value("equal_inertia", "I_eq", "kg*m**2", "Constant inertia at the clutch that would generate the same heat",
@@ -206,7 +207,8 @@ coupling.computed("lines_out_of_step", "N_c", "1", "Number of lines that lose sy
     function=relations.lines_out_of_step, takes=("clutch_drives", "single_position", "timing"),
     method="those driven through the clutch, unless these are all or it engages at one angle only", source="kinematics")
 coupling.computed("lines_beside", "N_b", "1", "Number of lines behind the clutch whose inertia is not compared with that of its calculation",
-    relations.lines_beside, ("clutch_drives", "drive"), "those driven through the clutch but for the cylinder's", output=False, needs=("drive",))
+    lambda drives, drive: float(len({*drives} - {drive.name})), ("clutch_drives", "drive"),
+    "those driven through the clutch but for the cylinder's", output=False, needs=("drive",))
 coupling.words("clutch_lines", relations.listed, ("clutch_drives",))
 
 ends_chapter = Chapter("Speed before the ends of the travel", needs=TRAVEL,
@@ -214,9 +216,11 @@ ends_chapter = Chapter("Speed before the ends of the travel", needs=TRAVEL,
     absent="not calculated: there is no cylinder drive to use, or there are several")
 ends_chapter.require("contact_within_stroke", lambda contact_distance, stroke: contact_distance < stroke, key="contact_distance",
     message="is {contact_distance}, but the whole stroke is {stroke}; dampers are met shortly before its ends", needs=("contact_distance",))
-ends_chapter.computed("contact_speed_inner", "v_in", "m/s", "Speed at contact before the inner end", function=relations.inner_speed,
+ends_chapter.computed("contact_speed_inner", "v_in", "m/s", "Speed at contact before the inner end",
+    function=lambda displacement, velocity, stroke, outer, inner, way: relations.speed_at(displacement, velocity, outer, inner, stroke - way),
     takes=(*relations.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
-ends_chapter.computed("contact_speed_outer", "v_out", "m/s", "Speed at contact before the outer end", function=relations.outer_speed,
+ends_chapter.computed("contact_speed_outer", "v_out", "m/s", "Speed at contact before the outer end",
+    function=lambda displacement, velocity, stroke, outer, inner, way: relations.speed_at(displacement, velocity, inner, outer + 2 * np.pi, way),
     takes=(*relations.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
 ends_chapter.value("contact_speed", "v_k", "m/s", "Higher speed at contact",
     lambda contact_speed_inner, contact_speed_outer: np.maximum(contact_speed_inner, contact_speed_outer), source="kinematics",
@@ -226,9 +230,11 @@ ends_chapter.choice("end_impacts", "z_e", "1/h", "Impacts at one end of the trav
     case(lambda crank_speed: as_number(crank_speed) / as_number(2 * np.pi), "dampers before the ends are met in every revolution"),
     source="kinematics", needs=("contact_distance", "crank_speed"))
 ends_chapter.computed("way_inner", "d_in", "mm", "Distance before the inner end at which the speed used in the dampers' calculation occurs",
-    function=relations.inner_way, takes=(*relations.INNER, "damper_velocity"), method="nested search", source="kinematics",
-    needs=("damper_velocity",))
-ends_chapter.computed("way_outer", "d_out", "mm", "Distance before the outer end at which it occurs", function=relations.outer_way,
+    function=lambda displacement, velocity, stroke, outer, inner, speed: relations.way_below(displacement, velocity, outer, inner, speed, stroke),
+    takes=(*relations.INNER, "damper_velocity"), method="nested search", source="kinematics", needs=("damper_velocity",))
+ends_chapter.computed("way_outer", "d_out", "mm", "Distance before the outer end at which it occurs",
+    function=lambda displacement, velocity, stroke, outer, inner, speed:
+        relations.way_below(displacement, velocity, inner, outer + 2 * np.pi, speed, stroke),
     takes=(*relations.INNER, "damper_velocity"), method="nested search", source="kinematics", needs=("damper_velocity",))
 
 ends_chapter.value("stopped_mass", "m_s", "kg", "Mass that moves with the cylinder's axis, with the carriages",

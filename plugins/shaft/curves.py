@@ -223,11 +223,6 @@ def reaction_in(bearing: str, plane: int) -> Curve:
     return curve
 
 
-def axial_reaction(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
-    """Return the size of the axial force on the locating bearing over the cycle."""
-    return under.axial_reaction(angle, middle, rows)
-
-
 def shaft_angle(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
     """Return the angle of the shaft over the cycle."""
     found: Array = under.cycle.turned(angle / (2 * np.pi), middle / (2 * np.pi), rows)

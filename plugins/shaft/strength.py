@@ -148,7 +148,7 @@ for bearing, sign in (("a", "A"), ("b", "B")):
     for plane, axis in enumerate("yz"):
         loads.computed_curve(f"reaction_{bearing}_{axis}", f"R_{sign}{axis}", "N", f"Reaction of bearing {sign} in {axis} over the cycle",
             curves.reaction_in(bearing, plane), "under_load", "cycle_angle", "by statics", source="statics")
-loads.computed_curve("axial_reaction", "R_x(φ)", "N", "Axial force on the locating bearing over the cycle", curves.axial_reaction, "under_load",
+loads.computed_curve("axial_reaction", "R_x(φ)", "N", "Axial force on the locating bearing over the cycle", UnderLoad.axial_reaction, "under_load",
     "cycle_angle", "by statics", joints=lambda under_load: under_load.cycle_joints, source="statics", output=False)
 loads.computed_curve("shaft_angle", "θ(φ)", "deg", "Angle of the shaft over the cycle", curves.shaft_angle, "under_load", "cycle_angle", "as given",
     joints=lambda under_load: under_load.cycle_joints, source="kinematics", output=False)

@@ -455,8 +455,9 @@ def test_the_drawn_sector_touches_the_gear_and_the_drawn_cams_are_closed() -> No
     for body in bodies:
         rim = np.hypot(*np.array(body["points"][1:]).T)
         assert rim.min() == pytest.approx(view["gear_radius"], rel=1e-3)
-    for build in (figures.cam_1, figures.cam_2):
-        pitch, profile = (np.array(s["points"]) for s in build(view) if s["shape"] == "polyline" and s["closed"])
+    for cam in "12":
+        shapes = figures.one_cam(view, cam)
+        pitch, profile = (np.array(s["points"]) for s in shapes if s["shape"] == "polyline" and s["closed"])
         np.testing.assert_allclose(np.hypot(*(pitch - profile).T), 0.025, rtol=1e-9)
 
 
