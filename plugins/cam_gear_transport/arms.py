@@ -103,9 +103,8 @@ def pressure_angles(rocker: Rocker, cycle: ArmMotion, length: float, arms: Any) 
     direction = arms[:, None] + cycle.angle
     lowest = formulas.lowest_direction(arms, rocker.stop)
     beside = formulas.stays_on_one_side(lowest, formulas.highest_direction(lowest, rocker.held + rocker.stop))
-    with np.errstate(
-        divide="ignore", invalid="ignore"
-    ):  # an arm on the line O₁O₃, a roller that stands still: they do not pass
+    # an arm on the line O₁O₃, a roller that stands still: they do not pass
+    with np.errstate(divide="ignore", invalid="ignore"):
         found = cam.pressure_angle(rocker.center_distance, length, direction, cycle.turn).max(axis=1)
         return np.where(beside & _sound(rocker, cycle, length, direction), found, np.inf)
 

@@ -31,17 +31,15 @@ def _verdict(timing: Timing, index: int) -> Iterator[str]:
             other=other,
         )
     else:
-        yield (
-            Phrase(
-                "{phase} does not lie {where} {other}: the margins are {told} at the start and {told_2} at the "
-                "end, {told_3} are required.",
-                phase=phase,
-                where=where,
-                other=other,
-                told=timing.told(pair.start),
-                told_2=timing.told(pair.end),
-                told_3=timing.told(timing.required(timing.final[index])),
-            )
+        yield Phrase(
+            "{phase} does not lie {where} {other}: the margins are {told} at the start and {told_2} at the "
+            "end, {told_3} are required.",
+            phase=phase,
+            where=where,
+            other=other,
+            told=timing.told(pair.start),
+            told_2=timing.told(pair.end),
+            told_3=timing.told(timing.required(timing.final[index])),
         )
     yield from _offset(timing, index)
     yield _speed(timing)

@@ -70,8 +70,7 @@ def jump(curve: Curve) -> Array:
         _gap(positions, half > 0) / np.ptp(positions, axis=(1, 2)),
         _gap(around, wide) / np.abs(speeds).max(axis=(1, 2)),
     ]
-    found: Array = np.maximum(*gaps)[:, None]
-    return found
+    return np.asarray(np.maximum(*gaps)[:, None])
 
 
 def gained(curve: Curve) -> Array:
@@ -89,8 +88,7 @@ def _gap(values: Array, wide: NDArray[np.bool_]) -> Array:
         here = wide[:, piece, 0]
         gaps.append(np.where(here, np.abs(values[:, piece, 0] - last), 0))
         last = np.where(here, values[:, piece, -1], last)
-    found: Array = np.max(gaps, axis=0)
-    return found
+    return np.asarray(np.max(gaps, axis=0))
 
 
 @cache
@@ -100,11 +98,9 @@ def _differences() -> Array:
     slopes = chebyshev.chebvander(-np.cos(np.linspace(0, np.pi, POINTS)), POINTS - 2) @ chebyshev.chebder(
         np.eye(POINTS)
     )
-    found: Array = slopes @ np.linalg.inv(series)
-    return found
+    return np.asarray(slopes @ np.linalg.inv(series))
 
 
 def last_or_end(crossings: Array, end: Array) -> Array:
     """The last crossing, no earlier than the end of the motion, (variants, 1)."""
-    found: Array = np.maximum(np.where(np.isfinite(crossings), crossings, 0).max(axis=1, initial=0)[:, None], end)
-    return found
+    return np.asarray(np.maximum(np.where(np.isfinite(crossings), crossings, 0).max(axis=1, initial=0)[:, None], end))

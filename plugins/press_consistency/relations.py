@@ -24,9 +24,8 @@ from diecut_report.mechanics.timing.shaft_curves import PieceRows
 
 # fmt: off
 
-ONE_SHAFT = (
-    0.1  # share by which the driving side of a clutch on the crank's shaft may be faster or slower than the crank
-)
+# share by which the driving side of a clutch on the crank's shaft may be faster or slower than the crank
+ONE_SHAFT = 0.1
 SAME = 1e-6  # relative difference of two speeds that are one
 TURN = 2 * np.pi
 ROLLED = ("cylinder_inertia", "cylinder_mass", "cylinder_radius", "static_unbalance", "shafts_inertia")

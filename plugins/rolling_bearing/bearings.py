@@ -31,11 +31,8 @@ Known = Mapping[str, Any]
 
 EXPONENTS = {DEEP_GROOVE: 3.0, "ball": 3.0, ROLLER: 10 / 3}
 STATIC_SAFETIES = {DEEP_GROOVE: 1.0, "ball": 1.0, ROLLER: 1.5}
-PERMITTED_TILTS = {
-    DEEP_GROOVE: 0.58e-3,
-    "ball": 0.58e-3,
-    ROLLER: 0.29e-3,
-}  # rad, 2′ and 1′: the least of the makers, of needles
+# rad, 2′ and 1′: the least of the makers, of needles
+PERMITTED_TILTS = {DEEP_GROOVE: 0.58e-3, "ball": 0.58e-3, ROLLER: 0.29e-3}
 CYLINDRICAL, CYLINDRICAL_TILT = re.compile(r"(N|NJ|NU)[0-9]"), 0.87e-3  # rad, 3′; with ribs on both rings (NUP) less
 TYPE_TILTS = (
     (DEEP_GROOVE, "", 2.91e-3),  # 10′
@@ -238,8 +235,7 @@ class GivenBearing:
         required = STATIC_SAFETIES[str(self.text("type"))] if wanted is None else wanted
         is_long = np.isnan(life) | (life >= self.given["required_life"] * (1 + MARGIN))
         fits = self.catalogue().size("d", name) >= self.raw("bore_min") * (1 - MARGIN)
-        found: Array = is_long & (safety >= required * (1 + MARGIN)) & fits
-        return found
+        return np.asarray(is_long & (safety >= required * (1 + MARGIN)) & fits)
 
     def life(self, duty: Duty, own: Ratings) -> Array:
         """Return the modified life; NaN where the rings do not turn, or bear nothing."""

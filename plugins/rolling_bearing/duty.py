@@ -58,8 +58,7 @@ def edges_of(nodes: Nodes) -> Array:
 
 def in_order(*places: Array) -> Array:
     """Return edges in their order, (variants, places); what is missing lies at 0."""
-    found: Array = np.sort(np.clip(np.nan_to_num(np.concatenate(places, axis=1)), 0.0, 1.0), axis=1)
-    return found
+    return np.asarray(np.sort(np.clip(np.nan_to_num(np.concatenate(places, axis=1)), 0.0, 1.0), axis=1))
 
 
 def crossings(nodes: Nodes, values: Array) -> Array:
@@ -80,17 +79,15 @@ def _zeros(values: Array, place: Array) -> Array:
 
     def polynomial(x: Array, row: Array) -> Array:
         terms = BARYCENTRIC / (x[:, None] - PLACES)
-        height: Array = np.sum(terms * values[rows[row]], axis=1) / np.sum(terms, axis=1)
-        return height
+        return np.asarray(np.sum(terms * values[rows[row]], axis=1) / np.sum(terms, axis=1))
 
     found[rows], _ = narrowed(polynomial, ends[0, rows], ends[1, rows], heights[:, rows])
     return found
 
 
 Load = Callable[[Array, Array], Array]  # of both forces
-Over = Callable[
-    [Array, Array, Array], Array
-]  # of shares of the cycle (rows, places), the middles of their pieces (rows, 1), and variants
+# of shares of the cycle (rows, places), the middles of their pieces (rows, 1), and variants
+Over = Callable[[Array, Array, Array], Array]
 
 GRID = 24  # least number of pieces of the cycle
 STEP = 1e-5  # share of the cycle, to either side, by which an angle is differentiated at any place
@@ -172,8 +169,7 @@ class Duty:
         middle = ((edges[:, :-1] + edges[:, 1:]) / 2).reshape(-1, 1)
         rows = np.repeat(np.arange(self.variants), pieces) if self.variants > 1 else None
         flat = share.reshape(-1, share.shape[2])
-        found: Array = np.broadcast_to(given.values(flat, middle, rows), flat.shape).reshape(share.shape)
-        return found
+        return np.asarray(np.broadcast_to(given.values(flat, middle, rows), flat.shape).reshape(share.shape))
 
     @cached_property
     def first(self) -> Nodes:
@@ -194,8 +190,7 @@ class Duty:
 
     @cached_property
     def _share(self) -> Array:
-        found: Array = self.edges[:, :-1, None] + np.diff(self.edges, axis=1)[:, :, None] * PLACES
-        return found
+        return np.asarray(self.edges[:, :-1, None] + np.diff(self.edges, axis=1)[:, :, None] * PLACES)
 
     def weighed(self, ratings: Ratings) -> Nodes:
         """Return the places for a bearing: pieces end also where its axial force begins to count."""
@@ -220,8 +215,7 @@ class Duty:
         weight = flat(nodes.weight)
         whole = np.sum(weight, axis=1, keepdims=True)
         mean = np.sum((load / top) ** exponent * weight, axis=1, keepdims=True) / np.where(whole > 0, whole, 1.0)
-        found: Array = top * mean ** (1 / exponent)
-        return found
+        return np.asarray(top * mean ** (1 / exponent))
 
     def greatest(self, load: Load, nodes: Nodes | None = None) -> tuple[Array, Array]:
         """Return both forces where a load of them is greatest; it is known best at nodes that end where it has corners."""
@@ -274,8 +268,7 @@ class Duty:
     @cached_property
     def travel(self) -> Array:
         """Return the way that the relative angle goes in a cycle, there and back."""
-        found: Array = np.sum(self.first.weight, axis=(1, 2))[:, None]
-        return found
+        return np.asarray(np.sum(self.first.weight, axis=(1, 2))[:, None])
 
     @cached_property
     def swing(self) -> Array:
@@ -302,15 +295,13 @@ class Duty:
     @cached_property
     def mean_speed(self) -> Array:
         """Return the mean size of the speed."""
-        found: Array = np.sum(self.first.weight, axis=(1, 2))[:, None]
-        return found
+        return np.asarray(np.sum(self.first.weight, axis=(1, 2))[:, None])
 
     @cached_property
     def greatest_axial(self) -> Array:
         """Return the greatest size of the axial force."""
         if not is_curve(self.axial):
-            known: Array = np.abs(self.axial) * self.factor
-            return known
+            return np.asarray(np.abs(self.axial) * self.factor)
         return self.greatest(lambda _, axial: axial)[1]
 
     @cached_property
@@ -321,8 +312,7 @@ class Duty:
         if self.angle is not None:
             width = nodes.share[:, :, -1:] - nodes.share[:, :, :1]
             turned = np.where(width > STILL, turned / np.where(width > STILL, width, 1.0), 0.0)
-        found: Array = np.max(flat(turned), axis=1, keepdims=True)
-        return found
+        return np.asarray(np.max(flat(turned), axis=1, keepdims=True))
 
 
 def is_curve(given: Any) -> bool:

@@ -112,13 +112,11 @@ class Ratings:
     def equivalent(self, radial: Array, axial: Array) -> Array:
         """Return the equivalent load."""
         x, y, e = self.factors(axial)
-        found: Array = np.asarray(equivalent_load.function(radial, axial, x, y, e), dtype=float)
-        return found
+        return np.asarray(equivalent_load.function(radial, axial, x, y, e), dtype=float)
 
     def static_load(self, radial: Array, axial: Array) -> Array:
         """Return the static equivalent load."""
-        found: Array = np.asarray(static_load.function(radial, axial, self.x0, self.y0), dtype=float)
-        return found
+        return np.asarray(static_load.function(radial, axial, self.x0, self.y0), dtype=float)
 
     def bends(self, radial: Array, axial: Array) -> Iterator[Array]:
         """Yield what changes its sign where the equivalent load has a corner or jumps between those of its factors."""

@@ -203,30 +203,19 @@ Curve = Callable[[UnderLoad, Array, Array, Array | None], Array]
 BEARINGS = {"a": 0, "b": 1}
 
 
-def reaction(bearing: str) -> Curve:
-    """Return the size of a bearing's reaction over the cycle."""
+def reaction(bearing: str, plane: int | None = None) -> Curve:
+    """Return a bearing's reaction over the cycle, in y (0) or z (1), or its size."""
 
     def curve(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
-        found: Array = np.hypot(*under.reactions(angle, middle, rows)[BEARINGS[bearing]])
-        return found
-
-    return curve
-
-
-def reaction_in(bearing: str, plane: int) -> Curve:
-    """Return a bearing's reaction in y (0) or z (1) over the cycle."""
-
-    def curve(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
-        found: Array = under.reactions(angle, middle, rows)[BEARINGS[bearing]][plane]
-        return found
+        in_planes = under.reactions(angle, middle, rows)[BEARINGS[bearing]]
+        return np.asarray(np.hypot(*in_planes) if plane is None else in_planes[plane])
 
     return curve
 
 
 def shaft_angle(under: UnderLoad, angle: Array, middle: Array, rows: Array | None) -> Array:
     """Return the angle of the shaft over the cycle."""
-    found: Array = under.cycle.turned(angle / (2 * np.pi), middle / (2 * np.pi), rows)
-    return found
+    return np.asarray(under.cycle.turned(angle / (2 * np.pi), middle / (2 * np.pi), rows))
 
 
 def along(of: Callable[[Statics, Array, Array], Array]) -> Curve:
@@ -240,22 +229,19 @@ def along(of: Callable[[Statics, Array, Array], Array]) -> Curve:
 
 def _on_side(values: Array, side: Array) -> Array:
     """Values (2, places, 1, instants) on the side of each place, (places, instants)."""
-    found: Array = values[side, np.arange(values.shape[1]), 0]
-    return found
+    return np.asarray(values[side, np.arange(values.shape[1]), 0])
 
 
 @along
 def bending_moment(statics: Statics, places: Array, side: Array) -> Array:
     """The greatest bending moment over the cycle."""
-    found: Array = np.max(_on_side(resultant(*statics.moments(places)), side), axis=1)
-    return found
+    return np.asarray(np.max(_on_side(resultant(*statics.moments(places)), side), axis=1))
 
 
 @along
 def torque(statics: Statics, places: Array, side: Array) -> Array:
     """The greatest size of the torque over the cycle."""
-    found: Array = np.max(_on_side(greatest_size(*statics.torques(places)), side), axis=1)
-    return found
+    return np.asarray(np.max(_on_side(greatest_size(*statics.torques(places)), side), axis=1))
 
 
 def moment_in(plane: int) -> Curve:
@@ -273,15 +259,13 @@ def deflection(statics: Statics, places: Array, _: Array) -> Array:
     """The deflection at the instant of its greatest value."""
     still = statics.at_instant(statics.greatest_deflection[1])
     lines = still.bent(np.sort(np.concatenate([statics.x, places]), axis=0))
-    found: Array = np.hypot(*(line.at(places)[0] for line in lines))[:, 0, 0]
-    return found
+    return np.asarray(np.hypot(*(line.at(places)[0] for line in lines))[:, 0, 0])
 
 
 def _of_section(values: Array, statics: Statics, places: Array, side: Array) -> Array:
     """What the section has in which each place is, (places,); at a step on its side."""
     sections = [statics.body.section_of(places, behind=each)[:, 0] for each in (False, True)]
-    found: Array = values[np.where(side, sections[1], sections[0]), 0]
-    return found
+    return np.asarray(values[np.where(side, sections[1], sections[0]), 0])
 
 
 @along
@@ -300,5 +284,4 @@ def nominal_stress(statics: Statics, places: Array, side: Array) -> Array:
     forces = (_on_side(each, side) for each in (sides.axial_size, sides.bending, sides.torque_size))
     modulus = 2 * beams.second_moment(size, bore) / size
     stress = formulas.yield_stress(*forces, beams.circle_area(size, bore), modulus, 1.0, 1.0)
-    found: Array = np.max(stress, axis=1)
-    return found
+    return np.asarray(np.max(stress, axis=1))

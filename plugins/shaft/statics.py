@@ -50,15 +50,13 @@ class Sides:
 
 def resultant(in_y: Array, in_z: Array) -> Array:
     """Return the size of what acts in both planes."""
-    found: Array = np.sqrt(in_y**2 + in_z**2)
-    return found
+    return np.asarray(np.sqrt(in_y**2 + in_z**2))
 
 
 def greatest_size(values: Array, bounds: tuple[Array, Array]) -> Array:
     """Return the greatest size of values to which something between bounds is added."""
     low, high = bounds
-    found: Array = np.maximum(np.abs(values + low), np.abs(values + high))
-    return found
+    return np.asarray(np.maximum(np.abs(values + low), np.abs(values + high)))
 
 
 @dataclass(frozen=True)
@@ -120,8 +118,7 @@ class Statics:
     def instant_of_moment(self) -> Array:
         """Return at which instant the bending moment is greatest, (variants,)."""
         xy, xz = self.moments(self.x)
-        found: Array = np.argmax(np.max(xy**2 + xz**2, axis=(0, 1)), axis=1)
-        return found
+        return np.asarray(np.argmax(np.max(xy**2 + xz**2, axis=(0, 1)), axis=1))
 
     def _both(self, bounds: Callable[[Array], tuple[Array, Array]], x: Array) -> tuple[Array, Array]:
         before, behind = bounds(x - 2 * SAME_PLACE), bounds(x + 2 * SAME_PLACE)
@@ -192,8 +189,7 @@ class Statics:
 
     def _resultant(self, of_units: Array) -> Array:
         """The resultant over both planes of what unit loads do (places, variants, loads)."""
-        found: Array = np.sqrt(self._size(of_units))
-        return found
+        return np.asarray(np.sqrt(self._size(of_units)))
 
     def _size(self, of_units: Array) -> Array:
         """The square of the resultant."""
@@ -210,15 +206,14 @@ class Statics:
     @property
     def instant_of_deflection(self) -> Array:
         """Return at which instant the greatest deflection is, its index, as far as places between the joints tell."""
-        found: Array = np.argmax(np.max(self._size(self.elastic.within.deflection), axis=0), axis=1)
-        return found
+        return np.asarray(np.argmax(np.max(self._size(self.elastic.within.deflection), axis=0), axis=1))
 
     def at_instant(self, instant: Array) -> Statics:
         """The same at one instant of each variant."""
         return self.at_instants(instant[:, None])
 
     def at_instants(self, instants: Array) -> Statics:
-        """The same at some instants of each variant, (variants, instants)."""
+        """The same at some instants of each variant, (variants or 1, instants)."""
         picked = {name: np.take_along_axis(each, instants[None], axis=2) for name, each in vars(self.loads).items()}
         return replace(self, loads=Instants(**picked))
 
@@ -234,8 +229,7 @@ class Statics:
         if self.cycle.balance is not None:
             weights = weights - weights[:, [self.cycle.balance]]
         low, high = self.cycle.bounds("torque", np.sum(weights * compliance[:, None], axis=0)[None])
-        found: Array = np.max(np.maximum(np.abs(known + low[0]), np.abs(known + high[0])), axis=1)
-        return found
+        return np.asarray(np.max(np.maximum(np.abs(known + low[0]), np.abs(known + high[0])), axis=1))
 
     @property
     def torque_span(self) -> Array:
@@ -262,24 +256,18 @@ class Statics:
             ),
         )
 
-    def some_instants(self, chosen: Array) -> Statics:
-        """The same at some instants of the cycle."""
-        loads = Instants(**{name: each[:, :, chosen] for name, each in vars(self.loads).items()})
-        return replace(self, loads=loads)
-
     @property
     def energy_difference(self) -> Array:
         """Return the energy of the bent shaft less the work of its loads, beyond rounding, to the energy: the greatest of some instants."""
         count = self.loads.torque.shape[2]
-        some = self.some_instants(np.unique(np.linspace(0, count - 1, PROVED).astype(int)))
+        some = self.at_instants(np.unique(np.linspace(0, count - 1, PROVED).astype(int))[None])
         stiffness = self.elastic.stiffness_of(self.x)
         energy = sum(beams.bending_energy(self.x, stiffness, plane) for plane in some.planes)
         work = sum(beams.work(line, plane) for line, plane in zip(some.lines, some.planes, strict=True))
         rounding = sum(beams.energy_rounding(self.x, stiffness, plane, self.supports) for plane in some.planes)
         beyond = np.max(np.maximum(np.abs(energy - work) - rounding, 0), axis=1)
         greatest = np.max(energy, axis=1)
-        found: Array = beyond / np.where(greatest > 0, greatest, 1)
-        return found
+        return np.asarray(beyond / np.where(greatest > 0, greatest, 1))
 
 
 def _no_more_than_needed(values: Array) -> Array:
@@ -327,15 +315,13 @@ def _torque_left(statics: Statics) -> Array:
         return np.zeros(len(statics.shear))
     low, high = statics.cycle.bounds("torque", np.ones((1, *statics.cycle.places.shape)))
     left = np.sum(statics.loads.torque, axis=0)
-    found: Array = np.max(np.maximum(np.abs(left + low[0]), np.abs(left + high[0])), axis=1)
-    return found
+    return np.asarray(np.max(np.maximum(np.abs(left + low[0]), np.abs(left + high[0])), axis=1))
 
 
 def _torque_scale(statics: Statics) -> Array:
     sizes = [np.max(np.abs(statics.loads.torque), axis=(0, 2))]
     sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in statics.cycle.extremes("torque")]
-    found: Array = np.max(np.stack(sizes), axis=0)
-    return found
+    return np.asarray(np.max(np.stack(sizes), axis=0))
 
 
 def _load_scale(statics: Statics) -> Array:
@@ -345,8 +331,7 @@ def _load_scale(statics: Statics) -> Array:
     couples = (each / statics.supports.span for each in (loads.couple_xy, loads.couple_xz))
     sizes = [np.max(np.abs(each), axis=(0, 2)) for each in (*forces, *couples)]
     sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in statics.cycle.extremes("axial_force")]
-    found: Array = np.max(np.stack(sizes), axis=0)
-    return found
+    return np.asarray(np.max(np.stack(sizes), axis=0))
 
 
 def _yielding(statics: Statics, sides: Sides) -> dict[str, Array]:

@@ -30,14 +30,12 @@ def by_size(sizes: Array, values: Any, diameter: Array) -> Array:
             "strengths", "gives the fatigue strength of some diameters and not of others; give it for all, or for none"
         )
     index = np.minimum(np.sum(diameter > sizes * (1 + ROUNDING), axis=1, keepdims=True), sizes.shape[1] - 1)
-    found: Array = np.take_along_axis(values, index, axis=1)
-    return found
+    return np.asarray(np.take_along_axis(values, index, axis=1))
 
 
 def ascends(sizes: Array) -> Array:
     """Return whether sizes (variants, sizes) ascend, (variants, 1)."""
-    found: Array = np.all(np.diff(sizes, axis=1) > 0, axis=1, keepdims=True).astype(float)
-    return found
+    return np.asarray(np.all(np.diff(sizes, axis=1) > 0, axis=1, keepdims=True).astype(float))
 
 
 # fmt: off
@@ -147,7 +145,7 @@ for bearing, sign in (("a", "A"), ("b", "B")):
         "under_load", "cycle_angle", "by statics", joints=lambda under_load: under_load.cycle_joints, source="statics")
     for plane, axis in enumerate("yz"):
         loads.computed_curve(f"reaction_{bearing}_{axis}", f"R_{sign}{axis}", "N", f"Reaction of bearing {sign} in {axis} over the cycle",
-            curves.reaction_in(bearing, plane), "under_load", "cycle_angle", "by statics", source="statics")
+            curves.reaction(bearing, plane), "under_load", "cycle_angle", "by statics", source="statics")
 loads.computed_curve("axial_reaction", "R_x(φ)", "N", "Axial force on the locating bearing over the cycle", UnderLoad.axial_reaction, "under_load",
     "cycle_angle", "by statics", joints=lambda under_load: under_load.cycle_joints, source="statics", output=False)
 loads.computed_curve("shaft_angle", "θ(φ)", "deg", "Angle of the shaft over the cycle", curves.shaft_angle, "under_load", "cycle_angle", "as given",

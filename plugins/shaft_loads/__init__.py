@@ -108,9 +108,7 @@ KEYS = (
 Array = NDArray[Any]
 TURN = 2 * np.pi
 BALANCE = "balance"  # the torque that balances the others, by its name among them
-MAIN = (
-    "main"  # what runs over the angle of the main shaft itself, for as many of its revolutions as it takes to come back
-)
+MAIN = "main"  # what runs over the angle of the main shaft itself, for as many of its revolutions as it takes to come back
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,15 +146,13 @@ class CurveLoad:
         """The load at shares of the own turn, so many turns having passed."""
         # an angle is differentiated, also across the end of a piece, where only the function itself goes on
         found = self.curve.function if self.is_motion else self.curve.of_shares
-        machine = (
-            row if len(self.curve.breakpoints) > 1 else np.zeros_like(row)
-        )  # a mechanism that is the same in all machines
+        # a mechanism may be the same in all machines
+        machine = row if len(self.curve.breakpoints) > 1 else np.zeros_like(row)
         value = found(share, inside, machine) + passed * _of(self.gain, row)
         value = np.abs(value) if self.is_absolute else value
         factor = _of(self.factor, row)
-        carried = with_losses(
-            value * np.abs(factor), _of(self.efficiency, row)
-        )  # by the sign of the curve, whichever way it acts
+        # losses go by the sign of the curve, whichever way it acts
+        carried = with_losses(value * np.abs(factor), _of(self.efficiency, row))
         return np.sign(factor) * carried + _of(self.constant, row)
 
     @property
@@ -174,9 +170,8 @@ class Loads:
     """Hold the loads of a shaft."""
 
     torques: tuple[CurveLoad, ...]
-    hubs: tuple[
-        tuple[int | None, int], ...
-    ]  # places of the torques at their teeth and of their inertia; None of the balance
+    # places of the torques at their teeth and of their inertia; None of the balance
+    hubs: tuple[tuple[int | None, int], ...]
     forces: tuple[CurveLoad, ...]
     motion: CurveLoad | None
     period: Array
@@ -187,11 +182,6 @@ class Loads:
         every = (*self.torques, *self.forces, *(() if self.motion is None else (self.motion,)))
         found = [each.curve.joints(self.period, each.reversals) for each in every]
         return np.concatenate(found, axis=1) if found else np.full_like(self.period, np.nan)
-
-
-def joints(loads: Loads) -> Array:
-    """Return where a load is not smooth."""
-    return loads.joints
 
 
 def values(of: str) -> Callable[..., Array]:
@@ -207,8 +197,7 @@ def values(of: str) -> Callable[..., Array]:
 def balance(loads: Loads, x: Array, middle: Array, rows: Array | None) -> Array:
     """Return the torque that balances all others."""
     own = np.broadcast_to(middle, x.shape)
-    found: Array = -sum((each.at(x, own, rows) for each in loads.torques), np.zeros(x.shape))
-    return found
+    return np.asarray(-sum((each.at(x, own, rows) for each in loads.torques), np.zeros(x.shape)))
 
 
 def hub(index: int, loads: Loads, x: Array, middle: Array, rows: Array | None) -> Array:
@@ -325,15 +314,17 @@ cycle.prepared(OBJECT, curves_of, KEYS, for_many=True)
 cycle.value("cycle_length", "Φ", "deg", "Length of the cycle, as an angle of the main shaft", lambda main_turns: 2 * np.pi * main_turns, output=False)
 cycle.abscissa("main_angle", "φ_m", "deg", "Angle of the main shaft", "cycle_length")
 cycle.computed_curve("torque", "T", "N*m", "Torque on the shaft", values("torques"), OBJECT, "main_angle",
-    "from the curve of the mechanism, at the angle of the main shaft", joints=joints, named_by="torques.name", needs=("torques",))
+    "from the curve of the mechanism, at the angle of the main shaft", joints=lambda curves: curves.joints, named_by="torques.name",
+    needs=("torques",))
 cycle.computed_curve("balance", "T_0", "N*m", "Torque that balances the others", balance, OBJECT, "main_angle", "the negative sum of the others",
-    joints=joints, needs=("torques",), source="statics")
+    joints=lambda curves: curves.joints, needs=("torques",), source="statics")
 cycle.computed_curve("hub", "T_h", "N*m", "Torque through the joint of the part with the shaft", hub, OBJECT, "main_angle",
-    "the torque at its teeth or chain, with that of its own inertia", joints=joints, named_by="hubs.name", needs=("hubs",), source="statics")
+    "the torque at its teeth or chain, with that of its own inertia", joints=lambda curves: curves.joints, named_by="hubs.name",
+    needs=("hubs",), source="statics")
 cycle.computed_curve("force", "F", "N", "Force on the shaft", values("forces"), OBJECT, "main_angle",
-    "from the curve of the mechanism, at the angle of the main shaft", joints=joints, named_by="forces.name", needs=("forces",))
+    "from the curve of the mechanism, at the angle of the main shaft", joints=lambda curves: curves.joints, named_by="forces.name", needs=("forces",))
 cycle.computed_curve("shaft_angle", "θ", "deg", "Angle of the shaft", angle, OBJECT, "main_angle",
-    "from the curve of the mechanism, at the angle of the main shaft", joints=joints, needs=("motion",))
+    "from the curve of the mechanism, at the angle of the main shaft", joints=lambda curves: curves.joints, needs=("motion",))
 
 EXAMPLE = ExampleBlock("shaft_loads", {
     "main_turns": 2,
