@@ -11,6 +11,7 @@ from diecut_report.mechanics import circular_segment, common
 
 # fmt: off
 
+
 class CircularKnife(Inputs):
     """Keys of ``circular_knife``."""
 

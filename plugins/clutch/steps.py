@@ -22,6 +22,7 @@ from diecut_report.api import (
 
 # fmt: off
 
+
 class Cooling(Block):
     """Keys of the block ``cooling``."""
 

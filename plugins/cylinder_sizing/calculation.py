@@ -36,6 +36,7 @@ from diecut_report.mechanics import common
 
 # fmt: off
 
+
 class CylinderSizing(Inputs):
     """Keys of ``cylinder_sizing``."""
 

@@ -37,6 +37,7 @@ from diecut_report.plugins.geneva_transport import formulas
 
 # fmt: off
 
+
 @formula
 def are_alike(one: Any, other: Any) -> Any:
     """Whether two quantities are the same, rounding apart."""

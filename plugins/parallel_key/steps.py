@@ -30,6 +30,7 @@ from diecut_report.mechanics.load_cases import GREATEST, governing_case
 
 # fmt: off
 
+
 class KeyLoadCase(Block):
     """A load case beside the run."""
 

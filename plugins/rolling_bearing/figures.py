@@ -11,11 +11,9 @@ from diecut_report.api import Cell, Chart, ListedColumn, Phrase, Shape, View, ch
 from diecut_report.plugins.rolling_bearing.bearings import Bearings
 
 CHOICE = (
-    ListedColumn("name", "Bearing"), ListedColumn("designation", "Designation"), ListedColumn("taken", "taken"), ListedColumn("bore", "Bore", "d",
-    "mm"),
-    ListedColumn("outside", "Outside diameter", "D", "mm"), ListedColumn("width", "Width", "B", "mm"), ListedColumn("dynamic", "Dynamic load rating",
-                                                                                                                    "C", "kN"),
-    ListedColumn("static", "Static load rating", "C_0", "kN"),
+    ListedColumn("name", "Bearing"), ListedColumn("designation", "Designation"), ListedColumn("taken", "taken"),
+    ListedColumn("bore", "Bore", "d", "mm"), ListedColumn("outside", "Outside diameter", "D", "mm"), ListedColumn("width", "Width", "B", "mm"),
+    ListedColumn("dynamic", "Dynamic load rating", "C", "kN"), ListedColumn("static", "Static load rating", "C_0", "kN"),
 )  # fmt: skip
 
 SHOWN = ("d", "D", "B", "C", "C0")

@@ -13,6 +13,7 @@ from diecut_report.api import Interpolated, Steps, formula, own_table
 
 # fmt: off
 
+
 @formula
 def equivalent_load(radial: Any, axial: Any, x: Any, y: Any, e: Any) -> Any:
     """Return the dynamic equivalent load, not below the radial force."""

@@ -224,12 +224,11 @@ _at_governing(fatigue, "fatigue_position", "x_f", "mm", "Position of the minimum
 _at_governing(fatigue, "endurance_limit", "S_e,f", "MPa", "Endurance limit at the location of the minimum safety factor", "place_endurance")
 
 yielding = Chapter("Yield")
-for name, symbol, unit, description in (("nominal_position", "x_y", "mm", "Location of the maximum nominal stress"),
-                                        ("nominal_diameter", "d_y", "mm", "Diameter at this location"), ("nominal_bore", "d_iy", "mm",
-                                                                                                         "Bore at this location"),
-                                        ("nominal_axial", "N_y", "N", "Axial force at this location"), ("nominal_moment", "M_by", "N*m",
-                                                                                                        "Bending moment at this location"),
-                                        ("nominal_torque", "T_y", "N*m", "Torque at this location")):
+for name, symbol, unit, description in (
+    ("nominal_position", "x_y", "mm", "Location of the maximum nominal stress"), ("nominal_diameter", "d_y", "mm", "Diameter at this location"),
+    ("nominal_bore", "d_iy", "mm", "Bore at this location"), ("nominal_axial", "N_y", "N", "Axial force at this location"),
+    ("nominal_moment", "M_by", "N*m", "Bending moment at this location"), ("nominal_torque", "T_y", "N*m", "Torque at this location"),
+):
     _number(yielding, name, symbol, unit, description, name, "at the location and instant of the maximum stress, of all locations on both sides",
         output=False)
 _number(yielding, "nominal_case", "j", "1", "Load case of the maximum stress, by its place in the list; 0 is the run", "nominal_case",

@@ -33,6 +33,7 @@ from diecut_report.mechanics.timing.shaft_curves import PIECES, PieceRows, Shaft
 
 # fmt: off
 
+
 class LoadCurve(Block):
     """A curve of a mechanism, and how it is taken over."""
 
