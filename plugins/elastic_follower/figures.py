@@ -136,6 +136,10 @@ DRAWINGS = (
 
 
 PERIODS = (phrase("Natural periods within the motion"), "λ", "1")
+RATIO_TITLES = {
+    "peak_ratio": phrase("Ratio of peak acceleration during the motion to the rigid-drive value"),
+    "residual_ratio": phrase("Ratio of peak acceleration after the motion to the rigid-drive value"),
+}
 OWN = 64  # points of the line of this machine's own motion
 OWN_DAMPED = 40  # the same where there is a line for each damping
 
@@ -156,22 +160,14 @@ def laws(view: View) -> list[Shape]:
     """All laws with the machine's damping: peak in the rise, after it, and the greatest acceleration."""
     found = {name: peaks(law, RATIOS, view["damping_ratio"]) for name, law in LAWS.items()}
     ratio, unit = view["tuning_ratio"], view["rise"] / view["rise_duration"] ** 2
-    drawn = {
-        "Ratio of peak acceleration during the motion to the rigid-drive value": (
-            [found[name].rise for name in LAWS],
-            "peak_ratio",
-            "allowable_peak_ratio",
-        ),
-        "Ratio of peak acceleration after the motion to the rigid-drive value": (
-            [found[name].residual for name in LAWS],
-            "residual_ratio",
-            "allowable_residual_ratio",
-        ),
+    ratios = {
+        "peak_ratio": [each.rise for each in found.values()],
+        "residual_ratio": [each.residual for each in found.values()],
     }
     panels = [
-        chart_panel(title, "1", *PERIODS, lines=[*named(values), *_own_line(view, name)], marks=[mark(ratio, view[name], "this machine")],
-                    levels=[level(view[limit], "allowed")])
-        for title, (values, name, limit) in drawn.items()
+        chart_panel(RATIO_TITLES[name], "1", *PERIODS, lines=[*named(values), *_own_line(view, name)],
+                    marks=[mark(ratio, view[name], "this machine")], levels=[level(view[f"allowable_{name}"], "allowed")])
+        for name, values in ratios.items()
     ]  # fmt: skip
     greatest = [np.maximum(*found[name]) * law.A for name, law in LAWS.items()]
     marks = [mark(ratio, view["acceleration_peak"] / unit, "this machine")]
@@ -216,15 +212,11 @@ def own_dampings(view: View) -> list[Shape]:
     """The machine's own motion for five dampings."""
     ratios = own_ratios(view, OWN_DAMPED)
     found = [own(view, ratios, damping_ratio=damping) for damping in DAMPINGS]
-    titles = {
-        "peak_ratio": "Ratio of peak acceleration during the motion to the rigid-drive value",
-        "residual_ratio": "Ratio of peak acceleration after the motion to the rigid-drive value",
-    }
     return [
         chart_panel(title, "1", *PERIODS,
                     lines=[line(ratios, row[name], f"ζ = {damping:g}") for damping, row in zip(DAMPINGS, found, strict=True)],
                     marks=[mark(view["tuning_ratio"], view[name], "this machine")])
-        for name, title in titles.items()
+        for name, title in RATIO_TITLES.items()
     ]  # fmt: skip
 
 
