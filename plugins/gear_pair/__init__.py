@@ -11,7 +11,7 @@ from diecut_report.plugins.gear_pair.mesh import mesh
 from diecut_report.plugins.gear_pair.rating import root_form
 from diecut_report.plugins.gear_pair.sizing import MODULES, module
 
-LEAST_CONTACT, LEAST_CLEARANCE = 1.1, 0.12
+LEAST_CONTACT = 1.1
 
 # fmt: off
 

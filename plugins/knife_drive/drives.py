@@ -106,7 +106,6 @@ CRANK_SLIDER.value("acceleration_difference_share", "δ_W", "1",
 
 
 ARM = "crank_rocker.knife_arm"
-LINKS = ("crank", "coupler", "rocker", "frame")
 OUTER, INNER = ("crank_rocker.lowest_dead_center=outer",), ("crank_rocker.lowest_dead_center=inner",)
 
 

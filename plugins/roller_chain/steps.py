@@ -373,7 +373,7 @@ tension.value("shaft_load", "F_a", "N", "Shaft load from all strands",
     source="statics", **DRIVEN)
 
 
-UNEVENNESS, USUAL_PITCHES = 0.02, (30, 50)
+USUAL_PITCHES = (30, 50)
 RATED = ("power_rating",)
 RATED_TEETH = (11, 45)
 
