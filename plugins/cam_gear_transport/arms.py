@@ -12,7 +12,7 @@ import numpy as np
 from diecut_report.api import Phrase, joined, outward, phrase, si
 from diecut_report.mechanics import cam
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
-from diecut_report.plugins.cam_gear_transport import formulas, loads
+from diecut_report.plugins.cam_gear_transport import formulas
 
 # The search is the method's own: each arm's angle is for its own cam, with one length and the sweeps; advice keeps one proportion.
 FACTORS = np.linspace(1, 0.05, 20)  # of lengths and sweeps that are tried
@@ -101,11 +101,10 @@ def _by_law(rocker: Rocker, law: MotionLaw) -> ArmMotion:
 def pressure_angles(rocker: Rocker, cycle: ArmMotion, length: float, arms: Any) -> Any:
     """Greatest pressure angle of each arm angle; infinite where the arm crosses the line O₁O₃ or its cam undercuts or turns back."""
     direction = arms[:, None] + cycle.angle
-    lowest = loads.lowest_direction(arms, rocker.stop)
-    beside = loads.stays_on_one_side(lowest, loads.highest_direction(lowest, rocker.held + rocker.stop))
-    with np.errstate(
-        divide="ignore", invalid="ignore"
-    ):  # an arm on the line O₁O₃, a roller that stands still: they do not pass
+    lowest = formulas.lowest_direction(arms, rocker.stop)
+    beside = formulas.stays_on_one_side(lowest, formulas.highest_direction(lowest, rocker.held + rocker.stop))
+    # an arm on the line O₁O₃, a roller that stands still: they do not pass
+    with np.errstate(divide="ignore", invalid="ignore"):
         found = cam.pressure_angle(rocker.center_distance, length, direction, cycle.turn).max(axis=1)
         return np.where(beside & _sound(rocker, cycle, length, direction), found, np.inf)
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from diecut_report.api import Chapter, Formula, Steps, as_number, bind
 from diecut_report.mechanics import cam, common, contact
-from diecut_report.plugins.cam_gear_transport import arms, loads
+from diecut_report.plugins.cam_gear_transport import arms, formulas
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, TORQUE
 
 # fmt: off
@@ -19,25 +19,6 @@ OTHER_ARM = (
     "right (180° more), so that one cam pushes the sector one way and the other cam back; take "
     "{arm_angles_best}"
 )
-
-
-def _one_side(number: str) -> Steps:
-    steps = Steps()
-    steps.require(f"arm_{number}_side", bind(loads.stays_on_one_side, lowest=f"arm_{number}_lowest", highest=f"arm_{number}_highest"),
-        key=f"arm_angle_{number}",
-        message=f"is {{arm_angle_{number}}}; the arm would swing from {{arm_{number}_lowest}} to {{arm_{number}_highest}} across {OTHER_ARM}")
-    return steps
-
-
-def _swing(number: str) -> Steps:
-    """Between which directions an arm swings."""
-    steps = Steps()
-    steps.value(f"arm_{number}_lowest", f"ψ_min,{number}", "deg", f"Direction of arm {number} at the start of phase I",
-        bind(loads.lowest_direction, arm_angle=f"arm_angle_{number}"), source="geometry", output=False)
-    steps.value(f"arm_{number}_highest", f"ψ_max,{number}", "deg", f"Direction of arm {number} at the end of phase III",
-        bind(loads.highest_direction, lowest=f"arm_{number}_lowest"), source="geometry", output=False)
-    return steps
-
 
 rocker = Chapter("Rocker on the cams",
     text="The rocker is fixed to the sector; the rollers on its arms run on two fixed cams, each profile lying on the O₁ side of its roller. ψ is "
@@ -53,10 +34,15 @@ rocker.value("least_arm_angle", "χ_min", "deg", "Minimum angle of an arm to the
 rocker.value("greatest_arm_angle", "χ_max", "deg", "Maximum angle of an arm to the left of O₁O₃",
     lambda sector_sweep, sector_stop_sweep: np.pi - sector_sweep + sector_stop_sweep / 2, source="geometry", output=False)
 rocker.words("arm_angles_best", arms.angles_at_the_ends, ("center_distance", "arm_length", "sector_dwell_sweep", "sector_sweep"))
-rocker.add(_swing("1"))
-rocker.add(_swing("2"))
-rocker.add(_one_side("1"))
-rocker.add(_one_side("2"))
+for number in "12":
+    rocker.value(f"arm_{number}_lowest", f"ψ_min,{number}", "deg", f"Direction of arm {number} at the start of phase I",
+        bind(formulas.lowest_direction, arm_angle=f"arm_angle_{number}"), source="geometry", output=False)
+    rocker.value(f"arm_{number}_highest", f"ψ_max,{number}", "deg", f"Direction of arm {number} at the end of phase III",
+        bind(formulas.highest_direction, lowest=f"arm_{number}_lowest"), source="geometry", output=False)
+for number in "12":
+    rocker.require(f"arm_{number}_side", bind(formulas.stays_on_one_side, lowest=f"arm_{number}_lowest", highest=f"arm_{number}_highest"),
+        key=f"arm_angle_{number}",
+        message=f"is {{arm_angle_{number}}}; the arm would swing from {{arm_{number}_lowest}} to {{arm_{number}_highest}} across {OTHER_ARM}")
 rocker.require("arms_on_both_sides", lambda arm_1_lowest, arm_1_highest, arm_2_lowest, arm_2_highest:
         (np.sin(arm_1_lowest) * np.sin(arm_2_lowest) < 0) | (np.sin(arm_1_highest) * np.sin(arm_2_highest) < 0), key="arm_angle_2",
     message=f"is {{arm_angle_2}}, which puts both arms (the other at {{arm_angle_1}}) on one side of {OTHER_ARM}")
@@ -77,16 +63,14 @@ def _path(number: str) -> dict[str, str]:
     }
 
 
-def _profile(number: str) -> Steps:
+def _profile(chapter: Steps, number: str) -> None:
     """Curves of a cam."""
-
-    steps = Steps()
 
     def curve(name: str, symbol: str, unit: str, description: str, formula: Formula, *, output: bool = True) -> None:
         takes = {p: q for p, q in _path(number).items() if p in formula.parameters}
-        steps.value(f"cam_{number}_{name}", symbol, unit, f"{description}, cam {number}", bind(formula, **takes), output=output, source="geometry")
+        chapter.value(f"cam_{number}_{name}", symbol, unit, f"{description}, cam {number}", bind(formula, **takes), output=output, source="geometry")
 
-    steps.value(f"arm_{number}_direction", f"ψ_{number}", "deg", f"Direction of arm {number}",
+    chapter.value(f"arm_{number}_direction", f"ψ_{number}", "deg", f"Direction of arm {number}",
         bind(common.sum_of, first=f"arm_angle_{number}", second="sector_angle"), output=False, source="geometry")
     curve("pitch_x", f"x_p{number}", "mm", "Pitch curve x", cam.pitch_x)
     curve("pitch_y", f"y_p{number}", "mm", "Pitch curve y", cam.pitch_y)
@@ -97,31 +81,28 @@ def _profile(number: str) -> Steps:
     curve("swing_part", f"c_{number}", "1", "Component of the curvature due to the arm's swing", cam.swing_part, output=False)
     curve("curvature", f"κ_{number}", "1/m", "Curvature of the pitch curve", cam.curvature)
     curve("tangent_distance", f"q_{number}", "mm", "Distance of O₁ from the pitch curve's tangent", cam.tangent_distance, output=False)
-    return steps
 
 
-def _extremes(number: str) -> Steps:
+def _extremes(chapter: Steps, number: str) -> None:
     """What a cam is judged by."""
-    steps = Steps()
-    steps.reduction(f"cam_{number}_pressure_angle_max", f"δ_max,{number}", "deg", f"Maximum pressure angle of cam {number}", "max",
+    chapter.reduction(f"cam_{number}_pressure_angle_max", f"δ_max,{number}", "deg", f"Maximum pressure angle of cam {number}", "max",
         of=f"cam_{number}_pressure_angle", source="this method")
-    steps.reduction(f"cam_{number}_curvature_greatest", f"κ_max,{number}", "1/m", f"Maximum curvature of pitch curve {number}, convex", "max",
+    chapter.reduction(f"cam_{number}_curvature_greatest", f"κ_max,{number}", "1/m", f"Maximum curvature of pitch curve {number}, convex", "max",
         of=f"cam_{number}_curvature", source="geometry", output=False)
-    steps.reduction(f"cam_{number}_curvature_least", f"κ_min,{number}", "1/m",
+    chapter.reduction(f"cam_{number}_curvature_least", f"κ_min,{number}", "1/m",
         f"Minimum curvature of pitch curve {number}, negative where it is concave", "min", of=f"cam_{number}_curvature", source="geometry",
         output=False)
-    steps.reduction(f"cam_{number}_tangent_min", f"q_min,{number}", "mm", f"Minimum distance of O₁ from the tangents of pitch curve {number}", "min",
-        of=f"cam_{number}_tangent_distance", source="geometry", output=False)
-    steps.value(f"cam_{number}_curvature_min", f"ρ_min,{number}", "mm", f"Minimum radius of curvature of pitch curve {number} where it is convex",
+    chapter.reduction(f"cam_{number}_tangent_min", f"q_min,{number}", "mm", f"Minimum distance of O₁ from the tangents of pitch curve {number}",
+        "min", of=f"cam_{number}_tangent_distance", source="geometry", output=False)
+    chapter.value(f"cam_{number}_curvature_min", f"ρ_min,{number}", "mm", f"Minimum radius of curvature of pitch curve {number} where it is convex",
         bind(cam.least_radius, greatest_curvature=f"cam_{number}_curvature_greatest"), source="geometry")
-    steps.value(f"cam_{number}_profile_radius_min", f"ρ_c,{number}", "mm",
+    chapter.value(f"cam_{number}_profile_radius_min", f"ρ_c,{number}", "mm",
         f"Minimum radius of profile {number} where it is convex; negative: undercut",
         bind(cam.profile_radius, pitch_radius=f"cam_{number}_curvature_min"), source="geometry")
-    steps.value(f"cam_{number}_hollow_radius_min", f"ρ_h,{number}", "mm",
+    chapter.value(f"cam_{number}_hollow_radius_min", f"ρ_h,{number}", "mm",
         f"Minimum radius of profile {number} where it is concave: upper limit for the grinding wheel",
         bind(cam.hollow_radius, least_curvature=f"cam_{number}_curvature_least"), source="geometry",
         exists=bind(cam.is_hollow, least_curvature=f"cam_{number}_curvature_least"))
-    return steps
 
 
 def _cam(number: str) -> Chapter:
@@ -130,8 +111,8 @@ def _cam(number: str) -> Chapter:
             "positive where the pitch curve is convex, its centre of curvature being on the O₁ side: there the profile's radius is ρ − r, and where "
             "ρ < r the profile is undercut. Where the pitch curve is concave the profile's radius is |ρ| + r, whatever the roller.", needs=CAMS,
         absent=NO_CAMS)
-    chapter.add(_profile(number))
-    chapter.add(_extremes(number))
+    _profile(chapter, number)
+    _extremes(chapter, number)
     return chapter
 
 
@@ -148,28 +129,26 @@ both.words("arms_that_fit", arms.arms_that_fit, arms.TAKES, lacks=("module",))
 both.words("arms_that_fit", arms.arms_that_fit, (*arms.TAKES, "module"), needs=("module",))
 
 
-def _loaded(number: str) -> Steps:
+def _loaded(chapter: Steps, number: str) -> None:
     """Force and pressure of a roller."""
-    steps = Steps()
-    steps.value(f"carried_moment_{number}", f"M_c{number}", "N*m", f"Moment of cam {number} about O₃",
-        bind(loads.carried_moment, arm_direction=f"arm_{number}_direction"), source="statics", output=False)
-    steps.value(f"roller_force_{number}", f"F_{number}", "N", f"Force of cam {number} on its roller",
+    chapter.value(f"carried_moment_{number}", f"M_c{number}", "N*m", f"Moment of cam {number} about O₃",
+        bind(formulas.carried_moment, arm_direction=f"arm_{number}_direction"), source="statics", output=False)
+    chapter.value(f"roller_force_{number}", f"F_{number}", "N", f"Force of cam {number} on its roller",
         bind(lambda carried_moment, arm_length, pressure_angle: carried_moment / (arm_length * np.cos(pressure_angle)),
             carried_moment=f"carried_moment_{number}", pressure_angle=f"cam_{number}_pressure_angle"), source="statics")
-    steps.value(f"effective_radius_{number}", f"R_e{number}", "mm", f"Effective radius of roller and profile {number}",
+    chapter.value(f"effective_radius_{number}", f"R_e{number}", "mm", f"Effective radius of roller and profile {number}",
         bind(cam.effective_radius, curvature=f"cam_{number}_curvature"), source="Hertz", output=False, needs=("roller_width",))
-    steps.value(f"bearing_radius_{number}", f"R_b{number}", "mm",
+    chapter.value(f"bearing_radius_{number}", f"R_b{number}", "mm",
         f"Effective radius, at least a thousandth of the roller's radius (profile {number})",
         bind(lambda effective_radius, roller_radius: np.maximum(effective_radius, roller_radius / 1000),
             effective_radius=f"effective_radius_{number}"), source="Hertz", output=False, needs=("roller_width",))
-    steps.value(f"contact_pressure_{number}", f"p_H{number}", "MPa", f"Contact pressure of roller and cam {number}",
+    chapter.value(f"contact_pressure_{number}", f"p_H{number}", "MPa", f"Contact pressure of roller and cam {number}",
         bind(contact.contact_pressure, force=f"roller_force_{number}", effective_radius=f"bearing_radius_{number}", length="roller_width"),
         source="Hertz", needs=("roller_width",))
-    steps.reduction(f"cam_{number}_roller_force_peak", f"F_max,{number}", "N", f"Maximum force on roller {number}", "max",
+    chapter.reduction(f"cam_{number}_roller_force_peak", f"F_max,{number}", "N", f"Maximum force on roller {number}", "max",
         of=f"roller_force_{number}", source="statics")
-    steps.reduction(f"cam_{number}_contact_pressure_max", f"p_H{number},max", "MPa", f"Maximum contact pressure of roller and cam {number}", "max",
+    chapter.reduction(f"cam_{number}_contact_pressure_max", f"p_H{number},max", "MPa", f"Maximum contact pressure of roller and cam {number}", "max",
         of=f"contact_pressure_{number}", needs=("roller_width",), source="Hertz")
-    return steps
 
 
 forces = Chapter("Forces on the rollers",
@@ -177,11 +156,14 @@ forces = Chapter("Forces on the rollers",
         "so the cam of the left arm turns the sector clockwise and that of the right arm counter-clockwise. The force acts normal to the profile, "
         "at the pressure angle from the roller's direction of motion. A preload of the rollers is not included.", needs=(*CAMS, *TORQUE),
     absent="not calculated: {missing} not given")
-forces.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", loads.rocker_moment, source="statics", output=False)
+forces.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃",
+    lambda sector_inertia, sector_acceleration, tooth_force, sector_radius:
+        sector_inertia * sector_acceleration - tooth_force * sector_radius,
+    source="statics", output=False)
 forces.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz",
     needs=("roller_width",))
-forces.add(_loaded("1"))
-forces.add(_loaded("2"))
+_loaded(forces, "1")
+_loaded(forces, "2")
 forces.value("roller_force_peak", "F_max", "N", "Maximum force on a roller",
     lambda cam_1_roller_force_peak, cam_2_roller_force_peak: np.maximum(cam_1_roller_force_peak, cam_2_roller_force_peak), source="statics")
 forces.value("contact_pressure", "p_H,max", "MPa", "Maximum contact pressure of a roller",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
+from math import cos, pi, sin
+
 import numpy as np
 
 from diecut_report.api import (
@@ -12,22 +15,145 @@ from diecut_report.api import (
     Panel,
     Phrase,
     Plot,
+    Point,
     Series,
     Shape,
     Span,
     View,
+    arc,
     chart_panel,
+    circle,
+    dimension,
+    label,
     line,
     mark,
     phrase,
+    point,
+    polyline,
+    radius_dimension,
+    rigid,
     vertical,
     worded,
 )
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.cam_gear_transport import formulas
 from diecut_report.plugins.cam_gear_transport.cams import LOADED
-from diecut_report.plugins.cam_gear_transport.drawing import cam_1, cam_1_at, cam_2, cam_2_at, rolling, rolling_at
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, SHEET, TORQUE
+
+MOST_POINTS = 720  # of a drawn curve
+MOST_MOVING = 180  # of one beside which a drawing moves on a screen
+
+
+def polar(center: Point, radius: float, angle: float) -> Point:
+    """A point at a distance and direction from another one."""
+    return center[0] + radius * cos(angle), center[1] + radius * sin(angle)
+
+
+def _sector(view: View, disc_angle: float, role: str) -> list[Shape]:
+    """The sector at a disc angle: its pin, and the arc that meshes with the gear over the whole cycle."""
+    pin = polar((0.0, 0.0), view["center_distance"], disc_angle)
+    turned = disc_angle + view.at("sector_angle", disc_angle)
+    sector = polyline([(0.0, 0.0), *view.once(_rim)], role, closed=True)
+    return [rigid([sector], pin, turned), point(pin, "pivot" if role == "body" else "joint")]
+
+
+def _rim(view: View) -> list[Point]:
+    """The sector's teeth about its pin, from where they mesh at the start of phase I to the end of phase III."""
+    half_stop = view["sector_stop_sweep"] / 2
+    start, end = pi - view["sector_dwell_sweep"] - half_stop, pi + half_stop
+    return [polar((0.0, 0.0), view["sector_radius"], angle) for angle in np.linspace(start, end, 61)]
+
+
+def rolling_at(view: View, disc_angle: float) -> list[Shape]:
+    """Gear, disc and sector at a disc angle."""
+    gear, pin = view["gear_radius"], polar((0.0, 0.0), view["center_distance"], disc_angle)
+    wheel = [circle((0.0, 0.0), gear), polyline([(0.0, 0.0), (gear, 0.0)])]
+    return [
+        circle((0.0, 0.0), view["center_distance"], "centerline"),
+        *_sector(view, disc_angle, "body"),
+        rigid(wheel, (0.0, 0.0), view.at("gear_angle", disc_angle)),
+        polyline([(0.0, 0.0), pin], "link"),
+        point((0.0, 0.0), "pivot"),
+    ]
+
+
+def rolling(view: View) -> list[Shape]:
+    """Gear and sector at the start of the dwell (dark) and at its end (light)."""
+    distance, gear, dwell = view["center_distance"], view["gear_radius"], view["dwell_angle"]
+    end = polar((0.0, 0.0), distance, dwell)
+    return [
+        polyline([(0.0, 0.0), end], "centerline"),
+        polyline([(0.0, 0.0), (distance, 0.0)], "centerline"),
+        circle((0.0, 0.0), distance, "centerline"),
+        *_sector(view, dwell * (1 - 1e-12), "ghost"),
+        *_sector(view, 0.0, "body"),
+        circle((0.0, 0.0), gear, "outline"),
+        arc((0.0, 0.0), gear, 0.0, dwell, "link"),
+        arc((0.0, 0.0), 0.5 * gear, 0.0, dwell, "mark"),
+        label(polar((0.0, 0.0), 0.5 * gear, dwell / 2), view.text("dwell_angle")),
+        point((0.0, 0.0), "pivot", "O₁"),
+        label((distance, 0.0), "O₃", "right"),
+        point((gear, 0.0), "mark", "A₁"),
+        point(polar((0.0, 0.0), gear, dwell), "mark", "A₂"),
+        radius_dimension((0.0, 0.0), gear, -0.3 * pi, view.text("gear_radius")),
+        radius_dimension((0.0, 0.0), distance, -0.45 * pi, view.text("center_distance")),
+        dimension((distance, 0.0), (gear, 0.0), 0.75 * gear, view.text("sector_radius")),
+    ]
+
+
+def _curve(view: View, name: str, most: int = MOST_POINTS) -> list[Point]:
+    x, y = view.curve(f"{name}x"), view.curve(f"{name}y")
+    step = -(-len(x) // most)
+    return list(zip(x[::step], y[::step], strict=True))
+
+
+def _profile(view: View, number: str, most: int = MOST_POINTS) -> list[Shape]:
+    """A cam with the path of its roller's centre and that of the pin."""
+    return [
+        circle((0.0, 0.0), view["center_distance"], "centerline"),
+        polyline(_curve(view, f"cam_{number}_pitch_", most), "hidden", closed=True),
+        polyline(_curve(view, f"cam_{number}_", most), "body", closed=True),
+    ]
+
+
+PROFILES = {number: partial(_profile, number=number, most=MOST_MOVING) for number in "12"}
+
+
+def _arm(view: View, number: str, disc_angle: float) -> tuple[Point, Point]:
+    """The pin O₃ and the roller's centre at a disc angle."""
+    pin = polar((0.0, 0.0), view["center_distance"], disc_angle)
+    return pin, polar(pin, view["arm_length"], disc_angle + view.at(f"arm_{number}_direction", disc_angle))
+
+
+def one_cam(view: View, number: str) -> list[Shape]:
+    """One cam with arm and roller in the middle of the dwell, and at the start of the return."""
+    center = (0.0, 0.0)
+    distance = view["center_distance"]
+    shapes = _profile(view, number)
+    for place, arm, wheel in ((view["angle_stop"], "ghost", "ghost"), (view["dwell_angle"] / 2, "link", "mark")):
+        pin, roller = _arm(view, number, place)
+        shapes += [polyline([pin, roller], arm), circle(roller, view["roller_radius"], wheel), point(pin, "joint")]
+    return [
+        *shapes,
+        label(pin, "O₃", "right"),
+        point(center, "pivot", "O₁"),
+        radius_dimension(center, distance, -0.2 * pi, view.text("center_distance")),
+        dimension(pin, roller, 0.12 * distance, view.text("arm_length")),
+    ]
+
+
+def _cam_at(view: View, disc_angle: float, number: str) -> list[Shape]:
+    """One cam with disc, arm and roller at a disc angle."""
+    pin, roller = _arm(view, number, disc_angle)
+    return [
+        *view.once(PROFILES[number]),
+        polyline([(0.0, 0.0), pin], "outline"),
+        polyline([pin, roller], "link"),
+        circle(roller, view["roller_radius"], "mark"),
+        point((0.0, 0.0), "pivot"),
+        point(pin, "joint"),
+    ]
+
 
 BETWEEN = "Between the shaded phases II (dwell) and IV (return) the sector stops in phase III; after IV it starts again in phase I."
 SHADED = "Shaded: dwell (phase II) and return (phase IV)."
@@ -133,11 +259,12 @@ FIGURES = (
     Plot(id="torque", title="Torque", abscissa="disc_angle", needs=TORQUE,
          caption="Torque at the shafts of disc and gear, without losses; negative where the conveyor drives back. " + SHADED,
          panels=(_panel("Torque", "N*m", ("drive_torque", "disc"), ("gear_torque", "gear"), named=True),)),
-    *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=build, moving=moving, over="disc_angle", needs=CAMS,
+    *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=partial(one_cam, number=number),
+              moving=partial(_cam_at, number=number), over="disc_angle", needs=CAMS,
               caption=f"Cam {number} to scale, with the path of its roller's centre (dashed) and that of the pin O₃ (dash-dotted); arm and roller in "
               "the middle of the dwell, light: where the sector stops. The cam stands still, the disc turns counter-clockwise; its angle counts "
               "from the right.")
-      for number, build, moving in (("1", cam_1, cam_1_at), ("2", cam_2, cam_2_at))),
+      for number in "12"),
     Plot(id="cam_angles", title="Pressure angle and curvature of the cams", abscissa="disc_angle", needs=CAMS,
          caption="Pressure angle, and curvature of the pitch curves: positive where convex, negative where concave. " + SHADED,
          panels=(_panel("Pressure angle", "deg", ("cam_1_pressure_angle", "cam 1"), ("cam_2_pressure_angle", "cam 2"),

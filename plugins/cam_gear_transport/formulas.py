@@ -1,4 +1,4 @@
-"""Formulas of the cam-gear stepper: rolling, teeth, times, motion of sector, gear and sheet."""
+"""Formulas of the cam-gear stepper, and of the loads on it."""
 
 from __future__ import annotations
 
@@ -40,18 +40,6 @@ def radius_ratio(sweep: Any, dwell_angle: Any) -> Any:
 
 
 @formula
-def gear_radius(center_distance: Any, radius_ratio: Any) -> Any:
-    """Pitch radius of the gear."""
-    return center_distance * radius_ratio
-
-
-@formula
-def sector_radius(center_distance: Any, gear_radius: Any) -> Any:
-    """Pitch radius of the sector."""
-    return center_distance - gear_radius
-
-
-@formula
 def share_of_turn(angle: Any) -> Any:
     """Share of a turn."""
     return angle / (2 * np.pi)
@@ -88,21 +76,9 @@ def return_peak(peak_velocity: Any, sector_sweep: Any, time_return: Any) -> Any:
 
 
 @formula
-def stopping_share(disc_angle: Any, dwell_angle: Any, time_stop: Any) -> Any:
-    """Share of the rise in phase III, its second half."""
-    return 1 / 2 + (disc_angle - dwell_angle) / (2 * np.pi * time_stop)
-
-
-@formula
 def starting_angle(sector_stop_sweep: Any, law_position: Any) -> Any:
     """Sector angle in phase I."""
     return sector_stop_sweep * (law_position - 1 / 2)
-
-
-@formula
-def stopping_angle(sector_dwell_sweep: Any, sector_stop_sweep: Any, law_position: Any) -> Any:
-    """Sector angle in phase III."""
-    return sector_dwell_sweep + starting_angle(sector_stop_sweep, law_position)
 
 
 @formula
@@ -118,21 +94,9 @@ def rise_speed(sweep: Any, time: Any, law_velocity: Any) -> Any:
 
 
 @formula
-def fall_speed(sweep: Any, time: Any, law_velocity: Any) -> Any:
-    """Speed of a return by the law."""
-    return -sweep / time * law_velocity
-
-
-@formula
 def rise_acceleration(sweep: Any, time: Any, law_acceleration: Any, cycles_per_hour: Any) -> Any:
     """Acceleration of a rise by the law."""
     return sweep * (cycles_per_hour / time) ** 2 * law_acceleration
-
-
-@formula
-def fall_acceleration(sweep: Any, time: Any, law_acceleration: Any, cycles_per_hour: Any) -> Any:
-    """Acceleration of a return by the law."""
-    return -sweep * (cycles_per_hour / time) ** 2 * law_acceleration
 
 
 @formula
@@ -148,6 +112,25 @@ def gear_acceleration(sector_acceleration: Any, sector_radius: Any, gear_radius:
 
 
 @formula
-def sheet_step(sprocket_teeth: Any, chain_pitch: Any, sprocket_ratio: Any) -> Any:
-    """Step of the conveyor in a cycle."""
-    return sprocket_teeth * chain_pitch * sprocket_ratio
+def carried_moment(rocker_moment: Any, arm_direction: Any) -> Any:
+    """Part of the moment that this roller's cam gives: it can only push the roller outwards."""
+    asked = -np.sign(np.sin(arm_direction)) * rocker_moment
+    return (asked + abs(asked)) / 2
+
+
+@formula
+def lowest_direction(arm_angle: Any, sector_stop_sweep: Any) -> Any:
+    """Direction of an arm at the start of phase I."""
+    return arm_angle - sector_stop_sweep / 2
+
+
+@formula
+def highest_direction(lowest: Any, sector_sweep: Any) -> Any:
+    """Direction of an arm at the end of phase III."""
+    return lowest + sector_sweep
+
+
+@formula
+def stays_on_one_side(lowest: Any, highest: Any) -> Any:
+    """Whether an arm stays on one side of the line O₁O₃ (its sweep is below half a turn)."""
+    return np.sin(lowest) * np.sin(highest) > 1e-12  # on the line itself the cams could not move the arm

@@ -8,10 +8,8 @@ from diecut_report.mechanics.motion_laws import LAWS
 # fmt: off
 
 TURNS = ("0.01 deg", "3600 deg")
-DWELL = (
-    "1 deg",
-    "360 deg",
-)  # of less the return would be nearly a turn, within which curves are too narrow to be proved
+# of less the return would be nearly a turn, within which curves are too narrow to be proved
+DWELL = ("1 deg", "360 deg")
 
 
 def _arm_angle(number: str) -> Quantity:

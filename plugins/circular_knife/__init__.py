@@ -2,12 +2,63 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Mechanism, Source
-from diecut_report.plugins.circular_knife import cutting, geometry
-from diecut_report.plugins.circular_knife.checks import CHECKS
-from diecut_report.plugins.circular_knife.example import EXAMPLE
+from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary
+from diecut_report.plugins.circular_knife import steps
 from diecut_report.plugins.circular_knife.figures import FIGURES
-from diecut_report.plugins.circular_knife.inputs import CircularKnife
+from diecut_report.plugins.circular_knife.steps import CircularKnife
+
+PLACE = ("front_distance", Vary("cut_length", "down"), "eccentricity", "depth")
+
+CHECKS = (
+    Check(id="reach", check_class="function", title="Edge reaches the end of the cut", demand="cut_end", limit="reach_greatest", unit="mm",
+        operator="<", demand_label="end of the cut from the axis", limit_label="maximum reach of the edge", source="geometry",
+        consequence="the edge does not get to the end of the cut.", advise=PLACE),
+    Check(id="shear_angle", check_class="practice", title="Shear angle between 2° and 20°", demand="shear_demand", limit="shear_limit", unit="deg",
+        demand_label="maximum shear angle (or required minimum)", limit_label="allowed (or actual minimum)", source="practice",
+        consequence="beyond 20° the travel is long and the board is pushed forward; below 2° the edge cuts nearly like a guillotine, with a high "
+            "force.", advise=PLACE),
+    Check(id="expulsion", check_class="function", title="Board is not pushed out", demand="shear_angle_max", limit="expulsion_angle", unit="deg",
+        operator="<", demand_label="maximum shear angle", limit_label="twice the angle of friction", source="statics",
+        consequence="edge and counter-knife push the board forward instead of cutting it, unless it is clamped.",
+        advise=(*PLACE, Vary("friction", "up"))),
+    Check(id="monotonic", check_class="function", title="Edge never reverses in the board", demand="used_sweep", limit="usable_sweep", unit="deg",
+        demand_label="rotation up to the end of the cut", limit_label="rotation without reversal", source="geometry",
+        consequence="before the cut ends, the edge runs back in the upper part of the board.", advise=PLACE),
+    Check(id="entry", check_class="function", title="Edge meets the board from the front", demand="depth_least", limit="corner_distance", unit="mm",
+        operator="<", demand_label="minimum distance of the edge from the axis, R − r", limit_label="board's upper front edge from the axis",
+        source="geometry",
+        consequence="over the whole turn this front edge is inside the edge's circle, so that the blade's end comes down on the board from above.",
+        advise=("front_distance", "eccentricity", "depth")),
+    Check(id="shear_resistance", check_class="practice", presumed=True, title="Shear resistance compared with the force of a rule",
+        demand="rule_force", limit="guillotine_line_force", unit="N/mm", severity="warn", needs=("rule_force",),
+        demand_label="required by a straight rule", limit_label="by the shear resistance", source="practice",
+        consequence="force, torque and work are then calculated too small.", advise=(Vary("shear_resistance", "up"),)),
+    Check(id="force", check_class="strength", title="Cutting force", demand="force_max", limit="allowable_force", unit="N",
+        demand_label="maximum downward force", limit_label="allowed", source="input",
+        consequence="knife or counter-knife bends; a thinner board takes less force.", advise=(Vary("front_distance", "up"), "eccentricity")),
+    Check(id="torque", check_class="strength", title="Torque at the knife's shaft", demand="torque_max", limit="allowable_torque", unit="N*m",
+        demand_label="maximum torque", limit_label="allowed", source="input",
+        consequence="the knife's shaft and its drive are overloaded; less friction lowers it.", advise=(Vary("eccentricity", "down"),)),
+)  # fmt: skip
+
+
+EXAMPLE = ExampleBlock(
+    "circular_knife",
+    {
+        "eccentricity": "20 mm",
+        "edge_radius": "100 mm",
+        "depth": "112 mm",
+        "front_distance": "26 mm",
+        "thickness": "${press.sheet.thickness}",
+        "cut_length": "15 mm",
+        "sharpening_angle": "20 deg",
+        "speed": "1 revolution * ${press.productivity}",  # one cut a turn
+        "shear_resistance": "42 N/mm**2",
+        "rule_force": "21 N/mm",
+    },
+    press={"productivity": "3600 1/h", "sheet.thickness": "0.5 mm"},
+)
+
 
 MECHANISM = Mechanism(
     kind="circular_knife",
@@ -19,7 +70,7 @@ MECHANISM = Mechanism(
             "source survives, and it gives the geometry alone.",
     inputs=CircularKnife,
     example=EXAMPLE,
-    chapters=(geometry.reach, geometry.shear_range, geometry.edge, cutting.motion, cutting.forces, cutting.guillotine),
+    chapters=(steps.reach, steps.shear_range, steps.edge, steps.motion, steps.forces, steps.guillotine),
     key_results=("angle_start", "angle_end", "cut_time", "shear_angle_min", "shear_angle_max", "cut_speed_max", "sliding_ratio_max",
                  "effective_sharpening_angle_min", "force_max", "torque_max", "work", "guillotine_force_ratio"),
     checks=CHECKS,

@@ -2,12 +2,176 @@
 
 from __future__ import annotations
 
+from math import cos, pi, sin
 from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, line, mark, phrase, vertical
-from diecut_report.plugins.circular_knife.drawing import front, positions, turning
+from diecut_report.api import (
+    Chart,
+    Drawing,
+    Phrase,
+    Point,
+    Shape,
+    View,
+    chart_panel,
+    circle,
+    dimension,
+    label,
+    level,
+    line,
+    mark,
+    phrase,
+    point,
+    polyline,
+    radius_dimension,
+    region,
+    rigid,
+    si,
+    told,
+    vertical,
+)
+from diecut_report.plugins.circular_knife import steps
+
+MARGIN = si(6, "deg")  # by which the drawn edge is longer than what cuts
+
+
+def center_at(view: View, angle: float) -> Point:
+    """The edge's centre at a knife angle."""
+    return view["eccentricity"] * cos(angle), -view["eccentricity"] * sin(angle)
+
+
+def crossing(view: View, angle: float, depth: float) -> Point:
+    """Where the edge crosses a depth."""
+    return float(steps.edge_position(angle, depth, view["eccentricity"], view["edge_radius"])), -depth
+
+
+def edge_arc(view: View, angle: float, first: float, last: float, points: int = 81) -> list[Point]:
+    """The edge between two directions, as seen from its centre (clockwise from the direction of the cut)."""
+    (x, y), radius = center_at(view, angle), view["edge_radius"]
+    return [(x + radius * cos(a), y - radius * sin(a)) for a in np.linspace(first, last, points)]
+
+
+def drawn_edge(view: View, angle: float) -> tuple[float, float]:
+    """Directions between which the edge is drawn at a knife angle."""
+    return angle + view["edge_angle_last"] - MARGIN, angle + view["edge_angle_first"] + MARGIN
+
+
+def _moved(points: list[Point], offset: float) -> list[Point]:
+    return [(x + offset, y) for x, y in points]
+
+
+def _knife(view: View, angle: float, offset: float) -> list[Shape]:
+    """The blade from its shaft to the edge, hub, centre of the edge and the circle on which it runs."""
+    arc = edge_arc(view, angle, *drawn_edge(view, angle))
+    axis, center = (offset, 0.0), _moved([center_at(view, angle)], offset)[0]
+    return [
+        polyline([axis, *_moved(arc, offset)], "body", closed=True),
+        circle(axis, view["eccentricity"], "ghost"),
+        polyline([axis, center], "link"),
+        point(axis, "pivot"),
+        point(center, "joint", "O₁"),
+    ]
+
+
+def _blade(view: View) -> list[Shape]:
+    """The knife at the angle zero, from its shaft to the edge, with the edge's centre."""
+    center = center_at(view, 0.0)
+    arc = edge_arc(view, 0.0, *drawn_edge(view, 0.0))
+    return [
+        polyline([(0.0, 0.0), *arc], "body", closed=True),
+        polyline([(0.0, 0.0), center], "link"),
+        point(center, "joint"),
+    ]
+
+
+def _still(view: View) -> list[Shape]:
+    """What stands: board and counter-knife, and the circle on which the edge's centre runs."""
+    board, counter = _board(view, 0.0)
+    return [polyline(counter["outer"], "body", closed=True), board, circle((0.0, 0.0), view["eccentricity"], "ghost")]
+
+
+def turning(view: View, angle: float) -> list[Shape]:
+    """The knife at an angle, which turns clockwise, over board and counter-knife; outside the cut the cutting point waits at its start."""
+    return [
+        rigid(view.once(_blade), (0.0, 0.0), -angle),
+        *view.once(_still),
+        point((0.0, 0.0), "pivot"),
+        point((view.at("cut_position", angle), -view["depth"]), "mark"),
+    ]
+
+
+def _board(view: View, offset: float) -> list[Shape]:
+    """The board, thin on this scale, and the counter-knife below it."""
+    front, end, depth, thickness = (view[name] for name in ("front_distance", "cut_end", "depth", "thickness"))
+    right, deep = end + 0.4 * view["cut_length"], 0.12 * view["edge_radius"]
+    return [
+        polyline(_moved([(front, -depth), (right, -depth), (right, thickness - depth), (front, thickness - depth)], offset),
+                 "link", closed=True),
+        region(_moved([(front, -depth), (right, -depth), (right, -depth - deep), (front, -depth - deep)], offset)),
+    ]  # fmt: skip
+
+
+def _position(view: View, place: Phrase, angle: float, offset: float) -> list[Shape]:
+    """Knife, board and counter-knife at a knife angle, with the cutting point."""
+    above = 1.6 * view["eccentricity"] + 0.12 * view["edge_radius"]
+    return [
+        *_board(view, offset),
+        *_knife(view, angle, offset),
+        point(_moved([crossing(view, angle, view["depth"])], offset)[0], "mark"),
+        label(
+            (offset + 0.3 * view["edge_radius"], above),
+            Phrase("{place}: φ = {angle}", place=place, angle=told(angle, "deg")),
+            "center",
+        ),
+    ]
+
+
+def positions(view: View) -> list[Shape]:
+    """Start, middle and end of the cut, side by side."""
+    start, middle, end = (view[name] for name in ("angle_start", "middle_angle", "angle_end"))
+    depth, front, radius = view["depth"], view["front_distance"], view["edge_radius"]
+    reached = [
+        x for angle in (start, middle, end) for x, _ in edge_arc(view, angle, *drawn_edge(view, angle), points=9)
+    ]
+    widest = max(*reached, view["cut_end"] + 0.4 * view["cut_length"], view["eccentricity"])
+    apart = widest - min(*reached, -view["eccentricity"]) + 0.6 * view["eccentricity"]
+    below = 0.12 * radius
+    return [
+        *_position(view, phrase("start"), start, 0.0),
+        *_position(view, phrase("middle"), middle, apart),
+        *_position(view, phrase("end"), end, 2 * apart),
+        dimension((0.0, 0.0), (0.0, -depth), -1.5 * view["eccentricity"], view.text("depth")),
+        dimension((0.0, -depth - below), (front, -depth - below), -0.12 * radius, view.text("front_distance")),
+        radius_dimension((apart + center_at(view, middle)[0], center_at(view, middle)[1]), radius,
+                         -(middle + (view["edge_angle_first"] + view["edge_angle_last"]) / 2), view.text("edge_radius")),
+        dimension((2 * apart + front, -depth - below), (2 * apart + view["cut_end"], -depth - below), -0.12 * radius, view.text("cut_length")),
+    ]  # fmt: skip
+
+
+def front(view: View) -> list[Shape]:
+    """The working front in the middle of the cut, enlarged: board, edge and counter-knife."""
+    angle, depth, face = view["middle_angle"], view["depth"], view["face_depth"]
+    point_below, point_above = crossing(view, angle, depth), crossing(view, angle, face)
+    sizes = view["eccentricity"], view["edge_radius"]
+    slopes = [float(steps.edge_slope(angle, level, *sizes)) for level in (depth, face)]
+    length, thickness = point_above[0] - point_below[0], view["thickness"]
+    left, right, deep = point_below[0] - length, point_above[0] + length, 0.8 * thickness
+    working = edge_arc(view, angle, pi / 2 - slopes[0], pi / 2 - slopes[1])
+    beyond = (slopes[1] - slopes[0]) / 2
+    edge = edge_arc(view, angle, pi / 2 - slopes[0] + beyond, pi / 2 - slopes[1] - beyond)
+    return [
+        region([*working, (right, -face), (right, -depth)]),
+        polyline([(left, -face), point_above], "hidden"),
+        region([(left, -depth), (right, -depth), (right, -depth - deep), (left, -depth - deep)]),
+        polyline(edge, "link"),
+        point(point_below, "mark", f"τ = {told(slopes[0], 'deg')}"),
+        dimension((right, -depth), (right, -face), -0.25 * length, view.text("thickness")),
+        dimension((point_below[0], -face), point_above, 0.35 * thickness, f"a = {told(length, 'mm')}"),
+        label((left + 0.1 * length, -depth - deep / 2), "counter-knife"),
+        label((point_above[0] + 0.5 * length, -depth + thickness / 2), "board", "center"),
+    ]
+
 
 ANGLE = (phrase("knife angle"), "φ", "deg")
 INSIDE = 1e-9  # share of the cut by which the curves' ends are taken inside it

@@ -30,7 +30,7 @@ from diecut_report.api import (
 from diecut_report.mechanics.timing.intervals import Intervals, slack
 from diecut_report.mechanics.timing.productivity import tents_of
 from diecut_report.plugins.cyclogram.timing import Timing
-from diecut_report.plugins.cyclogram.torques import Motions, Torques
+from diecut_report.plugins.cyclogram.torques import Motions, Together, Torques
 
 WIDTH, HIGH, BAR = 8.0, 0.44, 0.22  # of the whole period, a row, a bar
 INNER, RING, LAYER = 0.8, 0.8, 0.22  # of the rings: the innermost radius, a line, a role of its phases
@@ -173,19 +173,21 @@ def moving(view: View) -> list[Shape]:
 def taking(view: View) -> list[Shape]:
     """The torques of all consumers at the main shaft, with their sum."""
     known: Torques = view.prepared("sum")
-    main = _angles(view.prepared("timing"))
-    each = known.together.each(main[None], main[None], None)[:, 0]
-    lines = [line(main, own, name) for own, name in zip(each, known.together.names, strict=True)]
-    return [chart_panel("Torque at the main shaft", "N*m", *AXIS, lines=[*lines, line(main, each.sum(axis=0), "sum")])]
+    return [_with_sum(view, known.together, "Torque at the main shaft", "N*m")]
 
 
 def swinging(view: View) -> list[Shape]:
     """The kinetic energies of the lines, with their sum."""
-    energies = view.prepared("motions").energies
+    motions: Motions = view.prepared("motions")
+    return [_with_sum(view, motions.energies, "Kinetic energy", "J")]
+
+
+def _with_sum(view: View, curves: Together, title: str, unit: str) -> Shape:
+    """Several curves over the main shaft, with their sum."""
     main = _angles(view.prepared("timing"))
-    each = energies.each(main[None], main[None], None)[:, 0]
-    lines = [line(main, own, name) for own, name in zip(each, energies.names, strict=True)]
-    return [chart_panel("Kinetic energy", "J", *AXIS, lines=[*lines, line(main, each.sum(axis=0), "sum")])]
+    each = curves.each(main[None], main[None], None)[:, 0]
+    lines = [line(main, own, name) for own, name in zip(each, curves.names, strict=True)]
+    return chart_panel(title, unit, *AXIS, lines=[*lines, line(main, each.sum(axis=0), "sum")])
 
 
 def clearing(view: View) -> list[Shape]:

@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Curve
-
 TORQUES = {
     "cylinder_drive": "crank_torque",
     "cam_gear_transport": "drive_torque",
@@ -52,8 +50,3 @@ ENERGIES = {
     "geneva_transport": Energy(("wheel_speed",), ("driven_inertia",), lambda speed, inertia: inertia * speed**2 / 2),
     "platen_press": Energy(("platen_velocity_true",), ("platen_mass",), lambda v, mass: mass * v**2 / 2),
 }
-
-
-def at(curve: Curve, share: Any, middle: Any) -> Any:
-    """Return a curve at shares of its period, shape (points,), each in the smooth piece of its middle."""
-    return curve.values(np.asarray(share)[None, :], np.asarray(middle)[None, :], None)[0]

@@ -8,13 +8,12 @@ import numpy as np
 
 from diecut_report.api import Chapter, GivenMechanism, Phrase, Refusal, bind
 from diecut_report.mechanics import common
-from diecut_report.mechanics.timing.clearance import LeastClearance
 from diecut_report.plugins.cyclogram import listings
 from diecut_report.plugins.cyclogram.clearances import clearance_of
+from diecut_report.plugins.cyclogram.listings import verdicts
 from diecut_report.plugins.cyclogram.passing import stretches
-from diecut_report.plugins.cyclogram.timing import Timing, timing_of
+from diecut_report.plugins.cyclogram.timing import timing_of
 from diecut_report.plugins.cyclogram.torques import motions_of, torques_of
-from diecut_report.plugins.cyclogram.words import verdicts
 
 # fmt: off
 
@@ -25,11 +24,6 @@ STATION = ("cylinder", "transport", "carriage_stop", "carriage_width", "forward_
 PHASES = "phases of the lines over the common period of the main shaft"
 LARGEST_RATE_ERROR = 1e-6  # relative
 TIMING, SUM = ("timing",), ("sum",)
-
-
-def _found(timing: Timing) -> float:
-    return 0.0 if timing.moved is None else float(timing.lines[timing.moved].line.offset)
-
 
 shaft = Chapter("Main shaft", text="One revolution of the main shaft is one sheet. After the common period all lines are back at their start.")
 shaft.prepared("stretches", stretches, ("lines.mechanism", "lines.passing"), for_many=True)
@@ -46,7 +40,8 @@ shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle of each line's ze
     lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
     "as given; an automatic one maximises the minimum slack of all interlocks", over="lines", digits=6)
 shaft.computed("is_moved", "k_a", "1", "Solution of the offset of a line", lambda timing: timing.moved is not None, TIMING, "as given", output=False)
-shaft.computed("offset_found", "Φ_f", "deg", "Solved offset: main-shaft angle of the zero of that line", _found, TIMING,
+shaft.computed("offset_found", "Φ_f", "deg", "Solved offset: main-shaft angle of the zero of that line",
+    lambda timing: 0.0 if timing.moved is None else timing.lines[timing.moved].line.offset, TIMING,
     "where the minimum slack of all interlocks is largest", digits=6, exists=lambda is_moved: is_moved > 0)
 shaft.listing("main_phases", "Phases on the main shaft", listings.PHASES, listings.phases, TIMING)
 shaft.words("line_name", lambda timing: tuple(each.name for each in timing.lines), TIMING, each_part=True)
@@ -54,11 +49,6 @@ shaft.words("line_name", lambda timing: tuple(each.name for each in timing.lines
 
 def _worst(name: str) -> Any:
     return lambda timing: timing.row(getattr(each, name) for each in timing.worst)
-
-
-def _slack(timing: Timing) -> Any:
-    return timing.row(pair.least - timing.required(each) for pair, each in zip(timing.worst, timing.final, strict=True))
-
 
 interlocks = Chapter("Interlocks",
     text="A phase lies within another with the margins at its start and at its end; a negative margin is the overlap. Of several intervals the one "
@@ -68,7 +58,8 @@ for name, symbol, words, function in (
     ("margin_end", "m_2", "Margin at the end", _worst("end")),
     ("margin_required", "m_r", "Required margin", lambda timing: timing.row(timing.required(each) for each in timing.final)),
     ("margin_least", "g", "Smaller of both margins", _worst("least")),
-    ("slack", "g_s", "Slack: excess of the smaller margin over the required one", _slack),
+    ("slack", "g_s", "Slack: excess of the smaller margin over the required one",
+     lambda timing: timing.row(pair.least - timing.required(each) for pair, each in zip(timing.worst, timing.final, strict=True))),
     ("held_length", "l_A", "Length of what must be contained", _worst("inner_length")),
 ):
     interlocks.computed(name, symbol, "deg", words, function, TIMING, PHASES, over="interlocks")
@@ -81,14 +72,10 @@ interlocks.value("length_available", "l_v", "deg", "Available length", lambda he
 interlocks.total("best_margin", "g_min", "deg", "Minimum slack of all interlocks", "min", of="slack")
 interlocks.value("best_margin_time", "t_g", "ms", "Minimum slack as a time", bind(common.quotient, quantity="best_margin", by="main_shaft_speed"))
 
-
-def _limit(timing: Timing) -> float:
-    return timing.limit.value or 0.0
-
-
 interlocks.computed("is_limited", "k_n", "1", "Margins of time limit the productivity", lambda timing: timing.limit.value is not None, TIMING,
     "a margin is a time, and is kept at some speed", output=False)
-interlocks.computed("productivity_limit", "n_max", "1/h", "Maximum productivity that the margins of time allow; for information only", _limit, TIMING,
+interlocks.computed("productivity_limit", "n_max", "1/h", "Maximum productivity that the margins of time allow; for information only",
+    lambda timing: timing.limit.value or 0.0, TIMING,
     "angles remain, times take a larger angle the faster the shaft turns; torques and accelerations are not considered", digits=5,
     exists=lambda is_limited: is_limited > 0)
 interlocks.computed("is_feasible", "k_Φ", "1", "The solved offset keeps all margins", lambda timing: bool(timing.best and timing.best.feasible),
@@ -121,14 +108,6 @@ station.prepared("least", lambda given: given["clearance"].least, ("clearance",)
 CLEARANCE = "search over the common period, refined to 1e-13 of it"
 
 
-def _is_below(least: LeastClearance) -> Any:
-    return np.isfinite(least.height)[:, None]
-
-
-def _least(least: LeastClearance) -> Any:
-    return np.where(np.isfinite(least.height), least.height, 0.0)[:, None]
-
-
 def _needed(cylinder: GivenMechanism) -> Any:
     height = cylinder.numbers("carriage_clearance")
     if height is None:
@@ -137,9 +116,11 @@ def _needed(cylinder: GivenMechanism) -> Any:
     return height
 
 
-station.computed("is_below", "k_Y", "1", "A carriage is below the cylinder at some time", _is_below, ("least",), "minimum height over the period",
+station.computed("is_below", "k_Y", "1", "A carriage is below the cylinder at some time",
+    lambda least: np.isfinite(least.height)[:, None], ("least",), "minimum height over the period",
     output=False)
-station.computed("clearance_least", "Y_min", "mm", "Minimum clearance height for the carriages", _least, ("least",), CLEARANCE,
+station.computed("clearance_least", "Y_min", "mm", "Minimum clearance height for the carriages",
+    lambda least: np.where(np.isfinite(least.height), least.height, 0.0)[:, None], ("least",), CLEARANCE,
     exists=lambda is_below: is_below > 0)
 station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle of this minimum", lambda least: least.angle[:, None], ("least",), CLEARANCE,
     exists=lambda is_below: is_below > 0)

@@ -2,11 +2,31 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Erratum, Mechanism, Port, Source, Vary
-from diecut_report.plugins.cylinder_drive import forces, linkage, timing
-from diecut_report.plugins.cylinder_drive.example import EXAMPLE
+from diecut_report.api import Check, Erratum, ExampleBlock, Mechanism, Port, Source, Vary, Wired
+from diecut_report.plugins.cylinder_drive import steps
 from diecut_report.plugins.cylinder_drive.figures import FIGURES
 from diecut_report.plugins.cylinder_drive.inputs import CylinderDrive
+
+EXAMPLE = ExampleBlock(
+    "drive",
+    {
+        "cylinder_radius": Wired("${<cylinder_sizing>.radius}", otherwise="105.5 mm"),
+        "cylinder_length": Wired("${<cylinder_sizing>.generatrix_length}", otherwise="${press.sheet.length}"),
+        # the carriages move with the axis
+        "cylinder_mass": Wired(
+            "${<cylinder_sizing>.mass} + ${<damper>.carriage_mass}",
+            otherwise=Wired("${<cylinder_sizing>.mass}", otherwise="104 kg"),
+        ),
+        "cylinder_inertia": Wired("${<cylinder_sizing>.inertia}", otherwise="0.74 kg*m**2"),
+        "static_unbalance": Wired("${<cylinder_sizing>.static_unbalance}", otherwise="2 kg*m"),
+        "cutting_arc_fraction": Wired("${<cylinder_sizing>.cutting_arc_fraction}", otherwise=0.71),
+        "segment_height": Wired("${<cylinder_sizing>.segment_height}", otherwise="40 mm"),
+        "carriage_clearance": "22 mm",
+        "crank_length": "100 mm",
+        "pinion_radius": "70 mm",
+    },
+)
+
 
 MECHANISM = Mechanism(
     kind="cylinder_drive",
@@ -18,8 +38,8 @@ MECHANISM = Mechanism(
             "crank.",
     inputs=CylinderDrive,
     example=EXAMPLE,
-    chapters=(linkage.linkage, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
-              timing.contact, forces.clearance, timing.phases, forces.teeth, forces.joints),
+    chapters=(steps.linkage, steps.stroke, steps.cutting, steps.kinematics, steps.moments, steps.torque, steps.energy,
+              steps.contact, steps.clearance, steps.phases, steps.teeth, steps.joints),
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
                  "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",
                  "tooth_force_max", "joint_force_max"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import cos, pi, sin
+from typing import Any
 
 import numpy as np
 
@@ -131,6 +132,12 @@ def moving(view: View, place: float) -> list[Shape]:
     ]
 
 
+def _panel(title: str, unit: str, *series: tuple[str, str], **more: Any) -> Panel:
+    """Curves with their labels over a turn of the crank, the forward stroke shaded."""
+    drawn = tuple(Series(curve=curve, label=words) for curve, words in series)
+    return Panel(title=title, unit=unit, series=drawn, spans=STROKES, **more)
+
+
 FIGURES = (
     Drawing(
         id="linkage",
@@ -149,16 +156,9 @@ FIGURES = (
         caption="Displacement, velocity and acceleration over a turn of the crank (figure 2 of 000).",
         abscissa="crank_angle",
         panels=(
-            Panel(title="Displacement", unit="mm", series=(Series(curve="displacement", label="S"),), spans=STROKES),
-            Panel(
-                title="Velocity",
-                unit="m/s",
-                series=(Series(curve="velocity", label="V"),),
-                spans=STROKES,
-            ),
-            Panel(
-                title="Acceleration", unit="m/s**2", series=(Series(curve="acceleration", label="a_c"),), spans=STROKES
-            ),
+            _panel("Displacement", "mm", ("displacement", "S")),
+            _panel("Velocity", "m/s", ("velocity", "V")),
+            _panel("Acceleration", "m/s**2", ("acceleration", "a_c")),
         ),
     ),
     Plot(
@@ -166,17 +166,7 @@ FIGURES = (
         title="Moments on the cylinder",
         caption="Moment of the inertia forces and total moment on the cylinder's axis; the jumps are where cutting begins and ends.",
         abscissa="crank_angle",
-        panels=(
-            Panel(
-                title="Moment",
-                unit="N*m",
-                series=(
-                    Series(curve="total_moment", label="total moment"),
-                    Series(curve="inertia_moment", label="inertia forces"),
-                ),
-                spans=STROKES,
-            ),
-        ),
+        panels=(_panel("Moment", "N*m", ("total_moment", "total moment"), ("inertia_moment", "inertia forces")),),
     ),
     Plot(
         id="torque",
@@ -185,16 +175,15 @@ FIGURES = (
         "000); negative: the cylinder drives.",
         abscissa="crank_angle",
         panels=(
-            Panel(
-                title="Torque",
-                unit="N*m",
-                series=(Series(curve="crank_torque", label="torque"),),
+            _panel(
+                "Torque",
+                "N*m",
+                ("crank_torque", "torque"),
                 levels=(Level(value="crank_torque_mean", label="mean"), Level(value="crank_torque_rms", label="rms")),
                 marks=(
                     Mark(x="crank_torque_max_at", y="crank_torque_max", label="maximum driving"),
                     Mark(x="crank_torque_min_at", y="crank_torque_min", label="maximum braking"),
                 ),
-                spans=STROKES,
             ),
         ),
     ),
@@ -213,16 +202,13 @@ FIGURES = (
         abscissa="crank_angle",
         needs=("crank_length",),
         panels=(
-            Panel(
-                title="Force",
-                unit="kN",
-                series=(
-                    Series(curve="coupler_force", label="coupler"),
-                    Series(curve="crank_bearing_force_x", label="crank's bearing, along the frame"),
-                    Series(curve="crank_bearing_force_y", label="crank's bearing, normal to it"),
-                ),
+            _panel(
+                "Force",
+                "kN",
+                ("coupler_force", "coupler"),
+                ("crank_bearing_force_x", "crank's bearing, along the frame"),
+                ("crank_bearing_force_y", "crank's bearing, normal to it"),
                 marks=(Mark(x="coupler_tension_max_at", y="coupler_tension_max", label="maximum tension"),),
-                spans=STROKES,
             ),
         ),
     ),
@@ -232,13 +218,6 @@ FIGURES = (
         caption="Tangential force between the teeth of sector and pinion; where it changes its sign the flanks change.",
         abscissa="crank_angle",
         needs=("pinion_radius",),
-        panels=(
-            Panel(
-                title="Tangential force",
-                unit="kN",
-                series=(Series(curve="tooth_force", label="tooth force"),),
-                spans=STROKES,
-            ),
-        ),
+        panels=(_panel("Tangential force", "kN", ("tooth_force", "tooth force")),),
     ),
 )

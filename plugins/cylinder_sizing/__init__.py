@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Erratum, Mechanism, Source, Vary
-from diecut_report.plugins.cylinder_sizing.calculation import CHAPTERS
-from diecut_report.plugins.cylinder_sizing.drawing import FIGURES
-from diecut_report.plugins.cylinder_sizing.example import EXAMPLE
-from diecut_report.plugins.cylinder_sizing.inputs import CylinderSizing
+from diecut_report.api import Check, Erratum, ExampleBlock, Mechanism, Source, Vary
+from diecut_report.plugins.cylinder_sizing.calculation import CHAPTERS, FIGURES, CylinderSizing
+
+EXAMPLE = ExampleBlock(
+    "cylinder",
+    {
+        "working_length": "${press.sheet.width}",
+        "segment_height": "40 mm",
+        "generatrix_length": "${press.sheet.length}",
+        "bore_radius": "60 mm",
+        "bearing_span": {"value": "${press.sheet.length} + 160 mm", "basis": "assumed"},
+        "allowable_deflection": "0.05 mm",
+    },
+)
+
 
 MECHANISM = Mechanism(
     kind="cylinder_sizing",

@@ -6,11 +6,54 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, arccos, as_angle, as_number, bind, case, formula
+from diecut_report.api import (
+    Annotated,
+    BarGroup,
+    Bars,
+    Chapter,
+    Drawing,
+    Inputs,
+    Point,
+    Quantity,
+    Shape,
+    View,
+    arccos,
+    as_angle,
+    as_number,
+    bind,
+    case,
+    circle,
+    dimension,
+    formula,
+    label,
+    point,
+    polyline,
+    radius_dimension,
+    region,
+)
 from diecut_report.mechanics import circular_segment as segment
 from diecut_report.mechanics import common
 
 # fmt: off
+
+
+class CylinderSizing(Inputs):
+    """Keys of ``cylinder_sizing``."""
+
+    working_length: Annotated[float, Quantity("l_1", "mm", "Working length: the shorter side of the sheet format", gt=0)]
+    segment_height: Annotated[float, Quantity("h", "mm", "Height of the segment that is cut away (below the radius)", gt=0)]
+    generatrix_length: Annotated[float, Quantity("L", "mm", "Length of the cylinder's generatrix", gt=0)]
+    bore_radius: Annotated[float, Quantity("R_b", "mm", "Radius of the bore (below the radius)", ge=0)] = 0
+    density: Annotated[float, Quantity("γ", "kg/m**3", "Density of the cylinder material", gt=0)] = 7800
+    radius: Annotated[float | None, Quantity("R", "mm", "Radius of the cylinder; if given, it is checked instead of sized", gt=0)] = None
+    radius_step: Annotated[float, Quantity("s_R", "mm", "Step to which the sized radius is rounded up", gt=0)] = 0.5
+    min_wall: Annotated[float, Quantity("w_min", "mm", "Minimum wall between bore and flat", ge=0)] = 5
+    bearing_span: Annotated[float | None,
+        Quantity("a", "mm", "Span of the bearings (at least the generatrix); required for the bending", gt=0)] = None
+    elastic_modulus: Annotated[float, Quantity("E", "GPa", "Elastic modulus of the cylinder's material", gt=0)] = 210
+    line_load: Annotated[float, Quantity("q", "N/mm", "Line load on the generatrix: cutting and ejection (000)", ge=0)] = 30
+    allowable_deflection: Annotated[float | None, Quantity("[f]", "mm", "Allowable bending deflection", gt=0)] = None
+
 
 size = Chapter("Radius",
     text="The unrolled circumference is the working length plus the arc of the segment: 2πR = l_1 + l_2 (002 eq. 1). The closed-form approximation "
@@ -154,3 +197,79 @@ bending.value("deflection", "f", "mm", "Bending deflection at mid-span, of a clo
         / (384 * elastic_modulus * second_moment_min))
 
 CHAPTERS = (size, flat, overlap, masses, inertia, bending)
+
+
+DOWN = -np.pi / 2  # the flat is drawn below, as it stands over the die in the dwell
+
+
+def _arc(radius: float, start: float, end: float) -> list[Point]:
+    angles = np.linspace(start, end, 121)
+    return [(float(radius * np.cos(a)), float(radius * np.sin(a))) for a in angles]
+
+
+def _section(view: View) -> Shape:
+    """The cut section: closed bore, or a bore that opens into the flat."""
+    half, bore, opening = view["half_angle"], view["bore_radius"], view["overlap_half_angle"]
+    outer = _arc(view["radius"], DOWN + half, DOWN + 2 * np.pi - half)
+    if bore > 0 and opening > 0:
+        return region(outer + _arc(bore, DOWN + 2 * np.pi - opening, DOWN + opening))
+    return region(outer, [_arc(bore, 0, 2 * np.pi)] if bore > 0 else [])
+
+
+def cross_section(view: View) -> list[Shape]:
+    """Section square to the axis, with flat, bore, centre of mass and dimensions."""
+    radius, chord, flat, bore = view["radius"], view["chord"], view["flat_distance"], view["bore_radius"]
+    reach = 1.25 * radius
+    shapes = [
+        _section(view),
+        circle((0.0, 0.0), radius, "hidden"),
+        polyline([(-reach, 0.0), (reach, 0.0)], "centerline"),
+        polyline([(0.0, -reach), (0.0, reach)], "centerline"),
+        polyline([(-1.35 * radius, -radius), (1.35 * radius, -radius)], "ground"),
+        label((-1.34 * radius, -0.95 * radius), "die"),
+        dimension((-chord / 2, -flat), (chord / 2, -flat), -(0.55 * radius), view.text("chord")),
+        dimension((radius, -radius), (radius, -flat), -(0.35 * radius), view.text("segment_height")),
+        radius_dimension((0.0, 0.0), radius, np.pi / 6, view.text("radius")),
+        point((0.0, view["center_of_mass_offset"]), "mark", view.text("center_of_mass_offset")),
+    ]
+    return shapes + ([radius_dimension((0.0, 0.0), bore, 5 * np.pi / 6, view.text("bore_radius"))] if bore > 0 else [])
+
+
+FIGURES = (
+    Drawing(
+        id="cross_section",
+        title="Cross-section",
+        caption="Section normal to the axis, to scale, with the flat over the die as in the dwell; dashed: the segment that is cut away. The "
+        "cross marks the centre of mass.",
+        build=cross_section,
+    ),
+    Bars(
+        id="breakdown",
+        title="Mass and inertia",
+        caption="Contributions of the full cylinder, segment, bore and their overlap.",
+        groups=(
+            BarGroup(
+                label="Mass",
+                unit="kg",
+                bars=(
+                    ("full cylinder", "solid_mass"),
+                    ("segment", "-segment_mass"),
+                    ("bore", "-bore_mass"),
+                    ("overlap", "overlap_mass"),
+                    ("cylinder", "mass"),
+                ),
+            ),
+            BarGroup(
+                label="Moment of inertia",
+                unit="kg*m**2",
+                bars=(
+                    ("full cylinder", "inertia_solid"),
+                    ("segment", "-inertia_segment"),
+                    ("bore", "-inertia_bore"),
+                    ("overlap", "inertia_overlap"),
+                    ("cylinder", "inertia"),
+                ),
+            ),
+        ),
+    ),
+)

@@ -4,12 +4,28 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from diecut_report.api import Check, Mechanism, Source, Vary
-from diecut_report.plugins.damper.example import EXAMPLE
+from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired
 from diecut_report.plugins.damper.figures import FIGURES
-from diecut_report.plugins.damper.formulas import SLENDEREST
-from diecut_report.plugins.damper.inputs import STOPPED, Damper
-from diecut_report.plugins.damper.steps import SECTIONS
+from diecut_report.plugins.damper.steps import SECTIONS, SLENDEREST, STOPPED, Damper
+
+EXAMPLE = ExampleBlock(
+    "damper",
+    {
+        "mass": Wired("${<cylinder_sizing>.mass}", otherwise="104 kg"),
+        "inertia": Wired("${<cylinder_sizing>.inertia}", otherwise="0.74 kg*m**2"),
+        "rolling_radius": Wired("${<cylinder_sizing>.radius}", otherwise="105.5 mm"),
+        "velocity": "0.6 m/s",
+        "carriage_mass": "40 kg",
+        "static_unbalance": Wired("${<cylinder_sizing>.static_unbalance}", otherwise="2 kg*m"),
+        "contact_distance": "10 mm",
+        "shore_hardness": 70,
+        "dynamic_stiffness_factor": 1.5,
+        "ring_width": "60 mm",
+        "pad_height": "60 mm",
+        "loss_tangent": 0.15,
+    },
+)
+
 
 RUBBER, PAD = ("elastic_modulus", "shore_hardness"), ("ring_width", "pad_height")
 ADVISE = ("adopted_length", *RUBBER, Vary("damper_count", "up"), PAD, (*PAD, "adopted_length"))

@@ -26,12 +26,6 @@ from diecut_report.mechanics import drive_line as formulas
 
 
 @formula
-def one_turn_a_sheet(productivity: Any) -> Any:
-    """Angular speed of a shaft that turns once a sheet."""
-    return 2 * np.pi * productivity
-
-
-@formula
 def at_main_shaft(torque: Any, ratio: Any) -> Any:
     """Torque of a brake referred to the main shaft."""
     return torque * abs(ratio)
@@ -106,7 +100,7 @@ class DriveLine(Inputs):
 
     reference_speed: Annotated[float | None,
         Quantity("ω_m", "rpm", "Speed of the main shaft, which turns once a sheet", gt=0,
-            press=FromPress("press.productivity", one_turn_a_sheet))] = None
+            press=FromPress("press.productivity", formula(lambda productivity: 2 * np.pi * productivity)))] = None
     shafts: Annotated[list[ShaftRatio], Text("Shafts that turn steadily")]
     meshes: Annotated[list[Mesh], Text("Pairs of gears")] = []  # noqa: RUF012
     chains: Annotated[list[ChainDrive], Text("Chains")] = []  # noqa: RUF012

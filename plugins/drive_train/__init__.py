@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Mechanism, Source
+from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired
 from diecut_report.plugins.drive_train import chain, motor, vbelt
-from diecut_report.plugins.drive_train.checks import CHECKS
-from diecut_report.plugins.drive_train.example import EXAMPLE
 from diecut_report.plugins.drive_train.figures import FIGURES
 from diecut_report.plugins.drive_train.inputs import DriveTrain
 from diecut_report.plugins.drive_train.toothed_belt import (
@@ -14,6 +12,127 @@ from diecut_report.plugins.drive_train.toothed_belt import (
     TOOTHED_BELT_CHECKS,
     TOOTHED_BELT_ERRATA,
 )
+from diecut_report.plugins.drive_train.vbelt import FASTEST_BELT, LARGEST_DEVIATION, LARGEST_RATIO, LEAST_WRAP, PULLEYS
+
+DRIVER = "vbelt.driver_diameter"
+MOUNTED = ("torque_curve", "mounted_inertia")
+STRONGER = (Vary("run_up_load", "down"), Vary("reserve_factor", "up"))
+RUN_UP = (Vary("load_inertia", "down"), Vary("speed_fluctuation", "up"), *STRONGER)
+
+CHECKS = (
+    Check(id="vbelt_speed", check_class="practice", title="Speed of the V-belt", demand="vbelt_speed", limit=FASTEST_BELT, unit="m/s",
+        demand_label="belt speed", limit_label="allowed", source="practice",
+        consequence="the centrifugal force lifts the belt out of the grooves; a slower motor helps, too.",
+        advise=(Vary(DRIVER, "down", PULLEYS), Vary(DRIVER, "down"))),
+    Check(id="vbelt_wrap", check_class="practice", title="Wrap on the smaller pulley", demand=LEAST_WRAP, limit="vbelt_wrap", unit="deg",
+        demand_label="required", limit_label="wrap", source="practice", consequence="the belt slips; a larger vbelt.section has longer belts.",
+        advise=("vbelt.center_distance", Vary(DRIVER, "up", PULLEYS))),
+    Check(id="vbelt_ratio", check_class="practice", title="Ratio of the V-belt", demand="vbelt_ratio_actual", limit=LARGEST_RATIO, unit="1",
+        demand_label="ratio", limit_label="allowed", source="practice",
+        consequence="too much for one V-belt; the gears can take more of it, whose ratio is {gear_ratio_total}.",
+        advise=(Vary("gears.driven_teeth", "up"),)),
+    Check(id="vbelt_count", check_class="strength", title="Number of belts", demand="vbelt_share", limit="vbelt_count", unit="1",
+        needs=("power_per_belt",), demand_label="required for the power", limit_label="mounted", sized_unless=("vbelt.count",), source="Optibelt",
+        consequence="the belts are overloaded and wear out; another driving pulley has another power_per_belt.",
+        advise=(Vary("vbelt.count", "up"), Vary(DRIVER, "up", PULLEYS))),
+    Check(id="vbelt_slip", check_class="function", title="Slip of the V-belt", demand="vbelt_pull", limit="vbelt_slip_pull", unit="N",
+        needs=("vbelt.tension",), founded=("vbelt.groove_friction",), demand_label="maximum pull", limit_label="slip limit",
+        source="Euler",
+        consequence="the belts slip when the motor runs up or is overloaded; check the shafts for the load that a higher tension puts on them.",
+        advise=(Vary("vbelt.tension", "up"),)),
+    Check(id="vbelt_bendings", check_class="practice", title="Bending frequency of the V-belt", demand="vbelt_bendings", limit=100.0, unit="1/s",
+        severity="warn", demand_label="bending frequency", limit_label="allowed", source="Optibelt", consequence="the belt heats and ages.",
+        advise=(Vary("vbelt.center_distance", "up"), Vary(DRIVER, "down", PULLEYS))),
+    Check(id="output_speed_error", check_class="function", title="Output speed", demand="output_speed_error", limit=LARGEST_DEVIATION, unit="%",
+        demand_label="deviation", limit_label="allowed", source="this method",
+        consequence="the output turns at {output_speed}, not at {inputs.output_speed}; other gears may meet it, too.",
+        advise=(Vary(DRIVER, series=PULLEYS), Vary("vbelt.driven_diameter", series=PULLEYS), DRIVER)),
+    Check(id="motor_power", check_class="function", title="Motor", demand="power_required", limit="motor_power", unit="kW",
+        demand_label="required power", limit_label="rated power", sized_unless=(), source="IEC 60072-1",
+        consequence="no standard motor is so large; less torque or speed of the output needs less, or several motors.",
+        advise=(Vary("reserve_factor", "down"),)),
+    Check(id="motor_overload", check_class="function", title="Overload of the motor", demand="motor_peak_torque", limit="motor_breakdown_torque",
+        unit="N*m", demand_label="peak torque at the motor", limit_label="breakdown torque", source="this method",
+        consequence="no flywheel smooths the peak, so the motor stalls; with torque_curve a flywheel is sized that takes it.",
+        advise=(Vary("reserve_factor", "up"),)),
+    Check(id="motor_radial_force", check_class="strength", title="Radial force on the motor's shaft", demand="shaft_load",
+        limit="allowable_radial_force", unit="N", needs=("allowable_radial_force",), demand_label="load of the belts",
+        limit_label="allowed by the maker", source="statics",
+        consequence="the motor's bearings wear out, or its shaft breaks; a larger pulley needs less tension.",
+        advise=(Vary(DRIVER, "up", PULLEYS), Vary("vbelt.tension", "down"))),
+    Check(id="flywheel_rim_speed", check_class="strength", title="Flywheel rim", demand="flywheel_rim_speed", limit="flywheel_rim_limit", unit="m/s",
+        only_with=("torque_curve",), demand_label="rim speed", limit_label="allowed for the material", source="material",
+        consequence="the wheel may burst; gears of a smaller ratio let it turn slower.",
+        advise=("flywheel_material", Vary("speed_fluctuation", "up"))),
+    Check(id="mounted_rim_speed", check_class="strength", title="Rim of the mounted flywheel", demand="mounted_rim_speed", limit="flywheel_rim_limit",
+        unit="m/s", only_with=MOUNTED, needs=("mounted_diameter",), demand_label="rim speed", limit_label="allowed for the material",
+        source="material", consequence="the wheel may burst; gears of a smaller ratio let it turn slower.", advise=("flywheel_material",)),
+    Check(id="flywheel", check_class="function", title="Inertia of the flywheel", demand="flywheel_inertia", limit="wheel_inertia",
+        unit="kg*m**2", only_with=MOUNTED, demand_label="required", limit_label="mounted", source="energy",
+        consequence="the speed swings further than speed_fluctuation, and the motor takes more of the peak.", advise=("mounted_inertia",)),
+    Check(id="heavy_flywheel", check_class="function", severity="warn", title="Flywheel heavier than needed", demand="wheel_inertia",
+        limit="accepted_inertia", unit="kg*m**2", only_with=MOUNTED, source="this method", demand_label="mounted", limit_label="1.1 × the required",
+        consequence="the motor takes longer to run up, and the machine to stop.", advise=("mounted_inertia",)),
+    Check(id="run_up_torque", check_class="function", title="Torque during run-up", demand="run_up_load_torque", limit="run_up_torque", unit="N*m",
+        operator="<", demand_label="load torque at the motor", limit_label="torque of the motor", source="this method",
+        consequence="the motor does not run up.", advise=STRONGER),
+    *(Check(id="run_up_time", check_class="function", title="Run-up time", demand=time, limit="allowable_run_up_time", unit="s",
+        at_best=at_best, demand_label=label, limit_label="allowed", source="this method",
+        consequence="the motor's protection trips; one for heavy starting allows a longer allowable_run_up_time.", advise=RUN_UP)
+      for time, label, at_best in (("run_up_time", "run-up", ()), ("run_up_time_least", "minimum run-up", ("motor_inertia", "load_inertia")))),
+    Check(id="gear_teeth", check_class="practice", title="Number of teeth of the gears", demand=17.0, limit="least_teeth", unit="1", severity="warn",
+        demand_label="teeth without undercut", limit_label="smallest number of teeth", source="practice",
+        consequence="gears below 17 teeth are undercut; a shift of their profile avoids it, too.",
+        advise=(("gears.driver_teeth", "gears.driven_teeth"),)),
+    Check(id="torque_mean", check_class="practice", title="Mean torque and torque curve", demand="mean_difference", limit="accepted_difference",
+        unit="N*m", severity="warn", only_with=("torque_curve",), demand_label="difference of the means", limit_label="accepted",
+        source="this method", consequence="they do not belong together, and the curve is used; take both from the same mechanism.",
+        advise=("torque_mean",)),
+    Check(id="torque_peak", check_class="practice", title="Peak torque and torque curve", demand="peak_difference", limit="accepted_difference",
+        unit="N*m", severity="warn", only_with=("torque_curve",), demand_label="difference of the peaks", limit_label="accepted",
+        source="this method", consequence="they do not belong together, and the curve is used; take both from the same mechanism.",
+        advise=("torque_peak",)),
+    Check(id="power_balance", check_class="numerical", title="Power balance", demand="power_missing", limit="power_rounding", unit="W",
+        demand_label="residual power", limit_label="rounding", source="conservation of energy",
+        consequence="the calculation contradicts itself; do not use it."),
+)  # fmt: skip
+
+
+EXAMPLE = ExampleBlock(
+    "train",
+    {
+        "motor_speed": Wired("1420 rpm", needs=("platen_press", "cyclogram"), otherwise="1450 rpm"),
+        "output_speed": Wired(
+            "${<cyclogram>.main_shaft_speed}", otherwise=Wired("${<cylinder_drive>.crank_speed}", otherwise="100 rpm")
+        ),
+        "torque_mean": Wired(
+            "${<cyclogram>.torque_mean}", otherwise=Wired("${<cylinder_drive>.crank_torque_mean}", otherwise="75 N*m")
+        ),
+        "torque_peak": Wired(
+            "${<cyclogram>.torque_peak}", otherwise=Wired("${<cylinder_drive>.crank_torque_peak}", otherwise="150 N*m")
+        ),
+        "torque_curve": Wired("${<cyclogram>.main_shaft_torque}", otherwise=Wired("${<cylinder_drive>.crank_torque}")),
+        "torque_curve_turns": Wired("${<cyclogram>.torque_curve_turns}"),
+        "vbelt": {"driver_diameter": "125 mm", "center_distance": "600 mm"},
+        "power_per_belt": "3.5 kW",
+        "gears": [
+            {"driver_teeth": 18, "driven_teeth": 87},
+            # a platen is slower
+            Wired({"driver_teeth": 20, "driven_teeth": 77}, needs=("platen_press", "cyclogram")),
+            # from the main shaft to the crank's
+            Wired(
+                None,
+                needs=("cyclogram",),
+                otherwise=Wired({"driver_teeth": 24, "driven_teeth": 48}, needs=("cylinder_drive",)),
+            ),
+        ],
+        # a platen takes its torque at once: a soft motor, which starts with the clutch open
+        "reserve_factor": Wired(1.6, needs=("platen_press", "cyclogram"), otherwise=1.3),
+        "run_up_load": Wired(0, needs=("platen_press", "cyclogram")),
+        "flywheel_material": "cast_iron",
+    },
+)
+
 
 MECHANISM = Mechanism(
     kind="drive_train",

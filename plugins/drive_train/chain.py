@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Chapter, bind, case, formula
-from diecut_report.plugins.drive_train import belts
+from diecut_report.plugins.drive_train import vbelt
 
 # fmt: off
 
@@ -45,7 +45,7 @@ speeds.value("driven_diameter_exact", "d_2′", "mm", "Diameter of the driven pu
     output=False)
 speeds.value("driven_diameter", "d_2", "mm", "Datum diameter of the driven pulley: as given",
     bind(lambda given: given, given="vbelt.driven_diameter"), source="input", needs=("vbelt.driven_diameter",))
-speeds.pick("driven_diameter", "d_2", "mm", "Datum diameter of the driven pulley", "nearest", of="driven_diameter_exact", series=belts.PULLEYS,
+speeds.pick("driven_diameter", "d_2", "mm", "Datum diameter of the driven pulley", "nearest", of="driven_diameter_exact", series=vbelt.PULLEYS,
     beyond="last", source="R40 series", lacks=("vbelt.driven_diameter",))
 speeds.value("vbelt_ratio_actual", "i_b′", "1", "Ratio of the V-belt with this diameter",
     bind(lambda driven_diameter, driver_diameter: driven_diameter / driver_diameter, driver_diameter="vbelt.driver_diameter"), source="kinematics")

@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind, standard_series, standard_table
+from diecut_report.api import Chapter, as_number, bind, formula, standard_series, standard_table
 from diecut_report.mechanics import common
 from diecut_report.mechanics.timing import engagement as motor_slip
-from diecut_report.plugins.drive_train import belts, inertia
+from diecut_report.plugins.drive_train import vbelt
+
+
+@formula
+def inertia_before(own: Any, behind: Any, ratio: Any, efficiency: Any) -> Any:
+    """Inertia that a shaft feels: its own, and what turns slower behind a ratio, with the losses between."""
+    return own + behind / (ratio**2 * efficiency)
+
+
+@formula
+def run_up_time(run_up_inertia: Any, shaft_1_speed: Any, accelerating_torque: Any) -> Any:
+    """Time in which a torque brings an inertia to its speed."""
+    return run_up_inertia * as_number(shaft_1_speed) / accelerating_torque
+
 
 RATINGS = standard_series("iec_60072_ratings")
 SYNCHRONOUS = tuple(
@@ -87,9 +102,9 @@ flywheel.value("flywheel_mass", "m_f", "kg", "Mass of the flywheel",
     lambda flywheel_density, flywheel_diameter, flywheel_width: flywheel_density * as_number(np.pi) * flywheel_diameter ** 2 / 4 * flywheel_width,
     source="geometry")
 flywheel.value("flywheel_rim_speed", "v_f", "m/s", "Rim speed of the flywheel",
-    bind(belts.rim_speed, speed="shaft_2_speed", diameter="flywheel_diameter"), source="kinematics", lacks=("mounted_inertia",))
+    bind(vbelt.rim_speed, speed="shaft_2_speed", diameter="flywheel_diameter"), source="kinematics", lacks=("mounted_inertia",))
 flywheel.value("mounted_rim_speed", "v_F", "m/s", "Rim speed of the mounted flywheel",
-    bind(belts.rim_speed, speed="shaft_2_speed", diameter="mounted_diameter"), source="kinematics", needs=("mounted_diameter",))
+    bind(vbelt.rim_speed, speed="shaft_2_speed", diameter="mounted_diameter"), source="kinematics", needs=("mounted_diameter",))
 
 run_up = Chapter("Run-up of the motor",
     text="From rest the motor accelerates rotor, flywheel and load to their speeds with its mean run-up torque less the load torque. Without "
@@ -106,10 +121,10 @@ run_up.value("own_inertia", "J_o2", "kg*m**2", "Moment of inertia of shaft 2, wh
 run_up.value("output_inertia", "J_o3", "kg*m**2", "Moment of inertia at the output shaft",
     lambda moved_inertia, output_shafts_inertia: moved_inertia + output_shafts_inertia, source="mechanics", output=False)
 run_up.value("flywheel_shaft_inertia", "J_2", "kg*m**2", "Moment of inertia at the flywheel's shaft",
-    bind(inertia.inertia_before, own="own_inertia", behind="output_inertia", ratio="gear_ratio_total", efficiency="gears_efficiency"),
+    bind(inertia_before, own="own_inertia", behind="output_inertia", ratio="gear_ratio_total", efficiency="gears_efficiency"),
     source="energy", output=False)
 run_up.value("run_up_inertia", "J_1", "kg*m**2", "Equivalent inertia at the motor's shaft, belt and gear losses included",
-    bind(inertia.inertia_before, own="rotor_inertia", behind="flywheel_shaft_inertia", ratio="vbelt_ratio_actual", efficiency="vbelt.efficiency"),
+    bind(inertia_before, own="rotor_inertia", behind="flywheel_shaft_inertia", ratio="vbelt_ratio_actual", efficiency="vbelt.efficiency"),
     source="energy")
 run_up.value("shafts_energy", "E_s", "J", "Kinetic energy of rotor and shafts, beside that of the flywheel and of what the output moves",
     lambda rotor_inertia, shaft_1_speed, shaft_2_inertia, shaft_2_speed, output_shafts_inertia, output_speed:
@@ -121,9 +136,9 @@ run_up.value("run_up_load_torque", "M_l", "N*m", "Load torque at the motor durin
     lambda run_up_load, shaft_1_torque: run_up_load * shaft_1_torque, source="this method")
 run_up.value("accelerating_torque", "M_acc", "N*m", "Accelerating torque",
     lambda run_up_torque, run_up_load_torque: run_up_torque - run_up_load_torque, source="mechanics")
-run_up.value("run_up_time", "t_a", "s", "Run-up time of the motor", inertia.run_up_time, source="mechanics",
+run_up.value("run_up_time", "t_a", "s", "Run-up time of the motor", run_up_time, source="mechanics",
     exists=lambda accelerating_torque, run_up_inertia: (accelerating_torque > 0) & (run_up_inertia > 0), needs=("motor_inertia", "load_inertia"))
 for needs, lacks in (((), ("load_inertia",)), (("load_inertia",), ("motor_inertia",))):
-    run_up.value("run_up_time_least", "t_a1", "s", "Run-up time of the given inertias: the actual time is longer", inertia.run_up_time,
+    run_up.value("run_up_time_least", "t_a1", "s", "Run-up time of the given inertias: the actual time is longer", run_up_time,
         source="mechanics", exists=lambda accelerating_torque, run_up_inertia: (accelerating_torque > 0) & (run_up_inertia > 0), needs=needs,
         lacks=lacks)

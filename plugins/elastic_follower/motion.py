@@ -6,12 +6,19 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import ByText, Chapter, Formula, Steps, bind, case
+from diecut_report.api import ByText, Chapter, Formula, Steps, bind, case, formula
 from diecut_report.mechanics import common, followers
 from diecut_report.mechanics.motion_laws import ACCELERATION, JOINT, PEAK_ACCELERATION, POSITION
-from diecut_report.plugins.elastic_follower import formulas, rests
+from diecut_report.plugins.elastic_follower import rests
 
 # fmt: off
+
+
+@formula
+def law_acceleration(rise: Any, rise_duration: Any, acceleration: Any) -> Any:
+    """Acceleration of a rise by a law, of the law's acceleration."""
+    return rise / rise_duration**2 * acceleration
+
 
 STRAIGHT = (("mass", "mm"),)
 STRAIGHT_SPEED = (("mass", "m/s"),)
@@ -21,24 +28,21 @@ ONE_RATE = 1e-3  # relative difference of two rates that are one
 STIFFEST, SOFTEST = 50, 0.1  # natural periods within the rise, between which the drive is calculated
 
 
-def of_each_body(id: str, symbol: str, unit: str, description: str, formula: Formula, **options: Any) -> Steps:
+def of_each_body(chapter: Steps, id: str, symbol: str, unit: str, description: str, formula: Formula, **options: Any) -> None:
     """A quantity that takes the inertia of a turning link, or the mass of a sliding one."""
-    steps = Steps()
     for body in ("inertia", "mass"):
-        steps.value(id, symbol, unit, description, bind(formula, inertia=body), needs=(body,), **options)
-    return steps
+        chapter.value(id, symbol, unit, description, bind(formula, inertia=body), needs=(body,), **options)
 
 
 drive = Chapter("Elastic drive")
-drive.add(
-    of_each_body("angular_frequency", "ω", "rad/s", "Natural angular frequency", followers.natural_angular_frequency, source="001, first paper"))
+of_each_body(drive, "angular_frequency", "ω", "rad/s", "Natural angular frequency", followers.natural_angular_frequency, source="001, first paper")
 drive.value("natural_frequency", "f_n", "Hz", "Natural frequency", lambda angular_frequency: angular_frequency / (2 * np.pi),
     source="001, first paper")
 drive.value("natural_period", "T_n", "ms", "Natural period", lambda natural_frequency: 1 / natural_frequency, source="vibration", output=False)
 drive.value("damped_frequency", "ω_d", "rad/s", "Angular frequency of the damped vibration", followers.damped_angular_frequency, source="vibration",
     output=False)
-drive.add(of_each_body("damping_constant", "C", "N*m*s/rad", "Damping of the drive", followers.damping_constant, units=(("mass", "N*s/m"),),
-        source="vibration"))
+of_each_body(drive, "damping_constant", "C", "N*m*s/rad", "Damping of the drive", followers.damping_constant, units=(("mass", "N*s/m"),),
+        source="vibration")
 
 times = Chapter("Duration of the motion",
     text="The motion lasts from one rest to the next; where a curve is given, from the end of its longest rest to its start.")
@@ -53,9 +57,11 @@ times.require("one_rate",
         tolerance=ONE_RATE), key="cycles_per_hour", needs=(*CURVE, *RATE),
     message="is {cycles_per_hour}, but the curve that motion_curve refers to comes again at {curve_rate}; refer to the rate with which that curve is "
         "calculated")
-times.computed("motion_start", "s_0", "1", "Fraction of the cycle at which the motion begins", function=rests.start, takes=CURVE,
+times.computed("motion_start", "s_0", "1", "Fraction of the cycle at which the motion begins",
+    function=lambda curve: rests.moving(curve)[0], takes=CURVE,
     method="the end of the longest rest among the curve's smooth pieces", needs=CURVE, output=False, source="this method")
-times.computed("motion_share", "s_m", "1", "Fraction of the cycle taken by the motion", function=rests.share, takes=CURVE,
+times.computed("motion_share", "s_m", "1", "Fraction of the cycle taken by the motion",
+    function=lambda curve: rests.moving(curve)[1], takes=CURVE,
     method="the rest of the cycle after the longest rest", needs=CURVE, output=False, source="this method")
 times.require("moves", lambda motion_share: motion_share > 0, key="motion_curve", message="does not move; give a curve that rises between two rests",
     needs=CURVE)
@@ -115,10 +121,10 @@ by_law.value("law_acceleration", "s″", "1", "Law of motion: acceleration at k"
 by_law.value("law_peak", "A", "1", "Law of motion: maximum acceleration", ByText("motion_law", PEAK_ACCELERATION), source="motion laws", output=False)
 by_law.value("input", "y", "deg", "Position of the input", lambda rise, law_position: rise * law_position, units=STRAIGHT, source="motion laws")
 by_law.choice("rigid_acceleration", "a_y", "rad/s**2", "Acceleration of the input, and of a rigidly driven link",
-    case(bind(formulas.law_acceleration, acceleration="law_acceleration"), "the input rises", MOVING), case(lambda: 0, "the input rests"),
+    case(bind(law_acceleration, acceleration="law_acceleration"), "the input rises", MOVING), case(lambda: 0, "the input rests"),
     units=STRAIGHT_ACCELERATION, source="motion laws")
 by_law.value("acceleration_rigid", "a_r", "rad/s**2", "Peak acceleration of the input, and of a rigidly driven link",
-    bind(formulas.law_acceleration, acceleration="law_peak"), units=STRAIGHT_ACCELERATION, source="motion laws")
+    bind(law_acceleration, acceleration="law_peak"), units=STRAIGHT_ACCELERATION, source="motion laws")
 
 by_curve = Chapter("Motion of the input",
     text="y is the referred curve, from the start s_0 of its motion on (t = 0); one cycle of it lasts T. Its speed and acceleration follow from the "

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Binding, Case, Chapter, Steps, bind, case
+from diecut_report.api import Binding, Case, Chapter, Spectrum, SpectrumLine, Steps, bind, case
 from diecut_report.mechanics import common, followers
-from diecut_report.mechanics.followers import peaks
+from diecut_report.mechanics.followers import Peaks, peaks
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
-from diecut_report.plugins.elastic_follower import formulas, rests
+from diecut_report.plugins.elastic_follower import motion, rests
 from diecut_report.plugins.elastic_follower.motion import (
     CURVE,
     LAW,
@@ -23,6 +24,37 @@ from diecut_report.plugins.elastic_follower.motion import (
 )
 
 # fmt: off
+
+FIRST, LAST = 0.5, 10.0  # natural periods within the rise
+RATIOS = np.linspace(FIRST, LAST, 96)
+DAMPINGS = (0.0, 0.02, 0.05, 0.1, 0.2)
+
+
+@cache
+def of_law(name: str) -> Peaks:
+    """Peaks of a law over ``RATIOS``, a row for each of ``DAMPINGS``."""
+    return peaks(LAWS[name], RATIOS, np.array(DAMPINGS)[:, None])
+
+
+def lines() -> Sequence[SpectrumLine]:
+    """The peak in the rise for each law and damping."""
+    return [
+        SpectrumLine(
+            id=f"peak_ratio_{name}_damping_{round(100 * damping):02d}",
+            symbol="q",
+            description=f"Peak acceleration in the rise, to the rigid one: {law.title[0].lower()}{law.title[1:]}, ζ = {damping:g}",
+            values=row,
+            source="001, first paper",
+        )
+        for name, law in LAWS.items()
+        for damping, row in zip(DAMPINGS, of_law(name).rise, strict=True)
+    ]
+
+
+SPECTRUM = Spectrum(
+    id="tuning_ratio", symbol="λ", description="Natural periods within the rise", values=RATIOS, lines=lines
+)
+
 
 FORCE = (("mass", "N"),)
 
@@ -54,13 +86,11 @@ response.value("torque", "M", "N*m", "Torque (or force) of the drive on the link
     bind(followers.drive_torque, deflection_velocity="deflection_speed"), units=FORCE, source="statics")
 
 
-def _while(rising: bool, symbol: str, words: str) -> Steps:
+def _while(chapter: Steps, rising: bool, symbol: str, words: str) -> None:
     there = bind(common.same, quantity="acceleration")
-    steps = Steps()
-    steps.choice(f"acceleration_{'rising' if rising else 'resting'}", symbol, "rad/s**2",
+    chapter.choice(f"acceleration_{'rising' if rising else 'resting'}", symbol, "rad/s**2",
         f"Acceleration of the driven link {words} the motion, else zero", case(there if rising else common.zero, "the input moves", MOVING),
         case(common.zero if rising else there, "the input rests"), units=STRAIGHT_ACCELERATION, output=False, source="this method")
-    return steps
 
 
 settling = Chapter("Settling after the motion", needs=(*RATE, "rest_tolerance"), absent="not calculated: {missing} not given",
@@ -93,8 +123,8 @@ settling.phase("settling", "moving", "The link settles after the motion", "time"
 settling.phase("rest", "rest", "The link rests", "time", ("settle_end", 0), period="cycle_time")
 
 extremes = Chapter("Peaks")
-extremes.add(_while(True, "a_1", "during"))
-extremes.add(_while(False, "a_2", "after"))
+_while(extremes, True, "a_1", "during")
+_while(extremes, False, "a_2", "after")
 extremes.reduction("acceleration_during", "a_1,max", "rad/s**2", "Peak acceleration of the driven link during the motion", "abs_max",
     of="acceleration_rising", units=STRAIGHT_ACCELERATION)
 extremes.reduction("acceleration_after", "a_2,max", "rad/s**2", "Peak acceleration of the driven link after the motion", "abs_max",
@@ -120,15 +150,9 @@ def greatest(law: MotionLaw) -> Callable[..., Any]:
 
     def found(tuning_ratio: Any, damping_ratio: Any, rise: Any, rise_duration: Any) -> Any:
         ratio = np.maximum(*peaks(law, tuning_ratio, damping_ratio))
-        return ratio * formulas.law_acceleration(rise, rise_duration, law.A)
+        return ratio * motion.law_acceleration(rise, rise_duration, law.A)
 
     return found
-
-
-def least(*accelerations: Any) -> Any:
-    """The least of the laws' peaks."""
-    return np.minimum.reduce(accelerations)
-
 
 OF_LAWS = {name: f"{name}_acceleration" for name in LAWS}
 
@@ -138,12 +162,10 @@ def _least(name: str, *, is_last: bool = False) -> Case:
     return case(name, f"{LAWS[name].title} has the lowest", held)
 
 
-def recommended(description: str, needs: tuple[str, ...], exists: Binding | None) -> Steps:
+def recommended(chapter: Steps, description: str, needs: tuple[str, ...], exists: Binding | None) -> None:
     """The law to take; it has a meaning for a motion in one direction only, and of a curve only where that is a single rise."""
-    steps = Steps()
-    steps.choice("recommended_law", "L", "1", description, *(_least(name) for name in list(LAWS)[:-1]), _least(list(LAWS)[-1], is_last=True),
+    chapter.choice("recommended_law", "L", "1", description, *(_least(name) for name in list(LAWS)[:-1]), _least(list(LAWS)[-1], is_last=True),
         source="this method", needs=needs, exists=exists)
-    return steps
 
 
 compared = Chapter("Comparison of laws of motion",
@@ -154,10 +176,11 @@ for number, (name, law) in enumerate(LAWS.items(), 1):
     compared.computed(OF_LAWS[name], f"a_{number}L", "rad/s**2", f"Peak acceleration of the driven link: {law.title[0].lower()}{law.title[1:]}",
         greatest(law), takes=("tuning_ratio", "damping_ratio", "rise", "rise_duration"),
         method="exact propagation of the drive's vibration through the law's smooth pieces", units=STRAIGHT_ACCELERATION, source="this method")
-compared.computed("least_acceleration", "a_L", "rad/s**2", "Minimum of these", function=least, takes=tuple(OF_LAWS.values()), method="comparison",
+compared.computed("least_acceleration", "a_L", "rad/s**2", "Minimum of these",
+    function=lambda *accelerations: np.minimum.reduce(accelerations), takes=tuple(OF_LAWS.values()), method="comparison",
     units=STRAIGHT_ACCELERATION, source="this method", output=False)
 compared.computed("one_way", "g", "1", "Drift of the motion per cycle, relative to its range", function=rests.gained, takes=CURVE,
     method="positions at both ends of the cycle", source="this method", output=False, needs=CURVE)
-compared.add(recommended("Law of motion with the lowest peak acceleration of the driven link", LAW, None))
-compared.add(recommended("Law that loads the link least in a single rise; this motion, of several parts, may need another", CURVE,
-        bind(common.is_at_least, greater="one_way", smaller=0.999)))
+recommended(compared, "Law of motion with the lowest peak acceleration of the driven link", LAW, None)
+recommended(compared, "Law that loads the link least in a single rise; this motion, of several parts, may need another", CURVE,
+        bind(common.is_at_least, greater="one_way", smaller=0.999))

@@ -60,16 +60,6 @@ def _longest_rest(edges: Array, still: NDArray[np.bool_]) -> tuple[float, float]
     return float(best[0]), float(best[1])
 
 
-def start(curve: Curve) -> Array:
-    """Share of the period at which the motion begins."""
-    return moving(curve)[0]
-
-
-def share(curve: Curve) -> Array:
-    """Share of the period that the motion takes."""
-    return moving(curve)[1]
-
-
 def jump(curve: Curve) -> Array:
     """Greatest jump of position (to the motion's range) or of speed (to the greatest speed) from piece to piece, (variants, 1)."""
     edges, positions = pieces(curve)
@@ -80,8 +70,7 @@ def jump(curve: Curve) -> Array:
         _gap(positions, half > 0) / np.ptp(positions, axis=(1, 2)),
         _gap(around, wide) / np.abs(speeds).max(axis=(1, 2)),
     ]
-    found: Array = np.maximum(*gaps)[:, None]
-    return found
+    return np.asarray(np.maximum(*gaps)[:, None])
 
 
 def gained(curve: Curve) -> Array:
@@ -99,8 +88,7 @@ def _gap(values: Array, wide: NDArray[np.bool_]) -> Array:
         here = wide[:, piece, 0]
         gaps.append(np.where(here, np.abs(values[:, piece, 0] - last), 0))
         last = np.where(here, values[:, piece, -1], last)
-    found: Array = np.max(gaps, axis=0)
-    return found
+    return np.asarray(np.max(gaps, axis=0))
 
 
 @cache
@@ -110,11 +98,9 @@ def _differences() -> Array:
     slopes = chebyshev.chebvander(-np.cos(np.linspace(0, np.pi, POINTS)), POINTS - 2) @ chebyshev.chebder(
         np.eye(POINTS)
     )
-    found: Array = slopes @ np.linalg.inv(series)
-    return found
+    return np.asarray(slopes @ np.linalg.inv(series))
 
 
 def last_or_end(crossings: Array, end: Array) -> Array:
     """The last crossing, no earlier than the end of the motion, (variants, 1)."""
-    found: Array = np.maximum(np.where(np.isfinite(crossings), crossings, 0).max(axis=1, initial=0)[:, None], end)
-    return found
+    return np.asarray(np.maximum(np.where(np.isfinite(crossings), crossings, 0).max(axis=1, initial=0)[:, None], end))

@@ -2,15 +2,101 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Mechanism, Source
-from diecut_report.plugins.gear_pair import load, load_factors, rating
-from diecut_report.plugins.gear_pair.checks import CHECKS
-from diecut_report.plugins.gear_pair.example import EXAMPLE
+from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired
+from diecut_report.plugins.gear_pair import load, rating
 from diecut_report.plugins.gear_pair.figures import FIGURES
-from diecut_report.plugins.gear_pair.inputs import ExternalGearPair
+from diecut_report.plugins.gear_pair.inputs import GEARS, ExternalGearPair
+from diecut_report.plugins.gear_pair.load import CALCULATED, DYNAMIC_KNOWN, ISO, KEYS, METHOD_C
 from diecut_report.plugins.gear_pair.mesh import mesh
-from diecut_report.plugins.gear_pair.root_form import root_form
-from diecut_report.plugins.gear_pair.sizing import module
+from diecut_report.plugins.gear_pair.rating import root_form
+from diecut_report.plugins.gear_pair.sizing import MODULES, module
+
+LEAST_CONTACT = 1.1
+
+# fmt: off
+
+MODULE = (Vary("module", "up", MODULES), ("center_distance", "module"))
+ROOM = ("keep_clearance", Vary("dedendum", "up"))
+
+
+def _strength(gear: int) -> tuple[Check, Check]:
+    """Pitting and breakage of one gear."""
+    name = GEARS[gear]
+    return (
+        Check(id=f"pitting_{gear}", check_class="strength", title=f"Pitting of the {name}", demand="required_pitting_safety",
+              limit=f"pitting_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety",
+              source="ISO 6336-2:2006", needs=(DYNAMIC_KNOWN,), founded=(f"life_factor_h_{gear}",),
+              consequence=f"the flanks of the {name} wear out by pitting; governing load case: {{pitting_case}}.",
+              advise=(Vary(f"sigma_h_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
+        Check(id=f"root_{gear}", check_class="strength", title=f"Tooth root of the {name}", demand="required_root_safety",
+              limit=f"root_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety",
+              source="ISO 6336-3:2006", needs=(DYNAMIC_KNOWN,), founded=(f"life_factor_f_{gear}",),
+              consequence=f"teeth of the {name} break at the root; governing load case: {{root_case}}.",
+              advise=(Vary(f"sigma_f_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
+    )
+
+
+STRENGTH = [_strength(g) for g in GEARS]
+CHECKS = (STRENGTH[0][0], STRENGTH[1][0], STRENGTH[0][1], STRENGTH[1][1],
+    Check(id="contact_ratio", check_class="function", title="Contact ratio", demand=LEAST_CONTACT, limit="contact_ratio", unit="1",
+        demand_label="required", limit_label="contact ratio", source="practice",
+        consequence="a pair of teeth parts before the next one carries; less shift or tips that are not shortened raise it.",
+        advise=(Vary("addendum", "up"), ("teeth_1", "teeth_2"))),
+    Check(id="clearance", check_class="function", title="Tip clearance to the mating root", demand=0.0, limit="tip_clearance_least", unit="mm",
+        demand_label="required", limit_label="minimum tip clearance", source="ISO 21771", consequence="a tip meets the other gear's root.",
+        advise=ROOM),
+    Check(id="sector_teeth", check_class="function", title="Teeth of the sector", demand="teeth_needed", limit="sector.teeth_present", unit="1",
+        needs=("sector", "sector.teeth_present"), demand_label="required for the swing", limit_label="present", source="this method",
+        consequence="the pinion leaves the sector at the end of its swing.", advise=(Vary("sector.teeth_present", "up"),)),
+    Check(id="undercut", check_class="practice", title="Undercut", demand="shift_lacking", limit=0.0, unit="1", severity="warn",
+        demand_label="missing profile shift", limit_label="allowed", source="ISO 21771",
+        consequence="the rack cuts the involute away near the root, and the root is weaker than calculated.",
+        advise=("shift_1", "shift_2", ("shift_1", "shift_2"))),
+    Check(id="tip_thickness", check_class="practice", title="Tip thickness", demand="tip_thickness_wanted", limit="tip_thickness_least", unit="mm",
+        severity="warn", demand_label="usual, 0.2 modules", limit_label="thinner tip", source="practice",
+        consequence="thin tips chip where they are hardened; more teeth thicken them.",
+        advise=(Vary("addendum", "down"), Vary("shift_1", "down"), Vary("shift_2", "down"), ("shift_1", "shift_2"))),
+    Check(id="tip_clearance", check_class="practice", title="Tip clearance", demand="tip_clearance_wanted", limit="tip_clearance_least", unit="mm",
+        severity="warn", demand_label="usual, 0.12 modules", limit_label="minimum tip clearance", source="practice",
+        consequence="little room for errors and dirt.", advise=ROOM),
+    Check(id="notch_parameter", check_class="practice", presumed=True, title="Notch at the root", demand="notch_parameter", limit=8.0, at_least=1.0,
+        unit="1", operator="<", severity="warn", demand_label="notch parameter", limit_label="range of Y_S", source="ISO 6336-3:2006, 7",
+        consequence="the stress correction Y_S does not hold there.", advise=("root_radius",)),
+    Check(id="face_width", check_class="practice", title="Face width", demand="face_width", limit="face_width_wanted", unit="mm", severity="warn",
+        demand_label="face width", limit_label="usual, 1.2 pinion diameters", source="practice",
+        consequence="so wide teeth bear at one end.", advise=(Vary("face_width", "down"), MODULE[0])),
+    Check(id="k_factors", check_class="practice", title="K factors", demand="factors_assumed", limit=0.0, unit="1", severity="warn",
+        founded=KEYS, demand_label="number of assumed factors", limit_label="accepted", source=ISO,
+        consequence="{assumed_told} are assumed, not calculated; give the grade of accuracy, the speed and the slope of the shafts, with "
+                    "which they are calculated, or their values."),
+    Check(id="dynamic_range", check_class="practice", title="Range of the dynamic factor", demand="speed_parameter", limit=METHOD_C, unit="m/s",
+        severity="warn", only_with=CALCULATED, presumed=True, demand_label="speed", limit_label="end of method C", source="IACS UR M56",
+        consequence="method C does not hold near the resonance; give dynamic_factor.", advise=(Vary("speed", "down"),)),
+    Check(id="grade_confirmed", check_class="practice", title="Sources of the dynamic factor", demand="grade", limit="grade_confirmed", unit="1",
+        severity="warn", only_with=CALCULATED, presumed=True, demand_label="grade", limit_label="confirmed by two sources", source=ISO,
+        consequence="the coefficient K_1 of so coarse helical teeth is from one source; give dynamic_factor.", advise=(Vary("grade", "down"),)))
+
+
+EXAMPLE = ExampleBlock(
+    "main_gears",
+    {
+        "module": "5 mm",
+        "teeth_1": 24,
+        "teeth_2": 48,
+        "face_width": "50 mm",
+        "torque": Wired("${<cylinder_drive>.crank_torque}", otherwise="500 N*m"),
+        "torque_on": "wheel",
+        "application_factor": Wired(1, needs=("cylinder_drive",), otherwise=1.25),  # a curve holds the dynamics
+        "dynamic_factor": 1.1,
+        "face_load_factor": 1.3,
+        "transverse_load_factor": 1.1,
+        "sigma_h_lim_1": "767 MPa",
+        "sigma_h_lim_2": "767 MPa",
+        "sigma_f_lim_1": "314 MPa",
+        "sigma_f_lim_2": "314 MPa",
+    },
+)
+
 
 MECHANISM = Mechanism(
     kind="gear_pair",
@@ -21,8 +107,8 @@ MECHANISM = Mechanism(
             "smallest preferred one is selected with which flank and root of both gears have the required safety.",
     inputs=ExternalGearPair,
     example=EXAMPLE,
-    chapters=(load.cycle, load.load, load_factors.factors, mesh, root_form, load_factors.accuracy, module, rating.sizes, rating.forces,
-              load_factors.dynamic, load_factors.face, load_factors.transverse, rating.pitting, rating.root_stress, rating.over_cycle, rating.sector),
+    chapters=(load.cycle, load.load, load.factors, mesh, root_form, load.accuracy, module, rating.sizes, rating.forces,
+              load.dynamic, load.face, load.transverse, rating.pitting, rating.root_stress, rating.over_cycle, rating.sector),
     key_results=("module", "center_distance", "shift_2", "contact_ratio", "tangential_force", "pitting_safety_1", "pitting_safety_2", "root_safety_1",
                  "root_safety_2"),
     checks=CHECKS,

@@ -23,12 +23,6 @@ SMALL_DEVIATION = Constant(40e-6, "40 µm", "m")
 
 
 @formula
-def least_distance(module: Any, teeth_1: Any, teeth_2: Any, helix_angle: Any, alpha: Any) -> Any:
-    """Distance of the axes at which the base circles touch: the working pressure angle is 0."""
-    return module * (teeth_1 + teeth_2) * np.cos(alpha) / (2 * np.cos(helix_angle))
-
-
-@formula
 def shift_of_distance(
     working_pressure_angle: Any, alpha: Any, pressure_angle: Any, shift_1: Any, teeth_1: Any, teeth_2: Any
 ) -> Any:
@@ -44,12 +38,6 @@ def tip_above_base(teeth: Any, alpha: Any, helix_angle: Any, tip_height: Any) ->
 
 
 @formula
-def distance_coefficient(teeth_1: Any, teeth_2: Any, helix_angle: Any, alpha: Any, working_angle: Any) -> Any:
-    """How far the axes are drawn apart beyond their reference distance, in modules."""
-    return (teeth_1 + teeth_2) / (2 * np.cos(helix_angle)) * (np.cos(alpha) / np.cos(working_angle) - 1)
-
-
-@formula
 def tip_thickness(tip_diameter: Any, half_thickness: Any, helix_angle: Any, reference_diameter: Any) -> Any:
     """Normal thickness of the tooth at its tip; ``half_thickness`` is half of it as an angle."""
     helix_at_tip = np.arctan(np.tan(helix_angle) * tip_diameter / reference_diameter)
@@ -57,18 +45,6 @@ def tip_thickness(tip_diameter: Any, half_thickness: Any, helix_angle: Any, refe
 
 
 # --- pitting ---------------------------------------------------------------------------------------------------------
-
-
-@formula
-def zone_factor(base_helix_angle: Any, working_angle: Any, alpha: Any) -> Any:
-    """Zone factor Z_H: curvature of the flanks at the pitch point."""
-    return np.sqrt(2 * np.cos(base_helix_angle) * np.cos(working_angle) / (np.cos(alpha) ** 2 * np.sin(working_angle)))
-
-
-@formula
-def elasticity(elastic_modulus_1: Any, elastic_modulus_2: Any) -> Any:
-    """Square of the elasticity factor Z_E, Poisson's ratio being 0.3."""
-    return 1 / (as_number(np.pi) * ((1 - 0.3**2) / elastic_modulus_1 + (1 - 0.3**2) / elastic_modulus_2))
 
 
 @formula
@@ -118,12 +94,6 @@ def pitting_safety(limit: Any, life: Any, film: Any, stress: Any) -> Any:
 
 
 # --- root: lengths in normal modules ---------------------------------------------------------------------------------
-
-
-@formula
-def virtual_teeth(teeth: Any, base_helix_angle: Any, helix_angle: Any) -> Any:
-    """Teeth of the virtual spur gear of the normal section."""
-    return teeth / (np.cos(base_helix_angle) ** 2 * np.cos(helix_angle))
 
 
 @formula
@@ -182,12 +152,6 @@ def stress_factor(root_chord: Any, load_arm: Any, notch_parameter: Any) -> Any:
 
 
 @formula
-def root_stress(nominal: Any, application: Any, dynamic: Any, face: Any, transverse: Any) -> Any:
-    """Root stress with what raises it."""
-    return nominal * application * dynamic * face * transverse
-
-
-@formula
 def worse_notch(notch_parameter_1: Any, notch_parameter_2: Any) -> Any:
     """The parameter of the two that leaves the range 1 … 8, or comes nearest to its end."""
     least = np.minimum(notch_parameter_1, notch_parameter_2)
@@ -195,12 +159,6 @@ def worse_notch(notch_parameter_1: Any, notch_parameter_2: Any) -> Any:
 
 
 # --- load factors (ISO 6336-1:2019) ----------------------------------------------------------------------------------
-
-
-@formula
-def speed_parameter(velocity: Any, teeth_1: Any, ratio: Any) -> Any:
-    """Speed by which the dynamic factor of method C goes."""
-    return velocity * teeth_1 / 100 * np.sqrt(ratio**2 / (1 + ratio**2))
 
 
 @formula
@@ -252,12 +210,6 @@ def helix_deviation(diameter: Any, face_width: Any, grade_step: Any) -> Any:
 
 
 @formula
-def pitch_deviation(diameter: Any, module: Any, grade_step: Any) -> Any:
-    """Permissible single pitch deviation f_pt (ISO 1328-1:2013)."""
-    return (0.001 * diameter / MILLIMETRE + 0.4 * module / MILLIMETRE + 5) * grade_step * MICROMETRE
-
-
-@formula
 def run_in_deviation(deviation: Any, velocity: Any, slow: Any, fast: Any) -> Any:
     """The part of a deviation that running in reduces in proportion: all of it at low speed."""
     reached = np.where(velocity <= fast, MIDDLE_DEVIATION, SMALL_DEVIATION)
@@ -269,12 +221,6 @@ def misalignment(bending: Any, manufacture: Any, crowning: Any, line_load: Any, 
     """Equivalent misalignment F_βx before running in."""
     least = np.maximum(0.005 * line_load / LINE_LOAD * MICROMETRE, np.maximum(deviation_1, deviation_2) / 2)
     return np.maximum(crowning * (1.33 * bending + manufacture), least)
-
-
-@formula
-def face_load_factor(opening: Any) -> Any:
-    """Face load factor K_Hβ; from an opening of 1 on a part of the width does not carry."""
-    return np.where(opening < 1, 1 + opening, 2 * np.sqrt(opening))
 
 
 @formula
@@ -290,9 +236,3 @@ def limited_for_flank(factor: Any, contact_ratio: Any, overlap_ratio: Any, conta
     """K_Hα: at least 1, at most what a single pair of teeth carries."""
     limit = contact_ratio_total / (contact_ratio * contact_ratio_factor(contact_ratio, overlap_ratio) ** 2)
     return np.maximum(np.minimum(factor, limit), 1)
-
-
-@formula
-def limited_for_root(factor: Any, contact_ratio: Any, contact_ratio_total: Any) -> Any:
-    """K_Fα: at least 1, at most what a single pair of teeth carries."""
-    return np.maximum(np.minimum(factor, contact_ratio_total / (0.25 * contact_ratio + 0.75)), 1)

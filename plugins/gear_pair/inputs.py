@@ -8,6 +8,7 @@ from diecut_report.api import POINTS, Annotated, Block, CurveInput, FromTable, I
 
 # fmt: off
 
+GEARS = {1: "pinion", 2: "wheel"}
 
 class Sector(Block):
     """Keys of the block ``sector``: the wheel is a part of a full circle and swings."""

@@ -38,7 +38,8 @@ mesh.root("working_pressure_angle", "α_wt", "deg", "Working pressure angle",
     right=lambda working_pressure_angle, working_involute: working_involute + as_number(working_pressure_angle), lacks=GIVEN_DISTANCE,
     source=ISO_21771, digits=6, tolerance=1e-12)
 mesh.value("least_distance", "a_min", "mm", "Centre distance at which the base circles touch",
-    bind(f.least_distance, module="inputs.module", **ALPHA), needs=GIVEN_DISTANCE, source=ISO_21771, output=False)
+    bind(lambda module, teeth_1, teeth_2, helix_angle, alpha: module * (teeth_1 + teeth_2) * np.cos(alpha) / (2 * np.cos(helix_angle)),
+        module="inputs.module", **ALPHA), needs=GIVEN_DISTANCE, source=ISO_21771, output=False)
 mesh.require("base_circles_apart", bind(lambda distance, least_distance: distance > least_distance, distance="inputs.center_distance"),
     key="center_distance", needs=GIVEN_DISTANCE,
     message="is {inputs.center_distance}, within which the base circles of {teeth_1} and {teeth_2} teeth overlap; take more than "
@@ -53,7 +54,9 @@ mesh.require("shift_2_possible", bind(lambda shift_2, least, most: (shift_2 >= l
     message="is {inputs.center_distance}, which asks for a profile shift of {shift_2} at the wheel; it can be −1 … 1.5: take another "
         "center_distance, shift_1, module or number of teeth")
 mesh.value("distance_coefficient", "y", "1", "Centre distance modification coefficient",
-    bind(f.distance_coefficient, working_angle="working_pressure_angle", **ALPHA), source=ISO_21771, output=False, digits=6)
+    bind(lambda teeth_1, teeth_2, helix_angle, alpha, working_angle:
+            (teeth_1 + teeth_2) / (2 * np.cos(helix_angle)) * (np.cos(alpha) / np.cos(working_angle) - 1),
+        working_angle="working_pressure_angle", **ALPHA), source=ISO_21771, output=False, digits=6)
 mesh.value("tip_alteration", "k", "1", "Tip alteration coefficient that keeps the tip clearance",
     lambda distance_coefficient, shift_1, shift_2: distance_coefficient - (shift_1 + shift_2), needs=("keep_clearance=true",), source=ISO_21771,
     output=False)

@@ -4,13 +4,83 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind
-from diecut_report.mechanics import drive_line
+from diecut_report.api import Chapter, as_angle, as_number, bind
+from diecut_report.mechanics import drive_line, involute
 from diecut_report.plugins.gear_pair import formulas as f
-from diecut_report.plugins.gear_pair.load_factors import DYNAMIC_KNOWN
+from diecut_report.plugins.gear_pair.load import DYNAMIC_KNOWN
 from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, ISO_21771, TEETH
 
 # fmt: off
+
+FORM, CORRECTION = "ISO 6336-3:2006, 6", "ISO 6336-3:2006, 7"
+
+root_form = Chapter("Form of the tooth root",
+    text="Virtual spur gears in the normal section, lengths in modules. The whole load acts at the outer point of single pair tooth contact. The "
+        "critical section lies where tangents at 30° to the tooth's centre line touch the root fillet.")
+root_form.value("half_tip_width", "E", "1", "Distance of the fillet centre from the centre line of the rack tooth", f.half_tip_width, source=FORM,
+    output=False)
+root_form.require("rack_possible", lambda half_tip_width: half_tip_width >= 0, key="root_radius",
+    message="is {root_radius}, so that the roundings of the rack's tip overlap; take a smaller root_radius or dedendum")
+root_form.value("virtual_contact_ratio", "ε_αn", "1", "Contact ratio of the virtual spur gears",
+    lambda contact_ratio, base_helix_angle: contact_ratio / np.cos(base_helix_angle) ** 2, source=FORM, output=False)
+root_form.require("below_two_pairs", lambda virtual_contact_ratio: virtual_contact_ratio < 2, key="addendum",
+    message="is {addendum}, with which the virtual contact ratio is {virtual_contact_ratio}; from 2 on no single pair carries the load and this "
+        "method does not hold: take a smaller addendum, fewer teeth or less helix")
+
+for g, teeth in TEETH.items():
+    own = {"virtual_teeth": f"virtual_teeth_{g}", "theta": f"root_angle_{g}", "center_height": f"rounding_height_{g}"}
+    load = {"half_thickness": f"load_half_angle_{g}", "load_angle": f"load_angle_{g}", "diameter": f"load_diameter_{g}"}
+    root_form.value(f"virtual_teeth_{g}", f"z_n{g}", "1", f"Number of teeth of virtual spur gear {g}",
+        bind(lambda teeth, base_helix_angle, helix_angle: teeth / (np.cos(base_helix_angle) ** 2 * np.cos(helix_angle)), teeth=teeth),
+        source=FORM, output=False, digits=6)
+    root_form.value(f"rounding_height_{g}", f"G_{g}", "1", f"Height of the fillet centre on gear {g}",
+        bind(lambda root_radius, dedendum, shift: root_radius - dedendum + shift, shift=f"shift_{g}"), source=FORM, output=False)
+    root_form.value(f"tangent_offset_{g}", f"H_{g}", "rad", f"Auxiliary angle of gear {g}",
+        bind(lambda virtual_teeth, half_tip_width: as_angle(2 / virtual_teeth * (as_number(np.pi) / 2 - half_tip_width)) - np.pi / 3,
+            virtual_teeth=f"virtual_teeth_{g}"), source=FORM, output=False, digits=6)
+    root_form.require(f"root_exists_{g}",
+        bind(lambda offset, virtual_teeth, center_height:
+                (offset < 0) & (virtual_teeth * as_number(np.pi / 3 + offset) > 2 * np.sqrt(3) * center_height), offset=f"tangent_offset_{g}",
+            virtual_teeth=f"virtual_teeth_{g}", center_height=f"rounding_height_{g}"), key=f"shift_{g}",
+        message=f"is {{shift_{g}}}, with which no tangent at 30° touches the root of the tooth {g}; take less shift or more teeth")
+    root_form.root(f"root_angle_{g}", f"θ_{g}", "rad", f"Angle of the tangent's contact on gear {g}",
+        bind(lambda theta, offset, virtual_teeth, center_height: theta + offset - as_angle(2 * center_height / virtual_teeth * np.tan(theta)),
+            theta=f"root_angle_{g}", offset=f"tangent_offset_{g}", virtual_teeth=f"virtual_teeth_{g}", center_height=f"rounding_height_{g}"),
+        low=lambda: 0, high=lambda: np.pi / 3,
+        left=bind(lambda theta, virtual_teeth, offset: virtual_teeth * as_number(theta + offset) * np.cos(theta), theta=f"root_angle_{g}",
+            offset=f"tangent_offset_{g}", virtual_teeth=f"virtual_teeth_{g}"),
+        right=bind(lambda theta, center_height: 2 * center_height * np.sin(theta), theta=f"root_angle_{g}", center_height=f"rounding_height_{g}"),
+        source=FORM, output=False, digits=6, tolerance=1e-9)
+    root_form.value(f"chord_{g}", f"s_n{g}", "1", f"Tooth root chord of gear {g} at the critical section, in modules", bind(f.root_chord, **own),
+        source=FORM, output=False, digits=6)
+    root_form.value(f"fillet_{g}", f"r_n{g}", "1", f"Root fillet radius of gear {g} at the critical section, in modules",
+        bind(f.fillet_radius, **own), source=FORM, output=False, digits=6)
+    root_form.value(f"load_diameter_{g}", f"d_en{g}", "1", f"Diameter at the outer point of single pair tooth contact of gear {g}, in modules",
+        bind(f.single_contact_diameter, virtual_teeth=f"virtual_teeth_{g}", tip_height=f"tip_height_{g}"), source=FORM, output=False, digits=6)
+    root_form.value(f"load_pressure_angle_{g}", f"α_en{g}", "deg", f"Pressure angle at this point of gear {g}",
+        bind(lambda virtual_teeth, pressure_angle, diameter: np.arccos(virtual_teeth * np.cos(pressure_angle) / diameter),
+            virtual_teeth=f"virtual_teeth_{g}", diameter=f"load_diameter_{g}"), source=FORM, output=False, digits=6)
+    root_form.value(f"load_half_angle_{g}", f"γ_e{g}", "deg", f"Tooth thickness half angle at this point of gear {g}",
+        bind(involute.half_thickness, teeth=f"virtual_teeth_{g}", shift=f"shift_{g}", alpha="pressure_angle", alpha_there=f"load_pressure_angle_{g}"),
+        source=FORM, output=False, digits=6)
+    root_form.value(f"load_angle_{g}", f"α_Fen{g}", "deg", f"Load direction angle of gear {g}",
+        bind(lambda pressure, half: pressure - half, pressure=f"load_pressure_angle_{g}", half=f"load_half_angle_{g}"), source=FORM, output=False,
+        digits=6)
+    root_form.value(f"load_arm_{g}", f"h_Fe{g}", "1", f"Bending moment arm of gear {g}, in modules", bind(f.load_arm, **own, **load), source=FORM,
+        output=False, digits=6)
+    root_form.require(f"load_above_root_{g}", bind(lambda arm, chord: (arm > 0) & (chord > 0), arm=f"load_arm_{g}", chord=f"chord_{g}"),
+        key="addendum",
+        message=f"is {{addendum}}, with which the load meets the tooth {g} below its critical section; take a greater addendum, or less dedendum")
+    root_form.value(f"form_factor_{g}", f"Y_F{g}", "1", f"Form factor of gear {g}",
+        bind(f.form_factor, load_arm=f"load_arm_{g}", load_angle=f"load_angle_{g}", root_chord=f"chord_{g}"), source=FORM, digits=6)
+    root_form.value(f"notch_parameter_{g}", f"q_s{g}", "1", f"Notch parameter of root {g}",
+        bind(lambda chord, fillet: chord / (2 * fillet), chord=f"chord_{g}", fillet=f"fillet_{g}"), source=CORRECTION, output=False)
+    root_form.value(f"stress_factor_{g}", f"Y_S{g}", "1", f"Stress correction factor of gear {g}",
+        bind(f.stress_factor, root_chord=f"chord_{g}", load_arm=f"load_arm_{g}", notch_parameter=f"notch_parameter_{g}"), source=CORRECTION,
+        digits=6)
+root_form.value("notch_parameter", "q_s", "1", "Notch parameter: the one below 1, else the greater one", f.worse_notch, source=CORRECTION,
+    output=False)
+
 
 PITTING, ROOT, STATICS = "ISO 6336-2:2006", "ISO 6336-3:2006", "statics"
 FACTORS = {"application": "application_factor", "dynamic": "dynamic_factor"}
@@ -90,9 +160,14 @@ forces.value("power_peak", "P", "kW", "Power at the maximum torque", lambda torq
 
 pitting = Chapter("Pitting",
     text="Load at the pitch point, converted to the inner points of single pair tooth contact by Z_B and Z_D. Z_E is for Poisson's ratio 0.3.")
-pitting.value("zone_factor", "Z_H", "1", "Zone factor", bind(f.zone_factor, working_angle="working_pressure_angle", alpha="transverse_angle"),
+pitting.value("zone_factor", "Z_H", "1", "Zone factor", bind(lambda base_helix_angle, working_angle, alpha:
+        np.sqrt(2 * np.cos(base_helix_angle) * np.cos(working_angle) / (np.cos(alpha) ** 2 * np.sin(working_angle))),
+    working_angle="working_pressure_angle", alpha="transverse_angle"),
     source=f"{PITTING}, 6")
-pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E", f.elasticity, source=f"{PITTING}, 7", output=False)
+pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E",
+    lambda elastic_modulus_1, elastic_modulus_2:
+        1 / (as_number(np.pi) * ((1 - 0.3**2) / elastic_modulus_1 + (1 - 0.3**2) / elastic_modulus_2)),
+    source=f"{PITTING}, 7", output=False)
 pitting.value("contact_ratio_factor", "Z_ε", "1", "Contact ratio factor", f.contact_ratio_factor, source=f"{PITTING}, 8")
 pitting.value("helix_factor", "Z_β", "1", "Helix angle factor", lambda helix_angle: 1 / np.sqrt(np.cos(helix_angle)),
     source=f"{PITTING}, 9, corrigendum 2008", output=False)
@@ -135,7 +210,8 @@ for g in TEETH:
                 force * form_factor * stress_factor * helix_factor / (face_width * module), force="root_force", form_factor=f"form_factor_{g}",
             stress_factor=f"stress_factor_{g}", helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
     root_stress.value(f"root_stress_{g}", f"σ_F{g}", "MPa", f"Tooth root stress of gear {g}",
-        bind(f.root_stress, nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5", needs=RATED)
+        bind(lambda nominal, application, dynamic, face, transverse: nominal * application * dynamic * face * transverse,
+            nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5", needs=RATED)
     root_stress.value(f"root_safety_{g}", f"S_F{g}", "1", f"Safety factor of gear {g} against tooth breakage",
         bind(lambda limit, life, notch, alternating, stress: 2 * limit * life * notch * alternating / stress, limit=f"sigma_f_lim_{g}",
             life=f"life_factor_f_{g}", notch="notch_size_factor", alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5",

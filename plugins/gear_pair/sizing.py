@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Bound, Chapter, Formula, Value, Vary, bind, phrase, si, standard_series
-from diecut_report.plugins.gear_pair import load_factors, rating
-from diecut_report.plugins.gear_pair.load_factors import KEYS
+from diecut_report.plugins.gear_pair import load, rating
+from diecut_report.plugins.gear_pair.load import KEYS
 from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, TEETH
 
 MODULES = standard_series("iso_54_modules")
@@ -21,9 +21,9 @@ SAFETIES = {f"{kind}_safety_{g}": f"required_{kind}_safety" for kind in ("pittin
 CHAPTERS = (
     rating.sizes,
     rating.forces,
-    load_factors.dynamic,
-    load_factors.face,
-    load_factors.transverse,
+    load.dynamic,
+    load.face,
+    load.transverse,
     rating.pitting,
     rating.root_stress,
 )
@@ -31,7 +31,7 @@ CHAPTERS = (
 
 def _rating() -> tuple[tuple[frozenset[str], Value], ...]:
     """The steps of the rating that the safeties follow from, in their order, each with the inputs that it needs."""
-    known = {load_factors.DYNAMIC_KNOWN}
+    known = {load.DYNAMIC_KNOWN}
     steps = [
         (frozenset(chapter.needs), step) for chapter in CHAPTERS for step in chapter.steps if isinstance(step, Value)
     ]
@@ -63,7 +63,7 @@ def least_module(given: Mapping[str, Any]) -> Any:
         if needs <= given.keys() and not given.keys() & step.lacks:
             known[step.id] = _value(step, known)
     held = np.all([known[name] >= known[required] for name, required in SAFETIES.items()], axis=0)
-    held &= known.get("speed_parameter", 0.0) <= load_factors.METHOD_C
+    held &= known.get("speed_parameter", 0.0) <= load.METHOD_C
     first = SERIES[np.argmax(held, axis=1)]
     return np.where(held.any(axis=1), first, 0.0)[:, None]
 

@@ -9,24 +9,176 @@ import numpy as np
 from diecut_report.api import (
     POINTS,
     Annotated,
+    BarGroup,
+    Bars,
     Chapter,
+    Chart,
     Comparison,
     CurveInput,
     Inputs,
     Mechanism,
     Quantity,
+    Shape,
     Steps,
     Text,
+    View,
     as_number,
     bind,
     case,
+    chart_panel,
+    formula,
+    level,
+    line,
+    mark,
+    vertical,
 )
 from diecut_report.mechanics import common
-from diecut_report.plugins.geneva_transport import comparison_formulas as related
 from diecut_report.plugins.geneva_transport import formulas
-from diecut_report.plugins.geneva_transport.comparison_figures import FIGURES
 
 # fmt: off
+
+
+@formula
+def are_alike(one: Any, other: Any) -> Any:
+    """Whether two quantities are the same, rounding apart."""
+    return abs(one - other) <= 1e-6 * abs(one)
+
+
+@formula
+def stop_sweep_best(geneva_dwell: Any, dwell_sweep: Any, peak_velocity: Any) -> Any:
+    """Sweep of stop and start with which both ask for the same acceleration as the return, at the Geneva drive's dwell."""
+    moved = 1 - geneva_dwell
+    reach = peak_velocity * geneva_dwell
+    return dwell_sweep * moved**2 / (reach * (reach + 2 * moved))
+
+
+@formula
+def time_of_stop(stop_sweep: Any, geneva_dwell: Any, dwell_sweep: Any, peak_velocity: Any) -> Any:
+    """Share of stop and start."""
+    return peak_velocity * geneva_dwell * stop_sweep / dwell_sweep
+
+
+@formula
+def time_of_return(geneva_dwell: Any, time_of_stop: Any) -> Any:
+    """Share of the return."""
+    return 1 - geneva_dwell - time_of_stop
+
+
+@formula
+def velocity_of_return(
+    stop_sweep: Any, geneva_dwell: Any, dwell_sweep: Any, peak_velocity: Any, return_time: Any
+) -> Any:
+    """Greatest velocity of the sheet: the disc's part and the returning sector's."""
+    return 1 + peak_velocity * geneva_dwell * (1 + stop_sweep / dwell_sweep) / return_time
+
+
+@formula
+def acceleration_of_stop(
+    stop_sweep: Any, geneva_dwell: Any, dwell_sweep: Any, peak_acceleration: Any, stop_time: Any
+) -> Any:
+    """Greatest acceleration of the sheet while the sector stops and starts."""
+    return peak_acceleration * geneva_dwell * stop_sweep / (dwell_sweep * stop_time**2)
+
+
+@formula
+def acceleration_of_return(
+    stop_sweep: Any, geneva_dwell: Any, dwell_sweep: Any, peak_acceleration: Any, return_time: Any
+) -> Any:
+    """Greatest acceleration of the sheet while the sector returns."""
+    return peak_acceleration * geneva_dwell * (1 + stop_sweep / dwell_sweep) / return_time**2
+
+
+DRIVES = (("cam-gear", "cam"), ("Geneva", "geneva"))
+NARROWEST = 0.25  # of the sweeps drawn, to that of the least acceleration
+
+
+def cycle(view: View) -> list[Shape]:
+    """Velocity and acceleration of the sheet over the cycle, both drives; in m/s where the step is known."""
+    step, time = view.get("cam_step", view.get("geneva_step", 0.0)), view["cycle_time"]
+    if step:
+        return [
+            _over_cycle(view, "velocity", "Velocity of the sheet", "m/s", step / time),
+            _over_cycle(view, "acceleration", "Acceleration of the sheet", "m/s**2", step / time**2),
+        ]
+    return [
+        _over_cycle(view, "velocity", "Velocity in units of S/T", "1", 1.0),
+        _over_cycle(view, "acceleration", "Acceleration in units of S/T²", "1", 1.0),
+    ]
+
+
+def _over_cycle(view: View, what: str, title: str, unit: str, factor: float) -> Shape:
+    share = np.append(np.array(view.curve("cycle_angle")) / (2 * np.pi), 1.0)
+    return chart_panel(
+        title,
+        unit,
+        "Fraction of the cycle",
+        "",
+        "1",
+        lines=[line(share, _closed(view, f"{drive}_{what}") * factor, name) for name, drive in DRIVES],
+        verticals=[vertical(view["dwell_share"], "end of the cam-gear's dwell")],
+    )
+
+
+def _closed(view: View, curve: str) -> Any:
+    """A curve's samples, and again the first one at the end of the cycle."""
+    values = view.curve(curve)
+    return np.array([*values, values[0]])
+
+
+def _same_dwell(view: View) -> list[Shape]:
+    """What a cam-gear with the Geneva drive's dwell asks of the sheet, over its sweep of stop and start."""
+    dwell, held, peak = view["geneva_dwell"], view["sector_dwell_sweep"], view["law_peak_velocity"]
+    best, limit = view["stop_sweep_best"], view["stop_sweep_limit"]
+    sweep = np.linspace(NARROWEST * best, limit, 181)
+    stop = time_of_stop(sweep, dwell, held, peak)
+    back = time_of_return(dwell, stop)
+    hard = view["law_peak_acceleration"]
+    stopping = acceleration_of_stop(sweep, dwell, held, hard, stop)
+    returning = acceleration_of_return(sweep, dwell, held, hard, back)
+    over = ("Sweep of stop and start", "γ_3(3+1)", "deg")
+    return [
+        chart_panel("Maximum acceleration in units of S/T²", "1", *over,
+                    lines=[line(sweep, stopping, "stop and start"), line(sweep, returning, "return")],
+                    marks=[mark(best, view["best_acceleration"], "minimum")],
+                    levels=[level(view["geneva_acceleration_peak"], "Geneva")]),
+        chart_panel("Maximum velocity in units of S/T", "1", *over,
+                    lines=[line(sweep, velocity_of_return(sweep, dwell, held, peak, back), "cam-gear")],
+                    marks=[mark(best, view["best_velocity"], "with the lowest acceleration")],
+                    levels=[level(view["geneva_velocity_peak"], "Geneva")]),
+    ]  # fmt: skip
+
+
+def _both(label: str, unit: str, cam: str, geneva: str) -> BarGroup:
+    return BarGroup(label=label, unit=unit, bars=(("cam-gear", cam), ("Geneva", geneva)))
+
+
+FIGURES = (
+    Bars(
+        id="peaks",
+        title="Dwell and peaks",
+        caption="Dwell as a fraction of the cycle, maximum velocity in units of S/T, maximum acceleration in units of S/T², and maximum power in "
+        "units of m·S²/T³, which is also the ratio of the torques.",
+        groups=(
+            _both("Dwell", "%", "dwell_share", "geneva_dwell"),
+            _both("Velocity", "1", "cam_velocity_peak", "geneva_velocity_peak"),
+            _both("Acceleration", "1", "cam_acceleration_peak", "geneva_acceleration_peak"),
+            _both("Power", "1", "cam_power_peak", "geneva_power_peak"),
+        ),
+    ),
+    Chart(
+        id="cycle",
+        title="Motion of the sheet by both drives",
+        caption="Over a cycle that begins with the cam-gear's dwell; both motions have the same middle.",
+        build=cycle,
+    ),
+    Chart(
+        id="same_dwell",
+        title="Cam-gear with the Geneva drive's dwell",
+        caption="Acceleration of the sheet versus the sweep of stop and start, up to the sweep that leaves a tenth of the cycle for the return.",
+        build=_same_dwell,
+    ),
+)
+
 
 LEAST_RETURN = 0.1  # share of the cycle that the cam-gear's sector needs at least for its return
 
@@ -58,10 +210,10 @@ basis.value("cycle_time", "T", "ms", "Cycle time of the cam-gear", lambda cycles
 basis.value("geneva_cycle_time", "T_g", "ms", "Time of a revolution of the Geneva drive's crank, as given there",
     lambda crank_speed: 2 * np.pi / crank_speed, source="kinematics")
 basis.choice("cycle_basis", "→", "1", "Cycle time of the comparison",
-    case("both drives have it", "the cycle times are the same", bind(related.are_alike, one="cycle_time", other="geneva_cycle_time")),
+    case("both drives have it", "the cycle times are the same", bind(are_alike, one="cycle_time", other="geneva_cycle_time")),
     case("the cam-gear's, for both drives", "the Geneva drive has another one"))
 basis.choice("step_basis", "→", "1", "Step of the comparison",
-    case("both drives have it", "the steps are the same", bind(related.are_alike, one="cam_step", other="geneva_step")),
+    case("both drives have it", "the steps are the same", bind(are_alike, one="cam_step", other="geneva_step")),
     case("the cam-gear's, for both drives", "the Geneva drive has another one"), needs=("cam_step", "geneva_step"))
 
 dwell = Chapter("Dwell")
@@ -72,14 +224,6 @@ dwell.value("geneva_time_dwell", "t_g", "ms", "Geneva: time of the dwell", lambd
     source="kinematics")
 dwell.value("dwell_ratio", "q_d", "1", "Dwell, ratio of Geneva to cam-gear", lambda geneva_dwell, dwell_share: geneva_dwell / dwell_share,
     source="kinematics")
-
-
-def _ratio(what: str, symbol: str, title: str) -> Steps:
-    steps = Steps()
-    steps.value(f"{what}_ratio", symbol, "1", f"{title}, ratio of Geneva to cam-gear",
-        bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
-    return steps
-
 
 IN_SLOT = bind(lambda flag: flag == 1, flag="engaged")
 
@@ -131,35 +275,34 @@ for what, letter, told in (("velocity", "v", "velocity in units of S/T"), ("acce
             source="kinematics")
 motion.value("geneva_jump", "a_g,e", "1", "Geneva: jump of the acceleration at entry and exit in units of S/T²",
     lambda slots: as_number(2 * np.pi) * slots * np.tan(np.pi / slots), source="kinematics")
-motion.add(_ratio("velocity", "q_v", "Maximum velocity"))
-motion.add(_ratio("acceleration", "q_a", "Maximum acceleration"))
+for what, symbol in (("velocity", "q_v"), ("acceleration", "q_a")):
+    motion.value(f"{what}_ratio", symbol, "1", f"Maximum {what}, ratio of Geneva to cam-gear",
+        bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
 motion.value("torque_ratio", "q_M", "1", "Maximum torque for the same mass, ratio of Geneva to cam-gear",
     lambda geneva_power_peak, cam_power_peak: geneva_power_peak / cam_power_peak, source="energy")
 
 
-def _in_units(step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> Steps:
+def _in_units(chapter: Steps, step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> None:
     """Peaks of both drives with the step of one of them."""
     drives = (("cam", "Cam-gear"), ("geneva", "Geneva"))
-    steps = Steps()
     for drive, name in drives:
-        steps.value(f"{drive}_sheet_velocity_max", f"V_{drive[0]}", "m/s", f"{name}: maximum velocity of the sheet",
+        chapter.value(f"{drive}_sheet_velocity_max", f"V_{drive[0]}", "m/s", f"{name}: maximum velocity of the sheet",
             bind(lambda relative, step, cycle_time: relative * step / cycle_time, relative=f"{drive}_velocity_peak", step=step), source="kinematics",
             needs=needs, lacks=lacks)
     for drive, name in drives:
-        steps.value(f"{drive}_sheet_acceleration_max", f"a_s{drive[0]}", "m/s**2", f"{name}: maximum acceleration of the sheet",
+        chapter.value(f"{drive}_sheet_acceleration_max", f"a_s{drive[0]}", "m/s**2", f"{name}: maximum acceleration of the sheet",
             bind(lambda relative, step, cycle_time: relative * step / cycle_time**2, relative=f"{drive}_acceleration_peak", step=step),
             source="kinematics", needs=needs, lacks=lacks)
     for drive, name in drives:
-        steps.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: maximum torque for the conveyor's mass alone",
+        chapter.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: maximum torque for the conveyor's mass alone",
             bind(lambda relative, mass, step, cycle_time: relative * mass * (step / cycle_time) ** 2 / (2 * np.pi), relative=f"{drive}_power_peak",
                 mass="conveyor_mass", step=step), source="energy", needs=(*needs, "conveyor_mass"), lacks=lacks)
-    return steps
 
 
 sheet = Chapter("Velocity, acceleration and torque",
     text="With the step of the cam-gear, or of the Geneva drive where the cam-gear has none, and with the conveyor's mass of the cam-gear.")
-sheet.add(_in_units("cam_step", ("cam_step",), ()))
-sheet.add(_in_units("geneva_step", ("geneva_step",), ("cam_step",)))
+_in_units(sheet, "cam_step", ("cam_step",), ())
+_in_units(sheet, "geneva_step", ("geneva_step",), ("cam_step",))
 
 same_dwell = Chapter("Cam-gear with the Geneva drive's dwell",
     text="A cam-gear stepper with this dwell has little time to stop, return and start. The time for stop and start is lost to the return: a wide "
@@ -169,17 +312,17 @@ same_dwell.value("stop_sweep_limit", "γ_lim", "deg", "Sweep of stop and start t
             (1 - least_return - geneva_dwell) * dwell_sweep / (peak_velocity * geneva_dwell), dwell_sweep="sector_dwell_sweep",
         peak_velocity="law_peak_velocity", least_return=LEAST_RETURN), source="003 eq. 1–4")
 same_dwell.value("stop_sweep_best", "γ_b", "deg", "Sweep of stop and start with the lowest acceleration of the sheet",
-    bind(related.stop_sweep_best, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"), source="003 eq. 1–4")
+    bind(stop_sweep_best, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"), source="003 eq. 1–4")
 same_dwell.value("best_stop_time", "T_s", "1", "Fraction of the cycle for stop and start with this sweep",
-    bind(related.time_of_stop, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"),
+    bind(time_of_stop, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"),
     source="003 eq. 3")
 same_dwell.value("best_return_time", "T_r", "1", "Fraction of the cycle for the return with this sweep",
-    bind(related.time_of_return, time_of_stop="best_stop_time"), source="003 eq. 4")
+    bind(time_of_return, time_of_stop="best_stop_time"), source="003 eq. 4")
 same_dwell.value("best_velocity", "v_b", "1", "Maximum velocity with this sweep in units of S/T",
-    bind(related.velocity_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity",
+    bind(velocity_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity",
         return_time="best_return_time"), source="003, after eq. 4")
 same_dwell.value("best_acceleration", "a_b", "1", "Maximum acceleration with this sweep in units of S/T²",
-    bind(related.acceleration_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_acceleration="law_peak_acceleration",
+    bind(acceleration_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_acceleration="law_peak_acceleration",
         return_time="best_return_time"), source="motion laws")
 same_dwell.value("best_acceleration_ratio", "q_b", "1", "Ratio of the Geneva drive's acceleration to this value",
     lambda geneva_acceleration_peak, best_acceleration: geneva_acceleration_peak / best_acceleration, source="kinematics")
@@ -193,13 +336,13 @@ verdict = Chapter("Verdict",
         "cam-gear has no jump if its law of motion has no acceleration at half its time.")
 verdict.choice("verdict", "→", "1", "Peak acceleration and dwell",
     case(f"{GENEVA_HAS} lower peak acceleration and the same dwell, but {JUMPS}", "it accelerates the sheet less",
-        bind(related.is_gentle_and_alike, **ACCELERATIONS)),
+        bind(lambda geneva, cam, geneva_dwell, dwell_share: (geneva < cam) & are_alike(geneva_dwell, dwell_share), **ACCELERATIONS)),
     case(f"{GENEVA_HAS} lower peak acceleration and a longer dwell, but {JUMPS}", "it accelerates the sheet less",
-        bind(related.is_gentle_and_long, **ACCELERATIONS)),
+        bind(lambda geneva, cam, geneva_dwell, dwell_share: (geneva < cam) & (geneva_dwell >= dwell_share), **ACCELERATIONS)),
     case(f"{GENEVA_HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}", "it accelerates the sheet less",
         lambda geneva_acceleration_peak, cam_acceleration_peak: geneva_acceleration_peak < cam_acceleration_peak),
     case(f"{GENEVA_HAS} no lower peak acceleration and the same dwell, and {JUMPS}", "it does not accelerate the sheet less",
-        bind(related.are_alike, one="geneva_dwell", other="dwell_share")),
+        bind(are_alike, one="geneva_dwell", other="dwell_share")),
     case(f"{GENEVA_HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}", "it does not accelerate the sheet less",
         lambda geneva_dwell, dwell_share: geneva_dwell >= dwell_share),
     case(f"{GENEVA_HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}", "the cam-gear is better in both"))

@@ -6,13 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import as_angle, formula
-
-
-@formula
-def step_angle(slots: Any) -> Any:
-    """Angle by which the wheel turns for each turn of the crank."""
-    return 2 * np.pi / slots
+from diecut_report.api import arccos, as_angle, formula
 
 
 @formula
@@ -101,12 +95,6 @@ def rate_of_rate(ratio: Any, crank_speed: Any) -> Any:
 
 
 @formula
-def travel_radius(sprocket_teeth: Any, chain_pitch: Any, gear_ratio: Any) -> Any:
-    """Conveyor displacement per radian of the wheel."""
-    return sprocket_teeth * chain_pitch * gear_ratio / (2 * np.pi)
-
-
-@formula
 def travel(angle: Any, travel_radius: Any) -> Any:
     """Way, speed or acceleration of the conveyor from the wheel's."""
     return angle * travel_radius
@@ -122,3 +110,71 @@ def travel_rate(ratio: Any, crank_speed: Any, travel_radius: Any) -> Any:
 def travel_acceleration(ratio: Any, crank_speed: Any, travel_radius: Any) -> Any:
     """Acceleration of the conveyor."""
     return ratio * crank_speed**2 * travel_radius
+
+
+@formula
+def is_driven(acceleration_ratio: Any) -> Any:
+    """Whether the roller drives the wheel, which always turns the same way."""
+    return acceleration_ratio >= 0
+
+
+@formula
+def driven_with_losses(driven_inertia: Any, own_inertia: Any, efficiency: Any) -> Any:
+    """Inertia that the roller feels where it drives the wheel: what is behind the gear by its efficiency more."""
+    return own_inertia + (driven_inertia - own_inertia) / efficiency
+
+
+@formula
+def braked_with_losses(driven_inertia: Any, own_inertia: Any, efficiency: Any) -> Any:
+    """Inertia that the roller feels where it brakes the wheel: what is behind the gear by its efficiency less."""
+    return own_inertia + (driven_inertia - own_inertia) * efficiency
+
+
+@formula
+def driving_torque(driven_inertia: Any, crank_speed: Any, acceleration_ratio: Any, speed_ratio: Any) -> Any:
+    """Torque at the crank that moves the wheel's inertia."""
+    return driven_inertia * crank_speed**2 * acceleration_ratio * speed_ratio
+
+
+@formula
+def roller_distance(crank_angle: Any, center_distance: Any, crank_ratio: Any) -> Any:
+    """Distance of the roller from the wheel's axis."""
+    return center_distance * np.sqrt(1 - 2 * crank_ratio * np.cos(crank_angle) + crank_ratio**2)
+
+
+@formula
+def roller_force(driven_inertia: Any, wheel_acceleration: Any, roller_distance: Any) -> Any:
+    """Force of the roller on the slot's flank, square to the slot."""
+    return driven_inertia * wheel_acceleration / roller_distance
+
+
+@formula
+def thick_tip(crank_radius: Any, roller_radius: Any) -> Any:
+    """Radius of the locking arcs with an arm's tip as thick as the roller."""
+    return crank_radius - 3 * roller_radius
+
+
+@formula
+def half_crank(crank_radius: Any) -> Any:
+    """Radius of the locking arcs, half the crank's."""
+    return crank_radius / 2
+
+
+@formula
+def halfway(flank_distance: Any, rim_distance: Any) -> Any:
+    """Radius of the locking arcs halfway between rim and flank."""
+    return (flank_distance + rim_distance) / 2
+
+
+@formula
+def leaves_thick_tip(crank_radius: Any, roller_radius: Any, flank_distance: Any, rim_distance: Any) -> Any:
+    """Whether a tip as thick as the roller leaves the locking arc both its least radii."""
+    least = np.maximum(half_crank(crank_radius), halfway(flank_distance, rim_distance))
+    return thick_tip(crank_radius, roller_radius) >= least
+
+
+@formula
+def tip_half_angle(center_distance: Any, rim_radius: Any, locking_radius: Any) -> Any:
+    """Half the angle of a locking arc at the wheel's axis; zero where it does not reach the rim."""
+    cosine = (center_distance**2 + rim_radius**2 - locking_radius**2) / (2 * center_distance * rim_radius)
+    return arccos(np.minimum(cosine, 1))

@@ -2,19 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, formula
 
 # fmt: off
-
-
-@formula
-def one_sheet_a_turn(productivity: Any) -> Any:
-    """Angular speed of the crank at one sheet for each of its turns."""
-    return 2 * np.pi * productivity
 
 
 class GenevaTransport(Inputs):
@@ -24,7 +16,8 @@ class GenevaTransport(Inputs):
     center_distance: Annotated[float, Quantity("C", "mm", "Centre distance of crank and wheel", gt=0)]
     roller_radius: Annotated[float, Quantity("ρ", "mm", "Radius of the crank roller", gt=0)]
     crank_speed: Annotated[float | None,
-        Quantity("ω_1", "rpm", "Speed of the crank; one sheet per revolution", gt=0, press=FromPress("press.productivity", one_sheet_a_turn))] = None
+        Quantity("ω_1", "rpm", "Speed of the crank; one sheet per revolution", gt=0, press=FromPress("press.productivity",
+                formula(lambda productivity: 2 * np.pi * productivity)))] = None
     gear_ratio: Annotated[float, Quantity("u", "1", "Revolutions of the sprocket per revolution of the wheel", gt=0)] = 1
     sprocket_teeth: Annotated[int | None,
         Quantity("z_s", "1", "Number of teeth of the conveyor's sprocket; required with chain_pitch for the sheet's motion", gt=0,

@@ -5,15 +5,33 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from itertools import combinations
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.api import Chapter, Step, Steps, as_number, bind, case, phrase, prefixed
+from diecut_report.api import Chapter, Step, Steps, as_number, bind, case, formula, phrase, prefixed
 from diecut_report.mechanics import common
-from diecut_report.plugins.knife_drive import formulas
 
 # fmt: off
+
+
+@formula
+def planetary_velocity(crank_angle: Any, carrier_radius: Any, crank_speed: Any) -> Any:
+    """Velocity of the edge, upwards."""
+    return 2 * carrier_radius * crank_speed * np.cos(crank_angle)
+
+
+@formula
+def planetary_acceleration(crank_angle: Any, carrier_radius: Any, crank_speed: Any) -> Any:
+    """Acceleration of the edge, upwards."""
+    return -2 * carrier_radius * crank_speed**2 * np.sin(crank_angle)
+
+
+@formula
+def holds(flag: Any) -> Any:
+    """Whether a flag is set."""
+    return flag > 0
+
 
 DRIVES = ("planetary", "crank_slider", "crank_rocker")
 
@@ -84,7 +102,7 @@ WORKING.choice("working", "s_", "1", "Knife leads the signature (1) or not (0)",
         lambda crank_angle, lowest_angle, working_angle: np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)),
     case(lambda: 0, "outside the working stroke"), output=False, per_piece=True)
 WORKING.choice("paper_acceleration", "a_p", "m/s**2", "Acceleration of the signature while the knife leads it",
-    case(lambda acceleration: acceleration, "within the working stroke", bind(formulas.holds, flag="working")),
+    case(lambda acceleration: acceleration, "within the working stroke", bind(holds, flag="working")),
     case(lambda: 0, "outside the working stroke"), output=False)
 WORKING.reduction("acceleration_peak", "a_m", "m/s**2", "Maximum acceleration in the working stroke", "abs_max", of="paper_acceleration")
 WORKING.value("end_factor", "k_", "1", "Ratio of the acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2",

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from diecut_report.api import Chapter, Curve, bind, case, si
 from diecut_report.mechanics import drive_line
-from diecut_report.plugins.roller_chain import formulas as f
+from diecut_report.plugins.roller_chain import steps
 from diecut_report.plugins.roller_chain.chains import CHAINS
-from diecut_report.plugins.roller_chain.formulas import INCH
 from diecut_report.plugins.roller_chain.inputs import CONVEYOR, DRIVE, OVERRIDES
-from diecut_report.plugins.roller_chain.loads import STILL
+from diecut_report.plugins.roller_chain.steps import INCH, STILL
 
 Array = NDArray[np.float64]
 POINTS = 129  # of each smooth piece of a curve over the cycle
@@ -44,7 +43,7 @@ def _holds(known: Known, own: Known) -> Any:
     peak, static = _tensions(known, own)
     held = own["breaking_load"] >= known["required_safety_dynamic"] * peak
     held = held & (own["breaking_load"] >= known["required_safety_static"] * static)
-    area = f.bearing_area(own["pin_diameter"], own["inner_width"], own["plate_thickness"])
+    area = steps.bearing_area(own["pin_diameter"], own["inner_width"], own["plate_thickness"])
     return held & ((known["pressure_allowed"] == 0) | (peak <= known["pressure_allowed"] * area))
 
 
@@ -55,11 +54,14 @@ def _tensions(known: Known, own: Known) -> tuple[Array, Array]:
     diameters = [drive_line.sprocket_diameter(pitch, z) for z in teeth]
     center, links = _loop(known, pitch, teeth)
     useful, velocity, angular = _motion(known, mass, links * pitch, diameters, pitch)
-    always = f.sag_tension(mass, center, known["sag"], known["inclination"])
-    round_circles, shock = f.centrifugal(mass, velocity), f.chordal(mass, center, f.chordal_step(angular, pitch))
+    always = steps.sag_tension(mass, center, known["sag"], known["inclination"])
+    round_circles, shock = (
+        steps.centrifugal(mass, velocity),
+        steps.chordal(mass, center, steps.chordal_step(angular, pitch)),
+    )
     fits = center > (diameters[0] + diameters[1]) / 2
-    peak = f.whole_tension(known["application"], useful, round_circles, always, shock, known["pretension"])
-    static = f.quiet_tension(useful, round_circles, always, known["pretension"])
+    peak = steps.whole_tension(known["application"], useful, round_circles, always, shock, known["pretension"])
+    static = steps.quiet_tension(useful, round_circles, always, known["pretension"])
     return _greatest(peak, fits), _greatest(static, fits)
 
 
@@ -72,7 +74,7 @@ def _greatest(over: Array, fits: Array) -> Array:
 def _loop(known: Known, pitch: float, teeth: tuple[Any, Any]) -> tuple[Array, Array]:
     """Distance of the axes and links, one of which is wanted; NaN where the links are too few."""
     wanted = known["distance_wanted"]
-    from_distance = f.even_links(f.exact_links(np.where(wanted > 0, wanted, np.nan), pitch, *teeth))
+    from_distance = steps.even_links(steps.exact_links(np.where(wanted > 0, wanted, np.nan), pitch, *teeth))
     links = np.where(wanted > 0, from_distance, known["links_wanted"])
     free = drive_line.free_links(links, *teeth)
     inner = drive_line.links_discriminant(free, *teeth)
@@ -87,14 +89,14 @@ def _motion(
     if "speed" in known:
         speed = known["speed"]
         torque = known["power"] / speed if "power" in known else _over(known, "torque")
-        useful = f.drive_tension(torque, known["strands"], diameters[0])
-        return useful, f.mean_velocity(known["teeth_1"], pitch, speed), speed
+        useful = steps.drive_tension(torque, known["strands"], diameters[0])
+        return useful, steps.mean_velocity(known["teeth_1"], pitch, speed), speed
     velocity = _over(known, "velocity")
-    hanging = f.hanging_mass(known["moving_mass"], known["strands"], mass, length)
-    total = f.total_mass(hanging, known["driven_inertia"], diameters[1])
-    against = f.resistance(known["friction_coefficient"], hanging, known["process_force"])
+    hanging = steps.hanging_mass(known["moving_mass"], known["strands"], mass, length)
+    total = steps.total_mass(hanging, known["driven_inertia"], diameters[1])
+    against = steps.resistance(known["friction_coefficient"], hanging, known["process_force"])
     moving = abs(velocity) > STILL * abs(velocity).max(axis=1, keepdims=True)
-    useful = f.conveyor_tension(total, _over(known, "acceleration"), moving, against, known["strands"])
+    useful = steps.conveyor_tension(total, _over(known, "acceleration"), moving, against, known["strands"])
     return useful, velocity, velocity / (diameters[0] / 2)
 
 

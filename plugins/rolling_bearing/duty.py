@@ -8,27 +8,86 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from diecut_report.api import Curve
-from diecut_report.plugins.rolling_bearing.nodes import (
-    DERIVATIVE,
-    PLACES,
-    STILL,
-    WEIGHTS,
-    Nodes,
-    crossings,
-    edges_of,
-    flat,
-    in_order,
-)
+from diecut_report.mechanics.numerics import in_rows, narrowed
 from diecut_report.plugins.rolling_bearing.ratings import Ratings
 
 Array = NDArray[Any]
+ORDER = 8  # places within a piece: polynomials up to twice that less one are integrated exactly
+STILL = 1e-9  # share of the greatest value that is none
+
+
+def _places() -> tuple[Array, Array, Array, Array]:
+    """Places in [0, 1] with both ends, their weights (Gauss; the ends have none), barycentric ones, and the matrix that differentiates."""
+    x, weights = leggauss(ORDER)
+    places = np.concatenate([[0.0], (x + 1) / 2, [1.0]])
+    gaps = places[:, None] - places + np.eye(len(places))
+    barycentric = 1 / np.prod(gaps, axis=1)
+    matrix = barycentric / barycentric[:, None] / gaps
+    np.fill_diagonal(matrix, 0.0)
+    np.fill_diagonal(matrix, -np.sum(matrix, axis=1))
+    return places, np.concatenate([[0.0], weights / 2, [0.0]]), barycentric, matrix
+
+
+PLACES, WEIGHTS, BARYCENTRIC, DERIVATIVE = _places()
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """Hold places of the cycle, (variants, pieces, places) each: both forces, and by how much each place counts."""
+
+    share: Array
+    radial: Array
+    axial: Array
+    turned: Array  # signed speed (or angle by share of a piece)
+    weight: Array
+
+
+def flat(values: Array) -> Array:
+    """Return what stands at the places of all pieces, (variants, places)."""
+    return values.reshape(len(values), -1)
+
+
+def edges_of(nodes: Nodes) -> Array:
+    """Return the edges of the pieces."""
+    return np.concatenate([nodes.share[:, :, 0], nodes.share[:, -1:, -1]], axis=1)
+
+
+def in_order(*places: Array) -> Array:
+    """Return edges in their order, (variants, places); what is missing lies at 0."""
+    return np.asarray(np.sort(np.clip(np.nan_to_num(np.concatenate(places, axis=1)), 0.0, 1.0), axis=1))
+
+
+def crossings(nodes: Nodes, values: Array) -> Array:
+    """Return where values change their sign, or begin or cease to be zero, (variants, most of them), NaN where there are fewer."""
+    scale = np.max(np.abs(flat(values)), axis=1)[:, None, None]
+    known = np.where(np.abs(values) <= STILL * scale, 0.0, values)
+    variant, piece, place = np.nonzero(np.sign(known[:, :, :-1]) != np.sign(known[:, :, 1:]))
+    start, width = nodes.share[variant, piece, 0], nodes.share[variant, piece, -1] - nodes.share[variant, piece, 0]
+    return in_rows(start + width * _zeros(known[variant, piece], place), variant, len(values))
+
+
+def _zeros(values: Array, place: Array) -> Array:
+    """Where the polynomial through values (rows, places) is zero, in [0, 1] and from a place to the next."""
+    rows = np.arange(len(values))
+    ends, heights = PLACES[[place, place + 1]], np.stack([values[rows, place], values[rows, place + 1]])
+    found: Array = np.where(heights[0] == 0, ends[0], ends[1])
+    rows = rows[(heights != 0).all(axis=0)]
+
+    def polynomial(x: Array, row: Array) -> Array:
+        terms = BARYCENTRIC / (x[:, None] - PLACES)
+        return np.asarray(np.sum(terms * values[rows[row]], axis=1) / np.sum(terms, axis=1))
+
+    found[rows], _ = narrowed(polynomial, ends[0, rows], ends[1, rows], heights[:, rows])
+    return found
+
+
 Load = Callable[[Array, Array], Array]  # of both forces
-Over = Callable[
-    [Array, Array, Array], Array
-]  # of shares of the cycle (rows, places), the middles of their pieces (rows, 1), and variants
+# of shares of the cycle (rows, places), the middles of their pieces (rows, 1), and variants
+Over = Callable[[Array, Array, Array], Array]
 
 GRID = 24  # least number of pieces of the cycle
 STEP = 1e-5  # share of the cycle, to either side, by which an angle is differentiated at any place
@@ -110,8 +169,7 @@ class Duty:
         middle = ((edges[:, :-1] + edges[:, 1:]) / 2).reshape(-1, 1)
         rows = np.repeat(np.arange(self.variants), pieces) if self.variants > 1 else None
         flat = share.reshape(-1, share.shape[2])
-        found: Array = np.broadcast_to(given.values(flat, middle, rows), flat.shape).reshape(share.shape)
-        return found
+        return np.asarray(np.broadcast_to(given.values(flat, middle, rows), flat.shape).reshape(share.shape))
 
     @cached_property
     def first(self) -> Nodes:
@@ -132,8 +190,7 @@ class Duty:
 
     @cached_property
     def _share(self) -> Array:
-        found: Array = self.edges[:, :-1, None] + np.diff(self.edges, axis=1)[:, :, None] * PLACES
-        return found
+        return np.asarray(self.edges[:, :-1, None] + np.diff(self.edges, axis=1)[:, :, None] * PLACES)
 
     def weighed(self, ratings: Ratings) -> Nodes:
         """Return the places for a bearing: pieces end also where its axial force begins to count."""
@@ -158,8 +215,7 @@ class Duty:
         weight = flat(nodes.weight)
         whole = np.sum(weight, axis=1, keepdims=True)
         mean = np.sum((load / top) ** exponent * weight, axis=1, keepdims=True) / np.where(whole > 0, whole, 1.0)
-        found: Array = top * mean ** (1 / exponent)
-        return found
+        return np.asarray(top * mean ** (1 / exponent))
 
     def greatest(self, load: Load, nodes: Nodes | None = None) -> tuple[Array, Array]:
         """Return both forces where a load of them is greatest; it is known best at nodes that end where it has corners."""
@@ -212,8 +268,7 @@ class Duty:
     @cached_property
     def travel(self) -> Array:
         """Return the way that the relative angle goes in a cycle, there and back."""
-        found: Array = np.sum(self.first.weight, axis=(1, 2))[:, None]
-        return found
+        return np.asarray(np.sum(self.first.weight, axis=(1, 2))[:, None])
 
     @cached_property
     def swing(self) -> Array:
@@ -240,15 +295,13 @@ class Duty:
     @cached_property
     def mean_speed(self) -> Array:
         """Return the mean size of the speed."""
-        found: Array = np.sum(self.first.weight, axis=(1, 2))[:, None]
-        return found
+        return np.asarray(np.sum(self.first.weight, axis=(1, 2))[:, None])
 
     @cached_property
     def greatest_axial(self) -> Array:
         """Return the greatest size of the axial force."""
         if not is_curve(self.axial):
-            known: Array = np.abs(self.axial) * self.factor
-            return known
+            return np.asarray(np.abs(self.axial) * self.factor)
         return self.greatest(lambda _, axial: axial)[1]
 
     @cached_property
@@ -259,8 +312,7 @@ class Duty:
         if self.angle is not None:
             width = nodes.share[:, :, -1:] - nodes.share[:, :, :1]
             turned = np.where(width > STILL, turned / np.where(width > STILL, width, 1.0), 0.0)
-        found: Array = np.max(flat(turned), axis=1, keepdims=True)
-        return found
+        return np.asarray(np.max(flat(turned), axis=1, keepdims=True))
 
 
 def is_curve(given: Any) -> bool:

@@ -7,10 +7,9 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Chapter, bind
-from diecut_report.plugins.rolling_bearing import formulas as f
-from diecut_report.plugins.rolling_bearing.bearings import Bearings
+from diecut_report.plugins.rolling_bearing import ratings as f
+from diecut_report.plugins.rolling_bearing.bearings import STATIC_SAFETIES, Bearings
 from diecut_report.plugins.rolling_bearing.loads import NAMES, SEARCH, row, value
-from diecut_report.plugins.rolling_bearing.part import STATIC_SAFETIES
 
 # fmt: off
 

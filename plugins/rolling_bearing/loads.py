@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Chapter, bind, case
-from diecut_report.plugins.rolling_bearing import formulas as f
-from diecut_report.plugins.rolling_bearing.bearings import TAKEN, Bearings, bearings, shares
-from diecut_report.plugins.rolling_bearing.factors import between
-from diecut_report.plugins.rolling_bearing.listings import CHOICE, choice
-from diecut_report.plugins.rolling_bearing.part import EXPONENTS
+from diecut_report.plugins.rolling_bearing import ratings as f
+from diecut_report.plugins.rolling_bearing.bearings import EXPONENTS, TAKEN, Bearings, bearings, shares
+from diecut_report.plugins.rolling_bearing.figures import CHOICE, choice
+from diecut_report.plugins.rolling_bearing.ratings import between
 
 # fmt: off
 
@@ -76,7 +75,7 @@ for column, key, symbol, words in (("C", "dynamic_rating", "C/C_t", "Basic dynam
                                    ("C0", "static_rating", "C_0/C_0t", "Basic static load rating as a share of that in the table")):
     row(ratings, f"{key}_share", symbol, "1", words, partial(shares, column),
         "1 where the table has no such bearing", output=False)
-    ratings.require(f"{key}_of_table", bind(f.is_of_table, share=f"{key}_share"), key="bearings.{index}." + key,
+    ratings.require(f"{key}_of_table", bind(lambda share: (share >= 0.5) & (share <= 1.25), share=f"{key}_share"), key="bearings.{index}." + key,
         message=f"is {{{key}_share:up}} times that of the table for this designation, where makers differ by 0.5 to 1.25; correct it, or its unit, "
             "or the designation")
 row(ratings, "axial_base", "f_0", "1", "Factor of the deep groove ball bearing, 0 where it is not required", lambda known: known.rating("f0"),

@@ -67,8 +67,7 @@ class Body:
     @property
     def length(self) -> Array:
         """Return the shaft's length, (variants,)."""
-        length: Array = self.ends[-1]
-        return length
+        return np.asarray(self.ends[-1])
 
     def section_of(self, x: Array, *, behind: bool) -> Array:
         """Return which section places (places, variants) are in; at a step the one behind or before it."""
@@ -93,8 +92,7 @@ class Body:
         sizes = [
             np.take_along_axis(self.diameter, self.section_of(self.x, behind=each), axis=0) for each in (False, True)
         ]
-        greater: Array = np.maximum(*sizes)
-        return greater
+        return np.asarray(np.maximum(*sizes))
 
     @property
     def is_fillet(self) -> Array:
@@ -114,8 +112,7 @@ class Body:
         """Return of a row (variants, places) the greatest among the places that stand at one position."""
         x = self.x.T
         same = np.abs(x[:, :, None] - x[:, None, :]) <= SAME_PLACE
-        found: Array = np.max(np.where(same, row[:, None, :], -np.inf), axis=2)
-        return found
+        return np.asarray(np.max(np.where(same, row[:, None, :], -np.inf), axis=2))
 
 
 def body(

@@ -182,8 +182,7 @@ class Cycle:
         """Return the shaft's angle at shares of the cycle (rows, places) of variants."""
         own = np.arange(len(share)) % len(self.turns) if rows is None else rows
         if isinstance(self.rotation, str):
-            found: Array = share * (2 * np.pi * self.turns[own][:, None] if self.rotation == "turning" else 0.0)
-            return found
+            return np.asarray(share * (2 * np.pi * self.turns[own][:, None] if self.rotation == "turning" else 0.0))
         return np.broadcast_to(
             _value(self.rotation, share, np.broadcast_to(middle, share.shape), own, len(self.turns)), share.shape
         )
@@ -226,8 +225,7 @@ def _extremes_of(given: Any, rows: Array) -> Any:
 def _value(given: Any, share: Array, middle: Array, rows: Array, variants: int) -> Array:
     """What is given at instants (rows, instants): a curve or a number; what is known otherwise counts as 0 here."""
     if is_curve(given):
-        found: Array = given.values(share, middle, rows if variants > 1 else None)
-        return found
+        return np.asarray(given.values(share, middle, rows if variants > 1 else None))
     if given is None or isinstance(given, str | Extremes):
         return np.zeros((1, 1))
     return np.broadcast_to(np.asarray(given, dtype=float).ravel(), (variants,))[rows][:, None]
@@ -359,8 +357,7 @@ def _counts(revolutions: Array, turns: Array) -> Array:
     # of a variant that cannot be nothing is known, and a part of a revolution is one
     whole = np.maximum(np.nan_to_num(np.concatenate([turns, revolutions], axis=1), nan=1.0).round(), 1).astype(int)
     unlike, which = np.unique(whole, axis=0, return_inverse=True)
-    found: Array = np.array([_count(*each) for each in unlike.tolist()])[which.reshape(-1)]
-    return found
+    return np.asarray(np.array([_count(*each) for each in unlike.tolist()])[which.reshape(-1)])
 
 
 def _count(turns: int, *revolutions: int) -> int:

@@ -33,14 +33,12 @@ class ElasticShaft:
     @cached_property
     def x(self) -> Array:
         """Return all places where something begins or acts, ascending, (points, variants)."""
-        found: Array = np.sort(np.concatenate([self.body.ends[[0, -1]], self.body.x]), axis=0)
-        return found
+        return np.asarray(np.sort(np.concatenate([self.body.ends[[0, -1]], self.body.x]), axis=0))
 
     def stiffness_of(self, x: Array) -> Array:
         """Return E I between one place and the next, (places - 1, variants)."""
         diameter, bore = self.section_between(x)
-        stiffness: Array = self.modulus * beams.second_moment(diameter, bore)
-        return stiffness
+        return np.asarray(self.modulus * beams.second_moment(diameter, bore))
 
     def section_between(self, x: Array) -> tuple[Array, Array]:
         """Return diameter and bore between one place and the next."""
@@ -89,8 +87,7 @@ class ElasticShaft:
     def _weights(self) -> Array:
         """The mass between one place and the next, (places - 1, variants)."""
         diameter, bore = self.section_between(self.x)
-        weights: Array = self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0)
-        return weights
+        return np.asarray(self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0))
 
     @cached_property
     def _unlike(self) -> tuple[Array, Array]:
@@ -138,5 +135,4 @@ def _kept(alone: _Alone) -> ElasticShaft:
 def between(x: Array, shares: Array) -> Array:
     """Return places between each place and the next, with them, ascending."""
     inner = x[:-1, None] + np.diff(x, axis=0)[:, None] * shares[None, :, None]
-    found: Array = inner.reshape(-1, x.shape[1])
-    return found
+    return np.asarray(inner.reshape(-1, x.shape[1]))

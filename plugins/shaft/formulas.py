@@ -109,12 +109,6 @@ def size_of_notch(factor: Any, diameter: Any) -> Any:
 
 
 @formula
-def sized(factor: Any, diameter: Any) -> Any:
-    """Fatigue notch factor of a diameter, from that of 40 mm (DIN 743-2)."""
-    return factor * size_of_notch(factor, SIZE_OF_TABLE) / size_of_notch(factor, diameter)
-
-
-@formula
 def equivalent_stress(normal: Any, shear: Any) -> Any:
     """Von Mises stress of a normal and a shear stress (Shigley 7-4, 7-5)."""
     return np.sqrt(normal**2 + 3 * shear**2)

@@ -90,7 +90,9 @@ for kind, symbol, told, in_bending, in_torsion in BY_STRENGTH:
         output=False)
     for end, load in (("factor", "bending"), ("torsion", "torsion")):
         notches.value(f"sized_{kind}_{end}", f"{symbol}{'s' if load == 'torsion' else ''}d", "1", f"Fatigue notch factor {told} in {load}",
-            bind(formulas.sized, factor=f"{kind}_{end}", diameter="place_diameter"), source="DIN 743-2", output=False)
+            bind(lambda factor, diameter:
+                    factor * formulas.size_of_notch(factor, formulas.SIZE_OF_TABLE) / formulas.size_of_notch(factor, diameter),
+                factor=f"{kind}_{end}", diameter="place_diameter"), source="DIN 743-2", output=False)
 AT_FILLETS: dict[str, Any] = {"exists": lambda is_fillet: is_fillet > 0, "output": False}
 notches.value("fillet_ratio", "t/r", "1", "Ratio of step to fillet radius", lambda place_step, place_radius: place_step / place_radius,
     source="Peterson", **AT_FILLETS)

@@ -117,8 +117,7 @@ def worst_points(sides: Sides, angle: Array, own: dict[str, Array]) -> dict[str,
 def _differs(sides: Sides) -> Array:
     """Return whether the forces behind a place are others than before it, (places, variants)."""
     forces = (sides.xy, sides.xz, sides.torque, sides.axial, *sides.torque_bounds, *sides.axial_bounds)
-    found: Array = np.any([np.any(each[0] != each[1], axis=-1) for each in forces], axis=0)
-    return found
+    return np.asarray(np.any([np.any(each[0] != each[1], axis=-1) for each in forces], axis=0))
 
 
 def _torque(sides: Sides) -> tuple[Array, Array]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
+from diecut_report.plugins.shaft import formulas
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import COMPONENTS, Cycle, Gears, Instants
 from diecut_report.plugins.shaft.elastic import ElasticShaft
@@ -49,15 +50,13 @@ class Sides:
 
 def resultant(in_y: Array, in_z: Array) -> Array:
     """Return the size of what acts in both planes."""
-    found: Array = np.sqrt(in_y**2 + in_z**2)
-    return found
+    return np.asarray(np.sqrt(in_y**2 + in_z**2))
 
 
 def greatest_size(values: Array, bounds: tuple[Array, Array]) -> Array:
     """Return the greatest size of values to which something between bounds is added."""
     low, high = bounds
-    found: Array = np.maximum(np.abs(values + low), np.abs(values + high))
-    return found
+    return np.asarray(np.maximum(np.abs(values + low), np.abs(values + high)))
 
 
 @dataclass(frozen=True)
@@ -119,8 +118,7 @@ class Statics:
     def instant_of_moment(self) -> Array:
         """Return at which instant the bending moment is greatest, (variants,)."""
         xy, xz = self.moments(self.x)
-        found: Array = np.argmax(np.max(xy**2 + xz**2, axis=(0, 1)), axis=1)
-        return found
+        return np.asarray(np.argmax(np.max(xy**2 + xz**2, axis=(0, 1)), axis=1))
 
     def _both(self, bounds: Callable[[Array], tuple[Array, Array]], x: Array) -> tuple[Array, Array]:
         before, behind = bounds(x - 2 * SAME_PLACE), bounds(x + 2 * SAME_PLACE)
@@ -191,8 +189,7 @@ class Statics:
 
     def _resultant(self, of_units: Array) -> Array:
         """The resultant over both planes of what unit loads do (places, variants, loads)."""
-        found: Array = np.sqrt(np.stack([*self._squares(of_units)], axis=1))
-        return found
+        return np.asarray(np.sqrt(np.stack([*self._squares(of_units)], axis=1)))
 
     def _squares(self, of_units: Array) -> Iterator[Array]:
         """Yield the square of the resultant of each variant (places, instants): one at a time, so that it stays in the processor's cache."""
@@ -216,7 +213,7 @@ class Statics:
         return self.at_instants(instant[:, None])
 
     def at_instants(self, instants: Array) -> Statics:
-        """The same at some instants of each variant, (variants, instants)."""
+        """The same at some instants of each variant, (variants or 1, instants)."""
         picked = {name: np.take_along_axis(each, instants[None], axis=2) for name, each in vars(self.loads).items()}
         return replace(self, loads=Instants(**picked))
 
@@ -232,8 +229,7 @@ class Statics:
         if self.cycle.balance is not None:
             weights = weights - weights[:, [self.cycle.balance]]
         low, high = self.cycle.bounds("torque", np.sum(weights * compliance[:, None], axis=0)[None])
-        found: Array = np.max(np.maximum(np.abs(known + low[0]), np.abs(known + high[0])), axis=1)
-        return found
+        return np.asarray(np.max(np.maximum(np.abs(known + low[0]), np.abs(known + high[0])), axis=1))
 
     @property
     def torque_span(self) -> Array:
@@ -260,26 +256,121 @@ class Statics:
             ),
         )
 
-    def some_instants(self, chosen: Array) -> Statics:
-        """The same at some instants of the cycle."""
-        loads = Instants(**{name: each[:, :, chosen] for name, each in vars(self.loads).items()})
-        return replace(self, loads=loads)
-
     @property
     def energy_difference(self) -> Array:
         """Return the energy of the bent shaft less the work of its loads, beyond rounding, to the energy: the greatest of some instants."""
         count = self.loads.torque.shape[2]
-        some = self.some_instants(np.unique(np.linspace(0, count - 1, PROVED).astype(int)))
+        some = self.at_instants(np.unique(np.linspace(0, count - 1, PROVED).astype(int))[None])
         stiffness = self.elastic.stiffness_of(self.x)
         energy = sum(beams.bending_energy(self.x, stiffness, plane) for plane in some.planes)
         work = sum(beams.work(line, plane) for line, plane in zip(some.lines, some.planes, strict=True))
         rounding = sum(beams.energy_rounding(self.x, stiffness, plane, self.supports) for plane in some.planes)
         beyond = np.max(np.maximum(np.abs(energy - work) - rounding, 0), axis=1)
         greatest = np.max(energy, axis=1)
-        found: Array = beyond / np.where(greatest > 0, greatest, 1)
-        return found
+        return np.asarray(beyond / np.where(greatest > 0, greatest, 1))
 
 
 def _no_more_than_needed(values: Array) -> Array:
     """Values (loads, variants, instants), of a single instant where all are zero: a pin has no torque, most shafts no axial force."""
     return values if np.any(values) else values[:, :, :1]
+
+
+def numbers(statics: Statics) -> dict[str, Array]:
+    """Return all numbers, (variants,) each."""
+    sides, reactions = statics.sides(statics.x), np.hypot(statics.reactions[:, 0], statics.reactions[:, 1])
+    low, high = sides.torque_bounds
+    slope = statics.slopes(np.stack([statics.supports.first, statics.supports.second]))
+    locating = np.sum(statics.loads.axial_force, axis=0)
+    bounds = statics.cycle.bounds("axial_force", np.ones((1, *statics.cycle.places.shape)))
+    return {
+        "reaction_a": np.max(reactions[0], axis=1),
+        "reaction_b": np.max(reactions[1], axis=1),
+        "axial_reaction": np.max(np.maximum(*(np.abs(locating + each[0]) for each in bounds)), axis=1),
+        "bending_moment": np.max(sides.bending, axis=(0, 1, 3)),
+        "torque_max": np.max(sides.torque + high, axis=(0, 1, 3)),
+        "torque_min": np.min(sides.torque + low, axis=(0, 1, 3)),
+        "torque_left": _torque_left(statics),
+        "torque_scale": _torque_scale(statics),
+        "load_scale": _load_scale(statics),
+        "deflection": statics.greatest_deflection[0],
+        "deflection_end": np.max(statics.deflections_at(statics.body.ends[[0, -1]]), axis=(0, 2)),
+        "slope_a": np.max(slope[0], axis=1),
+        "slope_b": np.max(slope[1], axis=1),
+        "twist": statics.twist,
+        "torque_span": statics.torque_span,
+        "energy_difference": statics.energy_difference,
+        **_yielding(statics, sides),
+    }
+
+
+def critical(statics: Statics) -> dict[str, Array]:
+    """Return the critical speed with its bounds, (variants,) each; it takes longer than all other numbers, and few ask for it."""
+    found = statics.elastic.critical
+    return {"critical": found.speed, "rayleigh": found.rayleigh, "dunkerley": found.dunkerley}
+
+
+def _torque_left(statics: Statics) -> Array:
+    """Torque balance where none balances them, the greatest over the cycle."""
+    if statics.cycle.balance is not None:
+        return np.zeros(len(statics.shear))
+    low, high = statics.cycle.bounds("torque", np.ones((1, *statics.cycle.places.shape)))
+    left = np.sum(statics.loads.torque, axis=0)
+    return np.asarray(np.max(np.maximum(np.abs(left + low[0]), np.abs(left + high[0])), axis=1))
+
+
+def _torque_scale(statics: Statics) -> Array:
+    sizes = [np.max(np.abs(statics.loads.torque), axis=(0, 2))]
+    sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in statics.cycle.extremes("torque")]
+    return np.asarray(np.max(np.stack(sizes), axis=0))
+
+
+def _load_scale(statics: Statics) -> Array:
+    """The greatest force, across or along; a couple counts as the forces at the bearings that hold it."""
+    loads = statics.loads
+    forces = (loads.force_y, loads.force_z, loads.axial_force)
+    couples = (each / statics.supports.span for each in (loads.couple_xy, loads.couple_xz))
+    sizes = [np.max(np.abs(each), axis=(0, 2)) for each in (*forces, *couples)]
+    sizes += [np.maximum(np.abs(low), np.abs(high)) for _, low, high in statics.cycle.extremes("axial_force")]
+    return np.asarray(np.max(np.stack(sizes), axis=0))
+
+
+def _yielding(statics: Statics, sides: Sides) -> dict[str, Array]:
+    """Return where and in which load case, counted from 1, the nominal stress is greatest; 0 is the run."""
+    run = _nominal(statics, sides)
+    cases = statics.in_cases
+    if cases is None:
+        return run
+    found = _nominal(cases, cases.sides(cases.x))
+    found["nominal_case"] += 1
+    run["nominal_case"] *= 0
+    is_worse = found["nominal_stress"] > run["nominal_stress"]
+    return {name: np.where(is_worse, found[name], each) for name, each in run.items()}
+
+
+def _nominal(statics: Statics, sides: Sides) -> dict[str, Array]:
+    """Return where and at which instant the nominal stress is greatest over shaft and cycle, and the forces there, (variants,) each."""
+    index = np.stack([statics.body.section_of(statics.x, behind=each) for each in (False, True)])
+    diameter, bore = (
+        np.take_along_axis(each[None], index, axis=1) for each in (statics.body.diameter, statics.body.bore)
+    )
+    area, modulus = beams.circle_area(diameter, bore), 2 * beams.second_moment(diameter, bore) / diameter
+    forces = sides.axial_size, sides.bending, sides.torque_size
+    stress = formulas.nominal_stress(*forces, area[..., None], modulus[..., None])
+    found = {"nominal_axial": forces[0], "nominal_moment": forces[1], "nominal_torque": forces[2]}
+    found |= {
+        "nominal_diameter": diameter[..., None],
+        "nominal_bore": bore[..., None],
+        "nominal_position": statics.x[None, :, :, None],
+        "nominal_stress": stress,
+        "nominal_case": np.arange(stress.shape[3]),
+    }
+    at = _greatest(stress)
+    return {name: np.broadcast_to(each, stress.shape)[at] for name, each in found.items()}
+
+
+def _greatest(values: Array) -> tuple[Array, ...]:
+    """Return where values (sides, places, variants, instants) are greatest, the indices of each variant."""
+    flat = np.moveaxis(values, 2, 0)
+    index = np.argmax(flat.reshape(len(flat), -1), axis=1)
+    side, place, instant = np.unravel_index(index, flat.shape[1:])
+    return side, place, np.arange(len(flat)), instant

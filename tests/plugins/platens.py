@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.platen_press import MECHANISM
-from diecut_report.plugins.platen_press.inputs import JOINTS
+from diecut_report.plugins.platen_press.steps import JOINTS
 from diecut_report.results.checks import check_results
 from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs

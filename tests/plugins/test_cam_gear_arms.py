@@ -7,7 +7,7 @@ import pytest
 
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import arms
-from diecut_report.plugins.cam_gear_transport.rolling import rolling
+from diecut_report.plugins.cam_gear_transport.steps import rolling
 
 DEGREE = np.pi / 180
 

@@ -17,7 +17,7 @@ from scipy.integrate import quad
 from diecut_report.api import formula
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
-from diecut_report.plugins.cam_gear_transport import MECHANISM, drawing, figures
+from diecut_report.plugins.cam_gear_transport import MECHANISM, figures
 from diecut_report.results.figure_views import MachineView, laid_out
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
@@ -450,13 +450,14 @@ def test_laws_that_leave_no_return_are_left_out_of_the_comparison() -> None:
 
 def test_the_drawn_sector_touches_the_gear_and_the_drawn_cams_are_closed() -> None:
     view = MachineView(stepper(**LOADED))
-    bodies = [shape for shape in laid_out(drawing.rolling(view)) if shape["shape"] == "polyline" and shape["closed"]]
+    bodies = [shape for shape in laid_out(figures.rolling(view)) if shape["shape"] == "polyline" and shape["closed"]]
     assert len(bodies) == 2
     for body in bodies:
         rim = np.hypot(*np.array(body["points"][1:]).T)
         assert rim.min() == pytest.approx(view["gear_radius"], rel=1e-3)
-    for build in (drawing.cam_1, drawing.cam_2):
-        pitch, profile = (np.array(s["points"]) for s in build(view) if s["shape"] == "polyline" and s["closed"])
+    for cam in "12":
+        shapes = figures.one_cam(view, cam)
+        pitch, profile = (np.array(s["points"]) for s in shapes if s["shape"] == "polyline" and s["closed"])
         np.testing.assert_allclose(np.hypot(*(pitch - profile).T), 0.025, rtol=1e-9)
 
 

@@ -14,7 +14,7 @@ from scipy import integrate
 
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
-from diecut_report.plugins.circular_knife import formulas as f
+from diecut_report.plugins.circular_knife import steps
 from tests.examples import few
 from tests.machines import number
 from tests.plugins.knives import SHAPES, at, crossing, edge_points, in_cut, knife
@@ -31,7 +31,7 @@ def sizes(calc: Calculation) -> tuple[float, ...]:
 
 def test_a_distance_is_below_another_by_more_than_a_millionth_of_the_radius_or_where_there_is_no_other() -> None:
     others = np.array([1 + 2e-6, 1 + 5e-7, 0.5, 0.01, np.nan])
-    assert f.is_clear_of(1.0, others, 1.0).tolist() == [True, False, False, False, True]
+    assert steps.is_clear_of(1.0, others, 1.0).tolist() == [True, False, False, False, True]
 
 
 # --- geometry and motion ---------------------------------------------------------------------------------------------
@@ -270,10 +270,10 @@ def test_the_triangle_under_a_straight_edge_is_high_where_the_shear_angle_is_sma
     area = integrate.quad(lambda t: 100 * (np.sin(t) - np.sin(slope)) * 100 * np.sin(t), slope, face)[0]
     excess = 0.60 if tau < 3 else 0.5 / (300 * np.sin(slope) ** 2 * np.cos(slope))
     assert 0.5**2 / (2 * np.tan(slope)) / area - 1 == pytest.approx(excess, rel=0.05)
-    length = f.front_length(0.1, face, slope)
+    length = steps.front_length(0.1, face, slope)
     half = (face - slope) / 2
     bow = 0.1**2 * (half - np.sin(half) * np.cos(half))
-    assert f.force(1e7, 5e-4, length, bow) == pytest.approx(1e7 * area * 1e-6, rel=1e-10)
+    assert steps.force(1e7, 5e-4, length, bow) == pytest.approx(1e7 * area * 1e-6, rel=1e-10)
 
 
 # --- curves over the turn --------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report.machine.printing.page import section_items
-from diecut_report.plugins.press_consistency.checks import CHECKS
+from diecut_report.plugins.press_consistency import CHECKS
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import number
 from tests.plugins.cases import MECHANISMS

@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 from diecut_report.machine.calculation import Calculation, Impossible
-from diecut_report.plugins.drive_train.layout import layout
+from diecut_report.plugins.drive_train.figures import layout
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import EXAMPLES
 from tests.machines import number

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.plugins.drive_train.chain_figure import _pair
+from diecut_report.plugins.drive_train.figures import _pair
 
 
 def test_the_cones_of_a_bevel_pair_touch_and_taper_and_its_label_says_so() -> None:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from diecut_report.machine.calculation import Calculation
-from diecut_report.plugins.geneva_transport.drawing import disc_outline, wheel_outline
+from diecut_report.plugins.geneva_transport.figures import disc_outline, wheel_outline
 from diecut_report.results.figure_views import MachineView
 from tests.examples import examples, few
 from tests.machines import number

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.parallel_key import MECHANISM
-from diecut_report.plugins.parallel_key.dimensions import KEYS, LENGTHS
+from diecut_report.plugins.parallel_key.steps import KEYS, LENGTHS
 from tests.examples import examples
 from tests.machines import inputs, number
 from tests.plugins.bearings import Over

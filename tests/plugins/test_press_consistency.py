@@ -20,7 +20,7 @@ from diecut_report.machine.calculation import Calculation, CurveHandle, Impossib
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
 from diecut_report.plugins.press_consistency import MECHANISM
-from diecut_report.plugins.press_consistency.on_main_shaft import listed
+from diecut_report.plugins.press_consistency.relations import listed
 from diecut_report.press import Press
 from diecut_report.results import checks
 from diecut_report.results.checks import check_results

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.plugins.roller_chain import formulas
+from diecut_report.plugins.roller_chain import steps
 from diecut_report.plugins.roller_chain.chains import CHAINS
 from tests.machines import number
 from tests.plugins.chains import CUSTOM, DRIVE, GRIPPERS, RATED, UNEVEN, chain, without
@@ -47,11 +47,11 @@ def walked(center: float, pitch: float, teeth: tuple[int, int]) -> float:
 def polygon(center: float, pitch: float, teeth: tuple[int, int]) -> float:
     """The same by the program's formula."""
     diameters = [pitch / sin(pi / count) for count in teeth]
-    return float(formulas.polygon_links(center, pitch, *teeth, *diameters))
+    return float(steps.polygon_links(center, pitch, *teeth, *diameters))
 
 
 def test_the_links_by_formula_and_polygon_are_those_of_the_method() -> None:
-    assert float(formulas.exact_links(600, 19.05, 17, 38)) == pytest.approx(90.846794, abs=1e-6)
+    assert float(steps.exact_links(600, 19.05, 17, 38)) == pytest.approx(90.846794, abs=1e-6)
     assert polygon(600, 19.05, (17, 38)) == pytest.approx(90.847126, abs=1e-6)
     assert polygon(600, 19.05, (19, 19)) == pytest.approx(81.992126, abs=1e-6)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from diecut_report.plugins.shaft.cycle import _instants
-from diecut_report.plugins.shaft.steels import by_size
+from diecut_report.plugins.shaft.strength import by_size
 from tests.plugins.shafts import CRANKSHAFT, shaft
 
 

@@ -14,6 +14,7 @@ from diecut_report.api import Annotated, Inputs, Mechanism, Source, Text
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
+from diecut_report.plugins.drive_train.figures import TOOTHED_BELT_FIGURES
 from diecut_report.plugins.drive_train.toothed_belt import (
     TOOTHED_BELT,
     TOOTHED_BELT_ASSUMPTIONS,
@@ -21,7 +22,6 @@ from diecut_report.plugins.drive_train.toothed_belt import (
     TOOTHED_BELT_ERRATA,
     ToothedBelt,
 )
-from diecut_report.plugins.drive_train.toothed_belt_figure import TOOTHED_BELT_FIGURES
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
 from tests.machines import inputs, number
