@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from math import atan2, cos, degrees, prod, sin
 from typing import Any
 
-from diecut_report.config.parts.demands import Ratio, TypedNumber, TypedValue, millimetres
+from diecut_report.config.parts.demands import PlacedPort, Ratio, TypedNumber, TypedValue, millimetres
 from diecut_report.config.parts.keys import LOOSE
 from diecut_report.config.parts.load_cases import LoadCases
 from diecut_report.config.parts.masses import Masses
 from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
-from diecut_report.mechanism.mechanism import Port
 from diecut_report.standards import catalogue_type
 
 OF_SHAFT = frozenset({"rotation", "speed", "turns_per_cycle", "load_cases", "downwards"})
@@ -42,10 +41,9 @@ class ShaftElements(Masses, LoadCases):
             inputs["forces"] = forces
         if (moving := self.moved_by(shaft)) is not None:
             found = self._source("", moving.mechanism, moving.port.angle, 1)
-            factors = tuple(join.ratio_text for join in self.chain_from(moving.part.shaft.name, shaft.name))
-            inputs["motion"] = {key: value for key, value in found.items() if key != "name"} | {
-                "ratio": Ratio(1, factors).text
-            }
+            way = self.parts.chain_from(moving.part.shaft.name, shaft.name)
+            found["ratio"] = Ratio(1, tuple(join.ratio_text for join in way)).text
+            inputs["motion"] = {key: value for key, value in found.items() if key != "name"}
         if len(inputs) > 1:
             self._add(shaft.loads, "shaft_loads", inputs, shaft.path)
 
@@ -89,16 +87,16 @@ class ShaftElements(Masses, LoadCases):
 
     def _port_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The forces of a mechanism on a part, in the directions of its shaft; a second one in a direction is named across."""
-        port, taken = self.port(part), set[str]()
-        if port is None or part.port is None:
+        placed, taken = self.port(part), set[str]()
+        if placed is None:
             return
-        sign, line = -1 if port.opposite else 1, self.line_of_axes(part.port[0])
-        for shares, curve in zip(line.shares(), port.forces, strict=False):
+        sign, line = -1 if placed.port.opposite else 1, self.line_of_axes(placed.mechanism)
+        for shares, curve in zip(line.shares(), placed.port.forces, strict=False):
             for direction, share in self._directions(part, *shares):
                 if abs(share) > NOTHING:
                     name = f"{part.name}_across_{direction}" if direction in taken else f"{part.name}_{direction}"
                     taken.add(direction)
-                    yield self._source(name, part.port[0], curve, 1) | {"ratio": Ratio(sign * share).text}
+                    yield self._source(name, placed.mechanism, curve, 1) | {"ratio": Ratio(sign * share).text}
 
     def _directions(self, part: ShaftPart, x: float, y: float) -> tuple[tuple[str, float], ...]:
         """The shares of a force in the frame's x and y as those in the directions of its shaft, which turns from y to z.
@@ -109,15 +107,17 @@ class ShaftElements(Masses, LoadCases):
 
     def _chain_shares(self, part: ShaftPart) -> tuple[Join | None, list[tuple[str, float]]]:
         """The chain on a sprocket, and the shares of its pull: towards the other one, or in its direction where it runs over idlers."""
-        join = next((each for each in self.parts.joins_of(part) if each.word == "chains"), None)
+        join = self.parts.join_of(part, "chains")
         if join is None:
             return None, []
-        other = (
-            (join.driven[0] if part in join.drivers else join.drivers[0]).shaft.name if join.driven else part.shaft.name
-        )
-        (x, y), (u, v) = (self.parts.axes.get(name, (0.0, 0.0)) for name in (part.shaft.name, other))
-        angle = atan2(v - y, u - x) if join.driven else join.keys.direction or 0.0
+        angle = self._angle_to(join, part) if join.driven else join.keys.direction or 0.0
         return join, [each for each in self._directions(part, cos(angle), sin(angle)) if abs(each[1]) > NOTHING]
+
+    def _angle_to(self, join: Join, part: ShaftPart) -> float:
+        """The direction from the axis of a part to that of the other one of its join, rad in the frame."""
+        other = join.driven[0] if part in join.drivers else join.drivers[0]
+        (x, y), (u, v) = (self.parts.axes.get(each.shaft.name, (0.0, 0.0)) for each in (part, other))
+        return atan2(v - y, u - x)
 
     def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The pull of a chain on its sprocket, by the torque of the driving one and with what it always pulls; losses behind it count in full."""
@@ -233,7 +233,7 @@ class ShaftElements(Masses, LoadCases):
 
     def _typed_load(self, part: ShaftPart, found: dict[str, Any]) -> dict[str, TypedValue]:
         """The keys of a load that are typed at its part; a mass is one of its body."""
-        join = next(self.parts.joins_of(part), None)
+        join = self.parts.join_of(part)
         source = join.path if join else (*part.path, "of" if part.port else part.kind)
         follows = {"offset", "gear", "seat"} if part.kind != "load" else set()
         follows |= {"force_y", "force_z"} if join or part.port else set()
@@ -250,20 +250,13 @@ class ShaftElements(Masses, LoadCases):
         return part is (driving.driven[0] if driving is not None else self.parts.motion_port(part.shaft))
 
     def _gear(self, part: ShaftPart) -> dict[str, Any] | None:
-        join = next((each for each in self.parts.joins_of(part) if each.word == "meshes"), None)
-        if join is None:
+        join = self.parts.join_of(part, "meshes")
+        if join is None or not {each.shaft.name for each in join.parts} <= self.parts.axes.keys():
             return None
-        other = join.driven[0] if part in join.drivers else join.drivers[0]
-        axes = self.parts.axes
-        if not {part.shaft.name, other.shaft.name} <= axes.keys():
-            return None
-        (x, y), (u, v) = axes[part.shaft.name], axes[other.shaft.name]
         sense = self.sense(part.shaft.name)
-        angle = sense * degrees(atan2(v - y, u - x))
-        found: dict[str, Any] = {
-            "pitch_radius": self._pitch_radius(join, part),
-            "mesh_angle": TypedNumber(f"{angle:.10g} deg", ("machine", "frame")),
-        }
+        angle = sense * degrees(self._angle_to(join, part))
+        found: dict[str, Any] = {"pitch_radius": self._pitch_radius(join, part)}
+        found["mesh_angle"] = TypedNumber(f"{angle:.10g} deg", ("machine", "frame"))
         if join.keys.helix_angle:
             # a pair has teeth of opposite hands; those of a right-handed gear push against its torque
             hand = -sense if part in join.drivers else sense
@@ -276,13 +269,10 @@ class ShaftElements(Masses, LoadCases):
         return f"${{drive_line.{join.name}_radius_{1 if part in join.drivers else 2}}}"
 
     def _belt_force(self, part: ShaftPart) -> dict[str, Any]:
-        join = next((each for each in self.parts.joins_of(part) if each.word == "belts"), None)
-        train = self.named("drive_train")
+        join, train = self.parts.join_of(part, "belts"), self.named("drive_train")
         if join is None or train is None:
             return {}
-        other = join.driven[0] if part in join.drivers else join.drivers[0]
-        (x, y), (u, v) = (self.parts.axes.get(each.shaft.name, (0.0, 0.0)) for each in (part, other))
-        angle = atan2(v - y, u - x)
+        angle = self._angle_to(join, part)
         shares = self._directions(part, cos(angle), sin(angle))
         load = f"${{{train}.shaft_load}}"
         return {f"force_{axis}": f"{load} * ({share:.12g})" for axis, share in shares if abs(share) > NOTHING}
@@ -367,16 +357,14 @@ class ShaftElements(Masses, LoadCases):
         return f"${{{loads}.{'balance' if self._balances(joined[0]) else f'{joined[0].name}_torque'}}}"
 
     def _pin(self, part: ShaftPart) -> None:
-        pin, port = part.keys.pin, self.port(part)
-        if pin is None or port is None or not part.port or not port.joint[0]:
+        pin, placed = part.keys.pin, self._joint(part)
+        if pin is None or placed is None:
             return
-        mechanism, path = part.port[0], (*part.path, "pin")
-        length, middle, *supports = (
-            TypedNumber(millimetres(each), path) for each in (pin.length, pin.middle, *pin.supports)
-        )
+        path, sizes = (*part.path, "pin"), (pin.length, pin.middle, *pin.supports)
+        length, middle, *supports = (TypedNumber(millimetres(each), path) for each in sizes)
         inputs: dict[str, Any] = {
             "sections": [{"length": length, "diameter": TypedValue((*path, "diameter"))}], "bearing_a": supports[0], "bearing_b": supports[1],
-            "loads": [{"name": "joint", "position": middle, "seat": "loose"} | self._joint_force(mechanism, port)],
+            "loads": [{"name": "joint", "position": middle, "seat": "loose"} | self._joint_force(placed)],
         }  # fmt: skip
         if pin.held is not None:
             inputs["notches"] = [{"position": TypedNumber(millimetres(pin.held), path), "type": "press_fit"}]
@@ -384,39 +372,40 @@ class ShaftElements(Masses, LoadCases):
             inputs["material"] = TypedValue(("machine", "shaft_material"))
         if pin.allowable_deflection is not None:
             inputs["allowable_deflection"] = TypedValue((*path, "allowable_deflection"))
-        inputs |= (
-            {"rotation": f"${{{mechanism}.{port.joint[1]}}}"}
-            if port.joint[1]
-            else {"speed": f"${{{mechanism}.{port.speed}}}"}
-        )
+        inputs |= self._turning(placed, "rotation")
         self._add(part.calculation("pin"), "shaft", inputs, path)
 
+    def _joint(self, part: ShaftPart) -> PlacedPort | None:
+        """The port of a part where that is a joint, whose force acts on a pin."""
+        placed = self.port(part)
+        return placed if placed and placed.port.joint[0] else None
+
     @staticmethod
-    def _joint_force(mechanism: str, port: Port) -> dict[str, Any]:
+    def _joint_force(placed: PlacedPort) -> dict[str, Any]:
         """The force on a pin: along the joint's part where the pin is seen from there, else in the directions of the frame."""
+        port, mechanism = placed.port, placed.mechanism
         if port.joint[1]:
             return {"force_y": f"${{{mechanism}.{port.joint[0]}}}"}
         return {f"force_{axis}": f"${{{mechanism}.{curve}}}" for axis, curve in zip("yz", port.forces, strict=False)}
 
+    @staticmethod
+    def _turning(placed: PlacedPort, key: str) -> dict[str, str]:
+        """How a pin turns in its joint: the angle of one that swings, under this key, else its speed."""
+        own = {key: placed.port.joint[1]} if placed.port.joint[1] else {"speed": placed.port.speed}
+        return {name: f"${{{placed.mechanism}.{curve}}}" for name, curve in own.items()}
+
     def _pin_bearing(self, part: ShaftPart) -> dict[str, Any] | None:
-        pin, port = part.keys.pin, self.port(part)
-        if pin is None or pin.bearing is None or port is None or not part.port or not port.joint[0]:
+        pin, placed = part.keys.pin, self._joint(part)
+        if pin is None or pin.bearing is None or placed is None:
             return None
-        mechanism, home = part.port[0], part.shaft.calculation
-        path = (*part.path, "pin")
-        more = {
-            key: TypedValue((*path, key))
-            for key in ("limiting_speed", "rolling_elements")
-            if getattr(pin, key) is not None
-        }
+        home, path = part.shaft.calculation, (*part.path, "pin")
+        typed = (key for key in ("limiting_speed", "rolling_elements") if getattr(pin, key) is not None)
+        more = {key: TypedValue((*path, key)) for key in typed}
         found = self._catalogued(f"{part.name}_pin", pin.bearing, more, (*path, "bearing"))
-        found["radial_force"] = f"${{{mechanism}.{port.joint[0]}}}"
+        found["radial_force"] = f"${{{placed.mechanism}.{placed.port.joint[0]}}}"
         shaft_slope = f"${{{home}.{part.name}_slope}} + " if self.is_made(home) else ""
         found["tilt"] = f"{shaft_slope}${{{part.calculation('pin')}.joint_slope}}"
-        if port.joint[1]:
-            turns = self.line(mechanism)[0]
-            return found | {
-                "relative_angle": f"${{{mechanism}.{port.joint[1]}}}",
-                "cycle_speed": f"{self.reference_speed} * {turns}",
-            }
-        return found | {"speed": f"${{{mechanism}.{port.speed}}}"}
+        found |= self._turning(placed, "relative_angle")
+        if placed.port.joint[1]:
+            found["cycle_speed"] = f"{self.reference_speed} * {self.line(placed.mechanism)[0]}"
+        return found

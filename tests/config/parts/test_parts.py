@@ -99,7 +99,7 @@ def test_the_speed_of_a_shaft_is_that_of_the_anchor_times_the_ratios_of_the_teet
 
 
 def test_what_is_found_in_the_example_is_the_clutch_in_the_plane_of_the_main_shaft() -> None:
-    assert [(each.rule, each.level) for each in parts().findings] == [("overlap", "warning")]
+    assert [(each.rule, each.level) for each in parts().findings] == [("planes", "warning")]
     (text,) = (str(each.message) for each in parts().findings)
     assert "180 mm" in text and "crank.clutch" in text
 
@@ -238,7 +238,7 @@ DOUBTFUL = [
     ("teeth: 18/87, module: 4,", "teeth: 15/90, module: 4,", "wall", "is 50 mm thick below its teeth, less than 1.5 times its seat of 35 mm"),
     ("hub_yield: 370 MPa", "hub_yield: 320 MPa", "steel", "is 767 MPa, but through-hardened steel with hubs of 320 MPa has 750.7 MPa at most"),
     ("\nmechanisms:\n", "\nmechanisms:\n  extra: {kind: parallel_key, shaft_diameter: 40 mm, key_length: 36 mm}\n",
-     "block_without_part", "is a parallel_key, as they are calculated of the parts"),
+     "untied", "is a parallel_key, as they are calculated of the parts"),
 ]  # fmt: skip
 
 
@@ -293,7 +293,7 @@ def test_a_shoulder_within_its_bounds_and_a_block_that_refers_to_a_part_are_not_
     ):
         config, _ = changed(old, new)
         assert config.parts is not None
-        assert {each.rule for each in config.parts.findings} <= {"overlap", "wall"}, new
+        assert {each.rule for each in config.parts.findings} <= {"planes", "wall"}, new
 
 
 def test_what_nothing_holds_along_its_shaft_warns_by_its_side() -> None:
@@ -366,7 +366,7 @@ def test_typed_notches_stand_beside_those_of_the_keys() -> None:
 def test_a_shaft_that_nothing_turns_is_doubtful() -> None:
     config, problems = changed("to: [far.left, far.right], ", "")
     assert not problems and config.parts is not None
-    (found,) = (each for each in config.parts.findings if each.rule == "joins")
+    (found,) = (each for each in config.parts.findings if each.rule == "described")
     assert found.level == "warning" and found.path == ("shafts", "far") and "is turned by nothing" in found.message
 
 
@@ -603,7 +603,7 @@ def test_a_mass_is_held_against_the_full_steel_body_of_the_part(part: str, share
     level = "" if (part, share) == ("clutch", 0.2) else level  # it has shoes in place of a disc
     config, problems = changed(typed, f"mass: {full * share:.4g} kg")
     assert config.parts is not None
-    findings = [each for each in config.parts.findings if each.rule == "mass"]
+    findings = [each for each in config.parts.findings if each.rule == "massive"]
     assert [each.level for each in findings] == (["warning"] if level == "warning" else [])
     assert len(problems) == (level == "error") and ("the full steel body" in " ".join(problems)) == (level == "error")
 
@@ -612,7 +612,7 @@ def test_a_mass_is_held_against_the_full_steel_body_of_the_part(part: str, share
 def test_the_mass_of_a_geneva_wheel_is_held_against_its_width(width: str, level: str) -> None:
     config, problems = changed(WHEEL, WHEEL.replace("width: 35", f"mass: {13 if not width else 26.2} kg{width}"))
     assert config.parts is not None and bool(problems) == (level == "error")
-    assert [each.level for each in config.parts.findings if each.rule == "mass"] == (
+    assert [each.level for each in config.parts.findings if each.rule == "massive"] == (
         ["warning"] if level == "warning" else []
     )
 
