@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
 from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart
+from diecut_report.config.validation import value_at
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanics.timing.intervals import exact_turns
 from diecut_report.mechanism.mechanism import Mechanism, Port
@@ -553,7 +554,5 @@ class Demands:
         return f"${{drive_line.{chain.name}_chain_mass}} * (${{drive_line.{chain.name}_chain_travel}} / 1 rad)**2"
 
     def _raw(self, path: KeyPath) -> Mapping[str, Any]:
-        data: Any = self.parts.reader.data
-        for part in path:
-            data = data[part]
+        data = value_at(self.parts.reader.data, path)
         return data if isinstance(data, dict) else {}
