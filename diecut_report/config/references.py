@@ -363,18 +363,18 @@ def assumed_bases(tree: Tree, values: Mapping[KeyPath, Scalar], units: Mapping[K
 
     ``units`` are those of the keys, in which a number without one counts.
     """
-    moved = (
-        path[:-1]
-        for path, value in values.items()
-        if path[-1:] == ("value",) and _differs(tree.typed(path), value, units.get(path, "1"))
-    )
-    bases = [(*path, "basis") for path in moved]
-    is_inherited = any(
-        path[0] in WORDS and path[-1] != "value" and _differs(tree.typed(path), value, units.get(path, "mm"))
-        for path, value in values.items()
-    )
+    other = [
+        path for path, value in values.items() if _differs(tree.typed(path), value, units.get(path, _own_unit(path)))
+    ]
+    bases = [(*path[:-1], "basis") for path in other if path[-1:] == ("value",)]
+    is_inherited = any(path[0] in WORDS and path[-1] != "value" for path in other)
     bases += [("machine", "basis")] if is_inherited else []  # of all numbers of the parts that do not say their own
     return {path: ASSUMED for path in bases if tree.typed(path) in OF_ONE_VALUE}
+
+
+def _own_unit(path: KeyPath) -> str:
+    """The unit in which a number without one counts where its key is not known: of a part it is a length."""
+    return "mm" if path[0] in WORDS and path[-1] != "value" else "1"
 
 
 def _differs(typed: str | None, value: Scalar, own: str) -> bool:

@@ -18,7 +18,7 @@ from diecut_report.study.comparison import ComparedRow, MachineComparison, Verdi
 from diecut_report.study.comparison_pages import blocks, page, sheets
 from diecut_report.study.machines import CheckedMachine, calculated
 from diecut_report.study.shown_results import AskedResults, refuse_units, refuse_unused_units
-from tests.config.parts.test_parts import FILE
+from tests.config.parts.machines import FILE
 from tests.configs import GOOD, HEAD, LEVER, saved
 
 KNOWN = Discovery([GOOD])

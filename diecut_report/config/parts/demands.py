@@ -351,12 +351,11 @@ class Demands:
         before = {name for name in self.parts.shafts if self.parts.chain_from(name, anchor.name)} | {anchor.name}
         after = [shaft for name, shaft in self.parts.shafts.items() if name not in before]
         joins = [join for join in self.parts.joins if join.driving_shaft in after]
+        behind = [part for shaft in after if self.parts.is_behind_anchor(shaft) for part in shaft.parts]
         return (
             any("torque" in part.more for shaft in after for part in shaft.parts)
             or any(not join.driven and not join.moves for join in joins)
-            or any(
-                self._is_unknown(part) for shaft in after if self.parts.is_behind_anchor(shaft) for part in shaft.parts
-            )
+            or any(self._is_unknown(part) for part in behind)
         )
 
     def _is_unknown(self, part: ShaftPart) -> bool:

@@ -108,11 +108,8 @@ class Elements(ShaftElements):
             mass = {"name": name, "mass": self.whole(shaft, "mass")}
             if name in self.parts.ratios:
                 if has_body:
-                    own = {
-                        "ratio": f"${{drive_line.shafts.{len(speeds)}.ratio}}",
-                        "inertia": self.whole(shaft, "inertia"),
-                    }
-                    turning.append(mass | own)
+                    ratio = f"${{drive_line.shafts.{len(speeds)}.ratio}}"
+                    turning.append(mass | {"ratio": ratio, "inertia": self.whole(shaft, "inertia")})
                 speeds.append({"name": name, "ratio": self._ratio_of_route(name)})
             elif has_body:
                 moving.append(mass)

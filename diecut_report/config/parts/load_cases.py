@@ -184,11 +184,11 @@ class LoadCases(Demands):
 
     def cases_of_mesh(self, join: Join, pinion: ShaftPart) -> list[dict[str, Any]]:
         """Return the load cases of a pair of gears, as torques on its pinion."""
-        onto = "" if pinion in join.drivers else f" / {join.ratio_text}"
-        return [
-            {"name": each.case, "torque": f"({each.torque}){onto}" if onto else each.torque, "cycles": each.cycles}
-            for each in self.meshing(join)
-        ]
+        found = []
+        for each in self.meshing(join):
+            torque = each.torque if pinion in join.drivers else f"({each.torque}) / {join.ratio_text}"
+            found.append({"name": each.case, "torque": torque, "cycles": each.cycles})
+        return found
 
     @property
     def _engagements_in_life(self) -> str:

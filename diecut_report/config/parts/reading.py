@@ -376,14 +376,9 @@ def _text_around(path: KeyPath) -> KeyPath | None:
 def _numbers_of(path: KeyPath, given: Any) -> dict[KeyPath, str]:
     """The numbers that a text of several holds, by their places; a single one of a pair counts for both."""
     if path[0] == "shafts" and path[2:] == ("sections",):
-        every = enumerate(SECTION.fullmatch(each.strip()) for each in str(given).split(","))
-        return {
-            (*path, index, key): number
-            for index, each in every
-            if each
-            for key, number in each.groupdict().items()
-            if number
-        }
+        every = (SECTION.fullmatch(each.strip()) for each in str(given).split(","))
+        rows = ((index, each.groupdict()) for index, each in enumerate(every) if each)
+        return {(*path, index, key): number for index, row in rows for key, number in row.items() if number}
     pair = _pair_at(path)
     if pair is None or path[-1] != pair.key or given is None:
         return {}

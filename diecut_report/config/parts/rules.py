@@ -461,13 +461,9 @@ def massive(parts: MachineParts, elements: Elements) -> Iterator[Finding]:
                 least, most = MASS_SHARE[0] if part.kind != "clutch" else MASS_POSSIBLE[0], MASS_SHARE[1]
                 if not least <= typed / full <= most:
                     template = "is {typed}, but the full steel body of its dimensions has {full}; {least} to {most} of it are usual"
-                    said = {
-                        "typed": f"{typed:.4g} {of}",
-                        "full": f"{full:.3g} {of}",
-                        "least": str(least),
-                        "most": str(most),
-                    }
-                    yield finding(path, template, level=_mass_level(typed / full), **said)
+                    ends, given = (str(least), str(most)), (f"{typed:.4g} {of}", f"{full:.3g} {of}")
+                    yield finding(path, template, level=_mass_level(typed / full), typed=given[0], full=given[1],
+                                  least=ends[0], most=ends[1])  # fmt: skip
 
 
 def filled(parts: MachineParts, elements: Elements) -> Iterator[Finding]:

@@ -313,10 +313,8 @@ class ShaftElements(Masses, LoadCases):
         """How the rings of a shaft's bearings turn."""
         if shaft.name in self.parts.ratios:
             return {"speed": self.speed(shaft.name)}
-        return {
-            "relative_angle": f"${{{shaft.calculation}.shaft_angle}}",
-            "cycle_speed": f"{self.reference_speed} / {self.cycle(shaft.name)}",
-        }
+        cycle_speed = f"{self.reference_speed} / {self.cycle(shaft.name)}"
+        return {"relative_angle": f"${{{shaft.calculation}.shaft_angle}}", "cycle_speed": cycle_speed}
 
     def _key(self, part: ShaftPart) -> None:
         loads = part.shaft.loads
