@@ -21,7 +21,7 @@ from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, 
 from diecut_report.config.references import WHOLE, Linker, linked, ordered
 from diecut_report.config.source_hashes import note_same_code, plugin_hash, program_hash
 from diecut_report.config.validation import ConfigPlace, as_typed, declared, keys_of, quoted, spread_out, validate
-from diecut_report.config.yaml import MAX_BYTES, KeyPath, Scalar, Tree, read, too_much
+from diecut_report.config.yaml import MAX_BYTES, KeyPath, Scalar, Tree, key_of, read, too_much
 from diecut_report.declaration.inputs import NAME
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal, seeming_latin
 from diecut_report.files import standard_input
@@ -310,15 +310,8 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     linker = linked(reader.instances)
     order, loops = ordered(linker)
     logo, faults = logo_of(tree, find)
-    problems = [
-        *reader.problems,
-        *tables.problems,
-        *_unknown_tables(reader),
-        *faults,
-        *linker.problems,
-        *_wrong_values(reader, linker),
-        *loops,
-    ]
+    problems = [*reader.problems, *tables.problems, *_unknown_tables(reader), *faults]
+    problems += [*linker.problems, *_wrong_values(reader, linker), *loops]
     units = reader.report and reader.report.units
     problems += instances.faults(units, reader.instances, ConfigPlace(tree, ("report",)))
     broken = reader.broken if problems else {}
@@ -343,29 +336,21 @@ def _unknown_tables(reader: _ConfigReader) -> Iterator[Problem]:
     for table in set(entries) - known:
         first = next(iter(entries[table].values()))
         template = "is a table that no kind takes{near}; there are {known}"
-        near = nearest(table, known)
-        yield ConfigPlace(first.tree).problem(
-            (table,), template, at_key=True, near=near, known=", ".join(sorted(known))
-        )
+        place, names = ConfigPlace(first.tree), ", ".join(sorted(known))
+        yield place.problem((table,), template, at_key=True, near=nearest(table, known), known=names)
 
 
 def _tables_of(mechanisms: Iterable[Mechanism]) -> set[str]:
-    models = [
-        model for each in mechanisms for model in (each.inputs, *(key.block for key in keys(each.inputs).values()))
-    ]
-    return {rule.table for model in models if model for rule in model.from_tables}
+    blocks = (
+        block for each in mechanisms for block in (each.inputs, *(key.block for key in keys(each.inputs).values()))
+    )
+    return {rule.table for block in blocks if block for rule in block.from_tables}
 
 
 def _stands_alone(tree: Tree, problem: Problem) -> bool:
     """Whether a problem is of a typed value that refers to nothing, so that it has nothing to do with the parts."""
-    given: Any = tree.data
-    for name in problem.path.split("."):
-        known = dict(enumerate(given)) if isinstance(given, list) else given
-        key = int(name) if isinstance(given, list) and name.isdecimal() else name
-        if not isinstance(known, dict) or key not in known:
-            return False
-        given = known[key]
-    return not isinstance(given, dict | list) and "${" not in str(given)
+    typed = tree.typed(key_of(problem.path))
+    return typed is not None and "${" not in typed
 
 
 def _declared(discovery: Discovery, kind: str) -> Mechanism | None:
@@ -493,9 +478,8 @@ class _ConfigReader:
             with contained():
                 _ = instance.given, instance.results
         except Exception as cause:
-            raise PluginError(
-                Phrase("its declarations are invalid: {said}", said=said(cause)), self.kinds[name]
-            ) from cause
+            words = Phrase("its declarations are invalid: {said}", said=said(cause))
+            raise PluginError(words, self.kinds[name]) from cause
 
 
 def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> PluginError:

@@ -24,7 +24,7 @@ from diecut_report.config.instances import Instance, Node, Slot, Target, Unresol
 from diecut_report.config.model import PRESS, texts
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, ConfigPlace, declared, value_at
-from diecut_report.config.yaml import LOADER, KeyPath, Scalar, Tree, dotted, parse
+from diecut_report.config.yaml import LOADER, KeyPath, Scalar, Tree, dotted, key_of, parse
 from diecut_report.errors import Problem, UserError, nearest, seeming_latin
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
@@ -211,7 +211,7 @@ class Linker:
         return None
 
     def _input(self, path: str, instance: Instance, parts: list[str]) -> Target:
-        key: KeyPath = tuple(int(part) if part.isdigit() else part for part in parts)
+        key = key_of(".".join(parts))
         meta = declared(instance.model, key)
         name = dotted(key)
         if isinstance(meta, type):

@@ -113,6 +113,7 @@ Position = tuple[int, int]
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _WORDS: dict[str, bool | None] = dict.fromkeys(["", "~", "null", "Null", "NULL"])
 _WORDS |= {word: word.lower() == "true" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
+_PLACE = re.compile(r"[0-9]{1,6}")  # in a list, within a path
 _INTEGER = re.compile(r"[-+]?[0-9]{1,300}")
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 
@@ -120,6 +121,11 @@ _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?"
 def dotted(key: KeyPath) -> str:
     """Return a key without its places in lists: ``("loads", 1, "torque")`` → ``loads.torque``."""
     return ".".join(part for part in key if isinstance(part, str))
+
+
+def key_of(path: str) -> KeyPath:
+    """Return the key that a dotted path names, with its places in lists: ``loads.1.torque`` → ``("loads", 1, "torque")``."""
+    return tuple(int(part) if _PLACE.fullmatch(part) else part for part in path.split("."))
 
 
 @dataclass

@@ -21,22 +21,21 @@ USUAL_STEPS = 6  # of a Geneva wheel whose slots are not typed
 
 
 @dataclass(frozen=True)
-class TypedValue:
-    """Stand for the value that is typed at a path of the file, with its basis."""
+class Typed:
+    """Stand for what is typed at a path of the file, with its basis; with ``text`` for a number that a text there holds, or that follows from it.
 
-    path: KeyPath
-
-
-@dataclass(frozen=True)
-class TypedNumber:
-    """Stand for a number that a text of the file holds, or that follows from numbers there; it has the basis of all parts.
-
-    ``within`` is where it would be typed if the text were written as a block; nothing where it is not typed as it is.
+    Such a number has the basis of all parts. ``within`` is where it would be typed if the text were written as a block; nothing where it
+    is not typed as it is.
     """
 
-    text: str
     path: KeyPath
+    text: str = ""
     within: KeyPath = ()
+
+    @property
+    def place(self) -> KeyPath | None:
+        """Return where the value is typed, or would be in a block; None of one that only follows from what is typed."""
+        return (*self.path, *self.within) if self.within or not self.text else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +105,7 @@ def millimetres(value: float) -> str:
 def typed_paths(value: Any) -> Iterator[KeyPath]:
     """Yield where the numbers that a value is made of are typed; of references nothing."""
     match value:
-        case TypedValue(path=path) | TypedNumber(path=path):
+        case Typed(path=path):
             yield path
         case dict() | list():
             for part in value.values() if isinstance(value, dict) else value:
@@ -119,7 +118,7 @@ def first_place(value: Any) -> KeyPath | None:
 
 
 def _is_of_machine(value: Any) -> bool:
-    return isinstance(value, TypedValue) and value.path[0] == "machine"
+    return isinstance(value, Typed) and not value.text and value.path[0] == "machine"
 
 
 @dataclass(eq=False)
@@ -143,7 +142,7 @@ class Demands:
         path: KeyPath,
         source: KeyPath,
         follows: Container[str] = (),
-    ) -> dict[str, TypedValue]:
+    ) -> dict[str, Typed]:
         """The keys of a part that go on to its calculation, which has ``inputs`` already.
 
         What follows from the parts (of itself, or from ``source``) is not typed again, which is noted; what ``machine`` gives
@@ -155,7 +154,7 @@ class Demands:
             if key in follows or (key in inputs and not _is_of_machine(derived)):
                 self.twice.append(((*path, key), first_place(derived) or source))
             else:
-                found[key] = TypedValue((*path, key))
+                found[key] = Typed((*path, key))
         return found
 
     def _add(self, name: str, kind: str, inputs: dict[str, Any], path: KeyPath) -> None:
@@ -454,8 +453,8 @@ class Demands:
         typed, number = [each.path for each in losses if each.path], prod(each.efficiency for each in losses)
         self.counted.update(typed)
         if len(losses) == 1 and typed and typed[0][0] == "meshes":
-            return TypedValue(typed[0])
-        return TypedNumber(f"{number:.15g}", typed[0]) if typed else number
+            return Typed(typed[0])
+        return Typed(typed[0], f"{number:.15g}") if typed else number
 
     def _added(self, every: list[dict[str, Any]]) -> dict[str, Any] | None:
         """The demands of several parts of one curve as one, such as of two chains side by side; None where they are unlike."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import degrees, inf
 from typing import Any
 
-from diecut_report.config.parts.demands import Element, Ratio, TypedNumber, TypedValue, millimetres
+from diecut_report.config.parts.demands import Element, Ratio, Typed, millimetres
 from diecut_report.config.parts.keys import BeltKeys, ChainKeys, MeshKeys
 from diecut_report.config.parts.model import SIDES, Join, MachineShaft, ShaftPart, chain_pitch
 from diecut_report.config.parts.shafts import ShaftElements
@@ -91,9 +91,9 @@ class Elements(ShaftElements):
         if what == "inertia":
             return self.inertia_behind(part.shaft, *chains) if chains else None
         if what == "teeth" and chains:
-            return TypedNumber(str(chains[0].keys.teeth_1), (*chains[0].path, "teeth"))
+            return Typed((*chains[0].path, "teeth"), str(chains[0].keys.teeth_1))
         if what == "pitch" and chains:
-            return TypedNumber(millimetres(chain_pitch(chains[0].keys)), (*chains[0].path, "chain"))
+            return Typed((*chains[0].path, "chain"), millimetres(chain_pitch(chains[0].keys)))
         return None
 
     def _chains_that_move(self, part: ShaftPart, what: str) -> list[Join]:
@@ -137,7 +137,7 @@ class Elements(ShaftElements):
     def _brake(part: ShaftPart, speeds: list[dict[str, Any]]) -> dict[str, Any]:
         """A brake, with the speed of its shaft."""
         ratio = next(index for index, row in enumerate(speeds) if row["name"] == part.shaft.name)
-        torque = TypedValue((*part.path, "brake_torque"))
+        torque = Typed((*part.path, "brake_torque"))
         name = f"{part.shaft.name}_{part.name}"
         return {"name": name, "torque": torque, "ratio": f"${{drive_line.shafts.{ratio}.ratio}}"}
 
@@ -157,20 +157,20 @@ class Elements(ShaftElements):
         keys, path = join.keys, join.path
         if isinstance(keys, BeltKeys):
             home, names = (*path, "diameters"), ("diameter_1", "diameter_2")
-            return {name: TypedNumber(millimetres(size), home) for name, size in zip(names, join.sizes, strict=True)}
+            return {name: Typed(home, millimetres(size)) for name, size in zip(names, join.sizes, strict=True)}
         names = ("teeth_1", "teeth_2")
         row: dict[str, Any] = {
-            name: TypedNumber(str(size), (*path, "teeth")) for name, size in zip(names, join.sizes, strict=True)
+            name: Typed((*path, "teeth"), str(size)) for name, size in zip(names, join.sizes, strict=True)
         }
         if isinstance(keys, MeshKeys):
             typed = ("module", "helix_angle") if keys.helix_angle else ("module",)
-            return row | {key: TypedValue((*path, key)) for key in typed}
+            return row | {key: Typed((*path, key)) for key in typed}
         weight = standard_table("roller_chains").by_name("mass_per_length")[keys.chain]
-        row["pitch"] = TypedNumber(millimetres(chain_pitch(keys)), (*path, "chain"))
-        row["links"] = TypedValue((*path, "links"))
+        row["pitch"] = Typed((*path, "chain"), millimetres(chain_pitch(keys)))
+        row["links"] = Typed((*path, "links"))
         row["strands"] = len(keys.sprockets)
-        row["mass_per_length"] = TypedNumber(f"{weight:g} kg/m", (*path, "chain"))
-        return row | {key: TypedValue((*path, key)) for key in ("moving_mass", "pretension") if key in join.more}
+        row["mass_per_length"] = Typed((*path, "chain"), f"{weight:g} kg/m")
+        return row | {key: Typed((*path, key)) for key in ("moving_mass", "pretension") if key in join.more}
 
     def _mesh(self, join: Join) -> None:
         keys, path = join.keys, join.path
@@ -178,12 +178,12 @@ class Elements(ShaftElements):
         first = 1 if pinion in join.drivers else 2
         inputs: dict[str, Any] = {
             "module": f"${{{join.home}.module}}", "teeth_1": f"${{{join.home}.teeth_{first}}}", "teeth_2": f"${{{join.home}.teeth_{3 - first}}}",
-            "face_width": TypedValue((*path, "width")),
+            "face_width": Typed((*path, "width")),
         }  # fmt: skip
         if keys.helix_angle:
             typed = (*path, "helix_angle")
-            size = TypedNumber(f"{-degrees(keys.helix_angle):.12g} deg", typed)
-            inputs["helix_angle"] = TypedValue(typed) if keys.helix_angle > 0 else size
+            size = Typed(typed, f"{-degrees(keys.helix_angle):.12g} deg")
+            inputs["helix_angle"] = Typed(typed) if keys.helix_angle > 0 else size
         torque = self._torque_reference(pinion)
         inputs |= {"torque": torque} if torque else {"torque": self._torque_reference(wheel), "torque_on": "wheel"}
         if inputs["torque"] is None:
@@ -194,10 +194,10 @@ class Elements(ShaftElements):
         for limit in GEAR_LIMITS:
             if getattr(self.parts.keys.gears, limit):
                 gears = (gear for gear in (1, 2) if f"material_{gear}" not in join.more)  # which says its own
-                inputs |= {f"{limit}_{gear}": TypedValue(("machine", "gears", limit)) for gear in gears}
+                inputs |= {f"{limit}_{gear}": Typed(("machine", "gears", limit)) for gear in gears}
         moving = self.parts.motion_port(wheel.shaft)
         if keys.teeth_present and moving is not None and moving.port:
-            present = TypedValue((*path, "teeth_present"))
+            present = Typed((*path, "teeth_present"))
             inputs["sector"] = {"swing": f"${{{moving.port[0]}.swing_angle}}", "teeth_present": present}
         inputs |= {"application_factor": 1} | self._beside(inputs, join.more, path, join.drivers[0].path, OF_MESH)
         self._add(join.calculation, "gear_pair", inputs, path)
@@ -210,9 +210,9 @@ class Elements(ShaftElements):
             found["speed"] = self.speed(pinion.shaft.name)
         elif self.is_made(bearings):
             found["speed"] = f"${{{bearings}.{pinion.shaft.bearings[0].name}_speed_max}}"
-        found |= {key: TypedValue(("machine", "gears", key)) for key in ("grade", "crowned") if getattr(gears, key)}
+        found |= {key: Typed(("machine", "gears", key)) for key in ("grade", "crowned") if getattr(gears, key)}
         if gears.flanks:
-            found |= {f"flanks_{gear}": TypedValue(("machine", "gears", "flanks")) for gear in (1, 2)}
+            found |= {f"flanks_{gear}": Typed(("machine", "gears", "flanks")) for gear in (1, 2)}
         if self._has_teeth(pinion) and self._has_teeth(wheel):
             slopes = (f"${{{part.shaft.calculation}.{part.name}_mesh_slope}}" for part in (pinion, wheel))
             found["slope"] = " + ".join(slopes)
@@ -262,33 +262,33 @@ class Elements(ShaftElements):
         keys, path = join.keys, join.path
         distance = self.parts.distance(join.driving_shaft.name, join.driven_shaft.name)
         vbelt: dict[str, Any] = {"section": keys.section}
-        vbelt["driver_diameter"] = TypedNumber(millimetres(keys.diameter_1), (*path, "diameters"))
+        vbelt["driver_diameter"] = Typed((*path, "diameters"), millimetres(keys.diameter_1))
         if distance is not None:
-            vbelt["center_distance"] = TypedNumber(millimetres(distance), ("machine", "frame"))
-        vbelt |= {key: TypedValue((*path, key)) for key in ("count", "tension") if getattr(keys, key) is not None}
+            vbelt["center_distance"] = Typed(("machine", "frame"), millimetres(distance))
+        vbelt |= {key: Typed((*path, key)) for key in ("count", "tension") if getattr(keys, key) is not None}
         if typed := [key for key in SERVICE_KEYS if key in self._raw(("machine",))]:
-            vbelt["service_factor"] = TypedNumber(f"{self._service_factor(train):g}", ("machine", typed[0]))
+            vbelt["service_factor"] = Typed(("machine", typed[0]), f"{self._service_factor(train):g}")
         more = (key for key in join.more if key != "power_per_belt")
         vbelt |= self._beside(vbelt, more, path, ("machine",), {"center_distance"})
-        vbelt["driven_diameter"] = TypedNumber(millimetres(keys.diameter_2), (*path, "diameters"))
+        vbelt["driven_diameter"] = Typed((*path, "diameters"), millimetres(keys.diameter_2))
         fills: dict[str, Any] = {"vbelt": vbelt, "gears": self._train_gears(join.driven_shaft.name)}
         fills |= self._shafts_inertia(join.driven_shaft)
         if "power_per_belt" in join.more:
-            fills["power_per_belt"] = TypedValue((*path, "power_per_belt"))
+            fills["power_per_belt"] = Typed((*path, "power_per_belt"))
         if motor := join.driving_shaft.keys.motor:
             home = (*join.driving_shaft.path, "motor")
-            fills["motor_speed"] = TypedValue((*home, "speed"))
+            fills["motor_speed"] = Typed((*home, "speed"))
             if motor.radial_force is not None:
-                fills["allowable_radial_force"] = TypedValue((*home, "radial_force"))
+                fills["allowable_radial_force"] = Typed((*home, "radial_force"))
         self.fills.setdefault(train, {}).update(fills)
 
     def _shafts_inertia(self, shaft: MachineShaft) -> dict[str, Any]:
         """What the motor runs up beside the flywheel and the lines: the flywheel's shaft, and the steadily turning ones behind it."""
         flywheel = self.flywheel(shaft)
         is_typed = flywheel is not None and "inertia" in flywheel.more and not self.is_sized(flywheel)
-        mounted = {"mounted_inertia": TypedValue((*flywheel.path, "inertia"))} if flywheel and is_typed else {}
+        mounted = {"mounted_inertia": Typed((*flywheel.path, "inertia"))} if flywheel and is_typed else {}
         if flywheel and is_typed and flywheel.keys.outside is not None:
-            mounted["mounted_diameter"] = TypedValue((*flywheel.path, "outside"))
+            mounted["mounted_diameter"] = Typed((*flywheel.path, "outside"))
         behind = [name for name in self.parts.ratios if self.parts.chain_from(shaft.name, name)]
         own = self.inertia_without(shaft, {flywheel.name} if flywheel else ()) if self.is_made(shaft.body) else ""
         output = self.inertia_of_steady(self.parts.keys.anchor, behind)
@@ -309,9 +309,9 @@ class Elements(ShaftElements):
         for join, _ in reversed(self.parts.routes.get(shaft, [])):
             if not isinstance(join.keys, BeltKeys):
                 names = ("driver_teeth", "driven_teeth")
-                teeth = (TypedNumber(str(size), (*join.path, "teeth")) for size in join.sizes)
+                teeth = (Typed((*join.path, "teeth"), str(size)) for size in join.sizes)
                 pair: dict[str, Any] = dict(zip(names, teeth, strict=True))
                 if "efficiency" in self._raw(join.path):
-                    pair["efficiency"] = TypedValue((*join.path, "efficiency"))
+                    pair["efficiency"] = Typed((*join.path, "efficiency"))
                 found.append(pair)
         return found

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from diecut_report.config.model import ConfigDocument
-from diecut_report.config.parts.demands import Element, TypedNumber, TypedValue, millimetres
+from diecut_report.config.parts.demands import Element, Typed, millimetres
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts, MachineShaft
@@ -109,8 +109,7 @@ def _sources(node: KeyPath, given: Any) -> Iterator[tuple[KeyPath, KeyPath | Non
     """The inputs of a calculation, each with where its value is typed; None where it follows from several."""
     parts = given.items() if isinstance(given, dict) else enumerate(given) if isinstance(given, list) else ()
     if not parts:
-        is_typed = isinstance(given, TypedValue) or (isinstance(given, TypedNumber) and given.within)
-        yield node, (*given.path, *getattr(given, "within", ())) if is_typed else None
+        yield node, given.place if isinstance(given, Typed) else None
     for key, part in parts:
         yield from _sources((*node, key), part)
 
@@ -174,11 +173,9 @@ class _Writer:
         """A value as it stands at a path; ``key`` is the kind of mechanism that it is given to, and the input without places in lists."""
         position = self.tree.position(path)
         match value:
-            case TypedValue(path=there):
-                return self._based(self.tree.node(there), self.tree.position(there), key)
-            case TypedNumber(text=text, path=there):
+            case Typed(path=there, text=text):
                 place = self.tree.position(there)
-                return self._based(YamlNode(place, text, text), place, key)
+                return self._based(YamlNode(place, text, text) if text else self.tree.node(there), place, key)
             case dict():
                 children: dict[str | int, YamlNode] = {
                     name: self._node(part, path, (*key, name)) for name, part in value.items()

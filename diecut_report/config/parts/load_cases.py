@@ -9,7 +9,7 @@ from itertools import product
 from math import prod
 from typing import Any
 
-from diecut_report.config.parts.demands import Demands, TypedNumber
+from diecut_report.config.parts.demands import Demands, Typed
 from diecut_report.config.parts.keys import MeshKeys
 from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
 
@@ -196,9 +196,9 @@ class LoadCases(Demands):
         clutch, life = self.named("clutch"), self.parts.keys.required_life
         return f"${{{clutch}.engagements_per_hour}} * {life / 3600:.12g} h" if clutch and life else FREQUENT
 
-    def _stops_in_life(self, brake: ShaftPart) -> str | TypedNumber:
+    def _stops_in_life(self, brake: ShaftPart) -> str | Typed:
         """How often a brake stops the machine in its life; often, where that is not said or no life is asked for."""
         stops, life = brake.keys.stops_per_hour, self.parts.keys.required_life
         if stops is None or not life:
             return FREQUENT
-        return TypedNumber(f"{stops * life:.12g}", (*brake.path, "stops_per_hour"))
+        return Typed((*brake.path, "stops_per_hour"), f"{stops * life:.12g}")

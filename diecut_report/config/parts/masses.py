@@ -6,7 +6,7 @@ from collections.abc import Container, Iterable, Sequence
 from math import pi, prod
 from typing import Any
 
-from diecut_report.config.parts.demands import Demands, TypedNumber, TypedValue, millimetres
+from diecut_report.config.parts.demands import Demands, Typed, millimetres
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
 from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart, chain_pitch
 from diecut_report.mechanics.geneva_wheel import area_and_polar, crank_radius
@@ -89,10 +89,10 @@ class Masses(Demands):
     def _section(self, shaft: MachineShaft, index: int) -> dict[str, Any]:
         own, path = shaft.keys.sections[index], (*shaft.path, "sections", index)
         if isinstance(self._raw(shaft.path).get("sections"), list):
-            return {key: TypedValue((*path, key)) for key in self._raw(path)}
+            return {key: Typed((*path, key)) for key in self._raw(path)}
         found = {key: getattr(own, key) for key in ("length", "diameter", "bore", "fillet_radius")}
         home = (*shaft.path, "sections")
-        return {key: TypedNumber(millimetres(value), home, (index, key)) for key, value in found.items() if value}
+        return {key: Typed(home, millimetres(value), (index, key)) for key, value in found.items() if value}
 
     def _disc(self, part: ShaftPart) -> dict[str, Any] | None:
         """A part as a disc; None where its mass is typed or nothing is known of it."""
@@ -103,10 +103,10 @@ class Masses(Demands):
         if width is None:
             return None
         bore = part.keys.bore if part.keys.bore is not None else part.seat
-        found: dict[str, Any] = {"diameter": TypedNumber(millimetres(2 * join.radius(part)), join.path)}
-        found["width"] = TypedNumber(millimetres(width), part.path)
-        found |= {"bore": TypedNumber(millimetres(bore), part.path)} if bore else {}
-        return found | ({"fill": TypedValue((*part.path, "fill"))} if part.keys.fill != 1 else {})
+        found: dict[str, Any] = {"diameter": Typed(join.path, millimetres(2 * join.radius(part)))}
+        found["width"] = Typed(part.path, millimetres(width))
+        found |= {"bore": Typed(part.path, millimetres(bore))} if bore else {}
+        return found | ({"fill": Typed((*part.path, "fill"))} if part.keys.fill != 1 else {})
 
     @staticmethod
     def _width(part: ShaftPart, join: Join) -> float | None:
@@ -121,13 +121,13 @@ class Masses(Demands):
         if self._disc(part):
             return f"${{{part.shaft.body}.{part.name}_disc_mass}}"
         if "mass" in part.more:
-            return TypedValue((*part.path, "mass"))
+            return Typed((*part.path, "mass"))
         if self.is_sized(part):
             return f"${{{self.named('drive_train')}.flywheel_mass}}"
         section = wheel_section(self.parts, part)
         if section is None or part.keys.width is None:
             return None
-        return TypedNumber(f"{STEEL * part.keys.width * section[0]:.12g} kg", part.path)
+        return Typed(part.path, f"{STEEL * part.keys.width * section[0]:.12g} kg")
 
     def is_sized(self, part: ShaftPart) -> bool:
         """Return whether a part is the flywheel that the drive train sizes."""
@@ -141,7 +141,7 @@ class Masses(Demands):
         """The mass of a part, and its inertia: typed, or of a Geneva wheel or a disc without bore of that ``mass``."""
         found: dict[str, Any] = {"mass": self.mass_on(part) or 0}
         if "inertia" in part.more:
-            found["inertia"] = TypedValue((*part.path, "inertia"))
+            found["inertia"] = Typed((*part.path, "inertia"))
         elif section := wheel_section(self.parts, part):
             found["inertia"] = f"${{{mass}}} * {section[1] / section[0] * 1e6:.12g} mm**2"
         elif radius := self._disc_radius(part):

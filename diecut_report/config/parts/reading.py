@@ -27,7 +27,7 @@ from diecut_report.config.parts.keys import (
 )
 from diecut_report.config.references import WHOLE
 from diecut_report.config.validation import ConfigPlace, copied, declared, quoted, spread_out, validate, value_at
-from diecut_report.config.yaml import KeyPath, Position, Scalar, Tree, resolved
+from diecut_report.config.yaml import KeyPath, Position, Scalar, Tree, key_of, resolved
 from diecut_report.errors import Problem, lookalikes
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
@@ -41,7 +41,6 @@ SECTION = re.compile(
     re.ASCII,
 )
 """A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
-INDEX = re.compile(r"[0-9]{1,6}")
 COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
 BODY = {
     "mass": Quantity("m", "kg", "Mass of a part", ge=0),
@@ -222,7 +221,7 @@ class PartsReader:
 
     def _given(self, path: str) -> tuple[KeyPath, Any, Meta | type[Block] | None]:
         """A path, what is typed there, and what its key declares."""
-        key: KeyPath = tuple(int(part) if INDEX.fullmatch(part) else part for part in path.split("."))
+        key = key_of(path)
         given = value_at(self.data.get("mechanisms"), key) if key[0] not in self.data else value_at(self.data, key)
         known: dict[str, type[Block]] = {"press": PressBlock, **self.models}
         model = known.get(str(key[0]))
@@ -314,7 +313,7 @@ def _sections(data: dict[str, Any], place: ConfigPlace) -> _Apart:
 
 def place_of(data: Mapping[str, Any], path: str) -> KeyPath:
     """Return the place in a file that a path of the parts names, ``shafts.main.parts.wheel.hub``: a part by its name or its number."""
-    key: KeyPath = tuple(int(word) if INDEX.fullmatch(word) else word for word in path.split("."))
+    key = key_of(path)
     rows = value_at(data, key[:3]) if key[0] == "shafts" and key[2:3] == ("parts",) else None
     for index, row in enumerate(rows if isinstance(rows, list) else ()):
         if isinstance(row, dict) and key[3:4] and str(key[3]) in {str(row[kind]) for kind in PART_KINDS if kind in row}:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import atan2, cos, degrees, prod, sin
 from typing import Any
 
-from diecut_report.config.parts.demands import PlacedPort, Ratio, TypedNumber, TypedValue, millimetres
+from diecut_report.config.parts.demands import PlacedPort, Ratio, Typed, millimetres
 from diecut_report.config.parts.keys import LOOSE
 from diecut_report.config.parts.load_cases import LoadCases
 from diecut_report.config.parts.masses import Masses
@@ -157,7 +157,7 @@ class ShaftElements(Masses, LoadCases):
         first, second = bearings
         inputs: dict[str, Any] = {
             "sections": [self._section(shaft, index) for index in range(len(shaft.sections))],
-            "bearing_a": TypedValue((*first.path, "at")), "bearing_b": TypedValue((*second.path, "at")),
+            "bearing_a": Typed((*first.path, "at")), "bearing_b": Typed((*second.path, "at")),
             "seat_a": self._seat(first), "seat_b": self._seat(second), "locating": "b" if first.keys.floating else "a",
             "loads": [load for part in shaft.parts if part.kind != "bearing" for load in self._load(part)],
             "downwards": f"{-90 * self.sense(shaft.name)} deg",
@@ -166,16 +166,16 @@ class ShaftElements(Masses, LoadCases):
         if place is not None:
             for part, row in self.inertias(shaft).items():
                 own = {"name": row["name"], "torque": f"${{{shaft.loads}.{row['name']}_torque}}", "seat": "none"}
-                inputs["loads"].append(own | {"position": TypedValue((*(part or place).path, "at"))})
+                inputs["loads"].append(own | {"position": Typed((*(part or place).path, "at"))})
         derived = [notch for part in shaft.parts for notch in self._notches(part)]
         if notches := [*derived, *self._typed_notches(shaft)]:
             inputs["notches"] = notches
         if cases := self.cases_of_shaft(shaft):
             inputs["load_cases"] = cases
         if self.parts.keys.shaft_material and not {"material", "tensile_strength"} & set(shaft.more):
-            inputs["material"] = TypedValue(("machine", "shaft_material"))
+            inputs["material"] = Typed(("machine", "shaft_material"))
         if self.parts.keys.surface and "surface" not in shaft.more:
-            inputs["surface"] = TypedValue(("machine", "surface"))
+            inputs["surface"] = Typed(("machine", "surface"))
         if shaft.name in self.parts.ratios:
             turns = self.turns(shaft.name) * self.cycle(shaft.name)
             inputs |= {"speed": self.speed(shaft.name), "turns_per_cycle": int(turns)}
@@ -192,20 +192,20 @@ class ShaftElements(Masses, LoadCases):
         if part.keys.key:
             kind = "keyseat_pair" if part.keys.key_count > 1 else "keyseat_end_mill"
             for end in (-1, 1):
-                place = TypedNumber(millimetres(part.keys.at + end * part.keys.key / 2), (*part.path, "at"))
+                place = Typed((*part.path, "at"), millimetres(part.keys.at + end * part.keys.key / 2))
                 yield {"position": place, "type": kind}
         if part.keys.interference:
-            yield {"position": TypedValue((*part.path, "at")), "type": "press_fit"}
+            yield {"position": Typed((*part.path, "at")), "type": "press_fit"}
 
-    def _typed_notches(self, shaft: MachineShaft) -> Iterator[TypedValue]:
+    def _typed_notches(self, shaft: MachineShaft) -> Iterator[Typed]:
         """The notches that are typed beside those of the keys."""
         given = self._raw(shaft.path).get("notches")
         path = (*shaft.path, "notches")
-        yield from (TypedValue((*path, index)) for index in range(len(given) if isinstance(given, list) else 0))
+        yield from (Typed((*path, index)) for index in range(len(given) if isinstance(given, list) else 0))
 
     def _load(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         loads = part.shaft.loads
-        found: dict[str, Any] = {"name": part.name, "position": TypedValue((*part.path, "at"))}
+        found: dict[str, Any] = {"name": part.name, "position": Typed((*part.path, "at"))}
         if part.keys.integral or part.keys.bolted or part.keys.rides_on:
             found["seat"] = "none"
         elif self._seat(part) == "loose":
@@ -220,7 +220,7 @@ class ShaftElements(Masses, LoadCases):
             (across if "_across_" in name else found)[f"force_{name[-1]}"] = f"${{{loads}.{name}_force}}"
         place = {key: found[key] for key in ("name", "position")}
         if abs(offset := part.plane - part.keys.at) > NOTHING and {"force_y", "force_z"} & found.keys():
-            place["offset"] = found["offset"] = TypedNumber(millimetres(offset), (*part.path, "at"))
+            place["offset"] = found["offset"] = Typed((*part.path, "at"), millimetres(offset))
         if (gear := self._gear(part)) and "torque" in found:
             found["gear"] = gear
         found |= self._belt_force(part) | self._idle_chain_force(part)
@@ -231,7 +231,7 @@ class ShaftElements(Masses, LoadCases):
         if across:
             yield place | {"name": f"{part.name}_across", "seat": "none"} | across
 
-    def _typed_load(self, part: ShaftPart, found: dict[str, Any]) -> dict[str, TypedValue]:
+    def _typed_load(self, part: ShaftPart, found: dict[str, Any]) -> dict[str, Typed]:
         """The keys of a load that are typed at its part; a mass is one of its body."""
         join = self.parts.join_of(part)
         source = join.path if join else (*part.path, "of" if part.port else part.kind)
@@ -256,11 +256,11 @@ class ShaftElements(Masses, LoadCases):
         sense = self.sense(part.shaft.name)
         angle = sense * degrees(self._angle_to(join, part))
         found: dict[str, Any] = {"pitch_radius": self._pitch_radius(join, part)}
-        found["mesh_angle"] = TypedNumber(f"{angle:.10g} deg", ("machine", "frame"))
+        found["mesh_angle"] = Typed(("machine", "frame"), f"{angle:.10g} deg")
         if join.keys.helix_angle:
             # a pair has teeth of opposite hands; those of a right-handed gear push against its torque
             hand = -sense if part in join.drivers else sense
-            found["helix_angle"] = TypedNumber(f"{hand * degrees(join.keys.helix_angle):.12g} deg", join.path)
+            found["helix_angle"] = Typed(join.path, f"{hand * degrees(join.keys.helix_angle):.12g} deg")
         return found
 
     @staticmethod
@@ -285,7 +285,7 @@ class ShaftElements(Masses, LoadCases):
         if rows:
             inputs: dict[str, Any] = {"bearings": rows}
             if self.parts.keys.required_life:
-                inputs["required_life"] = TypedValue(("machine", "required_life"))
+                inputs["required_life"] = Typed(("machine", "required_life"))
             self._add(shaft.bearing_calculation, "rolling_bearing", inputs, shaft.path)
 
     def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
@@ -307,7 +307,7 @@ class ShaftElements(Masses, LoadCases):
     def _catalogued(self, name: str, designation: str, more: dict[str, Any], path: KeyPath) -> dict[str, Any]:
         kind = catalogue_type(designation)  # of one that is not in the tables the type is typed
         row: dict[str, Any] = {"name": name, **({"type": kind} if kind else {})}
-        return row | ({"designation": TypedValue(path)} if designation else {}) | more
+        return row | ({"designation": Typed(path)} if designation else {}) | more
 
     def _relative(self, shaft: MachineShaft) -> dict[str, Any]:
         """How the rings of a shaft's bearings turn."""
@@ -323,7 +323,7 @@ class ShaftElements(Masses, LoadCases):
             return
         home = part.shaft.calculation
         inputs: dict[str, Any] = {
-            "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": TypedValue((*part.path, "key")),
+            "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": Typed((*part.path, "key")),
             "torque": torque, "form": part.keys.key_form, "key_count": part.keys.key_count, "yield_shaft": f"${{{home}.yield_strength}}",
         }  # fmt: skip
         if part in self.parts.brakes:  # its torque, which is that of its only load case
@@ -331,11 +331,11 @@ class ShaftElements(Masses, LoadCases):
         elif cases := self.cases_of_key(part):
             inputs["load_cases"] = cases
         if part.keys.hub is not None:
-            inputs["hub_length"] = TypedValue((*part.path, "hub"))
+            inputs["hub_length"] = Typed((*part.path, "hub"))
         if self.parts.keys.gears.hub_yield:
-            inputs["yield_hub"] = TypedValue(("machine", "gears", "hub_yield"))
+            inputs["yield_hub"] = Typed(("machine", "gears", "hub_yield"))
         if self.parts.keys.required_life:  # by which the changes of flank are counted
-            inputs["required_life"] = TypedValue(("machine", "required_life"))
+            inputs["required_life"] = Typed(("machine", "required_life"))
             inputs["cycle_speed"] = f"{self.reference_speed} / {self.cycle(part.shaft.name)}"
         self._add(part.calculation("key"), "parallel_key", inputs, part.path)
 
@@ -359,17 +359,17 @@ class ShaftElements(Masses, LoadCases):
         if pin is None or placed is None:
             return
         path, sizes = (*part.path, "pin"), (pin.length, pin.middle, *pin.supports)
-        length, middle, *supports = (TypedNumber(millimetres(each), path) for each in sizes)
+        length, middle, *supports = (Typed(path, millimetres(each)) for each in sizes)
         inputs: dict[str, Any] = {
-            "sections": [{"length": length, "diameter": TypedValue((*path, "diameter"))}], "bearing_a": supports[0], "bearing_b": supports[1],
+            "sections": [{"length": length, "diameter": Typed((*path, "diameter"))}], "bearing_a": supports[0], "bearing_b": supports[1],
             "loads": [{"name": "joint", "position": middle, "seat": "loose"} | self._joint_force(placed)],
         }  # fmt: skip
         if pin.held is not None:
-            inputs["notches"] = [{"position": TypedNumber(millimetres(pin.held), path), "type": "press_fit"}]
+            inputs["notches"] = [{"position": Typed(path, millimetres(pin.held)), "type": "press_fit"}]
         if self.parts.keys.shaft_material:
-            inputs["material"] = TypedValue(("machine", "shaft_material"))
+            inputs["material"] = Typed(("machine", "shaft_material"))
         if pin.allowable_deflection is not None:
-            inputs["allowable_deflection"] = TypedValue((*path, "allowable_deflection"))
+            inputs["allowable_deflection"] = Typed((*path, "allowable_deflection"))
         inputs |= self._turning(placed, "rotation")
         self._add(part.calculation("pin"), "shaft", inputs, path)
 
@@ -398,7 +398,7 @@ class ShaftElements(Masses, LoadCases):
             return None
         home, path = part.shaft.calculation, (*part.path, "pin")
         typed = (key for key in ("limiting_speed", "rolling_elements") if getattr(pin, key) is not None)
-        more = {key: TypedValue((*path, key)) for key in typed}
+        more = {key: Typed((*path, key)) for key in typed}
         found = self._catalogued(f"{part.name}_pin", pin.bearing, more, (*path, "bearing"))
         found["radial_force"] = f"${{{placed.mechanism}.{placed.port.joint[0]}}}"
         shaft_slope = f"${{{home}.{part.name}_slope}} + " if self.is_made(home) else ""
