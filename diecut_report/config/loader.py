@@ -153,7 +153,7 @@ def bare_numbers(instance: Instance) -> Iterator[Problem]:
         if slot.is_given and isinstance(slot.meta, Quantity) and slot.meta.unit != "1":
             number = _bare(slot.value)
             usual = _usual(instance, slot, slot.meta) if number else []
-            meant = _meant(number, slot.meta.parsed_unit, usual)
+            meant = _unit_meant(number, slot.meta.parsed_unit, usual)
             if meant is not None:
                 template = "is {number} without a unit, which is {own} here; {other} is usual. Write the one that is meant, with its unit."
                 own, other = (f"{number:.15g} {pretty(each.text)}" for each in (slot.meta.parsed_unit, meant))
@@ -170,7 +170,7 @@ def _bare(value: Any) -> float:
     return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else 0.0
 
 
-def _meant(number: float, own: Unit, usual: list[float]) -> Unit | None:
+def _unit_meant(number: float, own: Unit, usual: list[float]) -> Unit | None:
     """The unit in which a number is near a usual value, where it is far from all of them in its own."""
     sizes = [abs(value) for value in usual if value]
 
