@@ -681,7 +681,7 @@ def test_pairs_of_unlike_ratio_between_the_same_shafts_are_refused() -> None:
     old = "  crank_drive: {pair: [main.pinion, crank.wheel], teeth: 24/48, module: 6, width: 50,"
     second = "  second: {pair: [main.pinion, crank.wheel], teeth: 30/42, module: 6, width: 50}"
     assert "so that neither can turn; give both one ratio" in told((old, f"{second}\n{old}"))
-    made = read((old, f"{second.replace('30/42', '24/48')}\n{old}"))
+    made = changed((old, f"{second.replace('30/42', '24/48')}\n{old}")).made
     assert not {"shafts_main", "meshes_crank_drive", "meshes_second"} & made.keys()  # shares that nobody knows
 
 
