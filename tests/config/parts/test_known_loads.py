@@ -785,7 +785,7 @@ def test_a_loss_that_is_calculated_is_refused_and_one_that_is_too_small_told() -
 
 
 def test_flywheel_and_pulley_on_a_clutch_pass_it_what_the_pinion_takes() -> None:
-    made = read(
+    found = changed(
         ("- {pulley: large, at: 42, hub: 72, key: 63}",
          "- {clutch: clutch, at: 170, hub: 82, key: 70, mass: 6 kg}\n      - {pulley: large, at: 170, rides_on: clutch}"),
         ("- {flywheel: rim, at: 170, hub: 82, key: 70,", "- {flywheel: rim, at: 170, rides_on: clutch,"),
@@ -793,14 +793,14 @@ def test_flywheel_and_pulley_on_a_clutch_pass_it_what_the_pinion_takes() -> None
         ("rides_on: clutch}\n      - {bearing: b, at: 270", "rides_on: sleeve}\n      - {bearing: b, at: 270"),
         ("clutch_drives: [drive]", "clutch_drives: [drive, cross]"),
     )  # fmt: skip
-    assert made["clutch"]["torque_curve"] == "${shafts_flywheel_loads.pinion_torque}"
+    assert found.made["clutch"]["torque_curve"] == "${shafts_flywheel_loads.pinion_torque}"
 
 
 @pytest.mark.nightly
 def test_a_chain_over_idlers_pulls_in_its_direction() -> None:
     """Without one it is told that the frame's x is taken."""
     for degrees, y, z in ((0, 1, 0), (90, 0, 1), (180, -1, 0)):
-        made = read(("moves: drive.cylinder, direction: 0,", f"moves: drive.cylinder, direction: {degrees},"))
+        made = changed(("moves: drive.cylinder, direction: 0,", f"moves: drive.cylinder, direction: {degrees},")).made
         rows = [each for each in made["shafts_pinion_loads"]["forces"] if each["name"].startswith("left_")]
         forces = {each["name"]: float(each["ratio"].split(" * ")[0]) for each in rows}
         assert np.sign(forces.get("left_y", 0)) == y and ("left_z" in forces) == bool(z)
