@@ -61,11 +61,12 @@ def _unused(files: list[Path], made: HouseStyle) -> list[Problem]:
     template = (
         "Nothing asks for {name}{nearest}. A folder holds templates (NAME{ending}), {css}, and pictures (PNG, SVG)."
     )
-    told = [
-        Phrase(template, name=repr(each.name), nearest=nearest(each.name, [CSS]), ending=ENDING, css=CSS)
+    return [
+        Problem(
+            Phrase(template, name=repr(each.name), nearest=nearest(each.name, [CSS]), ending=ENDING, css=CSS), str(each)
+        )
         for each in wrong
     ]
-    return [Problem(each, str(path)) for each, path in zip(told, wrong, strict=True)]
 
 
 def _ending_style(made: HouseStyle) -> list[Problem]:

@@ -99,12 +99,9 @@ def _judge_png(content: bytes) -> None:
     try:
         with warnings.catch_warnings(action="error"), Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
             if picture.width * picture.height > MAX_PIXELS:
-                raise PictureFault(
-                    "has {width} × {height} pixels; at most {most_pixels} million are taken",
-                    width=picture.width,
-                    height=picture.height,
-                    most_pixels=format(MAX_PIXELS / 1000000.0, "g"),
-                )
+                template = "has {width} × {height} pixels; at most {most_pixels} million are taken"
+                most = f"{MAX_PIXELS / 1e6:g}"
+                raise PictureFault(template, width=picture.width, height=picture.height, most_pixels=most)
             picture.load()
     except PictureFault:
         raise
@@ -133,10 +130,7 @@ class _SvgJudge:
             raise PictureFault("is an SVG picture that cannot be read: {error}", error=error) from error
         except PictureFault:
             raise
-        except (
-            LookupError,
-            ValueError,
-        ) as error:  # of an encoding that Python does not know, or the parser does not read
+        except (LookupError, ValueError) as error:  # an encoding that Python does not know, or the parser does not read
             raise PictureFault("is an SVG picture in another encoding than UTF-8; save it as UTF-8") from error
         if self.count * max(self.most_parts, self.rules) > MAX_DRAWING_STEPS:
             template = "takes too long to draw: its clipping paths, gradients or styles have too many parts; give a simpler one"

@@ -7,11 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from diecut_report.config.catalogues import catalogues_for, lacking
 from diecut_report.config.loader import FOLLOWS, Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.parts.reading import typed_changes
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, catalogues_for, lacking
 from diecut_report.config.references import rewritten
 from diecut_report.config.yaml import KeyPath, Tree, dotted
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, nearest, refusal

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from tests.config.parts.test_parts import FILE
+from tests.config.parts.machines import FILE
 from tests.configs import EXAMPLES, STUDIES
 from tests.examples import few
 

@@ -42,7 +42,7 @@ CONSTANTS = (root.METHOD, reduction.SEARCHED, reduction.INTEGRATED, Accumulated.
 """Texts that the program holds outside of the calls that make phrases."""
 MAKING = dict.fromkeys(("Phrase", "phrase", "say", "refusal", "UnitError", "ConditionError", "Unresolved", "PictureFault", "StandardFault",
                         "Undrawable", "UnknownPath", "SampleError"),
-                       0) | {".problem": 1, ".absent": 1, ".fault": 1, "._fault": 1, "finding": 4}  # fmt: skip
+                       0) | {".problem": 1, ".absent": 1, ".fault": 1, "._fault": 1, "finding": 1}  # fmt: skip
 """What takes the template of a message, with the place of that argument."""
 JOINING = ("joined", "named")
 BEARINGS = ("parts.designation", "parts.pin.bearing")

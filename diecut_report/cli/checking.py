@@ -46,9 +46,8 @@ from diecut_report.cli.output import (
     without_output,
 )
 from diecut_report.config import yaml
-from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, catalogues_for, spoken_catalogues
 from diecut_report.config.yaml import Tree
 from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, own_fault
 from diecut_report.files import write_all

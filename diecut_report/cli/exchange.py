@@ -41,8 +41,7 @@ from diecut_report.cli.output import (
     tell_written,
     without_output,
 )
-from diecut_report.config.catalogues import spoken_catalogues
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, spoken_catalogues
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.results.model import ChangesRecord, ResultsRecord
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase

@@ -17,9 +17,8 @@ import click
 from diecut_report.cli.options import DASH, config_argument
 from diecut_report.cli.output import PASSED, HelpfulCommand, asked_language, common, emit, inform, tell, without_output
 from diecut_report.config import yaml
-from diecut_report.config.catalogues import catalogues_of
 from diecut_report.config.loader import SHOWN, refuse_study
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, catalogues_of
 from diecut_report.errors import UserError, refusal
 from diecut_report.text.catalogues import languages
 from diecut_report.text.translation import say, speaking, spoken_language

@@ -20,9 +20,8 @@ from unicodedata import category
 import click
 from click.shell_completion import CompletionItem
 
-from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.loader import Config, examined
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, spoken_catalogues
 from diecut_report.config.yaml import INVISIBLE
 from diecut_report.errors import MAX_SHOWN, PluginError, Problem, Unwritable, UserError
 from diecut_report.files import reason, write_all

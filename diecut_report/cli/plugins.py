@@ -34,8 +34,7 @@ from diecut_report.cli.output import (
     without_output,
 )
 from diecut_report.config import yaml
-from diecut_report.config.catalogues import spoken_catalogues
-from diecut_report.config.plugins import Discovery, DuplicateKind
+from diecut_report.config.plugins import Discovery, DuplicateKind, spoken_catalogues
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
 from diecut_report.files import write_all
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Container, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import chain, count
 from pathlib import Path, PurePath
 from typing import Any
 
 from diecut_report.config import instances, yaml
-from diecut_report.config.bare_numbers import bare_numbers
-from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
+from diecut_report.config.instances import BlockData, Instance, Node, Slot, Target, substituted
 from diecut_report.config.model import PRESS, ConfigDocument, PressBlock, Project, ReportSettings, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
 from diecut_report.config.parts.expansion import Expanded, expanded, has_parts, misnamed, retyped
@@ -19,16 +20,17 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.references import WHOLE, Linker, linked, ordered
 from diecut_report.config.source_hashes import note_same_code, plugin_hash, program_hash
-from diecut_report.config.validation import ConfigPlace, as_typed, declared, quoted, spread_out, validate
-from diecut_report.config.yaml import MAX_BYTES, KeyPath, Scalar, Tree, read, too_much
+from diecut_report.config.validation import ConfigPlace, as_typed, declared, keys_of, quoted, spread_out, validate
+from diecut_report.config.yaml import MAX_BYTES, KeyPath, Scalar, Tree, key_of, read, too_much
 from diecut_report.declaration.inputs import NAME
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal, seeming_latin
 from diecut_report.files import standard_input
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import Block, Quantity, keys
-from diecut_report.mechanism.mechanism import Mechanism, Partner, absent_partners_checks, without_checks
+from diecut_report.mechanism.mechanism import Mechanism, Partner, Wired, absent_partners_checks, without_checks
 from diecut_report.mechanism.names import SI, Pending, Text
+from diecut_report.quantities.units import Unit, UnitError, decades, number_and_unit, parse_quantity, pretty
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import contained
 
@@ -135,6 +137,80 @@ def refuse_study(tree: Tree) -> None:
         raise refusal(template, tree.file, command=command, file=tree.file, base=base)
 
 
+# Numbers without a unit that their key's own unit makes absurd and another unit usual: crank_length: 0.16 is 0.16 mm, and 0.16 m is meant.
+#
+# What is usual of a key is near the value of the example and the default of its mechanism kind. Only bare numbers are asked about: who types
+# the unit has answered.
+
+
+FAR = 100  # times greater or less than what is usual: a number that is asked about
+NEAR = 10  # and one in the unit that may be meant
+
+
+def bare_numbers(instance: Instance) -> Iterator[Problem]:
+    """Yield a question for each number of a mechanism, or of the press, that its unit makes absurd and another one usual."""
+    for slot in instance.slots:
+        if slot.is_given and isinstance(slot.meta, Quantity) and slot.meta.unit != "1":
+            number = _bare(slot.value)
+            usual = _usual(instance, slot, slot.meta) if number else []
+            meant = _unit_meant(number, slot.meta.parsed_unit, usual)
+            if meant is not None:
+                template = "is {number} without a unit, which is {own} here; {other} is usual. Write the one that is meant, with its unit."
+                own, other = (f"{number:.15g} {pretty(each.text)}" for each in (slot.meta.parsed_unit, meant))
+                yield instance.place.problem(slot.key, template, number=f"{number:.15g}", own=own, other=other)
+
+
+def _bare(value: Any) -> float:
+    """The number of a value that has no unit; 0, of which nothing is asked, for anything else."""
+    if isinstance(value, str):
+        with suppress(UnitError):
+            number, own = number_and_unit(value)
+            return 0.0 if own else float(number)
+        return 0.0
+    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else 0.0
+
+
+def _unit_meant(number: float, own: Unit, usual: list[float]) -> Unit | None:
+    """The unit in which a number is near a usual value, where it is far from all of them in its own."""
+    sizes = [abs(value) for value in usual if value]
+
+    def distance(given: Unit) -> float:
+        return min(abs(math.log10(abs(number) * given.factor / size)) for size in sizes)
+
+    if not number or not sizes or distance(own) < math.log10(FAR):
+        return None
+    near = min(decades(own), key=distance, default=own)
+    return near if distance(near) <= math.log10(NEAR) else None
+
+
+def _usual(instance: Instance, slot: Slot, meta: Quantity) -> list[float]:
+    """The values of a key in the example of its kind, and its default, SI."""
+    example = instance.mechanism.example if instance.mechanism else None
+    found = list(_numbers(example.inputs, slot.name.split("."), meta)) if example else []
+    known = keys_of(instance.model).get(str(slot.key[0])) if len(slot.key) == 1 else None
+    return [*found, *_numbers(known.default if known else None, [], meta)]
+
+
+def _numbers(given: Any, path: list[str], meta: Quantity) -> Iterator[float]:
+    """Yield the quantities at a path of an example, of the parts of a list each; what is referred to has none."""
+    match given:
+        case Wired():
+            yield from _numbers(given.value, path, meta)
+            yield from _numbers(given.otherwise, path, meta)
+        case list() | tuple():
+            for part in given:
+                yield from _numbers(part, path, meta)
+        case Mapping():
+            key, *rest = path or ["value"]
+            yield from _numbers(given.get(key), rest, meta)
+        case str() | int() | float() if not path:
+            with suppress(UnitError):
+                yield parse_quantity(given, meta.unit)
+
+
+# The configuration.
+
+
 RESERVED = (PRESS, "project", *WORDS)
 FOLLOWS = phrase("follows from the parts of the machine; change these in the file.")
 MADE_WITH = phrase("is what parts of the machine are made with, which follow it only where it is changed in the file.")
@@ -234,15 +310,8 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     linker = linked(reader.instances)
     order, loops = ordered(linker)
     logo, faults = logo_of(tree, find)
-    problems = [
-        *reader.problems,
-        *tables.problems,
-        *_unknown_tables(reader),
-        *faults,
-        *linker.problems,
-        *_wrong_values(reader, linker),
-        *loops,
-    ]
+    problems = [*reader.problems, *tables.problems, *_unknown_tables(reader), *faults]
+    problems += [*linker.problems, *_wrong_values(reader, linker), *loops]
     units = reader.report and reader.report.units
     problems += instances.faults(units, reader.instances, ConfigPlace(tree, ("report",)))
     broken = reader.broken if problems else {}
@@ -267,29 +336,21 @@ def _unknown_tables(reader: _ConfigReader) -> Iterator[Problem]:
     for table in set(entries) - known:
         first = next(iter(entries[table].values()))
         template = "is a table that no kind takes{near}; there are {known}"
-        near = nearest(table, known)
-        yield ConfigPlace(first.tree).problem(
-            (table,), template, at_key=True, near=near, known=", ".join(sorted(known))
-        )
+        place, names = ConfigPlace(first.tree), ", ".join(sorted(known))
+        yield place.problem((table,), template, at_key=True, near=nearest(table, known), known=names)
 
 
 def _tables_of(mechanisms: Iterable[Mechanism]) -> set[str]:
-    models = [
-        model for each in mechanisms for model in (each.inputs, *(key.block for key in keys(each.inputs).values()))
-    ]
-    return {rule.table for model in models if model for rule in model.from_tables}
+    blocks = (
+        block for each in mechanisms for block in (each.inputs, *(key.block for key in keys(each.inputs).values()))
+    )
+    return {rule.table for block in blocks if block for rule in block.from_tables}
 
 
 def _stands_alone(tree: Tree, problem: Problem) -> bool:
     """Whether a problem is of a typed value that refers to nothing, so that it has nothing to do with the parts."""
-    given: Any = tree.data
-    for name in problem.path.split("."):
-        known = dict(enumerate(given)) if isinstance(given, list) else given
-        key = int(name) if isinstance(given, list) and name.isdecimal() else name
-        if not isinstance(known, dict) or key not in known:
-            return False
-        given = known[key]
-    return not isinstance(given, dict | list) and "${" not in str(given)
+    typed = tree.typed(key_of(problem.path))
+    return typed is not None and "${" not in typed
 
 
 def _declared(discovery: Discovery, kind: str) -> Mechanism | None:
@@ -417,9 +478,8 @@ class _ConfigReader:
             with contained():
                 _ = instance.given, instance.results
         except Exception as cause:
-            raise PluginError(
-                Phrase("its declarations are invalid: {said}", said=said(cause)), self.kinds[name]
-            ) from cause
+            words = Phrase("its declarations are invalid: {said}", said=said(cause))
+            raise PluginError(words, self.kinds[name]) from cause
 
 
 def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> PluginError:

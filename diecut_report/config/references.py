@@ -24,7 +24,7 @@ from diecut_report.config.instances import Instance, Node, Slot, Target, Unresol
 from diecut_report.config.model import PRESS, texts
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, ConfigPlace, declared, value_at
-from diecut_report.config.yaml import LOADER, KeyPath, Scalar, Tree, dotted, parse
+from diecut_report.config.yaml import LOADER, KeyPath, Scalar, Tree, dotted, key_of, parse
 from diecut_report.errors import Problem, UserError, nearest, seeming_latin
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
@@ -211,7 +211,7 @@ class Linker:
         return None
 
     def _input(self, path: str, instance: Instance, parts: list[str]) -> Target:
-        key: KeyPath = tuple(int(part) if part.isdigit() else part for part in parts)
+        key = key_of(".".join(parts))
         meta = declared(instance.model, key)
         name = dotted(key)
         if isinstance(meta, type):
@@ -363,18 +363,18 @@ def assumed_bases(tree: Tree, values: Mapping[KeyPath, Scalar], units: Mapping[K
 
     ``units`` are those of the keys, in which a number without one counts.
     """
-    moved = (
-        path[:-1]
-        for path, value in values.items()
-        if path[-1:] == ("value",) and _differs(tree.typed(path), value, units.get(path, "1"))
-    )
-    bases = [(*path, "basis") for path in moved]
-    is_inherited = any(
-        path[0] in WORDS and path[-1] != "value" and _differs(tree.typed(path), value, units.get(path, "mm"))
-        for path, value in values.items()
-    )
+    other = [
+        path for path, value in values.items() if _differs(tree.typed(path), value, units.get(path, _own_unit(path)))
+    ]
+    bases = [(*path[:-1], "basis") for path in other if path[-1:] == ("value",)]
+    is_inherited = any(path[0] in WORDS and path[-1] != "value" for path in other)
     bases += [("machine", "basis")] if is_inherited else []  # of all numbers of the parts that do not say their own
     return {path: ASSUMED for path in bases if tree.typed(path) in OF_ONE_VALUE}
+
+
+def _own_unit(path: KeyPath) -> str:
+    """The unit in which a number without one counts where its key is not known: of a part it is a length."""
+    return "mm" if path[0] in WORDS and path[-1] != "value" else "1"
 
 
 def _differs(typed: str | None, value: Scalar, own: str) -> bool:

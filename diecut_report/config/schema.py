@@ -94,28 +94,20 @@ def _materials() -> Schema:
 
 def _parts() -> Schema:
     """The parts of the machine; keys that go on to the calculation made of a part are judged there."""
-    texts: dict[str, Schema] = {
-        key: {"type": ["string", "integer"], "pattern": r"^[\d.]+(/[\d.]+)?$"} for key in TAKEN_APART
-    }
+    text: Schema = {"type": ["string", "integer"], "pattern": r"^[\d.]+(/[\d.]+)?$"}
     axis = {"type": "array", "minItems": 2, "maxItems": 2, "description": "An axis: [x, y] in mm."}
     machine = block_schema(MachineKeys)
-    found: Schema = {
-        "machine": machine
-        | {"properties": machine["properties"] | {"frame": {"type": "object", "additionalProperties": axis}}}
-    }
+    machine["properties"]["frame"] = {"type": "object", "additionalProperties": axis}
+    found: Schema = {"machine": machine}
     for word, model in MODELS.items():
-        own = block_schema(model)
-        optional = {name for name in own["required"] if name.endswith(("_1", "_2"))}
-        block = own | {
-            "additionalProperties": True,
-            "required": [name for name in own["required"] if name not in optional],
-        }
-        block["properties"] = own["properties"] | (texts if optional else {"sections": {}, "parts": {"type": "array"}})
-        found[word] = {
-            "type": "object",
-            "description": f"The {word} of the machine, by their names.",
-            "additionalProperties": block,
-        }
+        block = block_schema(model) | {"additionalProperties": True}
+        optional = {name for name in block["required"] if name.endswith(("_1", "_2"))}
+        block["required"] = [name for name in block["required"] if name not in optional]
+        block["properties"] |= (
+            dict.fromkeys(TAKEN_APART, text) if optional else {"sections": {}, "parts": {"type": "array"}}
+        )
+        described = f"The {word} of the machine, by their names."
+        found[word] = {"type": "object", "description": described, "additionalProperties": block}
     return found
 
 

@@ -79,24 +79,24 @@ def spread_out(
     model: type[Block], data: Mapping[str, Any], place: ConfigPlace
 ) -> tuple[dict[str, Any], ConfigPlace, list[Problem]]:
     """The data with lists that stand for single keys under these, where these stand in the file, and what is wrong with it."""
-    found, problems = dict(data), []
-    for key, single in model.spread.items():
-        values = found.get(key)
-        if not isinstance(values, list):
-            continue
-        del found[key]
-        again = [name for name in single if found.get(name) is not None]
-        if len(values) != len(single):
-            count = {0: phrase("no values"), 1: "1 value"}.get(len(values), f"{len(values)} values")
-            template = "has {given}; give one for all, or {count}: for {single}"
-            problems.append(place.problem((key,), template, given=count, count=len(single), single=", ".join(single)))
-        elif again:
-            template = "is a list for all of them, but {again} is given beside it; give the list, or single keys"
-            problems.append(place.problem((key,), template, again=" and ".join(again)))
-        else:
-            found |= dict(zip(single, values, strict=True))
-            place = replace(place, listed={**place.listed, **{(name,): (key, i) for i, name in enumerate(single)}})
-    return found, place, problems
+    found, problems, listed = copied(dict(data)), list[Problem](), dict(place.listed)
+    for own, block, home in list(blocks(model, found)):
+        for key, single in own.spread.items():
+            if not isinstance(block.get(key), list):
+                continue
+            values, path = block.pop(key), (*home, key)
+            again = [name for name in single if block.get(name) is not None]
+            if len(values) != len(single):
+                count = {0: phrase("no values"), 1: "1 value"}.get(len(values), f"{len(values)} values")
+                template = "has {given}; give one for all, or {count}: for {single}"
+                problems.append(place.problem(path, template, given=count, count=len(single), single=", ".join(single)))
+            elif again:
+                template = "is a list for all of them, but {again} is given beside it; give the list, or single keys"
+                problems.append(place.problem(path, template, again=" and ".join(again)))
+            else:
+                block |= zip(single, values, strict=True)
+                listed |= {(*home, name): (*path, index) for index, name in enumerate(single)}
+    return found, replace(place, listed=listed), problems
 
 
 def validate(

@@ -113,6 +113,7 @@ Position = tuple[int, int]
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _WORDS: dict[str, bool | None] = dict.fromkeys(["", "~", "null", "Null", "NULL"])
 _WORDS |= {word: word.lower() == "true" for word in ("true", "True", "TRUE", "false", "False", "FALSE")}
+_PLACE = re.compile(r"[0-9]{1,6}")  # in a list, within a path
 _INTEGER = re.compile(r"[-+]?[0-9]{1,300}")
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 
@@ -120,6 +121,11 @@ _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?"
 def dotted(key: KeyPath) -> str:
     """Return a key without its places in lists: ``("loads", 1, "torque")`` → ``loads.torque``."""
     return ".".join(part for part in key if isinstance(part, str))
+
+
+def key_of(path: str) -> KeyPath:
+    """Return the key that a dotted path names, with its places in lists: ``loads.1.torque`` → ``("loads", 1, "torque")``."""
+    return tuple(int(part) if _PLACE.fullmatch(part) else part for part in path.split("."))
 
 
 @dataclass
@@ -408,19 +414,9 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
         if isinstance(value, str) and (found := forbidden_character(value)):
             template = "The value that is to stand here holds the invisible character {found}; it is not taken."
             raise UserError(Problem(Phrase(template, found=found), tree.file, path=".".join(map(str, path))))
-        root = _with_value(root, path, value)
+        root = _changed(root, path, value)
     text = f"# {heading}\n{as_text(root)}"
     return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)
-
-
-def _with_value(node: YamlNode, path: KeyPath, value: Scalar) -> YamlNode:
-    """Return a copy of the node with the value below it: an alias of the node keeps what it has."""
-    if not path:
-        return YamlNode(node.position, value, value if isinstance(value, str) else repr(value))
-    key, rest = path[0], path[1:]
-    children = dict(node.children or {})
-    children[key] = _with_value(children.get(key, YamlNode(node.position)), rest, value)
-    return replace(node, scalar=None, typed=None, children=children)
 
 
 def with_root(tree: Tree, root: YamlNode) -> Tree:
@@ -430,15 +426,16 @@ def with_root(tree: Tree, root: YamlNode) -> Tree:
 
 def with_value(tree: Tree, path: KeyPath, value: Any) -> Tree:
     """Return the file with plain data at a path, or put into its block there; the places stay those of the file."""
+    return with_root(tree, _changed(tree.root, path, value))
 
-    def changed(node: YamlNode, rest: KeyPath) -> YamlNode:
-        if not rest:
-            return _node_of(value, node.position)
-        children = node.children or {}
-        child = children.get(rest[0], YamlNode(node.position))
-        return replace(node, children=children | {rest[0]: changed(child, rest[1:])})
 
-    return with_root(tree, changed(tree.root, path))
+def _changed(node: YamlNode, path: KeyPath, value: Any) -> YamlNode:
+    """Return a copy of the node with the value below it: an alias of the node keeps what it has."""
+    if not path:
+        return _node_of(value, node.position)
+    children = node.children or {}
+    changed = _changed(children.get(path[0], YamlNode(node.position)), path[1:], value)
+    return replace(node, scalar=None, typed=None, children=children | {path[0]: changed})
 
 
 def _node_of(value: Any, position: Position) -> YamlNode:

@@ -213,18 +213,11 @@ def _shortened(text: str) -> str:
 @cache
 def decades(of: Unit) -> tuple[Unit, ...]:
     """Return the everyday units of the same kind that are some powers of ten of a unit, and the SI unit: m, cm, um … for mm."""
-    table = _table()
-    alike = [
-        unit(text)
-        for text, (_, family) in table["units"].items()
-        if tuple(table["families"][family]["kind"]) == of.kind
-    ]
+    kinds = [tuple(family["kind"]) for family in _table()["families"]]
+    alike = [unit(text) for text, (_, family) in _table()["units"].items() if kinds[family] == of.kind]
     shares = [(math.log10(each.factor / of.factor), each) for each in alike]
-    return tuple(
-        each
-        for share, each in shares
-        if share and (each.factor == 1 or math.isclose(share, round(share), abs_tol=1e-9))
-    )
+    powers = [(each, abs(share - round(share)) <= 1e-9) for share, each in shares if share]
+    return tuple(each for each, is_power in powers if is_power or each.factor == 1)
 
 
 def _family(kind: Kind, si: str = "") -> dict[str, Any] | None:

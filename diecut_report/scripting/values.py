@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
-from diecut_report.config.catalogues import catalogues_for
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, catalogues_for
 from diecut_report.config.yaml import plain_text
 from diecut_report.errors import ConfigError, Problem, UnknownName, Unwritable, UserError
 from diecut_report.quantities.formatting import shown, with_unit

@@ -8,8 +8,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from diecut_report.config.catalogues import catalogues_for, lacking
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, catalogues_for, lacking
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.study_run import (
     Counts,

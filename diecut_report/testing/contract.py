@@ -14,9 +14,8 @@ from typing import Literal
 
 import numpy as np
 
-from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.loader import Config
-from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind, said
+from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind, catalogues_for, said
 from diecut_report.config.validation import declared
 from diecut_report.declaration import faults, faults_at_load
 from diecut_report.declaration.dimensions import at_place, by_id

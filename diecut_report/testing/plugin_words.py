@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from diecut_report.config.catalogues import catalogues_for
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, catalogues_for
 from diecut_report.declaration.code import code_texts, template
 from diecut_report.declaration.texts import files_around, own_files, parsed, texts
 from diecut_report.mechanism.mechanism import Mechanism

@@ -15,10 +15,9 @@ from hypothesis import strategies as st
 
 from diecut_report.cli.main import main
 from diecut_report.config import yaml as yaml_tree
-from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.drafting import Draft, draft
 from diecut_report.config.loader import load_config
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, catalogues_for
 from diecut_report.errors import PluginError
 from diecut_report.press import Press
 from diecut_report.results.model import ResultsRecord

@@ -73,11 +73,13 @@ def test_a_plugin_of_the_program_is_hashed_by_itself(tmp_path: Path) -> None:
     assert hash_at(tmp_path) == program_hash()
 
 
-def lever(folder: Path, *more: str) -> Path:
-    """A folder with a copy of the plugin lever, with more lines."""
+CODE = (GOOD / "lever.py").read_text("utf-8")
+
+
+def lever(folder: Path) -> Path:
+    """A folder with a copy of the plugin lever."""
     folder.mkdir()
-    text = (GOOD / "lever.py").read_text("utf-8")
-    saved(folder, "\n".join([text, *more]), "lever.py")
+    saved(folder, CODE, "lever.py")
     return folder
 
 
@@ -85,27 +87,43 @@ def hash_of_lever(folder: Path) -> str:
     return plugin_hash(Discovery([folder]).mechanism("lever"))
 
 
+def hashes(place: Path, *folders: dict[str, str]) -> list[str]:
+    """The hash of the plugin lever in each of these folders, whose files are given by their names."""
+    found = []
+    for number, files in enumerate(folders):
+        for name, text in files.items():
+            path = place / str(number) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, "utf-8")
+        found.append(hash_of_lever(place / str(number)))
+    return found
+
+
 def test_a_plugin_has_the_hash_of_its_code_and_of_its_tables(tmp_path: Path) -> None:
-    whole = hash_of_lever(lever(tmp_path / "a"))
-    assert re.fullmatch("[0-9a-f]{64}", whole) and whole == hash_of_lever(lever(tmp_path / "b"))
-    assert hash_of_lever(lever(tmp_path / "c", "# more")) != whole
-    tables = [lever(tmp_path / name, 'TABLE = "steels.csv"') for name in ("d", "e", "f")]
-    for folder, text in zip(tables, ("1\n", "2\n", "1\n"), strict=True):
-        saved(folder, text, "steels.csv")
-    saved(tables[2], "of nobody", "other.csv")
-    one, other, again = map(hash_of_lever, tables)
+    named = {"lever.py": f'{CODE}\nTABLE = "steels.csv"'}
+    tables = {"steels.csv": "1\n"}, {"steels.csv": "2\n"}, {"steels.csv": "1\n", "other.csv": "of nobody"}
+    alone = ({"lever.py": code} for code in (CODE, CODE, f"{CODE}\n# more"))
+    whole, same, more, one, other, again = hashes(tmp_path, *alone, *(named | table for table in tables))
+    assert re.fullmatch("[0-9a-f]{64}", whole) and whole == same != more
     assert one == again != other
 
 
-def test_a_plugin_that_is_a_folder_has_the_hash_of_all_its_modules(tmp_path: Path) -> None:
-    found = []
-    for name, text in (("a", "x = 1\n"), ("b", "x = 2\n"), ("c", "x = 1\n")):
-        package = tmp_path / name / "lever"
-        (package / "more").mkdir(parents=True)
-        shutil.copy(GOOD / "lever.py", package / "__init__.py")
-        saved(package / "more", text, "deep.py")
-        found.append(hash_of_lever(tmp_path / name))
-    assert found[0] == found[2] != found[1]
+READS = "from pathlib import Path\nLIMIT = float(Path(__file__).with_suffix('.txt').read_text())\n"
+PROJECT = f"[project.entry-points.'{GROUP}']\nlever = 'levers.one'\n"
+
+
+@pytest.mark.parametrize(
+    ("files", "changed"),
+    [
+        ({"lever/__init__.py": CODE}, "lever/more/deep.py"),
+        ({"lever.py": CODE + READS}, "lever.txt"),
+        ({"pyproject.toml": PROJECT, "src/levers/__init__.py": "", "src/levers/one.py": CODE}, "src/levers/factors.py"),
+    ],
+    ids=["a module of its folder", "a table that it reads", "another module of its package"],
+)
+def test_what_a_plugin_is_made_of_is_in_its_hash(tmp_path: Path, files: dict[str, str], changed: str) -> None:
+    one, other, again = hashes(tmp_path, *(files | {changed: text} for text in ("1", "2", "1")))
+    assert one == again != other
 
 
 def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -124,9 +142,8 @@ def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.Captur
 
 
 def test_results_tell_whether_the_formulas_of_a_plugin_are_sound_and_judge_them_when_it_changes(tmp_path: Path) -> None:
-    text = (GOOD / "lever.py").read_text("utf-8")
-    wrong = text.replace("return force * arm", "return force + arm")
-    for number, content in enumerate([text, wrong, wrong, text]):
+    wrong = CODE.replace("return force * arm", "return force + arm")
+    for number, content in enumerate([CODE, wrong, wrong, CODE]):
         check = "failed" if content == wrong else "passed"
         folder = tmp_path / str(number)
         folder.mkdir()
@@ -211,33 +228,3 @@ def test_a_process_with_other_code_than_the_run_calculates_nothing(tmp_path: Pat
     assert worker.load(study, files, plugins, known)
     with pytest.raises(UserError, match=r"The source of the plugin lever is not the one that this run was begun with"):
         worker.load(study, files, plugins, known | {"plugin lever": "0" * 64})
-
-
-READS = """\
-from pathlib import Path
-LIMIT = float(Path(__file__).with_suffix(".txt").read_text())
-"""
-
-
-def test_a_table_that_a_plugin_reads_is_in_its_hash(tmp_path: Path) -> None:
-    found = {}
-    for place, limit in (("a", "2"), ("b", "3"), ("c", "2")):
-        folder = tmp_path / place
-        folder.mkdir()
-        (folder / "lever.py").write_text((GOOD / "lever.py").read_text("utf-8") + READS, "utf-8")
-        (folder / "lever.txt").write_text(limit)
-        found[place] = plugin_hash(Discovery([folder]).mechanism("lever"))
-    assert found["a"] == found["c"] != found["b"]
-
-
-def test_all_modules_of_a_package_are_in_the_hash_of_each_of_its_kinds(tmp_path: Path) -> None:
-    found = {}
-    for place, factor in (("a", "1"), ("b", "2"), ("c", "1")):
-        package = tmp_path / place / "src" / "levers"
-        package.mkdir(parents=True)
-        (tmp_path / place / "pyproject.toml").write_text(f"[project.entry-points.'{GROUP}']\nlever = 'levers.one'\n")
-        (package / "__init__.py").write_text("")
-        (package / "one.py").write_text((GOOD / "lever.py").read_text("utf-8"), "utf-8")
-        (package / "factors.py").write_text(f"F = {factor}\n")
-        found[place] = plugin_hash(Discovery([tmp_path / place]).mechanism("lever"))
-    assert found["a"] == found["c"] != found["b"]

@@ -104,19 +104,8 @@ SCALARS = {
     "null": None, "~": None, "": None, "true": True, "False": False, "'40'": "40", '"true"': "true", "''": "",
 }  # fmt: skip
 AS_THEY_STAND = (
-    "yes",
-    "on",
-    "2026-11-21",
-    "1:30",
-    "0x10",
-    "1_000",
-    ".inf",
-    ".nan",
-    "1e400",
-    "9" * 5000,
-    "6000 1/h",
-    "${press.name}",
-)
+    "yes", "on", "2026-11-21", "1:30", "0x10", "1_000", ".inf", ".nan", "1e400", "9" * 5000, "6000 1/h", "${press.name}",
+)  # fmt: skip
 
 
 def test_scalars_follow_the_core_schema() -> None:
@@ -202,19 +191,8 @@ def test_nesting_up_to_the_limit_is_read() -> None:
 
 
 INVISIBLE = [
-    r"\xAD",
-    r"\u034F",
-    r"\u061C",
-    r"\u200B",
-    r"\u200E",
-    r"\u200F",
-    r"\u2062",
-    r"\u2800",
-    r"\u3164",
-    r"\uFE0F",
-    r"\uFEFF",
-    r"\U000E0041",
-]
+    r"\xAD", r"\u034F", r"\u061C", r"\u200B", r"\u200E", r"\u200F", r"\u2062", r"\u2800", r"\u3164", r"\uFE0F", r"\uFEFF", r"\U000E0041",
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("escape", INVISIBLE)

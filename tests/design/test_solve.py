@@ -16,7 +16,7 @@ from diecut_report.config.loader import load_config
 from diecut_report.design.inputs import design_input
 from diecut_report.design.machines import proved, varied
 from diecut_report.press import Press
-from tests.config.parts.test_parts import FILE
+from tests.config.parts.machines import FILE
 from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 
 PARTS = FILE.with_stem("flat_cylinder_corrected")

@@ -17,7 +17,7 @@ from diecut_report.press import Press
 from diecut_report.results.advice import printed
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.warm_press import WarmPress
-from tests.config.parts.test_parts import FILE
+from tests.config.parts.machines import FILE
 from tests.configs import DISCOVERY, EXAMPLES
 
 PUBLISHED = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press")

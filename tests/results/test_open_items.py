@@ -15,7 +15,7 @@ from diecut_report.press import Press
 from diecut_report.results.model import OpenRecord
 from diecut_report.results.open_items import DRIVEN, unrated_forces
 from diecut_report.results.press_run import compute
-from tests.config.parts.test_parts import FILE
+from tests.config.parts.machines import FILE
 from tests.configs import EXAMPLE, GOOD, HEAD, saved
 from tests.examples import every
 

@@ -26,7 +26,7 @@ from diecut_report.study.comparison import (
 )
 from diecut_report.study.comparison_pages import blocks, page, sheets
 from diecut_report.study.machines import CheckedMachine, calculated
-from tests.config.parts.test_parts import FILE
+from tests.config.parts.machines import FILE
 from tests.configs import GOOD, HEAD, LEVER, saved
 
 KNOWN = Discovery([GOOD])

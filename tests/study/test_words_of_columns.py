@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.catalogues import spoken_catalogues
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import Discovery, spoken_catalogues
 from diecut_report.errors import UserError
 from diecut_report.study.analysis.variants import StoredColumn, compared_text, shown, titles
 from diecut_report.study.storage.description import ResultColumn

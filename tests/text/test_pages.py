@@ -110,7 +110,7 @@ def _make(folder: Path) -> None:
 
 
 def _live(folder: Path, base: Path) -> None:
-    from diecut_report.config.catalogues import catalogues_of
+    from diecut_report.config.plugins import catalogues_of
 
     session = LiveSession(base, Discovery([]))
     with speaking("uk", catalogues_of("uk", Discovery([]))):

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from diecut_report.config.parts.keys import ChainKeys, MeshKeys
 from diecut_report.config.parts.model import Join, MachineParts, MachineShaft, ShaftPart
+from diecut_report.config.validation import value_at
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanics.timing.intervals import exact_turns
 from diecut_report.mechanism.mechanism import Mechanism, Port
@@ -20,22 +21,21 @@ USUAL_STEPS = 6  # of a Geneva wheel whose slots are not typed
 
 
 @dataclass(frozen=True)
-class TypedValue:
-    """Stand for the value that is typed at a path of the file, with its basis."""
+class Typed:
+    """Stand for what is typed at a path of the file, with its basis; with ``text`` for a number that a text there holds, or that follows from it.
 
-    path: KeyPath
-
-
-@dataclass(frozen=True)
-class TypedNumber:
-    """Stand for a number that a text of the file holds, or that follows from numbers there; it has the basis of all parts.
-
-    ``within`` is where it would be typed if the text were written as a block; nothing where it is not typed as it is.
+    Such a number has the basis of all parts. ``within`` is where it would be typed if the text were written as a block; nothing where it
+    is not typed as it is.
     """
 
-    text: str
     path: KeyPath
+    text: str = ""
     within: KeyPath = ()
+
+    @property
+    def place(self) -> KeyPath | None:
+        """Return where the value is typed, or would be in a block; None of one that only follows from what is typed."""
+        return (*self.path, *self.within) if self.within or not self.text else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,12 +72,17 @@ class Loss(NamedTuple):
     path: KeyPath = ()
 
 
-class Moving(NamedTuple):
-    """Hold by what a shaft swings or turns in steps: the mechanism, its port, and the part that stands for it."""
+class PlacedPort(NamedTuple):
+    """Hold a port of a mechanism and the part that stands for it."""
 
     mechanism: str
     port: Port
     part: ShaftPart
+
+    @property
+    def takes_torque(self) -> bool:
+        """Return whether the mechanism takes a torque there, and does not move the shaft."""
+        return bool(self.port.torque) and not self.port.angle
 
 
 class LineOfAxes(NamedTuple):
@@ -100,7 +105,7 @@ def millimetres(value: float) -> str:
 def typed_paths(value: Any) -> Iterator[KeyPath]:
     """Yield where the numbers that a value is made of are typed; of references nothing."""
     match value:
-        case TypedValue(path=path) | TypedNumber(path=path):
+        case Typed(path=path):
             yield path
         case dict() | list():
             for part in value.values() if isinstance(value, dict) else value:
@@ -113,7 +118,7 @@ def first_place(value: Any) -> KeyPath | None:
 
 
 def _is_of_machine(value: Any) -> bool:
-    return isinstance(value, TypedValue) and value.path[0] == "machine"
+    return isinstance(value, Typed) and not value.text and value.path[0] == "machine"
 
 
 @dataclass(eq=False)
@@ -138,7 +143,7 @@ class Demands:
         path: KeyPath,
         source: KeyPath,
         follows: Container[str] = (),
-    ) -> dict[str, TypedValue]:
+    ) -> dict[str, Typed]:
         """The keys of a part that go on to its calculation, which has ``inputs`` already.
 
         What follows from the parts (of itself, or from ``source``) is not typed again, which is noted; what ``machine`` gives
@@ -150,7 +155,7 @@ class Demands:
             if key in follows or (key in inputs and not _is_of_machine(derived)):
                 self.twice.append(((*path, key), first_place(derived) or source))
             else:
-                found[key] = TypedValue((*path, key))
+                found[key] = Typed((*path, key))
         return found
 
     def _add(self, name: str, kind: str, inputs: dict[str, Any], path: KeyPath) -> None:
@@ -178,7 +183,7 @@ class Demands:
         """Return the revolutions of a shaft for each of the main shaft: of one that turns in steps, in the mean; 0 of one that swings."""
         if shaft in self.parts.ratios:
             found = Fraction(1)
-            for join, onward in self.parts.route(shaft):
+            for join, onward in self.parts.routes[shaft]:
                 ratio = Fraction(abs(join.ratio)).limit_denominator(10_000) or Fraction(1, 10_000)
                 found = found * ratio if onward else found / ratio
             return found
@@ -187,7 +192,7 @@ class Demands:
             return Fraction(0)
         steps = self.parts.reader.typed_number(moving.mechanism, moving.port.advance)
         found = self.line(moving.mechanism)[0] / max(int(USUAL_STEPS if steps is None else steps), 1)
-        for join in self.chain_from(moving.part.shaft.name, shaft):
+        for join in self.parts.chain_from(moving.part.shaft.name, shaft):
             found *= Fraction(abs(join.ratio)).limit_denominator(10_000)
         return found
 
@@ -198,15 +203,14 @@ class Demands:
         moving = self.moved_by(self.parts.shafts[shaft])
         if moving is None:
             return 1
-        joins = self.chain_from(moving.part.shaft.name, shaft)
+        joins = self.parts.chain_from(moving.part.shaft.name, shaft)
         turned = sum(isinstance(join.keys, MeshKeys) for join in joins) + moving.port.backwards
         sense = self.line_of_axes(moving.mechanism).sense
         return -sense if turned % 2 else sense
 
     def line_of_axes(self, mechanism: str) -> LineOfAxes:
         """Return how the line between the axes of a mechanism's two shafts lies in the frame."""
-        every = (part for each in self.parts.shafts.values() for part in each.parts if part.port)
-        shafts = [part.shaft.name for part in every if part.port and part.port[0] == mechanism]
+        shafts = [part.shaft.name for part in self.parts.every_part if part.port and part.port[0] == mechanism]
         turning = next((name for name in shafts if name in self.parts.ratios), "")
         other = next((name for name in shafts if name not in self.parts.ratios), "")
         sense = self.sense(turning) if turning else 1
@@ -219,43 +223,34 @@ class Demands:
     def _reference(self) -> str:
         """The shaft that is seen turning anticlockwise in the frame: a linkage's crank, else any shaft with a mechanism's forces, else the anchor."""
         steady = (part for name in self.parts.ratios for part in self.parts.shafts[name].parts)
-        directed = [part for part in steady if (port := self.port(part)) and len(port.forces) > 1]
-        linkages = [part for part in directed if part.port and not self._turns_in_steps(part.port[0])]
-        return next((part.shaft.name for part in (*linkages, *directed)), self.parts.keys.anchor)
+        directed = [placed for part in steady if (placed := self.port(part)) and len(placed.port.forces) > 1]
+        linkages = [placed for placed in directed if not self._turns_in_steps(placed.mechanism)]
+        return next((placed.part.shaft.name for placed in (*linkages, *directed)), self.parts.keys.anchor)
 
     def _turns_in_steps(self, mechanism: str) -> bool:
         return any(port.advance for port in self.of_kind[self.parts.mechanisms[mechanism]].ports)
 
-    def moved_by(self, shaft: MachineShaft) -> Moving | None:
+    def moved_by(self, shaft: MachineShaft) -> PlacedPort | None:
         """Return by what a shaft swings or turns in steps; None of one that turns steadily."""
         part = self.parts.motion_port(shaft)
-        port = None if part is None else self.port(part)
-        return Moving(part.port[0], port, part) if part is not None and part.port and port is not None else None
-
-    def chain_from(self, start: str, shaft: str) -> list[Join]:
-        """Return the joins by which a shaft drives another one."""
-        found: list[Join] = []
-        while shaft != start:
-            join = self.parts.driving_join(self.parts.shafts[shaft])
-            if join is None or join in found:
-                return []
-            found.insert(0, join)
-            shaft = join.drivers[0].shaft.name
-        return found
+        return None if part is None else self.port(part)
 
     @property
     def period(self) -> int:
         """Return the revolutions of the main shaft after which all lines are back at their start."""
         return lcm(*(self.line(name)[0].denominator for name in self.parts.mechanisms))
 
+    @cached_property
+    def lines(self) -> list[Mapping[str, Any]]:
+        """Return the blocks of the lines in the cyclogram; what is no block stands as an empty one."""
+        lines = self.blocks.get(self.named("cyclogram") or "", {}).get("lines", [])
+        return [line if isinstance(line, dict) else {} for line in lines] if isinstance(lines, list) else []
+
     def _line_place(self, mechanism: str) -> tuple[str, int, Mapping[str, Any]] | None:
         """The cyclogram, and a mechanism's line in it: its number from 0, and its block."""
-        timing = self.named("cyclogram")
-        lines = self.blocks[timing].get("lines", []) if timing else []
-        for index, line in enumerate(lines if isinstance(lines, list) else []):
-            if timing and isinstance(line, dict) and line.get("mechanism") == mechanism:
-                return timing, index, line
-        return None
+        timing = self.named("cyclogram") or ""
+        places = ((timing, index, line) for index, line in enumerate(self.lines) if line.get("mechanism") == mechanism)
+        return next(places, None)
 
     def line(self, mechanism: str) -> tuple[Fraction, str]:
         """Return the revolutions of a mechanism for each of the main shaft, and the reference to its offset."""
@@ -274,12 +269,14 @@ class Demands:
         """Return the revolutions of the main shaft after which a shaft and the machine are back at their start."""
         return lcm(self.turns(shaft).denominator, self.period)
 
-    def port(self, part: ShaftPart) -> Port | None:
+    def port(self, part: ShaftPart) -> PlacedPort | None:
         """Return the port that a part stands for."""
-        if part.port is None:
-            return None
-        kind = self.parts.mechanisms.get(part.port[0], "")
-        return next((each for each in self.of_kind[kind].ports if each.name == part.port[1]), None) if kind in self.of_kind else None  # fmt: skip
+        mechanism, name = part.port or ("", "")
+        declared = self.of_kind.get(self.parts.mechanisms.get(mechanism, ""))
+        ports = (
+            PlacedPort(mechanism, port, part) for port in (declared.ports if declared else ()) if port.name == name
+        )
+        return next(ports, None)
 
     @property
     def port_names(self) -> list[str]:
@@ -302,9 +299,10 @@ class Demands:
         return self._torques[part]
 
     def _torque_on(self, part: ShaftPart) -> dict[str, Any] | None:
-        port = self.port(part)
-        if part.port is not None and port is not None and port.torque and not port.angle:
-            taken, lost = self._source(part.name, part.port[0], port.torque, -1), self._lost_before(part)
+        placed = self.port(part)
+        if placed and placed.takes_torque:
+            taken = self._source(part.name, placed.mechanism, placed.port.torque, -1)
+            lost = self._lost_before(placed)
             return taken | {"efficiency": (lost,)} if lost else taken
         for join in self.parts.joins_of(part):
             if part in join.drivers and (found := self._of_swing(part) or self._through(join, len(join.drivers))):
@@ -320,15 +318,10 @@ class Demands:
         """What a mechanism takes from the only gear on the shaft that it swings: losses behind that shaft, and the shaft's inertia, are in it."""
         moving = self.moved_by(part.shaft)
         drivers = [each for each in part.shaft.parts if any(each in join.drivers for join in self.parts.joins_of(each))]
-        if (
-            moving is None
-            or moving.part.shaft is not part.shaft
-            or moving.port.advance
-            or not moving.port.torque
-            or len(drivers) > 1
-        ):
+        if moving is None or moving.part.shaft is not part.shaft or len(drivers) > 1:
             return None
-        return self._source(part.name, moving.mechanism, moving.port.torque, -1)
+        port = moving.port
+        return None if port.advance or not port.torque else self._source(part.name, moving.mechanism, port.torque, -1)
 
     def lacks_torque(self, shaft: MachineShaft) -> bool:
         """Return whether the torque on one of a shaft's parts is not known, so that nothing that the shaft carries is."""
@@ -338,61 +331,44 @@ class Demands:
     @cached_property
     def is_whole(self) -> bool:
         """Return whether the lines of the cyclogram are what the parts take from the main shaft: no other torque, and no mechanism elsewhere."""
-        block = self.blocks.get(self.named("cyclogram") or "", {})
-        lines = block.get("lines", []) if isinstance(block.get("lines", []), list) else []
-        timed = {str(line.get("mechanism")) for line in lines if isinstance(line, dict)}
-        ports = [
-            (part, port) for shaft in self.parts.shafts.values() for part in shaft.parts if (port := self.port(part))
-        ]
-        taking = [part for part, port in ports if port.torque and not port.angle and part.port]
+        timed = {str(line.get("mechanism")) for line in self.lines if line}
+        behind = self.parts.is_behind_anchor
         return (
-            not block.get("friction")
-            and timed == {part.port[0] for part in taking if part.port and self._is_behind(part.shaft)}
-            and all(self._is_behind(part.shaft) for part in taking)
+            not self.blocks.get(self.named("cyclogram") or "", {}).get("friction")
+            and timed == {each.mechanism for each in self.taking if behind(each.part.shaft)}
+            and all(behind(each.part.shaft) for each in self.taking)
             and not self._takes_more()
         )
+
+    @property
+    def taking(self) -> list[PlacedPort]:
+        """Return the ports by which mechanisms take a torque from shafts that they do not move."""
+        return [each for part in self.parts.every_part if (each := self.port(part)) and each.takes_torque]
 
     def _takes_more(self) -> bool:
         """Whether a shaft behind the main one, or one that a mechanism moves, takes a torque that no mechanism knows of."""
         anchor = self.parts.shafts[self.parts.keys.anchor]
-        before = {name for name in self.parts.shafts if self.chain_from(name, anchor.name)} | {anchor.name}
+        before = {name for name in self.parts.shafts if self.parts.chain_from(name, anchor.name)} | {anchor.name}
         after = [shaft for name, shaft in self.parts.shafts.items() if name not in before]
-        joins = [join for join in self.parts.joins if join.drivers[0].shaft in after]
+        joins = [join for join in self.parts.joins if join.driving_shaft in after]
+        behind = [part for shaft in after if self.parts.is_behind_anchor(shaft) for part in shaft.parts]
         return (
             any("torque" in part.more for shaft in after for part in shaft.parts)
-            or any(not join.driven and not getattr(join.keys, "moves", None) for join in joins)
-            or any(self._is_unknown(part) for shaft in after if self._is_behind(shaft) for part in shaft.parts)
+            or any(not join.driven and not join.moves for join in joins)
+            or any(self._is_unknown(part) for part in behind)
         )
-
-    def _is_behind(self, shaft: MachineShaft | None) -> bool:
-        """Whether the main shaft drives a shaft, or is it."""
-        seen = set[str]()
-        while shaft is not None and shaft.name != self.parts.keys.anchor and shaft.name not in seen:
-            seen.add(shaft.name)
-            join = self.parts.driving_join(shaft)
-            shaft = join.drivers[0].shaft if join else None
-        return shaft is not None and shaft.name == self.parts.keys.anchor
 
     def _is_unknown(self, part: ShaftPart) -> bool:
         if self.torque_on(part):
             return False
-        joins = list(self.parts.joins_of(part))
-        follows_motor = self.flywheel(part.shaft) is not None and any(part in each.driven for each in joins)
+        driven = [each for each in self.parts.joins_of(part) if part in each.driven]
+        follows_motor = self.flywheel(part.shaft) is not None and bool(driven)
         is_asked = follows_motor and bool(self.torques_of(part.shaft))
-        is_shared = any(part in each.driven[1:] for each in joins) and self._takes(part.shaft)
-        is_pulled = any(
-            part in each.driven
-            and each.word == "chains"
-            and not self.torque_on(each.drivers[0])
-            and not self._takes_nothing(each)
-            for each in joins
-        )
-        return (
-            is_asked
-            or is_shared
-            or is_pulled
-            or any(part in each.drivers and not self._is_idle(each) for each in joins)
-        )
+        is_shared = any(part in each.driven[1:] for each in driven) and self._takes(part.shaft)
+        pulling = (each for each in driven if each.word == "chains" and not self.torque_on(each.drivers[0]))
+        is_pulled = not all(self._takes_nothing(each) for each in pulling)
+        driving = (each for each in self.parts.joins_of(part) if part in each.drivers)
+        return is_asked or is_shared or is_pulled or not all(self._is_idle(each) for each in driving)
 
     def _takes(self, shaft: MachineShaft) -> bool:
         """Whether a shaft drives others, or a mechanism."""
@@ -400,27 +376,26 @@ class Demands:
 
     def _is_idle(self, join: Join) -> bool:
         """Whether a join drives a shaft of which is known that it takes nothing."""
-        return self._takes_nothing(join) and not self.lacks_torque(join.driven[0].shaft)
+        return self._takes_nothing(join) and not self.lacks_torque(join.driven_shaft)
 
     def _takes_nothing(self, join: Join) -> bool:
         """Whether a join drives a shaft of whose parts none is known to take a torque, and moves nothing else."""
-        if not join.driven or getattr(join.keys, "moves", None):
+        if not join.driven or join.moves:
             return False
-        shaft = join.driven[0].shaft
-        return not any(each.port or "torque" in each.more for each in shaft.parts) and not self.torques_of(shaft)
+        shaft = join.driven_shaft
+        return not self._has_torque(shaft) and not self.torques_of(shaft)
 
     def flywheel(self, shaft: MachineShaft) -> ShaftPart | None:
         """Return the flywheel on a shaft that a motor drives by a belt; None where there is none, or nothing is known of the motor."""
         driving, train = self.parts.driving_join(shaft), self.named("drive_train")
         if driving is None or driving.word != "belts" or train is None:
             return None
-        return next((part for part in shaft.parts if part.kind == "flywheel"), None)
+        return shaft.flywheel
 
     def _motor_torque(self, part: ShaftPart) -> dict[str, Any] | None:
         """The motor's torque on the pulley beside a flywheel: it follows what the other parts take, and the flywheel gives the rest."""
-        demand = self._added(
-            [found for each in part.shaft.parts if each is not part and (found := self.torque_on(each))]
-        )
+        others = (self.torque_on(each) for each in part.shaft.parts if each is not part)
+        demand = self._added([found for found in others if found])
         if demand is None:
             return None
         lag = f"${{{self.named('drive_train')}.motor_time_constant}} * {self.reference_speed}"
@@ -428,20 +403,16 @@ class Demands:
 
     def _through(self, join: Join, share: int) -> dict[str, Any] | None:
         """What a join takes from its driving shaft, each of several sprockets its share."""
-        if isinstance(join.keys, ChainKeys) and (join.keys.moves or not join.is_between_shafts):
+        if isinstance(join.keys, ChainKeys) and (join.moves or not join.driven):
             return self._moved(join, share)
-        driven = join.driven[0].shaft
+        driven = join.driven_shaft
         if any(each is not join and {*each.driven} & {*driven.parts} for each in self.parts.joins):
             return None  # how joins side by side share a torque is not known
         if driven.name == self.parts.keys.anchor and (timing := self.named("cyclogram")):
             if not self.is_whole:
                 return None
-            demand: dict[str, Any] | None = {
-                "mechanism": timing,
-                "curve": "main_shaft_torque",
-                "turns_per_sheet": "main",
-                "ratio": Ratio(-1),
-            }
+            main: dict[str, Any] = {"mechanism": timing, "curve": "main_shaft_torque", "turns_per_sheet": "main"}
+            demand: dict[str, Any] | None = main | {"ratio": Ratio(-1)}
         elif any(self._is_unknown(part) for part in driven.parts if part not in join.driven):
             return None
         else:
@@ -453,14 +424,15 @@ class Demands:
             found["efficiency"] = (*demand.get("efficiency", ()), self.loss(join))
         return found
 
-    def _lost_before(self, part: ShaftPart) -> Loss | None:
+    def _lost_before(self, placed: PlacedPort) -> Loss | None:
         """What the cyclogram loses on the way to a mechanism beyond the meshes there: the mechanism takes as much more from its shaft."""
-        place = self._line_place(str(part.port and part.port[0]))
-        if place is None or not self._is_behind(part.shaft):
+        place, shaft = self._line_place(placed.mechanism), placed.part.shaft
+        if place is None or not self.parts.is_behind_anchor(shaft):
             return None
         timing, index, _ = place
         typed = self.parts.reader.typed_number(timing, f"lines.{index}.path_efficiency")
-        meshes = prod(self.loss(join).efficiency for join in self.chain_from(self.parts.keys.anchor, part.shaft.name))
+        way = self.parts.chain_from(self.parts.keys.anchor, shaft.name)
+        meshes = prod(self.loss(join).efficiency for join in way)
         if typed is None or typed >= meshes - SAME:
             return None
         return Loss(typed / meshes, ("mechanisms", timing, "lines", index, "path_efficiency"))
@@ -482,8 +454,8 @@ class Demands:
         typed, number = [each.path for each in losses if each.path], prod(each.efficiency for each in losses)
         self.counted.update(typed)
         if len(losses) == 1 and typed and typed[0][0] == "meshes":
-            return TypedValue(typed[0])
-        return TypedNumber(f"{number:.15g}", typed[0]) if typed else number
+            return Typed(typed[0])
+        return Typed(typed[0], f"{number:.15g}") if typed else number
 
     def _added(self, every: list[dict[str, Any]]) -> dict[str, Any] | None:
         """The demands of several parts of one curve as one, such as of two chains side by side; None where they are unlike."""
@@ -506,21 +478,21 @@ class Demands:
         moving = self.moved_by(shaft)
         if moving is None or not moving.port.acceleration or any(self._of_swing(part) for part in shaft.parts):
             return None
-        factors = tuple(each.ratio_text for each in self.chain_from(moving.part.shaft.name, shaft.name))
+        factors = tuple(each.ratio_text for each in self.parts.chain_from(moving.part.shaft.name, shaft.name))
         found = self._source("inertia", moving.mechanism, moving.port.acceleration, -1)
-        rolling = (each for each in self.parts.joins if self.is_rolling(each) and each.drivers[0].shaft is shaft)
+        rolling = (each for each in self.parts.joins if self.is_rolling(each) and each.driving_shaft is shaft)
         own = " + ".join([f"${{{shaft.body}.inertia}}", *(self.conveyor_inertia(each) for each in rolling)])
         return found | {"ratio": Ratio(-1, factors), "inertia": own}
 
     def is_rolling(self, join: Join) -> bool:
         """Return whether a join is a chain that rolls a cylinder."""
-        mechanism, _, what = (getattr(join.keys, "moves", None) or "").partition(".")
+        mechanism, what = join.moves or ("", "")
         return what == "cylinder" and self.parts.mechanisms.get(mechanism) == "cylinder_drive"
 
     def is_calculated(self, chain: Join) -> bool:
         """Return whether a chain is calculated as a conveyor: one that says what of a mechanism it moves."""
-        mechanism, _, what = (chain.keys.moves or "").partition(".")
-        if chain.driven and self._drives_a_torque(chain.driven[0].shaft):
+        mechanism, what = chain.moves or ("", "")
+        if chain.driven and self._drives_a_torque(chain.driven_shaft):
             return False
         return self.is_rolling(chain) or (what == "conveyor" and mechanism in self.parts.mechanisms)
 
@@ -532,39 +504,34 @@ class Demands:
 
     def _moved(self, join: Join, share: int) -> dict[str, Any] | None:
         """What chains take from their sprockets to move the part of a mechanism that they name, each its share."""
-        mechanism, _, what = (join.keys.moves or "").partition(".")
+        mechanism, what = join.moves or ("", "")
         if self.is_rolling(join):
             if join.driven:  # what the shaft over there takes follows another curve
                 return None
             losses = f"1 / (${{{mechanism}.efficiency_chain}} * ${{{mechanism}.efficiency_bearings}})"  # also where it brakes: safe
             return self._source("", mechanism, "cylinder_moment", -1) | {"ratio": Ratio(-1 / share, (losses,))}
-        wheels = (
-            part
-            for each in self.parts.shafts.values()
-            for part in each.parts
-            if part.port and part.port[0] == mechanism
-        )
-        wheel = next(((part, port) for part in wheels if (port := self.port(part)) and port.advance), None)
-        if wheel is None or what != "conveyor":
+        ports = (placed for part in self.parts.every_part if (placed := self.port(part)))
+        wheel = next((each for each in ports if each.mechanism == mechanism and each.port.advance), None)
+        if wheel is None or what != "conveyor" or (join.driven and self._drives_a_torque(join.driven_shaft)):
             return None
-        factors = tuple(each.ratio_text for each in self.chain_from(wheel[0].shaft.name, join.drivers[0].shaft.name))
-        found = self._source("", mechanism, wheel[1].torque, -1)
-        if join.driven and self._drives_a_torque(join.driven[0].shaft):
-            return None
-        far = (
-            [f"({self.inertia_behind(join.driven[0].shaft, has_losses=True)}) * {join.ratio_text}**2"]
-            if join.driven
-            else []
-        )
-        inertia = " + ".join([self.conveyor_inertia(join), *far])
-        return found | {"ratio": Ratio(-1 / share, factors), "inertia": inertia}
+        way = self.parts.chain_from(wheel.part.shaft.name, join.driving_shaft.name)
+        inertia = self.conveyor_inertia(join)
+        if join.driven:
+            inertia += f" + ({self.inertia_behind(join.driven_shaft, has_losses=True)}) * {join.ratio_text}**2"
+        ratio = Ratio(-1 / share, tuple(each.ratio_text for each in way))
+        return self._source("", mechanism, wheel.port.torque, -1) | {"ratio": ratio, "inertia": inertia}
 
     def _drives_a_torque(self, start: MachineShaft) -> bool:
         """Whether a shaft, or one that it drives, takes a torque beside those of inertias."""
-        driven = (
-            shaft for shaft in self.parts.shafts.values() if shaft is start or self.chain_from(start.name, shaft.name)
+        shafts = self.parts.shafts.values()
+        return any(
+            self._has_torque(each) for each in shafts if each is start or self.parts.chain_from(start.name, each.name)
         )
-        return any(part.port or "torque" in part.more for shaft in driven for part in shaft.parts)
+
+    @staticmethod
+    def _has_torque(shaft: MachineShaft) -> bool:
+        """Whether a mechanism, or a typed torque, acts on one of a shaft's parts."""
+        return any(part.port or "torque" in part.more for part in shaft.parts)
 
     def inertia_behind(self, start: MachineShaft, *chains: Join, has_losses: bool = False) -> str:
         """Return the inertia of a shaft with all that it drives, and with what these chains move, at that shaft.
@@ -574,15 +541,14 @@ class Demands:
         group = [self.parts.shafts[name] for name in self.parts.shafts if name in self.parts.groups[start.name]]
         terms = []
         for shaft in (each for each in group if each.has_body):
-            way = self.chain_from(start.name, shaft.name)
+            way = self.parts.chain_from(start.name, shaft.name)
             if shaft is start or way:
                 meshes = [join for join in way if isinstance(join.keys, MeshKeys) and has_losses]
                 lost = [f"{1 / prod(join.keys.efficiency for join in meshes):.12g}"] if meshes else []
-                terms.append(
-                    " * ".join([f"${{{shaft.body}.inertia}}", *(f"{join.ratio_text}**2" for join in way), *lost])
-                )
+                ratios = (f"{join.ratio_text}**2" for join in way)
+                terms.append(" * ".join([f"${{{shaft.body}.inertia}}", *ratios, *lost]))
         for chain in chains:
-            way = self.chain_from(start.name, chain.drivers[0].shaft.name)
+            way = self.parts.chain_from(start.name, chain.driving_shaft.name)
             terms.append(" * ".join([self.conveyor_inertia(chain), *(f"{join.ratio_text}**2" for join in way)]))
         return " + ".join(terms)
 
@@ -592,7 +558,5 @@ class Demands:
         return f"${{drive_line.{chain.name}_chain_mass}} * (${{drive_line.{chain.name}_chain_travel}} / 1 rad)**2"
 
     def _raw(self, path: KeyPath) -> Mapping[str, Any]:
-        data: Any = self.parts.reader.data
-        for part in path:
-            data = data[part]
+        data = value_at(self.parts.reader.data, path)
         return data if isinstance(data, dict) else {}

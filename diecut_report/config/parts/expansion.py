@@ -6,13 +6,13 @@ Each value of a calculation stands where the part's own is typed, so that whatev
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 from diecut_report.config.model import ConfigDocument
-from diecut_report.config.parts.demands import Element, TypedNumber, TypedValue, millimetres
+from diecut_report.config.parts.demands import Element, Typed, millimetres
 from diecut_report.config.parts.elements import Elements
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts, MachineShaft
@@ -75,11 +75,9 @@ def misnamed(tree: Tree) -> tuple[Tree, tuple[Problem, ...]]:
 def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded:
     """Return the file with the calculations made of its parts."""
     given = tree.data.get("mechanisms")
-    blocks = (
-        {name: block for name, block in given.items() if isinstance(block, dict)} if isinstance(given, dict) else {}
-    )
     if not isinstance(given, dict):  # which is told where the file is judged
         return Expanded(tree)
+    blocks = {name: block for name, block in given.items() if isinstance(block, dict)}
     kinds = {name: str(block.get("kind")) for name, block in blocks.items()}
     known = {kind: found for kind in {*kinds.values()} if (found := of_kind(kind)) is not None}
     models = {name: known[kind].inputs for name, kind in kinds.items() if kind in known}
@@ -97,35 +95,29 @@ def expanded(tree: Tree, of_kind: Callable[[str], Mechanism | None]) -> Expanded
     parts.sources.update({(each.name,): each.path for each in made})
     parts.sources.update(pair for each in made for pair in _sources((each.name,), each.inputs))
     parts.sources.update(pair for name, fills in elements.fills.items() for pair in _sources((name,), fills))
-    taken = [each.name for each in made if each.name in given]
-    for name in taken:
-        parts.fault(("mechanisms", name), "is the name of a calculation that the parts make; choose another one")
-    for name, paths in _homes(made).items():
-        if len(paths) > 1:
+    homes: dict[str, KeyPath] = {}
+    for each in made:
+        first = homes.setdefault(each.name, each.path)
+        if each.name in given:
+            parts.fault(
+                ("mechanisms", each.name), "is the name of a calculation that the parts make; choose another one"
+            )
+        if first is not each.path:
             template = (
                 "makes the calculation {name}, as another part does by its name; choose another name (against {place})"
             )
-            parts.fault(paths[1], template, name=name, place=parts.where(paths[0]))
+            parts.fault(each.path, template, name=each.name, place=parts.where(first))
     problems = [*reader.problems, *coherence(parts, elements)]
     if problems:  # which would be told again of what is made of them
         return Expanded(tree, parts, problems=tuple(problems))
     return Expanded(tree, parts, elements)
 
 
-def _homes(made: Sequence[Element]) -> dict[str, list[KeyPath]]:
-    """Where the parts stand that a calculation of each name is made of."""
-    found: dict[str, list[KeyPath]] = {}
-    for each in made:
-        found.setdefault(each.name, []).append(each.path)
-    return found
-
-
 def _sources(node: KeyPath, given: Any) -> Iterator[tuple[KeyPath, KeyPath | None]]:
     """The inputs of a calculation, each with where its value is typed; None where it follows from several."""
     parts = given.items() if isinstance(given, dict) else enumerate(given) if isinstance(given, list) else ()
     if not parts:
-        is_typed = isinstance(given, TypedValue) or (isinstance(given, TypedNumber) and given.within)
-        yield node, (*given.path, *getattr(given, "within", ())) if is_typed else None
+        yield node, given.place if isinstance(given, Typed) else None
     for key, part in parts:
         yield from _sources((*node, key), part)
 
@@ -157,17 +149,6 @@ def _without(tree: Tree) -> Tree:
     return with_root(tree, replace(tree.root, children=children))
 
 
-class _Key(NamedTuple):
-    """Hold the input that a value is given to: the kind of mechanism, and the key without places in lists."""
-
-    kind: str
-    name: str = ""
-
-    def within(self, name: str) -> _Key:
-        """Return a key of the block that stands there."""
-        return _Key(self.kind, f"{self.name}.{name}".lstrip("."))
-
-
 class _Writer:
     """Writes calculations into the tree of a file."""
 
@@ -181,45 +162,41 @@ class _Writer:
         blocks: dict[str | int, YamlNode] = dict(mechanisms.children or {})
         for name, fills in self.elements.fills.items():
             if name in blocks:
-                blocks[name] = self._filled(blocks[name], fills, _Key(self.parts.mechanisms[name]))
+                blocks[name] = self._filled(blocks[name], fills, (self.parts.mechanisms[name],))
         for element in made:
-            blocks[element.name] = self._node({"kind": element.kind} | element.inputs, element.path, _Key(element.kind))
+            blocks[element.name] = self._node({"kind": element.kind} | element.inputs, element.path, (element.kind,))
         positions = mechanisms.key_positions | {each.name: self.tree.key_position(each.path) for each in made}
         home = replace(mechanisms, children=blocks, key_positions=positions)
         children = {key: node for key, node in (root.children or {}).items() if key not in WORDS} | {"mechanisms": home}
         return with_root(self.tree, self._resolved(replace(root, children=children)))
 
-    def _filled(self, block: YamlNode, fills: Mapping[str, Any], home: _Key) -> YamlNode:
+    def _filled(self, block: YamlNode, fills: Mapping[str, Any], home: tuple[str, ...]) -> YamlNode:
         """A mechanism's block with what the parts give it; what it gives itself stays."""
         children: dict[str | int, YamlNode] = dict(block.children or {})
         for key, value in fills.items():
-            children.setdefault(key, self._node(value, ("machine",), home.within(key)))
+            children.setdefault(key, self._node(value, ("machine",), (*home, key)))
         return replace(block, children=children)
 
-    def _node(self, value: Any, path: KeyPath, key: _Key) -> YamlNode:
+    def _node(self, value: Any, path: KeyPath, key: tuple[str, ...]) -> YamlNode:
+        """A value as it stands at a path; ``key`` is the kind of mechanism that it is given to, and the input without places in lists."""
         position = self.tree.position(path)
         match value:
-            case TypedValue(path=there):
-                return self._based(self.tree.node(there), self.tree.position(there), key)
-            case TypedNumber(text=text, path=there):
+            case Typed(path=there, text=text):
                 place = self.tree.position(there)
-                return self._based(YamlNode(place, text, text), place, key)
+                return self._based(YamlNode(place, text, text) if text else self.tree.node(there), place, key)
             case dict():
                 children: dict[str | int, YamlNode] = {
-                    name: self._node(part, path, key.within(name)) for name, part in value.items()
+                    name: self._node(part, path, (*key, name)) for name, part in value.items()
                 }
                 return YamlNode(position, children=children, key_positions=dict.fromkeys(children, position))
             case list():
-                return YamlNode(
-                    position,
-                    children={index: self._node(part, path, key) for index, part in enumerate(value)},
-                    is_list=True,
-                )
+                parts: dict[str | int, YamlNode] = {i: self._node(part, path, key) for i, part in enumerate(value)}
+                return YamlNode(position, children=parts, is_list=True)
             case bool():
                 return YamlNode(position, value, str(value).lower())
         return YamlNode(position, value, str(value))
 
-    def _based(self, node: YamlNode, place: tuple[int, int], key: _Key) -> YamlNode:
+    def _based(self, node: YamlNode, place: tuple[int, int], key: tuple[str, ...]) -> YamlNode:
         """A typed number with the basis of all parts, where it does not say its own.
 
         A drawing of the machine founds its dimensions alone: what asks for a basis (a strength, a factor of a method) has its own or none.
@@ -227,7 +204,7 @@ class _Writer:
         basis, note = self.parts.keys.basis, self.parts.keys.note
         number = isinstance(node.scalar, int | float) and not isinstance(node.scalar, bool)
         is_quantity = number or (isinstance(node.scalar, str) and node.scalar[:1].isdigit() and " " in node.scalar)
-        if basis is None or not is_quantity or (basis != ASSUMED and asks_basis(key.kind, key.name)):
+        if basis is None or not is_quantity or (basis != ASSUMED and asks_basis(key[0], ".".join(key[1:]))):
             return node
         children: dict[str | int, YamlNode] = {"value": node, "basis": YamlNode(place, basis, basis)}
         if note:

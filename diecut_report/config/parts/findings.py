@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from diecut_report.config.parts.model import MachineParts, MachineShaft, ShaftPart
+from diecut_report.config.parts.elements import Elements
+from diecut_report.config.parts.model import MachineParts, ShaftPart
 from diecut_report.config.yaml import KeyPath
 from diecut_report.quantities.units import unit
 from diecut_report.standards import standard_table
@@ -17,12 +18,17 @@ Level = Literal["error", "fail", "warning"]
 
 @dataclass(frozen=True)
 class Finding:
-    """Hold what a rule found: the rule, how grave it is, where it stands, against what, and what is said of it."""
+    """Hold what a rule found: how grave it is, where it stands, what is said of it, against what, and the name of the rule."""
 
-    rule: str
     level: Level
     path: KeyPath
     message: str
+    against: KeyPath | None = None
+    rule: str = ""
+
+
+Rule = Callable[[MachineParts], Iterator[Finding]]
+ElementRule = Callable[[MachineParts, Elements], Iterator[Finding]]
 
 
 def mm(value: float) -> str:
@@ -31,24 +37,26 @@ def mm(value: float) -> str:
 
 
 def finding(
-    parts: MachineParts,
-    rule: str,
-    level: Level,
-    path: KeyPath,
-    template: str,
-    against: KeyPath | None = None,
-    **values: Any,
+    path: KeyPath, template: str, against: KeyPath | None = None, /, *, level: Level = "error", **values: Any
 ) -> Finding:
-    text = Phrase(template, **values)
-    if against is None:
-        return Finding(rule, level, path, text)
-    place = parts.where(against) if level == "error" else parts.line(against)
-    return Finding(rule, level, path, Phrase("{text} (against {place})", text=text, place=place))
+    """Return what a rule found at a path, and the place that it contradicts; a value that is a float is a length, m, and shown in mm."""
+    shown = {name: mm(value) if isinstance(value, float) else value for name, value in values.items()}
+    return Finding(level, path, Phrase(template, shown), against)
 
 
-def hubs(parts: MachineParts) -> Iterator[tuple[MachineShaft, ShaftPart]]:
-    for shaft in parts.shafts.values():
-        yield from ((shaft, part) for part in shaft.parts if shaft.sections and part.kind != "load")
+def found_by(parts: MachineParts, rule: str, findings: Iterable[Finding]) -> Iterator[Finding]:
+    """Yield what a rule found, with its name, and with the line of what each contradicts."""
+    for each in findings:
+        message = each.message
+        if each.against is not None:
+            place = parts.where(each.against) if each.level == "error" else parts.line(each.against)
+            message = Phrase("{text} (against {place})", text=message, place=place)
+        yield replace(each, message=message, rule=rule)
+
+
+def hubs(parts: MachineParts) -> list[ShaftPart]:
+    """Return the parts on modelled shafts but the free forces."""
+    return [part for part in parts.every_part if part.shaft.sections and part.kind != "load"]
 
 
 def table_row(table: str, value: float) -> dict[str, float]:

@@ -9,7 +9,7 @@ from itertools import product
 from math import prod
 from typing import Any
 
-from diecut_report.config.parts.demands import Demands, TypedNumber
+from diecut_report.config.parts.demands import Demands, Typed
 from diecut_report.config.parts.keys import MeshKeys
 from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
 
@@ -69,20 +69,24 @@ class LoadCases(Demands):
 
     def _engagements(self) -> Iterator[Passing | Meshing]:
         for shaft in (self.parts.shafts[name] for name in self.parts.ratios):
-            for clutch in (
-                part
-                for part in shaft.parts
-                if part.kind == "clutch" and self.parts.mechanisms.get(part.name) == "clutch"
-            ):
+            for clutch in (part for part in shaft.of_kind("clutch") if self.is_calculated_clutch(part)):
                 yield from self._from_clutch(shaft, f"${{{clutch.name}.design_torque}}")
+
+    def is_calculated_clutch(self, part: ShaftPart) -> bool:
+        """Return whether a part is a clutch that a mechanism of its name calculates."""
+        return part.kind == "clutch" and self.parts.mechanisms.get(part.name) == "clutch"
 
     def _from_clutch(self, shaft: MachineShaft, torque: str) -> Iterator[Passing | Meshing]:
         driving = self.parts.driving_join(shaft)
-        flywheel = next((part for part in shaft.parts if part.kind == "flywheel"), None)
-        if driving is not None and flywheel is None:
+        if driving is not None and shaft.flywheel is None:
             yield from self._towards_flywheel("engage", driving, torque, self._engagements_in_life)
-        if enters := (flywheel,) if flywheel else driving.driven if driving else ():
+        if enters := self._source_of(shaft):
             yield from self._onward("engage", enters, torque, self._engagements_in_life)
+
+    def _source_of(self, shaft: MachineShaft) -> Sequence[ShaftPart]:
+        """The parts from which a shaft is driven: its flywheel, else those of the join before it; none where nothing drives it."""
+        driving = self.parts.driving_join(shaft)
+        return (shaft.flywheel,) if shaft.flywheel else driving.driven if driving else ()
 
     def _onward(self, case: str, enters: Sequence[ShaftPart], torque: str, cycles: Any) -> Iterator[Passing | Meshing]:
         """The torque on a shaft from the part that drives it, and on the steadily turning shafts that it drives."""
@@ -95,7 +99,7 @@ class LoadCases(Demands):
             if part is beside[0]:
                 yield Passing(case, torque, enters, beside)
             for join in (each for each in joins if part is each.drivers[0]):
-                if join.driven and join.driven[0].shaft.name in self.parts.ratios:
+                if join.driven and join.driven_shaft.name in self.parts.ratios:
                     if isinstance(join.keys, MeshKeys):
                         yield Meshing(case, torque, join, cycles)
                     yield from self._onward(case, join.driven, f"{torque} / {join.ratio_text}", cycles)
@@ -108,14 +112,12 @@ class LoadCases(Demands):
                 yield Meshing(case, torque, join, cycles)
             else:
                 torque = f"{torque} * {join.ratio_text}"
-            shaft = join.drivers[0].shaft
-            flywheel = next((part for part in shaft.parts if part.kind == "flywheel"), None)
-            before = self.parts.driving_join(shaft)
-            source = (flywheel,) if flywheel else before.driven if before else ()
+            shaft = join.driving_shaft
+            before, source = self.parts.driving_join(shaft), self._source_of(shaft)
             if not source:
                 return
             yield Passing(case, torque, source, join.drivers)
-            if flywheel is not None or before is None:
+            if shaft.flywheel is not None or before is None:
                 return
             join = before
 
@@ -124,11 +126,10 @@ class LoadCases(Demands):
     def _starts(self) -> Iterator[Passing]:
         train = self.named("drive_train")
         for join in (each for each in self.parts.joins if each.word == "belts" and train is not None):
-            pulley = join.driven[0]
-            flywheel = next((part for part in pulley.shaft.parts if part.kind == "flywheel"), None)
-            if flywheel is not None and join.drivers[0].shaft.keys.motor is not None:
+            flywheel = join.driven_shaft.flywheel
+            if flywheel is not None and join.driving_shaft.keys.motor is not None:
                 torque = f"${{{train}.vbelt_peak_torque}} * ${{drive_line.{join.name}_belt_ratio}}"
-                yield Passing("start", torque, (pulley,), (flywheel,))
+                yield Passing("start", torque, join.driven[:1], (flywheel,))
 
     # The brake: its torque acts on all between it and the flywheel, with what the mechanisms take there; behind a clutch on what it drives.
 
@@ -139,22 +140,20 @@ class LoadCases(Demands):
                 yield from self._onward("stop", (brake,), torque, cycles)
                 continue
             for each in self._to_flywheel_from(brake, torque, cycles):
-                shaft = each.shaft if isinstance(each, Passing) else each.join.drivers[0].shaft
+                shaft = each.shaft if isinstance(each, Passing) else each.join.driving_shaft
                 yield replace(each, torque=" + ".join([each.torque, *self._taken_by_run(shaft)]))
 
     def _to_flywheel_from(self, brake: ShaftPart, torque: str, cycles: Any) -> Iterator[Passing | Meshing]:
-        flywheel = next((part for part in brake.shaft.parts if part.kind == "flywheel"), None)
-        driving = self.parts.driving_join(brake.shaft)
-        if flywheel is not None:
-            yield Passing("stop", torque, (flywheel,), (brake,))
-        elif driving is not None:
-            yield Passing("stop", torque, driving.driven, (brake,))
+        driving, source = self.parts.driving_join(brake.shaft), self._source_of(brake.shaft)
+        if source:
+            yield Passing("stop", torque, source, (brake,))
+        if driving is not None and brake.shaft.flywheel is None:
             yield from self._towards_flywheel("stop", driving, torque, cycles)
 
     def _taken_by_run(self, shaft: MachineShaft) -> Iterator[str]:
         """The greatest torque that the lines take at the main shaft, on a shaft from the flywheel's to the main one."""
         timing, anchor = self.named("cyclogram"), self.parts.keys.anchor
-        way = self.chain_from(shaft.name, anchor)
+        way = self.parts.chain_from(shaft.name, anchor)
         if timing is not None and (way or shaft.name == anchor):
             losses = [f"1 / {prod(self.loss(join).efficiency for join in way):.15g}"] if way else []
             yield " * ".join([f"${{{timing}.torque_peak}}", *(join.ratio_text for join in way), *losses])
@@ -185,11 +184,11 @@ class LoadCases(Demands):
 
     def cases_of_mesh(self, join: Join, pinion: ShaftPart) -> list[dict[str, Any]]:
         """Return the load cases of a pair of gears, as torques on its pinion."""
-        onto = "" if pinion in join.drivers else f" / {join.ratio_text}"
-        return [
-            {"name": each.case, "torque": f"({each.torque}){onto}" if onto else each.torque, "cycles": each.cycles}
-            for each in self.meshing(join)
-        ]
+        found = []
+        for each in self.meshing(join):
+            torque = each.torque if pinion in join.drivers else f"({each.torque}) / {join.ratio_text}"
+            found.append({"name": each.case, "torque": torque, "cycles": each.cycles})
+        return found
 
     @property
     def _engagements_in_life(self) -> str:
@@ -197,9 +196,9 @@ class LoadCases(Demands):
         clutch, life = self.named("clutch"), self.parts.keys.required_life
         return f"${{{clutch}.engagements_per_hour}} * {life / 3600:.12g} h" if clutch and life else FREQUENT
 
-    def _stops_in_life(self, brake: ShaftPart) -> str | TypedNumber:
+    def _stops_in_life(self, brake: ShaftPart) -> str | Typed:
         """How often a brake stops the machine in its life; often, where that is not said or no life is asked for."""
         stops, life = brake.keys.stops_per_hour, self.parts.keys.required_life
         if stops is None or not life:
             return FREQUENT
-        return TypedNumber(f"{stops * life:.12g}", (*brake.path, "stops_per_hour"))
+        return Typed((*brake.path, "stops_per_hour"), f"{stops * life:.12g}")

@@ -195,7 +195,16 @@ class MachineShaft:
     @property
     def bearings(self) -> list[ShaftPart]:
         """Return its bearings from left to right."""
-        return sorted((part for part in self.parts if part.kind == "bearing"), key=lambda part: part.keys.at)
+        return sorted(self.of_kind("bearing"), key=lambda part: part.keys.at)
+
+    def of_kind(self, kind: str) -> list[ShaftPart]:
+        """Return its parts of a kind."""
+        return [part for part in self.parts if part.kind == kind]
+
+    @property
+    def flywheel(self) -> ShaftPart | None:
+        """Return the flywheel on it; None where there is none."""
+        return next(iter(self.of_kind("flywheel")), None)
 
     @property
     def middle(self) -> float:
@@ -228,20 +237,40 @@ class Join:
     driven: tuple[ShaftPart, ...]
 
     @property
-    def is_between_shafts(self) -> bool:
-        """Return whether it drives another shaft."""
-        return bool(self.driven)
+    def parts(self) -> tuple[ShaftPart, ...]:
+        """Return its driving parts and then the driven ones."""
+        return (*self.drivers, *self.driven)
+
+    @property
+    def moves(self) -> tuple[str, str] | None:
+        """Return the mechanism of which a chain moves a part, and that: cylinder or conveyor; None of a join that moves none."""
+        mechanism, dot, what = (getattr(self.keys, "moves", None) or "").partition(".")
+        return (mechanism, what) if mechanism or dot else None
+
+    @property
+    def driving_shaft(self) -> MachineShaft:
+        """Return the shaft that it is driven by."""
+        return self.drivers[0].shaft
+
+    @property
+    def driven_shaft(self) -> MachineShaft:
+        """Return the shaft that it drives; IndexError where it drives none."""
+        return self.driven[0].shaft
+
+    @property
+    def sizes(self) -> tuple[float, float]:
+        """Return what its ratio is of, on the driving and on the driven side: numbers of teeth, or diameters of pulleys in m."""
+        if isinstance(self.keys, BeltKeys):
+            return self.keys.diameter_1, self.keys.diameter_2
+        return self.keys.teeth_1, self.keys.teeth_2 or self.keys.teeth_1
 
     @property
     def ratio(self) -> float:
         """Return the speed of the driven shaft for each of the driving one; below zero where it turns the other way."""
-        keys = self.keys
-        match keys:
-            case MeshKeys():
-                return -float(drive_line.speed_ratio(keys.teeth_1, keys.teeth_2))
-            case ChainKeys():
-                return float(drive_line.speed_ratio(keys.teeth_1, keys.teeth_2 or keys.teeth_1))
-        return float(drive_line.speed_ratio(keys.diameter_1, keys.diameter_2)) * (1 - CREEP)
+        ratio = float(drive_line.speed_ratio(*self.sizes))
+        if isinstance(self.keys, MeshKeys):
+            return -ratio
+        return ratio * (1 - CREEP) if isinstance(self.keys, BeltKeys) else ratio
 
     @property
     def calculation(self) -> str:
@@ -262,15 +291,13 @@ class Join:
 
     def radius(self, part: ShaftPart) -> float:
         """Return the pitch radius of one of its parts, m."""
-        keys, is_first = self.keys, part in self.drivers
+        keys, size = self.keys, self.sizes[part not in self.drivers]
         match keys:
             case MeshKeys():
-                teeth = keys.teeth_1 if is_first else keys.teeth_2
-                return float(drive_line.pitch_radius(keys.module, teeth, keys.helix_angle))
+                return float(drive_line.pitch_radius(keys.module, size, keys.helix_angle))
             case ChainKeys():
-                teeth = keys.teeth_1 if is_first else keys.teeth_2 or keys.teeth_1
-                return float(drive_line.sprocket_diameter(chain_pitch(keys), teeth)) / 2
-        return float((keys.diameter_1 if is_first else keys.diameter_2) / 2)
+                return float(drive_line.sprocket_diameter(chain_pitch(keys), size)) / 2
+        return size / 2
 
     def root(self, part: ShaftPart) -> float | None:
         """Return the diameter of a gear or sprocket below its teeth, m; None of a pulley."""
@@ -287,9 +314,8 @@ class Join:
         if isinstance(self.keys, MeshKeys):
             return float(drive_line.center_distance(self.radius(self.drivers[0]), self.radius(self.driven[0])))
         if isinstance(self.keys, ChainKeys) and self.driven:
-            first, second = self.keys.teeth_1, self.keys.teeth_2 or self.keys.teeth_1
-            free = drive_line.free_links(self.keys.links, first, second)
-            room = max(float(drive_line.links_discriminant(free, first, second)), 0.0)
+            free = drive_line.free_links(self.keys.links, *self.sizes)
+            room = max(float(drive_line.links_discriminant(free, *self.sizes)), 0.0)
             return float(drive_line.chain_center_distance(chain_pitch(self.keys), free, room))
         return None
 
@@ -311,13 +337,11 @@ class MachineParts:
     shafts: dict[str, MachineShaft] = field(default_factory=dict)
     joins: list[Join] = field(default_factory=list)
     findings: list[Any] = field(default_factory=list)
-    derived: set[KeyPath] = field(
-        default_factory=set
-    )  # calculations, and keys of mechanisms, that follow from the parts
+    # calculations, and keys of mechanisms, that follow from the parts
+    derived: set[KeyPath] = field(default_factory=set)
     sources: dict[KeyPath, KeyPath | None] = field(default_factory=dict)  # where each, and each key of it, is typed
-    calculations: dict[str, str] = field(
-        default_factory=dict
-    )  # those that are made of parts, with the part: shafts.crank
+    # those that are made of parts, with the part: shafts.crank
+    calculations: dict[str, str] = field(default_factory=dict)
 
     @staticmethod
     def read(reader: PartsReader, mechanisms: Mapping[str, str]) -> MachineParts | None:
@@ -336,12 +360,16 @@ class MachineParts:
             for name, block in reader.blocks(word):
                 found._join(word, name, block.keys, block.path, block.more)
         if machine.keys.anchor not in found.shafts and not reader.problems:
-            near = nearest(machine.keys.anchor, found.shafts)
+            name, known = machine.keys.anchor, ", ".join(found.shafts)
             template = "is {name}, which is not one of the shafts{near}; they are {shafts}"
-            found.fault(
-                ("machine", "anchor"), template, name=machine.keys.anchor, near=near, shafts=", ".join(found.shafts)
-            )
+            near = nearest(name, found.shafts)
+            found.fault(("machine", "anchor"), template, name=name, near=near, shafts=known)
         return found
+
+    @property
+    def every_part(self) -> list[ShaftPart]:
+        """Return the parts of all shafts."""
+        return [part for shaft in self.shafts.values() for part in shaft.parts]
 
     def fault(self, path: KeyPath, template: str, **values: object) -> None:
         """Note what is wrong with what stands at a path."""
@@ -402,12 +430,10 @@ class MachineParts:
         is_unread = shaft in shafts if isinstance(shafts, dict) else shafts is not None
         if shaft not in self.shafts and is_unread:  # which is told there
             return None
-        own = (
-            {part.name: part for part in self.shafts[shaft].parts if part.kind == kind} if shaft in self.shafts else {}
-        )
+        own = {part.name: part for part in self.shafts[shaft].of_kind(kind)} if shaft in self.shafts else {}
         if name in own:
             return own[name]
-        known = [part.called for each in self.shafts.values() for part in each.parts if part.kind == kind]
+        known = [part.called for part in self.every_part if part.kind == kind]
         template = "names {text}, but there is no such {kind}{near}; there are {known}"
         self.fault(path, template, text=text, kind=kind, near=nearest(text, known), known=", ".join(known) or "none")
         return None
@@ -415,99 +441,104 @@ class MachineParts:
     # How the shafts turn.
 
     @cached_property
-    def ratios(self) -> dict[str, float]:
-        """Return the speeds of the shafts that turn steadily, for one turn of the anchor."""
-        found = {self.keys.anchor: 1.0}
+    def routes(self) -> dict[str, list[tuple[Join, bool]]]:
+        """Return the joins from the anchor to each shaft that turns steadily, each with whether it is passed towards the driven side."""
+        found: dict[str, list[tuple[Join, bool]]] = {self.keys.anchor: []}
         while True:
-            joins = [each for each in self.joins if each.is_between_shafts]
-            more = {}
-            for each in joins:
-                one, other = each.drivers[0].shaft.name, each.driven[0].shaft.name
+            more: dict[str, list[tuple[Join, bool]]] = {}
+            for join in (each for each in self.joins if each.driven):
+                one, other = join.driving_shaft.name, join.driven_shaft.name
                 if one in found and other not in found:
-                    more[other] = found[one] * each.ratio
+                    more.setdefault(other, [*found[one], (join, True)])
                 if other in found and one not in found:
-                    more[one] = found[other] / each.ratio
+                    more.setdefault(one, [*found[other], (join, False)])
             if not more:
                 return found
             found |= more
 
-    def route(self, shaft: str) -> list[tuple[Join, bool]]:
-        """Return the joins from the anchor to a shaft, each with whether it is passed towards the driven side."""
-        routes: dict[str, list[tuple[Join, bool]]] = {self.keys.anchor: []}
-        waiting = [self.keys.anchor]
-        while waiting:
-            here = waiting.pop(0)
-            for join in (each for each in self.joins if each.is_between_shafts):
-                one, other = join.drivers[0].shaft.name, join.driven[0].shaft.name
-                for near, far, onward in ((one, other, True), (other, one, False)):
-                    if near == here and far not in routes:
-                        routes[far] = [*routes[here], (join, onward)]
-                        waiting.append(far)
-        return routes.get(shaft, [])
+    @cached_property
+    def ratios(self) -> dict[str, float]:
+        """Return the speeds of the shafts that turn steadily, for one turn of the anchor."""
+        found = dict.fromkeys(self.routes, 1.0)
+        for shaft, route in self.routes.items():
+            for join, onward in route:
+                found[shaft] = found[shaft] * join.ratio if onward else found[shaft] / join.ratio
+        return found
 
     def driving_join(self, shaft: MachineShaft) -> Join | None:
         """Return the join by which a shaft is driven."""
         return next((each for each in self.joins if any(part.shaft is shaft for part in each.driven)), None)
 
+    def driving_joins(self, shaft: MachineShaft) -> list[Join]:
+        """Return the joins by which a shaft is driven, the nearest first; of shafts that drive each other each join once."""
+        found: list[Join] = []
+        while (join := self.driving_join(shaft)) is not None and join not in found:
+            found.append(join)
+            shaft = join.driving_shaft
+        return found
+
+    def chain_from(self, start: str, shaft: str) -> list[Join]:
+        """Return the joins by which a shaft drives another one, the first of them first; none where it does not."""
+        way = self.driving_joins(self.shafts[shaft])
+        places = [place for place, join in enumerate(way) if join.driving_shaft.name == start]
+        return way[places[0] :: -1] if places and shaft != start else []
+
+    def is_behind_anchor(self, shaft: MachineShaft) -> bool:
+        """Return whether the main shaft drives a shaft, or is it."""
+        return shaft.name == self.keys.anchor or bool(self.chain_from(self.keys.anchor, shaft.name))
+
     @cached_property
     def brakes(self) -> dict[ShaftPart, str]:
         """Return the brakes on shafts that turn steadily, each with its row in the drive line: ``clutch_brakes.0`` behind a clutch."""
         found: dict[ShaftPart, str] = {}
-        for part in (part for name, shaft in self.shafts.items() if name in self.ratios for part in shaft.parts):
-            if part.keys.brake_torque:
+        for part in self.every_part:
+            if part.shaft.name in self.ratios and part.keys.brake_torque:
                 word = "clutch_brakes" if self.is_behind_clutch(part) else "brakes"
                 found[part] = f"{word}.{sum(each.startswith(word) for each in found.values())}"
         return found
 
     def from_flywheel(self, part: ShaftPart) -> list[Join] | None:
         """Return the joins between a part's shaft and that of the flywheel which drives it, the nearest first; None where none does."""
-        found: list[Join] = []
-        shaft = part.shaft
-        while not any(each.kind == "flywheel" for each in shaft.parts):
-            join = self.driving_join(shaft)
-            if join is None or join in found:
-                return None
-            found.append(join)
-            shaft = join.drivers[0].shaft
-        return found
+        joins = self.driving_joins(part.shaft)
+        shafts = [part.shaft, *(join.driving_shaft for join in joins)]
+        return next((joins[:count] for count, shaft in enumerate(shafts) if shaft.flywheel), None)
 
     def is_braked(self, part: ShaftPart) -> bool:
         """Return whether a brake may stand where a part does: from the flywheel's shaft to the main one, or behind a clutch."""
         anchor = self.shafts[self.keys.anchor]
         before = self.from_flywheel(anchor.parts[0]) if anchor.parts else None
-        between = {anchor.name, *(join.drivers[0].shaft.name for join in before or ())}
+        between = {anchor.name, *(join.driving_shaft.name for join in before or ())}
         is_driven = part.shaft.name in self.ratios and self.from_flywheel(part) is not None
         return is_driven and (part.shaft.name in between or self.is_behind_clutch(part))
 
     def is_behind_clutch(self, part: ShaftPart) -> bool:
         """Return whether a clutch is between a part and the flywheel that drives its shaft."""
         joins = self.from_flywheel(part) or []
-        first = joins[-1].drivers[0].shaft if joins else part.shaft
-        between = [each for join in joins for each in (*join.drivers, *join.driven)] + [
-            each for each in first.parts if each.kind == "flywheel"
-        ]
-        clutches = {each.called for shaft in self.shafts.values() for each in shaft.parts if each.kind == "clutch"}
+        first = joins[-1].driving_shaft if joins else part.shaft
+        between = [*(each for join in joins for each in join.parts), *first.of_kind("flywheel")]
+        clutches = {each.called for each in self.every_part if each.kind == "clutch"}
         return any(f"{each.shaft.name}.{each.keys.rides_on}" in clutches for each in between)
 
     def joins_of(self, part: ShaftPart) -> Iterator[Join]:
         """Yield the joins that a part takes part in."""
-        yield from (each for each in self.joins if part in (*each.drivers, *each.driven))
+        yield from (each for each in self.joins if part in each.parts)
 
     def body_radius(self, part: ShaftPart) -> float | None:
         """Return the radius of a part's body, m: its pitch radius, or its outer one; None where it is not known."""
-        join = next(self.joins_of(part), None)
-        if join is not None:
+        if join := self.join_of(part):
             return join.radius(part)
         if part.kind == "clutch" and self.mechanisms.get(part.name) == "clutch":
             return self.reader.typed_number(part.name, "shoe_radius")
         return None if part.keys.outside is None else part.keys.outside / 2
 
+    def join_of(self, part: ShaftPart, word: str = "") -> Join | None:
+        """Return the join that a part takes part in, of this word where one is given; None where there is none."""
+        return next((each for each in self.joins_of(part) if word in ("", each.word)), None)
+
     def body_width(self, part: ShaftPart) -> float:
         """Return the width of a part's body along its shaft, m."""
-        join = next(self.joins_of(part), None)
-        return part.keys.width or (
-            join.keys.width if join is not None and isinstance(join.keys, MeshKeys) else part.hub
-        )
+        join = self.join_of(part)
+        return part.keys.width or (join.keys.width if join and isinstance(join.keys, MeshKeys) else part.hub)
 
     def motion_port(self, shaft: MachineShaft) -> ShaftPart | None:
         """Return the part of the port whose mechanism moves the shaft's group to and fro, or in steps; None of one that turns steadily."""
@@ -520,8 +551,8 @@ class MachineParts:
     def groups(self) -> dict[str, set[str]]:
         """Return the shafts that joins tie to each shaft, with itself."""
         found = {name: {name} for name in self.shafts}
-        for join in (each for each in self.joins if each.is_between_shafts):
-            tied = set[str]().union(*(found[part.shaft.name] for part in (*join.drivers, *join.driven)))
+        for join in (each for each in self.joins if each.driven):
+            tied = set[str]().union(*(found[part.shaft.name] for part in join.parts))
             found |= dict.fromkeys(tied, tied)
         return found
 
@@ -530,11 +561,10 @@ class MachineParts:
     @cached_property
     def planes(self) -> list[tuple[ShaftPart, float, ShaftPart, float]]:
         """Return what must lie in one plane: two parts, each with its plane from its shaft's left end, m."""
-        pairs = (
-            pair for each in self.joins for pair in zip(each.drivers, each.driven, strict=False)
-        )  # of strands each
+        # of strands each
+        pairs = (pair for each in self.joins for pair in zip(each.drivers, each.driven, strict=False))
         found = [(one, one.keys.at, other, other.keys.at) for one, other in pairs]
-        ports = {part.port: part for shaft in self.shafts.values() for part in shaft.parts if part.port}
+        ports = {part.port: part for part in self.every_part if part.port}
         for (mechanism, port), part in ports.items():
             other = ports.get((mechanism, {"crank": "rocker", "disc": "gear"}.get(port, "wheel")))
             if port in ("crank", "disc") and other is None:

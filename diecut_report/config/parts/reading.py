@@ -26,8 +26,8 @@ from diecut_report.config.parts.keys import (
     size,
 )
 from diecut_report.config.references import WHOLE
-from diecut_report.config.validation import ConfigPlace, copied, declared, quoted, spread_out, validate
-from diecut_report.config.yaml import KeyPath, Position, Scalar, Tree, resolved
+from diecut_report.config.validation import ConfigPlace, copied, declared, quoted, spread_out, validate, value_at
+from diecut_report.config.yaml import KeyPath, Position, Scalar, Tree, key_of, resolved
 from diecut_report.errors import Problem, lookalikes
 from diecut_report.formulas.condition_parts import Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
@@ -41,7 +41,6 @@ SECTION = re.compile(
     re.ASCII,
 )
 """A section as a text, mm: diameter, bore behind a stroke, length, and the fillet at its right end."""
-INDEX = re.compile(r"[0-9]{1,6}")
 COORDINATE = size("x", "Place of an axis", plausible=("1 um", "100 m"))
 BODY = {
     "mass": Quantity("m", "kg", "Mass of a part", ge=0),
@@ -156,27 +155,12 @@ class PartsReader:
         if model is ShaftKeys and isinstance(own.get("parts"), list):
             own["parts"] = [_part(part) for part in own["parts"]]
         own, place, problems = spread_out(model, own, place)
-        if model is ShaftKeys:
-            place = self._pins(own, place, problems)
         read = BlockData.read(model, own, place, self.tables)
         numbers = self._numbers(model, read.data, read.place, ())
         block, faults = validate(model, numbers, read.place, apart.missing)
         self.problems += [*apart.problems, *problems, *read.problems, *faults]
         more = tuple(key for key in given if key not in model.model_fields and key not in TAKEN_APART)
         return None if block is None or apart.problems else ReadBlock(path, block, more)
-
-    def _pins(self, own: dict[str, Any], place: ConfigPlace, problems: list[Problem]) -> ConfigPlace:
-        """Take the lists in the pins of the parts apart."""
-        listed = dict(place.listed)
-        parts = own.get("parts")
-        for index, part in enumerate(parts if isinstance(parts, list) else ()):
-            if isinstance(part, dict) and isinstance(part.get("pin"), dict):
-                home: KeyPath = ("parts", index, "pin")
-                inner, moved, faults = spread_out(PinKeys, part["pin"], ConfigPlace(self.tree, (*place.root, *home)))
-                part["pin"] = inner
-                problems += faults
-                listed |= {(*home, *key): (*home, *there) for key, there in moved.listed.items()}
-        return ConfigPlace(place.tree, place.root, listed, place.elsewhere, place.named)
 
     def _numbers(self, model: type[Block], data: Any, place: ConfigPlace, key: KeyPath) -> Any:
         """The data with what its expressions give."""
@@ -237,8 +221,8 @@ class PartsReader:
 
     def _given(self, path: str) -> tuple[KeyPath, Any, Meta | type[Block] | None]:
         """A path, what is typed there, and what its key declares."""
-        key: KeyPath = tuple(int(part) if INDEX.fullmatch(part) else part for part in path.split("."))
-        given = _at(self.data.get("mechanisms"), key) if key[0] not in self.data else _at(self.data, key)
+        key = key_of(path)
+        given = value_at(self.data.get("mechanisms"), key) if key[0] not in self.data else value_at(self.data, key)
         known: dict[str, type[Block]] = {"press": PressBlock, **self.models}
         model = known.get(str(key[0]))
         meta = declared(model, key[1:]) if model and key[1:] else None
@@ -287,20 +271,10 @@ class PartsReader:
         return "${" in str(self._given_body(path, key)) and self.typed_body(path, key) is None
 
     def _given_body(self, path: KeyPath, key: str) -> Any:
-        given = _at(self.data, (*path, key))
-        return given.get("value") if isinstance(given, dict) else given
+        return typed_value(self.tree, (*path, key))
 
     def _fault(self, path: KeyPath, template: str, **values: object) -> None:
         self.problems.append(ConfigPlace(self.tree).problem(path, Phrase(template, **values)))
-
-
-def _at(data: Any, key: KeyPath) -> Any:
-    for part in key:
-        if isinstance(data, dict):
-            data = data.get(part)
-        else:
-            data = data[part] if isinstance(data, list) and isinstance(part, int) and part < len(data) else None
-    return data
 
 
 def _part(given: Any) -> Any:
@@ -339,8 +313,8 @@ def _sections(data: dict[str, Any], place: ConfigPlace) -> _Apart:
 
 def place_of(data: Mapping[str, Any], path: str) -> KeyPath:
     """Return the place in a file that a path of the parts names, ``shafts.main.parts.wheel.hub``: a part by its name or its number."""
-    key: KeyPath = tuple(int(word) if INDEX.fullmatch(word) else word for word in path.split("."))
-    rows = _at(data, key[:3]) if key[0] == "shafts" and key[2:3] == ("parts",) else None
+    key = key_of(path)
+    rows = value_at(data, key[:3]) if key[0] == "shafts" and key[2:3] == ("parts",) else None
     for index, row in enumerate(rows if isinstance(rows, list) else ()):
         if isinstance(row, dict) and key[3:4] and str(key[3]) in {str(row[kind]) for kind in PART_KINDS if kind in row}:
             return (*key[:3], index, *key[4:])
@@ -350,60 +324,77 @@ def place_of(data: Mapping[str, Any], path: str) -> KeyPath:
 def typed_changes(tree: Tree, changes: Mapping[KeyPath, Scalar]) -> dict[KeyPath, Scalar]:
     """Return changes of values by where these are typed: of one within a text (``60x320 r1``, ``18/87``, ``[15, 75]``) the text or its place."""
     found: dict[KeyPath, Scalar] = {}
-    for path, text in changes.items():
-        home, key = path[:-1], path[-1]
-        sections = path[:3] if path[0] == "shafts" and path[2:3] == ("sections",) and len(path) > 3 else ()
-        pair = _pair_of(path)
-        if sections and isinstance(typed := found.get(sections, tree.typed(sections)), str):
-            found[sections] = _section_text(typed, int(path[3]), str(key), str(text))
-        elif pair and isinstance(typed := found.get((*home, pair.key), tree.typed((*home, pair.key))), str):
-            numbers = [each.strip() for each in typed.split("/")]
-            if len(numbers) < len(pair.single) and (key != pair.single[0] or _at(tree.data, (*home, "to"))):
-                numbers *= 2  # one number for both
-            numbers[pair.single.index(str(key))] = _bare(str(text))
-            found[(*home, pair.key)] = "/".join(numbers)
-        elif key in PinKeys.spread["span"] and _at(tree.data, (*home, "span")) is not None:
-            found[(*home, "span", PinKeys.spread["span"].index(str(key)))] = text
+    for asked, value in changes.items():
+        path = _listed(tree, asked)
+        home = _text_around(path)
+        typed = found.get(home, tree.typed(home)) if home else None
+        if home is not None and isinstance(typed, str):
+            found[home] = _with_number(tree, home, typed, path, str(value))
         else:
-            found[(*path, "value") if _at(tree.data, (*path, "value")) is not None else path] = text
+            found[(*path, "value") if value_at(tree.data, (*path, "value")) is not None else path] = value
     return found
 
 
 def typed_value(tree: Tree, path: KeyPath) -> Any:
     """Return what is typed at a place of the parts, also within a text; None where nothing is."""
-    home, key = path[:-1], path[-1]
-    given = _at(tree.data, path)
-    if given is not None:
-        return given.get("value") if isinstance(given, dict) else given
-    if path[0] == "shafts" and path[2:3] == ("sections",):
-        matched = SECTION.fullmatch(str(_at(tree.data, path[:3])).split(",")[int(path[3])].strip())
-        return matched and matched.groupdict().get(str(key))
-    if key in PinKeys.spread["span"]:
-        return _at(tree.data, (*home, "span", PinKeys.spread["span"].index(str(key))))
-    pair = _pair_of(path)
-    if pair is None or (given := _at(tree.data, (*home, pair.key))) is None:
-        return None
-    numbers = str(given).split("/")
-    return numbers[pair.single.index(str(key)) if len(numbers) > 1 else 0].strip()
+    path = _listed(tree, path)
+    given = value_at(tree.data, path)
+    if given is None and (home := _text_around(path)):
+        return _numbers_of(home, value_at(tree.data, home)).get(path)
+    return given.get("value") if isinstance(given, dict) else given
 
 
 def typed_places(tree: Tree) -> Iterator[KeyPath]:
     """Yield the places of the parts at which something is typed; of a text of several numbers those of these."""
     for word in WORDS:
-        yield from _typed_places(tree, (word,), tree.data.get(word))
+        yield from _typed_places((word,), tree.data.get(word))
 
 
-def _typed_places(tree: Tree, path: KeyPath, data: Any) -> Iterator[KeyPath]:
+def _typed_places(path: KeyPath, data: Any) -> Iterator[KeyPath]:
     if isinstance(data, dict | list) and not (isinstance(data, dict) and "value" in data):
         for key, inner in data.items() if isinstance(data, dict) else enumerate(data):
-            yield from _typed_places(tree, (*path, key), inner)
-    elif path[0] == "shafts" and path[2:] == ("sections",):
-        numbers = ((*path, i, key) for i in range(len(str(data).split(","))) for key in SECTION.groupindex)
-        yield from (place for place in numbers if typed_value(tree, place) is not None)
-    elif pair := next((each for each in PAIRS.values() if each.key == path[-1] and len(path) == 3), None):
-        yield from ((*path[:2], key) for key in pair.single)
+            yield from _typed_places((*path, key), inner)
     elif data is not None:
-        yield path
+        yield from _numbers_of(path, data) or (path,)
+
+
+def _listed(tree: Tree, path: KeyPath) -> KeyPath:
+    """The place of a value, which may stand in the span of a pin."""
+    ends, span = PinKeys.spread["span"], (*path[:-1], "span")
+    return (*span, ends.index(str(path[-1]))) if path[-1] in ends and value_at(tree.data, span) is not None else path
+
+
+def _text_around(path: KeyPath) -> KeyPath | None:
+    """Where a text stands that may hold the number of a place: that of the sections of a shaft, or of a pair of numbers."""
+    if path[0] == "shafts" and path[2:3] == ("sections",) and len(path) > 3:
+        return path[:3]
+    pair = _pair_at(path)
+    return (*path[:2], pair.key) if pair and path[-1] in pair.single else None
+
+
+def _numbers_of(path: KeyPath, given: Any) -> dict[KeyPath, str]:
+    """The numbers that a text of several holds, by their places; a single one of a pair counts for both."""
+    if path[0] == "shafts" and path[2:] == ("sections",):
+        every = (SECTION.fullmatch(each.strip()) for each in str(given).split(","))
+        rows = ((index, each.groupdict()) for index, each in enumerate(every) if each)
+        return {(*path, index, key): number for index, row in rows for key, number in row.items() if number}
+    pair = _pair_at(path)
+    if pair is None or path[-1] != pair.key or given is None:
+        return {}
+    numbers = [each.strip() for each in str(given).split("/")]
+    return {(*path[:2], key): numbers[index % len(numbers)] for index, key in enumerate(pair.single)}
+
+
+def _with_number(tree: Tree, home: KeyPath, typed: str, path: KeyPath, text: str) -> str:
+    """A text of several numbers with another one at a place."""
+    pair, key = _pair_at(path), str(path[-1])
+    if pair is None:
+        return _section_text(typed, int(path[3]), key, text)
+    numbers = [each.strip() for each in typed.split("/")]
+    if len(numbers) < len(pair.single) and (key != pair.single[0] or value_at(tree.data, (*home[:2], "to"))):
+        numbers *= 2  # one number for both
+    numbers[pair.single.index(key)] = _bare(text)
+    return "/".join(numbers)
 
 
 def typed_text(tree: Tree, path: KeyPath) -> str | None:
@@ -415,9 +406,10 @@ def typed_text(tree: Tree, path: KeyPath) -> str | None:
     return None if found is None else str(found)
 
 
-def _pair_of(path: KeyPath) -> _TwoNumbers | None:
-    """The text of two numbers that the value of a join may stand in."""
-    return next((each for each in PAIRS.values() if path[-1] in each.single and len(path) == 3), None)
+def _pair_at(path: KeyPath) -> _TwoNumbers | None:
+    """The text of two numbers that may stand beside a place, or there."""
+    model = MODELS.get(str(path[0])) if len(path) == 3 else None
+    return None if model is None else PAIRS.get(model)
 
 
 def _bare(text: str) -> str:

@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from math import atan2, cos, degrees, prod, sin
 from typing import Any
 
-from diecut_report.config.parts.demands import Ratio, TypedNumber, TypedValue, millimetres
+from diecut_report.config.parts.demands import PlacedPort, Ratio, Typed, millimetres
 from diecut_report.config.parts.keys import LOOSE
 from diecut_report.config.parts.load_cases import LoadCases
 from diecut_report.config.parts.masses import Masses
 from diecut_report.config.parts.model import Join, MachineShaft, ShaftPart
 from diecut_report.config.yaml import KeyPath
-from diecut_report.mechanism.mechanism import Port
 from diecut_report.standards import catalogue_type
 
 OF_SHAFT = frozenset({"rotation", "speed", "turns_per_cycle", "load_cases", "downwards"})
@@ -42,10 +41,9 @@ class ShaftElements(Masses, LoadCases):
             inputs["forces"] = forces
         if (moving := self.moved_by(shaft)) is not None:
             found = self._source("", moving.mechanism, moving.port.angle, 1)
-            factors = tuple(join.ratio_text for join in self.chain_from(moving.part.shaft.name, shaft.name))
-            inputs["motion"] = {key: value for key, value in found.items() if key != "name"} | {
-                "ratio": Ratio(1, factors).text
-            }
+            way = self.parts.chain_from(moving.part.shaft.name, shaft.name)
+            found["ratio"] = Ratio(1, tuple(join.ratio_text for join in way)).text
+            inputs["motion"] = {key: value for key, value in found.items() if key != "name"}
         if len(inputs) > 1:
             self._add(shaft.loads, "shaft_loads", inputs, shaft.path)
 
@@ -89,16 +87,16 @@ class ShaftElements(Masses, LoadCases):
 
     def _port_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The forces of a mechanism on a part, in the directions of its shaft; a second one in a direction is named across."""
-        port, taken = self.port(part), set[str]()
-        if port is None or part.port is None:
+        placed, taken = self.port(part), set[str]()
+        if placed is None:
             return
-        sign, line = -1 if port.opposite else 1, self.line_of_axes(part.port[0])
-        for shares, curve in zip(line.shares(), port.forces, strict=False):
+        sign, line = -1 if placed.port.opposite else 1, self.line_of_axes(placed.mechanism)
+        for shares, curve in zip(line.shares(), placed.port.forces, strict=False):
             for direction, share in self._directions(part, *shares):
                 if abs(share) > NOTHING:
                     name = f"{part.name}_across_{direction}" if direction in taken else f"{part.name}_{direction}"
                     taken.add(direction)
-                    yield self._source(name, part.port[0], curve, 1) | {"ratio": Ratio(sign * share).text}
+                    yield self._source(name, placed.mechanism, curve, 1) | {"ratio": Ratio(sign * share).text}
 
     def _directions(self, part: ShaftPart, x: float, y: float) -> tuple[tuple[str, float], ...]:
         """The shares of a force in the frame's x and y as those in the directions of its shaft, which turns from y to z.
@@ -109,15 +107,17 @@ class ShaftElements(Masses, LoadCases):
 
     def _chain_shares(self, part: ShaftPart) -> tuple[Join | None, list[tuple[str, float]]]:
         """The chain on a sprocket, and the shares of its pull: towards the other one, or in its direction where it runs over idlers."""
-        join = next((each for each in self.parts.joins_of(part) if each.word == "chains"), None)
+        join = self.parts.join_of(part, "chains")
         if join is None:
             return None, []
-        other = (
-            (join.driven[0] if part in join.drivers else join.drivers[0]).shaft.name if join.driven else part.shaft.name
-        )
-        (x, y), (u, v) = (self.parts.axes.get(name, (0.0, 0.0)) for name in (part.shaft.name, other))
-        angle = atan2(v - y, u - x) if join.driven else join.keys.direction or 0.0
+        angle = self._angle_to(join, part) if join.driven else join.keys.direction or 0.0
         return join, [each for each in self._directions(part, cos(angle), sin(angle)) if abs(each[1]) > NOTHING]
+
+    def _angle_to(self, join: Join, part: ShaftPart) -> float:
+        """The direction from the axis of a part to that of the other one of its join, rad in the frame."""
+        other = join.driven[0] if part in join.drivers else join.drivers[0]
+        (x, y), (u, v) = (self.parts.axes.get(each.shaft.name, (0.0, 0.0)) for each in (part, other))
+        return atan2(v - y, u - x)
 
     def _chain_forces(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         """The pull of a chain on its sprocket, by the torque of the driving one and with what it always pulls; losses behind it count in full."""
@@ -157,7 +157,7 @@ class ShaftElements(Masses, LoadCases):
         first, second = bearings
         inputs: dict[str, Any] = {
             "sections": [self._section(shaft, index) for index in range(len(shaft.sections))],
-            "bearing_a": TypedValue((*first.path, "at")), "bearing_b": TypedValue((*second.path, "at")),
+            "bearing_a": Typed((*first.path, "at")), "bearing_b": Typed((*second.path, "at")),
             "seat_a": self._seat(first), "seat_b": self._seat(second), "locating": "b" if first.keys.floating else "a",
             "loads": [load for part in shaft.parts if part.kind != "bearing" for load in self._load(part)],
             "downwards": f"{-90 * self.sense(shaft.name)} deg",
@@ -166,16 +166,16 @@ class ShaftElements(Masses, LoadCases):
         if place is not None:
             for part, row in self.inertias(shaft).items():
                 own = {"name": row["name"], "torque": f"${{{shaft.loads}.{row['name']}_torque}}", "seat": "none"}
-                inputs["loads"].append(own | {"position": TypedValue((*(part or place).path, "at"))})
+                inputs["loads"].append(own | {"position": Typed((*(part or place).path, "at"))})
         derived = [notch for part in shaft.parts for notch in self._notches(part)]
         if notches := [*derived, *self._typed_notches(shaft)]:
             inputs["notches"] = notches
         if cases := self.cases_of_shaft(shaft):
             inputs["load_cases"] = cases
         if self.parts.keys.shaft_material and not {"material", "tensile_strength"} & set(shaft.more):
-            inputs["material"] = TypedValue(("machine", "shaft_material"))
+            inputs["material"] = Typed(("machine", "shaft_material"))
         if self.parts.keys.surface and "surface" not in shaft.more:
-            inputs["surface"] = TypedValue(("machine", "surface"))
+            inputs["surface"] = Typed(("machine", "surface"))
         if shaft.name in self.parts.ratios:
             turns = self.turns(shaft.name) * self.cycle(shaft.name)
             inputs |= {"speed": self.speed(shaft.name), "turns_per_cycle": int(turns)}
@@ -192,20 +192,20 @@ class ShaftElements(Masses, LoadCases):
         if part.keys.key:
             kind = "keyseat_pair" if part.keys.key_count > 1 else "keyseat_end_mill"
             for end in (-1, 1):
-                place = TypedNumber(millimetres(part.keys.at + end * part.keys.key / 2), (*part.path, "at"))
+                place = Typed((*part.path, "at"), millimetres(part.keys.at + end * part.keys.key / 2))
                 yield {"position": place, "type": kind}
         if part.keys.interference:
-            yield {"position": TypedValue((*part.path, "at")), "type": "press_fit"}
+            yield {"position": Typed((*part.path, "at")), "type": "press_fit"}
 
-    def _typed_notches(self, shaft: MachineShaft) -> Iterator[TypedValue]:
+    def _typed_notches(self, shaft: MachineShaft) -> Iterator[Typed]:
         """The notches that are typed beside those of the keys."""
         given = self._raw(shaft.path).get("notches")
         path = (*shaft.path, "notches")
-        yield from (TypedValue((*path, index)) for index in range(len(given) if isinstance(given, list) else 0))
+        yield from (Typed((*path, index)) for index in range(len(given) if isinstance(given, list) else 0))
 
     def _load(self, part: ShaftPart) -> Iterator[dict[str, Any]]:
         loads = part.shaft.loads
-        found: dict[str, Any] = {"name": part.name, "position": TypedValue((*part.path, "at"))}
+        found: dict[str, Any] = {"name": part.name, "position": Typed((*part.path, "at"))}
         if part.keys.integral or part.keys.bolted or part.keys.rides_on:
             found["seat"] = "none"
         elif self._seat(part) == "loose":
@@ -220,7 +220,7 @@ class ShaftElements(Masses, LoadCases):
             (across if "_across_" in name else found)[f"force_{name[-1]}"] = f"${{{loads}.{name}_force}}"
         place = {key: found[key] for key in ("name", "position")}
         if abs(offset := part.plane - part.keys.at) > NOTHING and {"force_y", "force_z"} & found.keys():
-            place["offset"] = found["offset"] = TypedNumber(millimetres(offset), (*part.path, "at"))
+            place["offset"] = found["offset"] = Typed((*part.path, "at"), millimetres(offset))
         if (gear := self._gear(part)) and "torque" in found:
             found["gear"] = gear
         found |= self._belt_force(part) | self._idle_chain_force(part)
@@ -231,9 +231,9 @@ class ShaftElements(Masses, LoadCases):
         if across:
             yield place | {"name": f"{part.name}_across", "seat": "none"} | across
 
-    def _typed_load(self, part: ShaftPart, found: dict[str, Any]) -> dict[str, TypedValue]:
+    def _typed_load(self, part: ShaftPart, found: dict[str, Any]) -> dict[str, Typed]:
         """The keys of a load that are typed at its part; a mass is one of its body."""
-        join = next(self.parts.joins_of(part), None)
+        join = self.parts.join_of(part)
         source = join.path if join else (*part.path, "of" if part.port else part.kind)
         follows = {"offset", "gear", "seat"} if part.kind != "load" else set()
         follows |= {"force_y", "force_z"} if join or part.port else set()
@@ -250,24 +250,17 @@ class ShaftElements(Masses, LoadCases):
         return part is (driving.driven[0] if driving is not None else self.parts.motion_port(part.shaft))
 
     def _gear(self, part: ShaftPart) -> dict[str, Any] | None:
-        join = next((each for each in self.parts.joins_of(part) if each.word == "meshes"), None)
-        if join is None:
+        join = self.parts.join_of(part, "meshes")
+        if join is None or not {each.shaft.name for each in join.parts} <= self.parts.axes.keys():
             return None
-        other = join.driven[0] if part in join.drivers else join.drivers[0]
-        axes = self.parts.axes
-        if not {part.shaft.name, other.shaft.name} <= axes.keys():
-            return None
-        (x, y), (u, v) = axes[part.shaft.name], axes[other.shaft.name]
         sense = self.sense(part.shaft.name)
-        angle = sense * degrees(atan2(v - y, u - x))
-        found: dict[str, Any] = {
-            "pitch_radius": self._pitch_radius(join, part),
-            "mesh_angle": TypedNumber(f"{angle:.10g} deg", ("machine", "frame")),
-        }
+        angle = sense * degrees(self._angle_to(join, part))
+        found: dict[str, Any] = {"pitch_radius": self._pitch_radius(join, part)}
+        found["mesh_angle"] = Typed(("machine", "frame"), f"{angle:.10g} deg")
         if join.keys.helix_angle:
             # a pair has teeth of opposite hands; those of a right-handed gear push against its torque
             hand = -sense if part in join.drivers else sense
-            found["helix_angle"] = TypedNumber(f"{hand * degrees(join.keys.helix_angle):.12g} deg", join.path)
+            found["helix_angle"] = Typed(join.path, f"{hand * degrees(join.keys.helix_angle):.12g} deg")
         return found
 
     @staticmethod
@@ -276,13 +269,10 @@ class ShaftElements(Masses, LoadCases):
         return f"${{drive_line.{join.name}_radius_{1 if part in join.drivers else 2}}}"
 
     def _belt_force(self, part: ShaftPart) -> dict[str, Any]:
-        join = next((each for each in self.parts.joins_of(part) if each.word == "belts"), None)
-        train = self.named("drive_train")
+        join, train = self.parts.join_of(part, "belts"), self.named("drive_train")
         if join is None or train is None:
             return {}
-        other = join.driven[0] if part in join.drivers else join.drivers[0]
-        (x, y), (u, v) = (self.parts.axes.get(each.shaft.name, (0.0, 0.0)) for each in (part, other))
-        angle = atan2(v - y, u - x)
+        angle = self._angle_to(join, part)
         shares = self._directions(part, cos(angle), sin(angle))
         load = f"${{{train}.shaft_load}}"
         return {f"force_{axis}": f"{load} * ({share:.12g})" for axis, share in shares if abs(share) > NOTHING}
@@ -295,7 +285,7 @@ class ShaftElements(Masses, LoadCases):
         if rows:
             inputs: dict[str, Any] = {"bearings": rows}
             if self.parts.keys.required_life:
-                inputs["required_life"] = TypedValue(("machine", "required_life"))
+                inputs["required_life"] = Typed(("machine", "required_life"))
             self._add(shaft.bearing_calculation, "rolling_bearing", inputs, shaft.path)
 
     def _bearing(self, part: ShaftPart, end: str) -> dict[str, Any]:
@@ -317,16 +307,14 @@ class ShaftElements(Masses, LoadCases):
     def _catalogued(self, name: str, designation: str, more: dict[str, Any], path: KeyPath) -> dict[str, Any]:
         kind = catalogue_type(designation)  # of one that is not in the tables the type is typed
         row: dict[str, Any] = {"name": name, **({"type": kind} if kind else {})}
-        return row | ({"designation": TypedValue(path)} if designation else {}) | more
+        return row | ({"designation": Typed(path)} if designation else {}) | more
 
     def _relative(self, shaft: MachineShaft) -> dict[str, Any]:
         """How the rings of a shaft's bearings turn."""
         if shaft.name in self.parts.ratios:
             return {"speed": self.speed(shaft.name)}
-        return {
-            "relative_angle": f"${{{shaft.calculation}.shaft_angle}}",
-            "cycle_speed": f"{self.reference_speed} / {self.cycle(shaft.name)}",
-        }
+        cycle_speed = f"{self.reference_speed} / {self.cycle(shaft.name)}"
+        return {"relative_angle": f"${{{shaft.calculation}.shaft_angle}}", "cycle_speed": cycle_speed}
 
     def _key(self, part: ShaftPart) -> None:
         loads = part.shaft.loads
@@ -335,7 +323,7 @@ class ShaftElements(Masses, LoadCases):
             return
         home = part.shaft.calculation
         inputs: dict[str, Any] = {
-            "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": TypedValue((*part.path, "key")),
+            "shaft_diameter": f"${{{home}.sections.{part.section.index}.diameter}}", "key_length": Typed((*part.path, "key")),
             "torque": torque, "form": part.keys.key_form, "key_count": part.keys.key_count, "yield_shaft": f"${{{home}.yield_strength}}",
         }  # fmt: skip
         if part in self.parts.brakes:  # its torque, which is that of its only load case
@@ -343,11 +331,11 @@ class ShaftElements(Masses, LoadCases):
         elif cases := self.cases_of_key(part):
             inputs["load_cases"] = cases
         if part.keys.hub is not None:
-            inputs["hub_length"] = TypedValue((*part.path, "hub"))
+            inputs["hub_length"] = Typed((*part.path, "hub"))
         if self.parts.keys.gears.hub_yield:
-            inputs["yield_hub"] = TypedValue(("machine", "gears", "hub_yield"))
+            inputs["yield_hub"] = Typed(("machine", "gears", "hub_yield"))
         if self.parts.keys.required_life:  # by which the changes of flank are counted
-            inputs["required_life"] = TypedValue(("machine", "required_life"))
+            inputs["required_life"] = Typed(("machine", "required_life"))
             inputs["cycle_speed"] = f"{self.reference_speed} / {self.cycle(part.shaft.name)}"
         self._add(part.calculation("key"), "parallel_key", inputs, part.path)
 
@@ -367,56 +355,55 @@ class ShaftElements(Masses, LoadCases):
         return f"${{{loads}.{'balance' if self._balances(joined[0]) else f'{joined[0].name}_torque'}}}"
 
     def _pin(self, part: ShaftPart) -> None:
-        pin, port = part.keys.pin, self.port(part)
-        if pin is None or port is None or not part.port or not port.joint[0]:
+        pin, placed = part.keys.pin, self._joint(part)
+        if pin is None or placed is None:
             return
-        mechanism, path = part.port[0], (*part.path, "pin")
-        length, middle, *supports = (
-            TypedNumber(millimetres(each), path) for each in (pin.length, pin.middle, *pin.supports)
-        )
+        path, sizes = (*part.path, "pin"), (pin.length, pin.middle, *pin.supports)
+        length, middle, *supports = (Typed(path, millimetres(each)) for each in sizes)
         inputs: dict[str, Any] = {
-            "sections": [{"length": length, "diameter": TypedValue((*path, "diameter"))}], "bearing_a": supports[0], "bearing_b": supports[1],
-            "loads": [{"name": "joint", "position": middle, "seat": "loose"} | self._joint_force(mechanism, port)],
+            "sections": [{"length": length, "diameter": Typed((*path, "diameter"))}], "bearing_a": supports[0], "bearing_b": supports[1],
+            "loads": [{"name": "joint", "position": middle, "seat": "loose"} | self._joint_force(placed)],
         }  # fmt: skip
         if pin.held is not None:
-            inputs["notches"] = [{"position": TypedNumber(millimetres(pin.held), path), "type": "press_fit"}]
+            inputs["notches"] = [{"position": Typed(path, millimetres(pin.held)), "type": "press_fit"}]
         if self.parts.keys.shaft_material:
-            inputs["material"] = TypedValue(("machine", "shaft_material"))
+            inputs["material"] = Typed(("machine", "shaft_material"))
         if pin.allowable_deflection is not None:
-            inputs["allowable_deflection"] = TypedValue((*path, "allowable_deflection"))
-        inputs |= (
-            {"rotation": f"${{{mechanism}.{port.joint[1]}}}"}
-            if port.joint[1]
-            else {"speed": f"${{{mechanism}.{port.speed}}}"}
-        )
+            inputs["allowable_deflection"] = Typed((*path, "allowable_deflection"))
+        inputs |= self._turning(placed, "rotation")
         self._add(part.calculation("pin"), "shaft", inputs, path)
 
+    def _joint(self, part: ShaftPart) -> PlacedPort | None:
+        """The port of a part where that is a joint, whose force acts on a pin."""
+        placed = self.port(part)
+        return placed if placed and placed.port.joint[0] else None
+
     @staticmethod
-    def _joint_force(mechanism: str, port: Port) -> dict[str, Any]:
+    def _joint_force(placed: PlacedPort) -> dict[str, Any]:
         """The force on a pin: along the joint's part where the pin is seen from there, else in the directions of the frame."""
+        port, mechanism = placed.port, placed.mechanism
         if port.joint[1]:
             return {"force_y": f"${{{mechanism}.{port.joint[0]}}}"}
         return {f"force_{axis}": f"${{{mechanism}.{curve}}}" for axis, curve in zip("yz", port.forces, strict=False)}
 
+    @staticmethod
+    def _turning(placed: PlacedPort, key: str) -> dict[str, str]:
+        """How a pin turns in its joint: the angle of one that swings, under this key, else its speed."""
+        own = {key: placed.port.joint[1]} if placed.port.joint[1] else {"speed": placed.port.speed}
+        return {name: f"${{{placed.mechanism}.{curve}}}" for name, curve in own.items()}
+
     def _pin_bearing(self, part: ShaftPart) -> dict[str, Any] | None:
-        pin, port = part.keys.pin, self.port(part)
-        if pin is None or pin.bearing is None or port is None or not part.port or not port.joint[0]:
+        pin, placed = part.keys.pin, self._joint(part)
+        if pin is None or pin.bearing is None or placed is None:
             return None
-        mechanism, home = part.port[0], part.shaft.calculation
-        path = (*part.path, "pin")
-        more = {
-            key: TypedValue((*path, key))
-            for key in ("limiting_speed", "rolling_elements")
-            if getattr(pin, key) is not None
-        }
+        home, path = part.shaft.calculation, (*part.path, "pin")
+        typed = (key for key in ("limiting_speed", "rolling_elements") if getattr(pin, key) is not None)
+        more = {key: Typed((*path, key)) for key in typed}
         found = self._catalogued(f"{part.name}_pin", pin.bearing, more, (*path, "bearing"))
-        found["radial_force"] = f"${{{mechanism}.{port.joint[0]}}}"
+        found["radial_force"] = f"${{{placed.mechanism}.{placed.port.joint[0]}}}"
         shaft_slope = f"${{{home}.{part.name}_slope}} + " if self.is_made(home) else ""
         found["tilt"] = f"{shaft_slope}${{{part.calculation('pin')}.joint_slope}}"
-        if port.joint[1]:
-            turns = self.line(mechanism)[0]
-            return found | {
-                "relative_angle": f"${{{mechanism}.{port.joint[1]}}}",
-                "cycle_speed": f"{self.reference_speed} * {turns}",
-            }
-        return found | {"speed": f"${{{mechanism}.{port.speed}}}"}
+        found |= self._turning(placed, "relative_angle")
+        if placed.port.joint[1]:
+            found["cycle_speed"] = f"{self.reference_speed} * {self.line(placed.mechanism)[0]}"
+        return found

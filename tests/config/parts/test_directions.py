@@ -12,20 +12,13 @@ from diecut_report.config.loader import examined
 from diecut_report.config.yaml import parse
 from diecut_report.formulas import Array
 from diecut_report.results.press_run import Run
-from tests.config.parts.test_parts import DISCOVERY, FILE, TEXT
+from tests.config.parts.machines import DISCOVERY, FILE, TEXT
 from tests.examples import every, few
 
 KINDS = (
-    "cylinder_sizing",
-    "cylinder_drive",
-    "geneva_transport",
-    "cyclogram",
-    "shaft_body",
-    "drive_line",
-    "shaft_loads",
-    "roller_chain",
+    "cylinder_sizing", "cylinder_drive", "geneva_transport", "cyclogram", "shaft_body", "drive_line", "shaft_loads", "roller_chain",
     "drive_train",
-)
+)  # fmt: skip
 GENEVA = "geneva: [180, 240], conveyor: [180, 520], far: [2180.254, 520]"
 FRAMES = {
     "above": GENEVA,

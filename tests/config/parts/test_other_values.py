@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,6 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.parts.expansion import retyped
 from diecut_report.config.parts.reading import SECTION
-from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import parse
 from diecut_report.design.inputs import free_input, given_numbers, untied
 from diecut_report.design.machines import varied
@@ -32,9 +32,10 @@ from diecut_report.study.definition.base_inputs import (
 )
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.variant_rows import calculate_rows
-from tests.config.parts.test_parts import FILE
+from tests.config.parts.machines import CORRECTED, DISCOVERY, FILE, Change, machine
 from tests.examples import few
 
+WHOLE = FILE.with_stem("flat_cylinder_corrected")
 MADE_WITH = "is what parts of the machine are made with"
 FOLLOWS = "follows from the parts of the machine"
 TIED = [
@@ -46,7 +47,7 @@ TIED = [
 
 @cache
 def press() -> Press:
-    return Press.read(FILE.with_stem("flat_cylinder_corrected"), Discovery([]))
+    return Press.read(WHOLE, DISCOVERY)
 
 
 @pytest.mark.parametrize(("name", "why"), TIED, ids=[name for name, _ in TIED])
@@ -69,11 +70,8 @@ def test_what_follows_says_where_it_is_typed() -> None:
 
 
 def test_a_place_in_a_list_is_the_same_with_a_leading_zero() -> None:
-    text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
-    text = text.replace(
-        "of: cross.crank, at: 52", 'of: cross.crank, at: "${timing.lines.01.path_efficiency} / 0.95 * 52 mm"'
-    )
-    config = Press.read(parse(text, "a.yaml"), Discovery([])).config
+    path = 'of: cross.crank, at: "${timing.lines.01.path_efficiency} / 0.95 * 52 mm"'
+    config = machine(("of: cross.crank, at: 52", path), text=CORRECTED).config
     assert is_of_parts(config, varied_input(config, "mechanisms.timing.lines.1.path_efficiency"))
 
 
@@ -108,12 +106,24 @@ def test_what_is_no_place_of_a_part_is_told(path: str, why: str) -> None:
         varied_input(press().config, path)
 
 
-def changed(*changes: tuple[str, str]) -> Press:
-    text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
+def changed(*changes: Change) -> Press:
+    text = CORRECTED
     for old, new in changes:
         assert old in text, old
         text = text.replace(old, new, 1)
-    return Press.read(parse(text, str(FILE)), Discovery([]))
+    return Press.read(parse(text, str(FILE)), DISCOVERY)
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Callable[[str], Path]:
+    """What writes a study of the machine into a folder that holds it."""
+    (tmp_path / "press.yaml").write_text(CORRECTED, "utf-8")
+
+    def written(text: str) -> Path:
+        (tmp_path / "study.yaml").write_text(text, "utf-8")
+        return tmp_path / "study.yaml"
+
+    return written
 
 
 @pytest.mark.nightly
@@ -127,38 +137,25 @@ def test_each_machine_of_other_parts_is_the_file_with_these_parts() -> None:
         "mechanisms.clutch.shoe_radius": [0.14, 0.138, 0.14, 0.14],
         "mechanisms.clutch.wedge_friction": [0.1, 0.1, 0.11, 0.1],
     }
-    inputs = {varied_input(press().config, path): given for path, given in values.items()}
-    rows = calculate_rows(
-        press().config,
-        {asked: np.array(given, dtype=None if asked.unit else object) for asked, given in inputs.items()},
-        4,
-    )
+    given = {varied_input(press().config, path): numbers for path, numbers in values.items()}
+    arrays = {asked: np.array(numbers, dtype=None if asked.unit else object) for asked, numbers in given.items()}
+    rows = calculate_rows(press().config, arrays, 4)
     assert [*rows.errors[:3]] == [None] * 3 and rows.status[3] == "error"
     assert "puts the axes 204 mm apart" in rows.errors[3]
     thick = ("90x330", "92x330")
     files = (
-        (
-            thick,
-            ("pretension: 1000", "pretension: 1200"),
-            ("shoe_radius: {value: 140 mm", "shoe_radius: {value: 138 mm"),
-        ),
-        (
-            thick,
-            ('at: 497, designation: "6217"', 'at: 497, designation: "6317"'),
-            ("wedge_friction: 0.1", "wedge_friction: 0.11"),
-        ),
-    )
+        (thick, ("pretension: 1000", "pretension: 1200"), ("shoe_radius: {value: 140 mm", "shoe_radius: {value: 138 mm")),
+        (thick, ('at: 497, designation: "6217"', 'at: 497, designation: "6317"'), ("wedge_friction: 0.1", "wedge_friction: 0.11")),
+    )  # fmt: skip
     for row, file in enumerate(files, 1):
         alone = calculate_rows(changed(*file).config, {}, 1)
         assert alone.columns.keys() == rows.columns.keys() and alone.verdict[0] == rows.verdict[row]
         for name, column in alone.columns.items():
             own, there = column[0], rows.columns[name][row]
-            same = (
-                own == there
-                if isinstance(own, str | bool | None)
-                else np.isclose(own, there, rtol=1e-9, atol=1e-12, equal_nan=True)
-            )
-            assert same, (name, own, there)
+            if own is None or isinstance(own, str | bool):
+                assert own == there, name
+            else:
+                np.testing.assert_allclose(own, there, rtol=1e-9, atol=1e-12, err_msg=name)
 
 
 @pytest.mark.nightly
@@ -168,28 +165,25 @@ def test_what_is_doubtful_of_the_parts_is_told_of_each_machine() -> None:
     rows = calculate_rows(press().config, {links: np.array([120.0, 121.0, 120.0])}, 3)
     status = "drive_line.checks.parts_fit.status"
     assert list(rows.columns[status]) == [None, "warn", None]
-    alone = calculate_rows(
-        changed(("teeth: 27, chain: 16B, links: 120", "teeth: 27, chain: 16B, links: 121")).config, {}, 1
-    )
+    odd = changed(("teeth: 27, chain: 16B, links: 120", "teeth: 27, chain: 16B, links: 121")).config
+    alone = calculate_rows(odd, {}, 1)
     assert alone.columns[status][0] == "warn"
 
 
 def test_a_script_changes_the_parts_by_their_places() -> None:
-    machine = load(FILE.with_stem("flat_cylinder_corrected"))
+    machine = load(WHOLE)
     changes = {
         "shafts.main.sections.2.diameter": "9.2 cm",
         "shafts.main.parts.b.designation": "6317",
         "meshes.main_drive.width": 48,
     }
     other = machine.with_values(changes)
-    text = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
-    for old, new in (
+    typed = (
         ("90x330", "92x330"),
         ('"6217", limiting', '"6317", limiting'),
         ("module: 5, width: 50", "module: 5, width: 48"),
-    ):
-        text = text.replace(old, new, 1)
-    assert other.text == text
+    )
+    assert other.text == changed(*typed).config.tree.text
     with pytest.raises(ConfigError, match="names no part of the machine"):
         machine.with_values({"shafts.nope.left": 3})
     with pytest.raises(ConfigError, match="has a bore of 85 mm, but sits on a diameter of 86 mm"):
@@ -208,12 +202,12 @@ def test_a_script_changes_the_parts_by_their_places() -> None:
 )
 def test_a_value_of_another_dimension_is_refused_within_a_text_too(path: str, typed: str, words: str) -> None:
     with pytest.raises(ConfigError, match=re.escape(words)) as refused:
-        load(FILE.with_stem("flat_cylinder_corrected")).with_values({path: typed, "press.nope": 1})
+        load(WHOLE).with_values({path: typed, "press.nope": 1})
     assert len(refused.value.problems) == 2  # all that is wrong is told at once
 
 
 def test_a_number_in_quotes_is_a_number_within_a_text_too() -> None:
-    machine = load(FILE.with_stem("flat_cylinder_corrected"))
+    machine = load(WHOLE)
     changes = {"shafts.main.sections.2.diameter": "92", "meshes.main_drive.teeth_1": "18"}
     assert "92x330" in (made := machine.with_values(changes)).text and "teeth: 18/87" in made.text
 
@@ -231,17 +225,17 @@ outputs: [shafts_main_body.mass]
 
 
 @pytest.mark.nightly
-def test_a_variant_of_parts_is_taken_as_a_file_that_differs_where_they_are_typed(tmp_path: Path) -> None:
-    base = FILE.with_stem("flat_cylinder_corrected").read_text("utf-8")
-    (tmp_path / "press.yaml").write_text(base, "utf-8")
-    (tmp_path / "study.yaml").write_text(STUDY.replace("teeth_2: [87, 86]", "width: [50 mm, 48 mm]"), "utf-8")
-    assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--quiet"]) == 1
+def test_a_variant_of_parts_is_taken_as_a_file_that_differs_where_they_are_typed(
+    tmp_path: Path, study: Callable[[str], Path]
+) -> None:
+    file = study(STUDY.replace("teeth_2: [87, 86]", "width: [50 mm, 48 mm]"))
+    assert main(["batch", str(file), "-o", str(tmp_path / "out"), "--quiet"]) == 1
     assert main(["take", str(tmp_path / "out#1"), "-o", str(tmp_path / "own.yaml"), "--quiet"]) == 0
-    before, after = base.splitlines(), (tmp_path / "own.yaml").read_text("utf-8").splitlines()[1:]
+    before, after = CORRECTED.splitlines(), (tmp_path / "own.yaml").read_text("utf-8").splitlines()[1:]
     lines = [new for old, new in zip(before, after, strict=True) if old != new]
     assert [re.search("92x330|key: 80 mm|width: 48 mm", line) is not None for line in lines] == [True] * 3
-    tree = variant_config(tmp_path / "out", 1, Discovery([]), "v")
-    variant, own = (load_config(each, Discovery([])).tree.data["mechanisms"] for each in (tree, tmp_path / "own.yaml"))
+    tree = variant_config(tmp_path / "out", 1, DISCOVERY, "v")
+    variant, own = (load_config(each, DISCOVERY).tree.data["mechanisms"] for each in (tree, tmp_path / "own.yaml"))
     assert variant == own
 
 
@@ -272,21 +266,17 @@ constraints: ["shafts.main.sections.2.diameter > '91 mm'"]
 
 
 def test_drawn_numbers_of_one_section_stand_in_its_text_and_a_condition_on_them_is_judged_before(
-    tmp_path: Path,
+    study: Callable[[str], Path],
 ) -> None:
     """Not every millimetre reads back as the metre that it was drawn as; and a path of the parts is no result."""
-    (tmp_path / "press.yaml").write_text(FILE.with_stem("flat_cylinder_corrected").read_text("utf-8"), "utf-8")
-    (tmp_path / "study.yaml").write_text(DRAWN, "utf-8")
-    study = load_study(tmp_path / "study.yaml", Discovery([]))
-    assert study.constraints[0].outputs == ()
-    given = study.sample.rows(0, 6)
-    parts = study.base.parts
+    drawn = load_study(study(DRAWN), DISCOVERY)
+    assert drawn.constraints[0].outputs == ()
+    given = drawn.sample.rows(0, 6)
+    parts = drawn.base.parts
     assert parts is not None
     for row in range(6):
-        own = {
-            typed_place(study.base, study.inputs[path]): typed_data(study.inputs[path], float(values[row]))
-            for path, values in given.items()
-        }
+        drawn_here = ((drawn.inputs[path], float(values[row])) for path, values in given.items())
+        own = {typed_place(drawn.base, asked): typed_data(asked, value) for asked, value in drawn_here}
         text = retyped(parts.reader.tree, own).data["shafts"]["main"]["sections"].split(", ")[2]
         matched = SECTION.fullmatch(text)
         assert matched is not None, text
@@ -297,23 +287,14 @@ def test_drawn_numbers_of_one_section_stand_in_its_text_and_a_condition_on_them_
 @pytest.mark.parametrize(
     ("vary", "words"),
     [
-        (
-            "{shafts.main.parts.wheel.key: [90 mm], shafts.main.parts.2.key: [80 mm]}",
-            "is the same place as shafts.main.parts.wheel.key",
-        ),
-        (
-            "{shafts.main.sections.2.diameter: [90 mm], shafts.main.sections.02.diameter: [91 mm]}",
-            "is the same place as",
-        ),
+        ("{shafts.main.parts.wheel.key: [90 mm], shafts.main.parts.2.key: [80 mm]}", "is the same place as shafts.main.parts.wheel.key"),
+        ("{shafts.main.sections.2.diameter: [90 mm], shafts.main.sections.02.diameter: [91 mm]}", "is the same place as"),
     ],
-)
-def test_one_place_is_varied_once(tmp_path: Path, vary: str, words: str) -> None:
-    (tmp_path / "press.yaml").write_text(FILE.with_stem("flat_cylinder_corrected").read_text("utf-8"), "utf-8")
-    (tmp_path / "study.yaml").write_text(
-        f"schema_version: 1\nbase: press.yaml\nsample: {{method: zip}}\nvary: {vary}\n", "utf-8"
-    )
+)  # fmt: skip
+def test_one_place_is_varied_once(study: Callable[[str], Path], vary: str, words: str) -> None:
+    file = study(f"schema_version: 1\nbase: press.yaml\nsample: {{method: zip}}\nvary: {vary}\n")
     with pytest.raises(UserError, match=words):
-        load_study(tmp_path / "study.yaml", Discovery([]))
+        load_study(file, DISCOVERY)
 
 
 def test_a_text_that_is_none_of_those_allowed_is_the_reason_of_its_machine() -> None:
@@ -322,16 +303,12 @@ def test_a_text_that_is_none_of_those_allowed_is_the_reason_of_its_machine() -> 
     assert "did you mean 'C45E+N'" in reason
 
 
-def test_a_condition_names_what_is_typed_and_not_what_follows_from_it(tmp_path: Path) -> None:
-    (tmp_path / "press.yaml").write_text(FILE.with_stem("flat_cylinder_corrected").read_text("utf-8"), "utf-8")
-    limits = ["shafts.main.sections.2.diameter < '91 mm'", "mechanisms.shafts_main.sections.1.diameter < '90 mm'"]
-    for limit, is_known in zip(limits, (True, False), strict=True):
-        (tmp_path / "study.yaml").write_text(f'{STUDY}constraints: ["{limit}"]\n', "utf-8")
-        if is_known:
-            load_study(tmp_path / "study.yaml", Discovery([]))
-            continue
-        with pytest.raises(UserError, match="follows from the parts of the machine, which vary"):
-            load_study(tmp_path / "study.yaml", Discovery([]))
+def test_a_condition_names_what_is_typed_and_not_what_follows_from_it(study: Callable[[str], Path]) -> None:
+    condition = "constraints: [\"{} < '91 mm'\"]\n"
+    load_study(study(STUDY + condition.format("shafts.main.sections.2.diameter")), DISCOVERY)
+    file = study(STUDY + condition.format("mechanisms.shafts_main.sections.1.diameter"))
+    with pytest.raises(UserError, match="follows from the parts of the machine, which vary"):
+        load_study(file, DISCOVERY)
 
 
 @pytest.mark.nightly
@@ -347,14 +324,13 @@ def test_a_number_that_parts_are_made_with_makes_them_anew_where_it_is_typed() -
         before.with_values({("mechanisms", "shafts_main", "sections", 0, "diameter"): "90 mm"})
 
 
-@pytest.mark.parametrize("file", few([FILE.with_stem("flat_cylinder_corrected"), FILE.parents[1] / "flat_cylinder_press_mended.yaml"],
+@pytest.mark.parametrize("file", few([WHOLE, FILE.parents[1] / "flat_cylinder_press_mended.yaml"],
     keep=lambda file: "mended" in file.stem), ids=["parts", "blocks"])  # fmt: skip
 def test_a_variant_is_the_file_with_its_value(file: Path) -> None:
     """The linkage moves the timing, and that the play of the Geneva wheel, which plain code asks of the cyclogram."""
-    found = Press.read(file, Discovery([]))
-    design = next(
-        each for each in untied(found.config, given_numbers(found.config)) if each.name == "drive.coupler_ratio"
-    )
+    found = Press.read(file, DISCOVERY)
+    designs = untied(found.config, given_numbers(found.config))
+    design = next(each for each in designs if each.name == "drive.coupler_ratio")
     values = np.array([5.0, 5.1, 5.2])
     rows = varied(found.config, {design.asked: values}, 3)
     for row, value in enumerate(values):
