@@ -35,7 +35,6 @@ from diecut_report.results.coherence import PlacedFinding, placed_findings
 from diecut_report.results.conclusion import governing
 from diecut_report.results.document import document, verdict
 from diecut_report.results.drive_line import drive_line
-from diecut_report.results.drive_line_record import DriveLineRecord
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures, shown_figures
 from diecut_report.results.machine_advice import advised
@@ -50,7 +49,7 @@ from diecut_report.results.mechanism import (
     worst,
 )
 from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, SectionRecord
-from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
+from diecut_report.results.model import DriveLineRecord, GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.open_items import run_summary
 from diecut_report.results.press_run import Run, Tell, require_possible, same_inputs
 from diecut_report.results.usual import Beside

@@ -16,7 +16,7 @@ from diecut_report.config.parts.load_cases import LoadCases, Passing
 from diecut_report.config.yaml import parse
 from diecut_report.mechanics.load_cases import called
 from diecut_report.press import Press
-from diecut_report.results.carrying_parts import unrated
+from diecut_report.results.drive_line import unrated
 from diecut_report.results.warm_press import WarmPress
 from tests.config.parts.test_parts import DISCOVERY, FILE, calculated
 from tests.examples import every
