@@ -353,14 +353,8 @@ class _ChangedRun(Run):
             return super()._made(instance, mechanism, block)
         return known
 
-    def _printed(self, instance: Instance, calculation: Calculation) -> None:
-        """Nothing is printed of it."""
-
     def _agree(self) -> None:
         """What the parts are refused for is known before."""
-
-    def _comparisons(self) -> None:
-        """A comparison has no checks."""
 
 
 def _of_bore(part: ShaftPart, bore: float) -> Iterator[str]:
