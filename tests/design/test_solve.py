@@ -140,31 +140,6 @@ def test_whole_numbers_are_all_tried(press: Path, capfd: Capture) -> None:
     assert answer["solutions"][0]["typed"] == "33" and answer["vary"]["from"] == 12  # the least that is allowed
 
 
-@pytest.mark.parametrize(
-    ("vary", "asked", "more", "words"),
-    [
-        ("a.arn", "a.moment = 1 N*m", [], "'arn' is not an input of a (did you mean 'arm'?)"),
-        ("a.arm", "a.momemt = 1 N*m", [], "a.momemt is neither a number that a gives nor an input of it (did you mean 'moment'?)"),
-        ("a.arm", "c.moment = 1 N*m", [], "there is no mechanism 'c'"),
-        ("a.arm", "a.moment = 1 kg", [], "a.moment: 1 kg is a mass"),
-        ("a.arm", "a.moment 1", [], "'a.moment 1' is not a question"),
-        ("a.arm", "b.moment = 1 N*m", [], "b.moment does not vary with a.arm: it is 200 N·m in the whole range"),
-        ("a.arm", "a.moment = 1 N*m", ["--from", "2 m"], "2 m is out of range"),
-        ("a.arm", "a.moment = 1 N*m", ["--from", "9 mm", "--to", "8 mm"], "the range from 9 mm to 8 mm is empty"),
-        ("a.width", "a.moment = 1 N*m", [], "a.width has no value at present; give the range to search"),
-        ("a.grade", "a.moment = 1 N*m", [], "a.moment does not vary with a.grade: it is 200 N·m in the whole range"),
-        ("a.grade", "a.moment = 1 N*m", ["--from", "1"], "a.grade: is a text; name those that are to be tried with --among"),
-        ("a.arm", "a.moment = 1 N*m", ["--among", "2 g"], "a.arm: 2 g is a mass"),
-    ],
-)  # fmt: skip
-def test_bad_input_is_told_and_ends_with_2(
-    press: Path, capfd: Capture, vary: str, asked: str, more: list[str], words: str
-) -> None:
-    assert solve(press, vary, asked, *more) == 2
-    out, err = capfd.readouterr()
-    assert out == "" and words in err
-
-
 def test_an_input_that_is_not_given_is_put_into_the_file(press: Path, tmp_path: Path) -> None:
     made = tmp_path / "new.yaml"
     assert solve(press, "a.width", "a.pressure = 0.5 MPa", "--from", "10 mm", "--to", "90 mm", "-o", made) == 0

@@ -23,7 +23,6 @@ from diecut_report.standards.ranges import range_of
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import EXAMPLE
-from tests.results.blunders import PRESS
 
 CLUTCH = {
     "kind": "clutch", "torque": "500 N*m", "shoe_radius": "180 mm", "wedge_angle": "10 deg", "wedge_friction": 0.1, "shoe_friction": 0.35,
@@ -194,7 +193,7 @@ def test_a_variant_outside_the_hard_range_cannot_exist_and_an_unusual_one_warns(
 
 
 def test_a_variant_whose_parts_disagree_cannot_exist() -> None:
-    base = load_config(PRESS, Discovery())
+    base = load_config(EXAMPLE, Discovery())
     rows = calculate_rows(base, {find_input(base, "mechanisms.main_gears.module"): np.array([5e-3, 4e-3])}, 2)
     assert (rows.errors[0], rows.status[1]) == (None, "error")
     assert "which takes the same torque, has the pitch radius 96 mm there" in rows.errors[1]
