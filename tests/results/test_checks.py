@@ -72,15 +72,9 @@ def bound_of(angle: Any, swing: Any) -> Any:
 
 
 def check(demand: Any, limit: Any, **changes: Any) -> Check:
-    texts: dict[str, Any] = {
-        "check_class": "strength",
-        "id": "c",
-        "title": "Bars",
-        "demand_label": "force",
-        "limit_label": "allowed",
-        "consequence": "relieve it",
-    }
-    return Check(**{**texts, "demand": demand, "limit": limit, "unit": "N", **changes})
+    texts = {"id": "c", "title": "Bars", "demand_label": "force", "limit_label": "allowed", "consequence": "relieve it"}
+    known = {"check_class": "strength", "unit": "N", "demand": demand, "limit": limit}
+    return Check(**{**texts, **known, **changes})
 
 
 def rack(*checks: Check) -> Mechanism:
@@ -90,15 +84,8 @@ def rack(*checks: Check) -> Mechanism:
         Value(id="torque", symbol="T", unit="N", description="Wave", formula=wave),
         Value(id="bound", symbol="B", unit="N", description="Bound", formula=bound_of),
     )
-    return Mechanism(
-        kind="rack",
-        version="1",
-        title="Rack",
-        summary="",
-        inputs=Rack,
-        chapters=(Chapter("All", steps=steps),),
-        checks=checks,
-    )
+    chapters = (Chapter("All", steps=steps),)
+    return Mechanism(kind="rack", version="1", title="", summary="", inputs=Rack, chapters=chapters, checks=checks)
 
 
 def calculated(made: Check, loads: tuple[float, ...] = (1, 6, 4), **values: Any) -> Calculation:
@@ -165,19 +152,14 @@ def test_a_part_without_the_quantity_is_not_judged() -> None:
     assert (left.status, left.missing) == ("not_checked", ["bars.0.rated"])
     assert variant_rows.verdicts({"rack": calc}, 1).unchecked == ["rack.checks.c"]
     [unmade] = check_results(calculated(rated))
-    assert (unmade.status, unmade.missing, unmade.demand, unmade.limit) == (
-        "not_checked",
-        ["bars.rated"],
-        12,
-        None,
-    )
+    assert (unmade.status, unmade.missing) == ("not_checked", ["bars.rated"])
+    assert (unmade.demand, unmade.limit) == (12, None)
 
 
 def test_a_check_on_a_curve_judges_its_extreme_and_not_its_samples() -> None:
     found = judged(check("torque", 2.999))
-    assert found.status == "fail" and found.demand == pytest.approx(
-        3, rel=1e-12
-    )  # of the 36 samples none is above 2.992
+    # of the 36 samples none is above 2.992
+    assert found.status == "fail" and found.demand == pytest.approx(3, rel=1e-12)
     assert found.message == "Force 3 N, allowed 2.999 N at φ = 95.73°: relieve it"
     assert found.at == PlaceRecord(symbol="φ", text="95.73", unit="deg")
 
@@ -235,9 +217,8 @@ def test_a_study_judges_as_each_machine_alone(number: int, count: int) -> None:
     found = variant_rows.verdicts({"rack": together}, count)
     for i in range(count):
         one = {name: values[i] for name, values in varied.items()}
-        [single] = check_results(
-            calculate(made, {"bars": True, "n_points": 36, **one, "bars.load": tuple(loads[:, i])})
-        )
+        alone = calculate(made, {"bars": True, "n_points": 36, **one, "bars.load": tuple(loads[:, i])})
+        [single] = check_results(alone)
         assert variant_rows.STATUS[found.codes[0, i]] == single.status
         expected = np.nan if single.utilisation is None else single.utilisation
         np.testing.assert_allclose(found.ratios[0, i], expected, rtol=1e-9)
@@ -356,40 +337,28 @@ def test_what_is_not_checked_changes_no_status_and_is_counted() -> None:
     assert results.counts.data() == counts and summary({"bar": results.checks}, []).governing == "bar.a"
 
 
-def test_a_value_sized_to_its_limit_does_not_govern_unless_it_fails() -> None:
-    sized = bar_check("doubled", 16.5, id="sized", sized_unless=("width",))
-    results = mechanism_results(calculated_bar(sized, bar_check("doubled", 160.0, id="far")), {})
-    assert results.checks[0].sized_to_limit and not results.checks[1].sized_to_limit
-    assert str(governing({"bar": results.checks})) == "bar.far"
-    given = mechanism_results(calculated_bar(sized, bar_check("doubled", 160.0, id="far"), width=1), {})
-    assert str(governing({"bar": given.checks})) == "bar.sized"
-    failing = mechanism_results(calculated_bar(sized, bar_check("doubled", 160.0, id="far"), force=9), {})
-    assert str(governing({"bar": failing.checks})) == "bar.sized"
-
-
-def test_what_stands_exactly_at_a_given_limit_was_not_sized_by_the_program_and_governs() -> None:
-    results = mechanism_results(
-        calculated_bar(bar_check("doubled", 16.0, id="same"), bar_check("doubled", 160.0, id="far")), {}
-    )
-    assert results.checks[0].utilisation == 1 and not results.checks[0].sized_to_limit
-    assert str(governing({"bar": results.checks})) == "bar.same"
-
-
-def test_what_the_calculation_presumes_governs_only_where_it_does_not_hold() -> None:
-    """As the range of a method: that a machine lies well within it is no reserve."""
-    near = bar_check("doubled", 16.5, id="range", presumed=True)
-    results = mechanism_results(calculated_bar(near, bar_check("doubled", 160.0, id="far")), {})
-    assert results.checks[0].presumed and not results.checks[1].presumed
-    assert str(governing({"bar": results.checks})) == "bar.far"
-    left = mechanism_results(calculated_bar(near, bar_check("doubled", 160.0, id="far"), force=9), {})
-    assert str(governing({"bar": left.checks})) == "bar.range"
-
-
-def test_self_tests_are_counted_apart_and_never_govern() -> None:
-    own = bar_check("doubled", 16.5, id="own", check_class="numerical")
-    results = mechanism_results(calculated_bar(own, bar_check("doubled", 160.0, id="far")), {})
-    assert results.counts.numerical.data() == {"pass": 1, "fail": 0} and results.counts.passing == 1
-    assert str(governing({"bar": results.checks})) == "bar.far"
+@pytest.mark.parametrize(
+    ("near", "given", "governs"),
+    [
+        ({"id": "sized", "sized_unless": ("width",)}, {}, "far"),
+        ({"id": "sized", "sized_unless": ("width",)}, {"width": 1}, "sized"),
+        ({"id": "sized", "sized_unless": ("width",)}, {"force": 9}, "sized"),  # it fails
+        ({"id": "same", "limit": 16.0}, {}, "same"),  # what stands exactly at a given limit was not sized by the program
+        ({"id": "range", "presumed": True}, {}, "far"),  # that a machine lies well within the range of a method is no reserve
+        ({"id": "range", "presumed": True}, {"force": 9}, "range"),  # it does not hold
+        ({"id": "own", "check_class": "numerical"}, {}, "far"),
+    ],
+)  # fmt: skip
+def test_what_shows_no_reserve_does_not_govern_unless_it_fails(near: Any, given: Any, governs: str) -> None:
+    first = bar_check("doubled", near.get("limit", 16.5), **{key: near[key] for key in near if key != "limit"})
+    results = mechanism_results(calculated_bar(first, bar_check("doubled", 160.0, id="far"), **given), {})
+    found, other = results.checks
+    assert str(governing({"bar": results.checks})) == f"bar.{governs}"
+    assert found.sized_to_limit is ("sized_unless" in near and "width" not in given) and not other.sized_to_limit
+    assert found.presumed is ("presumed" in near) and not other.presumed
+    is_own, counts = found.check_class == "numerical", results.counts
+    assert counts.numerical.data() == {"pass": int(is_own), "fail": 0} and counts.passing + counts.fail == 2 - is_own
+    assert found.utilisation == found.demand / found.limit
 
 
 def test_a_self_test_that_fails_leaves_no_results() -> None:
@@ -419,29 +388,12 @@ def test_a_check_without_an_allowed_class_is_told_with_those_that_are(given: dic
         "unit": "N",
     }
     [fault] = faults(bar(Check(demand="doubled", limit=3.0, **texts, **given)))
-    assert "check c" in str(fault) and all(
-        word in str(fault) for word in ("function", "strength", "practice", "numerical")
-    )
+    assert all(word in str(fault) for word in ("check c", "function", "strength", "practice", "numerical"))
 
 
 def test_keys_that_there_are_not_are_told_of_a_check() -> None:
-    told = " ".join(
-        map(
-            str,
-            faults(
-                bar(
-                    bar_check(
-                        "doubled",
-                        3.0,
-                        only_with=("widht",),
-                        at_best=("wieght",),
-                        founded=("k",),
-                        sized_unless=("rate",),
-                    )
-                )
-            ),
-        )
-    )
+    wrong = {"only_with": ("widht",), "at_best": ("wieght",), "founded": ("k",), "sized_unless": ("rate",)}
+    told = " ".join(map(str, faults(bar(bar_check("doubled", 3.0, **wrong)))))
     assert "only_with names widht" in told and "sized_unless names rate" in told
     assert "at_best names wieght" in told and "founded names k" in told
 
