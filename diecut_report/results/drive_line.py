@@ -191,22 +191,19 @@ def accepted(
 
 def _without_method(part: ShaftPart, mechanisms: Mapping[str, str]) -> Iterator[str]:
     """What of a part carries load and has no method of calculation, with the kinds of the mechanisms by their names."""
-    if part.kind == "clutch" and mechanisms.get(part.name) != "clutch":
-        yield phrase("{part}: no mechanism of its name calculates how it engages")
-    if part.kind in BODIES:
-        yield phrase("{part}: no method rates its body")
-    if part.keys.integral and part.kind in BODIES:
-        yield phrase("{part}: no method rates where it passes into its shaft")
-    if part.keys.interference is not None:
-        yield phrase("{part}: no method rates its press fit")
-    if part.keys.bolted:
-        yield phrase("{part}: no method rates its bolts")
-    if part.kind in ("crank", "rocker") and part.keys.pin is None:
-        yield phrase("{part}: no calculation rates its pin")
-    if part.keys.pin is not None and part.keys.pin.bearing is None:
-        yield phrase("{part}: the bearing of its pin is not given")
-    if part.keys.pin is not None and part.keys.pin.held is not None:
-        yield phrase("{part}: no method rates the press fit of its pin")
+    is_body, pin = part.kind in BODIES, part.keys.pin
+    found = {
+        phrase("{part}: no mechanism of its name calculates how it engages"): part.kind == "clutch"
+        and mechanisms.get(part.name) != "clutch",
+        phrase("{part}: no method rates its body"): is_body,
+        phrase("{part}: no method rates where it passes into its shaft"): is_body and part.keys.integral,
+        phrase("{part}: no method rates its press fit"): part.keys.interference is not None,
+        phrase("{part}: no method rates its bolts"): part.keys.bolted,
+        phrase("{part}: no calculation rates its pin"): part.kind in ("crank", "rocker") and pin is None,
+        phrase("{part}: the bearing of its pin is not given"): pin is not None and pin.bearing is None,
+        phrase("{part}: no method rates the press fit of its pin"): pin is not None and pin.held is not None,
+    }
+    return (template for template, is_so in found.items() if is_so)
 
 
 # Where the shafts and their parts stand, how large they are, and what rates each.

@@ -10,7 +10,16 @@ import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.findings import decided, with_findings
-from diecut_report.design.harmless import NO_NUMBER, STANDS_ALONE, Effects, Trial, UsualEnds, apart, without_harmless
+from diecut_report.design.harmless import (
+    NO_NUMBER,
+    STANDS_ALONE,
+    Effects,
+    Trial,
+    TriedOpenValues,
+    UsualEnds,
+    apart,
+    without_harmless,
+)
 from diecut_report.design.inputs import design_input
 from diecut_report.press import Press
 from diecut_report.results.model import OpenRecord
@@ -226,10 +235,9 @@ def test_a_check_with_nothing_for_a_limit_is_brought_nearer_to_it_by_what_takes_
     made, name = press(tmp_path, "250 N*m"), "a.checks.slack"
     item, design = OpenRecord(what="assumed", path=FORCE, owner="", why=""), design_input(made.config, "a.force")
     trials = [Trial(item, design, 1800.0, 2200.0, frozenset(["a"])), Trial(item, design, 1.0, 2.0, frozenset(["a"]))]
-    margins = {name: np.array([[0.5, 0.05], [0.3, 0.3]])}
-    effects = Effects(
-        {name: np.full((2, 2), 1)}, margins, {name: 1}, {name: 0.3}, {name: 0.3}, np.zeros((2, 2), dtype=bool)
-    )
+    today = {name: np.array([0.3])}
+    effects = Effects(TriedOpenValues({name: np.array([1])}, today, today), len(trials))
+    effects.margins = {name: np.array([[0.5, 0.05], [0.3, 0.3]])}
     corner = effects.corner(name, trials)
     assert list(corner.order) == [0] and corner.worse[0] == 2200.0
 
