@@ -186,15 +186,7 @@ def test_a_limiting_speed_is_held_against_the_mean_diameter_of_its_bearing(
 
 @pytest.mark.parametrize("unknown", ["own make", "7224"])
 def test_the_ratings_and_factors_of_a_bearing_that_no_table_has_need_a_basis(unknown: str, tmp_path: Path) -> None:
-    keys = {
-        "dynamic_rating": "500 kN",
-        "static_rating": "400 kN",
-        "x": "0.35",
-        "y": "0.57",
-        "e": "1.14",
-        "x0": "0.5",
-        "y0": "0.26",
-    }
+    keys = {"dynamic_rating": "500 kN", "static_rating": "400 kN", "x": "0.35", "y": "0.57", "e": "1.14", "x0": "0.5", "y0": "0.26"}  # fmt: skip
     typed = {basis: ", ".join(f"{key}: {{value: {value}, basis: {basis}, note: SKF 7224 BM}}" for key, value in keys.items())
              for basis in ("given", "catalogue")}  # fmt: skip
     found = [{each.path.rpartition(".")[2] for each in left(tmp_path, HEAD + BEARING % ("ball", unknown, "", text)) if each.what == "assumed"}
@@ -202,31 +194,27 @@ def test_the_ratings_and_factors_of_a_bearing_that_no_table_has_need_a_basis(unk
     assert found[0] >= keys.keys() and not found[1] & keys.keys()
 
 
+OWN_CHAIN = """\
+  c: {kind: roller_chain, chain: custom, teeth_1: 19, links: 100, speed: 100 rpm, torque: 50 N*m, application_factor: 1.3, KEYS}
+"""
+
+
 @pytest.mark.parametrize(("basis", "is_open"), [("given", True), ("catalogue", False)])
 def test_the_values_of_a_chain_of_ones_own_need_a_basis(basis: str, is_open: bool, tmp_path: Path) -> None:
-    keys = {
-        "pitch": "19.05 mm",
-        "pin_diameter": "5.72 mm",
-        "bearing_area": "900 mm**2",
-        "breaking_load": "28.9 kN",
-        "mass_per_length": "1.15 kg/m",
-    }
-    text = "  c:\n    kind: roller_chain\n    chain: custom\n    teeth_1: 19\n    links: 100\n    speed: 100 rpm\n    torque: 50 N*m\n"
-    text += "    application_factor: 1.3\n"
-    text += "".join(
-        f"    {key}: {{value: {value}, basis: {basis}, note: the maker's}}\n" for key, value in keys.items()
-    )
+    keys = {"pitch": "19.05 mm", "pin_diameter": "5.72 mm", "bearing_area": "900 mm**2", "breaking_load": "28.9 kN",
+            "mass_per_length": "1.15 kg/m"}  # fmt: skip
+    typed = (f"{key}: {{value: {value}, basis: {basis}, note: the maker's}}" for key, value in keys.items())
+    text = OWN_CHAIN.replace("KEYS", ", ".join(typed))
     assumed = {each.path.rpartition(".")[2] for each in left(tmp_path, HEAD + text) if each.what == "assumed"}
     assert (keys.keys() <= assumed) == is_open and bool(keys.keys() & assumed) == is_open
 
 
 @pytest.mark.parametrize(("basis", "is_open"), [("given", True), ("measured", False)])
 def test_a_property_that_no_range_bounds_needs_a_basis(basis: str, is_open: bool, tmp_path: Path) -> None:
-    text = (EXAMPLE.parent / "circular_knife.yaml").read_text("utf-8")
+    text = EXAMPLE.with_name("circular_knife.yaml").read_text("utf-8")
     given = re.sub(r"shear_resistance: .*", f"shear_resistance: {{value: 42 N/mm**2, basis: {basis}}}", text)
-    assert given != text
-    found = {each.path for each in left(tmp_path, given) if each.what == "assumed"}
-    assert any(path.endswith(".shear_resistance") for path in found) == is_open
+    found = {path for path, what in values(tmp_path, given).items() if what == "assumed"}
+    assert given != text and any(path.endswith(".shear_resistance") for path in found) == is_open
 
 
 LIMITING = "mechanisms.b.bearings.0.limiting_speed"
