@@ -141,12 +141,14 @@ class UsualEnds:
 
     def of(self, design: DesignInput) -> tuple[float, float] | None:
         """Return the least and greatest value (SI) that all its rows call usual, else its first row; None where none is known."""
-        rows = ranges_of(self.config.kinds.get(design.asked.instance, PRESS)).get(design.key, ())
-        known = [ends for row in rows if (ends := self._of_ratio(design, row) if row.of else row.usual)]
+        known = [ends for row in self._rows(design) if (ends := self._of_ratio(design, row) if row.of else row.usual)]
         if not known:
             return None
         low, high = max(low for low, _ in known), min(high for _, high in known)
         return (low, high) if low <= high else known[0]
+
+    def _rows(self, design: DesignInput) -> Sequence[UsualRange]:
+        return ranges_of(self.config.kinds.get(design.asked.instance, PRESS)).get(design.key, ())
 
     def _of_ratio(
         self, design: DesignInput, row: UsualRange, other: DesignInput | None = None, times: float = 1.0
@@ -168,14 +170,12 @@ class UsualEnds:
     def following(self, trials: Sequence[Trial]) -> list[Trial]:
         """Return trials that know which others they follow, by the ratio that bounds them."""
         found = [self._following(each, trials) for each in trials]
-        return [
-            replace(each, reached=each.reached.union(*(o.reached for o in found if each.item.path in o.follows)))
-            for each in found
-        ]
+        felt = {each.item.path: [other.reached for other in found if each.item.path in other.follows] for each in found}
+        return [replace(each, reached=each.reached.union(*felt[each.item.path])) for each in found]
 
     def _following(self, trial: Trial, trials: Sequence[Trial]) -> Trial:
         others = {each.item.path: each.design for each in trials if each is not trial}
-        for row in ranges_of(self.config.kinds.get(trial.design.asked.instance, PRESS)).get(trial.design.key, ()):
+        for row in self._rows(trial.design):
             powers = {path: self._power(trial.design, row, other) for path, other in others.items()}
             follows = {path: power for path, power in powers.items() if power}
             if follows and (ends := self._of_ratio(trial.design, row)):
@@ -184,8 +184,7 @@ class UsualEnds:
 
     def _outermost(self, design: DesignInput) -> tuple[float, float]:
         """Between which ends a value lies, whatever others are: what its declaration allows, and is usual without them."""
-        rows = ranges_of(self.config.kinds.get(design.asked.instance, PRESS)).get(design.key, ())
-        ends = [design.bounds, *(row.usual for row in rows if not row.of)]
+        ends = [design.bounds, *(row.usual for row in self._rows(design) if not row.of)]
         return max(low for low, _ in ends), min(high for _, high in ends)
 
     def _power(self, design: DesignInput, row: UsualRange, other: DesignInput) -> float:
@@ -249,26 +248,19 @@ class TriedOpenValues:
         self.impossible |= {int(rows[row]) for row in {**found.faults, **made.reasons}}
 
 
-@dataclass
 class Effects:
-    """Hold of each check what it is today, and what each trial alone makes of it at both of its ends, shape (trials, 2)."""
+    """Hold of each check what it is today, and what each trial alone makes of it at both of its ends, shape (trials, 2).
 
-    codes: dict[str, Array]
-    margins: dict[str, Array]
-    today: Mapping[str, int]
-    margin: Mapping[str, float]
-    size: Mapping[str, float]
-    impossible: Array
+    Of so many trials that change nothing of a machine, the first one of these.
+    """
 
-    @staticmethod
-    def none(machine: TriedOpenValues, trials: int) -> Effects:
-        """Return the effects of trials that change nothing of a machine."""
-        today = {name: int(codes[0]) for name, codes in machine.codes.items()}
-        margin = {name: float(own[0]) for name, own in machine.margins.items()}
-        size = {name: float(own[0]) for name, own in machine.sizes.items()}
-        codes = {name: np.full((trials, 2), code) for name, code in today.items()}
-        margins = {name: np.full((trials, 2), own) for name, own in margin.items()}
-        return Effects(codes, margins, today, margin, size, np.zeros((trials, 2), dtype=bool))
+    def __init__(self, machine: TriedOpenValues, trials: int) -> None:
+        self.today = {name: int(codes[0]) for name, codes in machine.codes.items()}
+        self.margin = {name: float(own[0]) for name, own in machine.margins.items()}
+        self.size = {name: float(own[0]) for name, own in machine.sizes.items()}
+        self.codes = {name: np.full((trials, 2), code) for name, code in self.today.items()}
+        self.margins = {name: np.full((trials, 2), own) for name, own in self.margin.items()}
+        self.impossible = np.zeros((trials, 2), dtype=bool)
 
     def take(
         self, groups: Sequence[Sequence[int]], trials: Sequence[Trial], tried: TriedOpenValues, first: int
@@ -292,9 +284,8 @@ class Effects:
             for name, codes in self.codes.items():
                 if (after := int(codes[trial, end])) != (before := self.today[name]):
                     template = "with {value} the check {check} turns from {before} to {after}"
-                    return Phrase(
-                        template, value=value, check=_check(name), before=_status(before), after=_status(after)
-                    )
+                    turns = {"before": _status(before), "after": _status(after)}
+                    return Phrase(template, value=value, check=_check(name), **turns)
         return None
 
     def corner(self, name: str, trials: Sequence[Trial]) -> Corner:
@@ -305,9 +296,8 @@ class Effects:
         ends = np.nan_to_num(self.margins[name] - margin, nan=0.0)
         harm, side = ends.min(axis=1), ends.argmin(axis=1)
         order = np.argsort(harm, kind="stable")[: int((harm < -STILL * self.size[name]).sum())]
-        return Corner(
-            name, order, np.array([(each.low, each.high)[end] for each, end in zip(trials, side, strict=True)])
-        )
+        worse = [(each.low, each.high)[end] for each, end in zip(trials, side, strict=True)]
+        return Corner(name, order, np.array(worse))
 
 
 def _check(name: str) -> str:
@@ -376,7 +366,7 @@ class OpenValueTrials:
         """The effects of each trial alone; those that no mechanism follows from in common are tried in one machine."""
         groups = apart([each.reached for each in self.trials])
         tried = self._tried(np.concatenate([self.present[None, :], self._ends(groups)]))
-        effects = Effects.none(tried, len(self.trials))
+        effects = Effects(tried, len(self.trials))
         effects.take(groups, self.trials, tried, 1)
         # which of several makes a machine impossible shows alone
         unclear = [[int(index)] for index in np.flatnonzero(effects.impossible.any(axis=1))]
@@ -401,12 +391,8 @@ class OpenValueTrials:
             failing = [name for name, changes in self._changing(effects, asked).items() if changes]
             if not failing:
                 return found
-            fewer = {
-                (name, k): replace(asked[name], order=asked[name].order[k:])
-                for name in failing
-                for k in LEFT_OUT
-                if k < len(asked[name].order)
-            }
+            pairs = [(name, k) for name in failing for k in LEFT_OUT if k < len(asked[name].order)]
+            fewer = {(name, k): replace(asked[name], order=asked[name].order[k:]) for name, k in pairs}
             changing = self._changing(effects, fewer)
             for name in failing:
                 enough = next((k for k in LEFT_OUT if changing.get((name, k)) is False), len(asked[name].order))
@@ -488,9 +474,7 @@ class OpenValueTrials:
     def _followed(self, values: Array) -> Array:
         """Values with those that follow others where these let them be, shape (machines, trials): ends move, others keep within them."""
         low, high = np.array([(each.low, each.high) for each in self.trials]).T
-        outermost, ratio = (
-            np.array([getattr(each, name) for each in self.trials]).T for name in ("outermost", "ratio")
-        )
+        outermost, ratio = np.array([(each.outermost, each.ratio) for each in self.trials]).transpose(1, 2, 0)
         found = values
         for _ in self.trials:  # what is followed may follow others
             with np.errstate(divide="ignore", invalid="ignore"):

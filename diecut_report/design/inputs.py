@@ -314,16 +314,8 @@ def inputs_of_parts(config: Config) -> dict[str, list[DesignInput]]:
 
 def choices_at_default(config: Config) -> list[DesignInput]:
     """Return all texts and yes/no with a few allowed values that are not given and stand at a default, which is ``written`` here."""
-    found = ((each, _text(config, each.asked)) for each in _own(config, Text, given=False) if each.options)
-    return [replace(each, written=text) for each, text in found if text]
-
-
-def _text(config: Config, asked: Input) -> str:
-    """The text or yes/no of an input as it is typed; empty where it has none."""
-    instance = config.instances[asked.instance]
-    assert instance is not None
-    value = instance.value(asked.key)
-    return "" if value is None else str(value).lower() if isinstance(value, bool) else str(value)
+    own = (each for each in _own(config, Text, given=False) if each.options)
+    return [replace(each, written=str(text)) for each in own if (text := present_value(config, each.asked))]
 
 
 def _own(config: Config, kind: type, *, given: bool) -> Iterator[DesignInput]:

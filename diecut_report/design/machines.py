@@ -123,11 +123,8 @@ def impossible(config: Config, reason: str, told: str = "") -> UserError:
 
 def quantities(config: Config) -> dict[str, ResultColumn]:
     """Return all numbers that a machine gives, with their units, by name."""
-    return {
-        column.name: column
-        for column in columns_of(config)
-        if column.kind in ("float", "int") and CHECKS not in column.name
-    }
+    numbers = (each for each in columns_of(config) if each.kind in ("float", "int"))
+    return {each.name: each for each in numbers if CHECKS not in each.name}
 
 
 def narrowed(config: Config, names: Iterable[str]) -> Config:

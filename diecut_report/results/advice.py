@@ -25,7 +25,7 @@ from diecut_report.mechanism.steps.table_steps import si_values
 from diecut_report.quantities.formatting import number_text, outward, with_unit
 from diecut_report.results.mechanism_record import KeyChangeRecord
 from diecut_report.results.record import Relation, Value
-from diecut_report.results.trials import LEVELS, CheckTrials, Judge, PossibleTrials, Trials, VariedNumber
+from diecut_report.results.trials import LEVELS, Judge, Trials, VariedNumber
 from diecut_report.text.phrases import Phrase, joined, named, phrase
 
 LARGEST_FACTOR = 50.0  # by which an input is changed at most
@@ -123,7 +123,7 @@ class Advisor:
         if check.advise in self._common and not kept:
             return self._common[check.advise]
         alike = [each for each in self.failing if each.advise == check.advise]
-        trials = CheckTrials(self.calc, check.index, self.judge, check, self.held, alike, kept=kept)
+        trials = Trials(self.calc, self.judge, check, self.held, alike, kept)
         found = _ways(trials, check.advise)
         found = [way for way in found if not way.broken] or found[:1]
         if check.index is None and not kept and all(way.level == LEVELS - 1 for way in found):
@@ -136,7 +136,7 @@ def possible_ways(mechanism: Mechanism, inputs: Mapping[str, Any], key: str, jud
     calc = Calculation(mechanism, with_sampled_curves(mechanism, inputs), 1)
     required = (step for _, step in mechanism.active(calc.given) if isinstance(step, Require) and step.key == key)
     wanted = dict.fromkeys(way for step in required for way in step.advise)
-    return _ways(PossibleTrials(calc, None, judge), wanted)
+    return _ways(Trials(calc, judge, held=mechanism.checks), wanted)
 
 
 def _ways(trials: Trials, wanted: Iterable[AdviceWay]) -> list[Way]:

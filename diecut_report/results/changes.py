@@ -45,8 +45,8 @@ def changes(old: ResultsRecord, new: ResultsRecord) -> ChangesRecord:
         new=_document(new),
         mechanisms=list(_mechanisms(old.mechanisms, new.mechanisms)),
         checks=sorted(_checks(old, new), key=_check_order),
-        inputs=sorted(_rows(_inputs(old, new), _inputs(new, old)), key=lambda row: (bool(row.follows), -_size(row))),
-        outputs=sorted(_rows(_outputs(old, new), _outputs(new, old)), key=lambda row: (not row.key, -_size(row))),
+        inputs=sorted(_rows(old, new, is_input=True), key=lambda row: (bool(row.follows), -_size(row))),
+        outputs=sorted(_rows(old, new, is_input=False), key=lambda row: (not row.key, -_size(row))),
         code=list(_code(old, new)),
     )
 
@@ -145,28 +145,17 @@ def _check_order(row: ChangedCheckRecord) -> tuple[float, ...]:
 # --- quantities ------------------------------------------------------------------------------------------------------
 
 
-Named = tuple[str, QuantityRecord]
-Sides = tuple[QuantityRecord | None, QuantityRecord | None]
+def _quantities(results: ResultsRecord, other: ResultsRecord, *, is_input: bool) -> dict[str, QuantityRecord]:
+    """The inputs or outputs of the mechanisms that both have, by their paths; of one that came or went that is reported by itself."""
+    found = {row.path: row for row in results.press.fields} if is_input else {}
+    for name in (name for name in results.mechanisms if name in other.mechanisms):
+        own = results.mechanisms[name]
+        found |= {f"{name}.{key}": row for key, row in (own.inputs if is_input else own.outputs).items()}
+    return found
 
 
-def _inputs(results: ResultsRecord, other: ResultsRecord) -> Iterator[Named]:
-    yield from ((row.path, row) for row in results.press.fields)
-    for name, mechanism in _of_both(results, other):
-        yield from ((f"{name}.{key}", row) for key, row in mechanism.inputs.items())
-
-
-def _outputs(results: ResultsRecord, other: ResultsRecord) -> Iterator[Named]:
-    for name, mechanism in _of_both(results, other):
-        yield from ((f"{name}.{key}", row) for key, row in mechanism.outputs.items())
-
-
-def _of_both(results: ResultsRecord, other: ResultsRecord) -> Iterator[tuple[str, MechanismRecord]]:
-    """The mechanisms that both have; of one that came or went that is reported by itself."""
-    return ((name, mechanism) for name, mechanism in results.mechanisms.items() if name in other.mechanisms)
-
-
-def _rows(old: Iterator[Named], new: Iterator[Named]) -> Iterator[ChangedQuantityRecord]:
-    before, after = dict(old), dict(new)
+def _rows(old: ResultsRecord, new: ResultsRecord, *, is_input: bool) -> Iterator[ChangedQuantityRecord]:
+    before, after = _quantities(old, new, is_input=is_input), _quantities(new, old, is_input=is_input)
     for path in dict.fromkeys([*before, *after]):
         pair = before.get(path), after.get(path)
         some = pair[1] or pair[0]

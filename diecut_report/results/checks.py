@@ -62,7 +62,7 @@ def _does_not_exist(calc: Calculation, side: str | float) -> bool:
 
 def not_made(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRecord:
     """Return a check that is not made, in the form of those that are."""
-    demand = _known(calc, check.demand, check.index)
+    demand = _known(calc, check, check.demand)
     display = None if demand is None else ShownRecord(**shown(demand, check_unit(calc, check, [demand])))
     return CheckRecord(
         **_head(check), status="not_checked", demand=demand, limit=None, utilisation=None, message=_message(calc, check, keys),
@@ -79,7 +79,7 @@ def _head(check: Check) -> dict[str, Any]:
 
 def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
     """Return the inputs by which a check would hold because they were typed."""
-    own = {dotted(key) for key in _unfounded_keys(calc, check)}
+    own = set(map(dotted, _unfounded_keys(calc, check)))
     return tuple(name for name in check.founded if name in own)
 
 
@@ -87,17 +87,15 @@ def rests_on_typing(calc: Calculation, check: Check) -> Array:
     """Return of which machines a check would hold because something was typed, shape (variants,)."""
     found = np.zeros(calc.count, dtype=bool)
     for key in _unfounded_keys(calc, check):
-        if dotted(key) in check.founded:
-            found |= calc.unfounded[key]
+        found |= calc.unfounded[key]
     return found
 
 
-def _unfounded_keys(calc: Calculation, check: Check) -> Iterator[KeyPath]:
-    """The inputs without a basis of the part that a check judges."""
+def _unfounded_keys(calc: Calculation, check: Check) -> list[KeyPath]:
+    """The inputs of a check that lack the basis which it asks for, of the part that it judges."""
+    keys = [key for key in calc.unfounded if dotted(key) in check.founded]
     index = check.index
-    for key in calc.unfounded:
-        if index is None or index in key or all(isinstance(part, str) for part in key):
-            yield key
+    return [key for key in keys if index is None or index in key or all(isinstance(part, str) for part in key)]
 
 
 def left_out(calc: Calculation, check: Check, found: JudgedCheck) -> tuple[str, ...]:
@@ -140,7 +138,7 @@ def _message(calc: Calculation, check: Check, keys: tuple[str, ...]) -> str:
     """What is known of either side, and what is not given."""
     known: list[Phrase] = []
     for label, side in ((check.demand_label, check.demand), (check.limit_label, check.limit)):
-        if (value := _known(calc, side, check.index)) is not None:
+        if (value := _known(calc, check, side)) is not None:
             text = with_unit(*shown(value, check_unit(calc, check, [value])).values())
             known.append(Phrase("{label} {value}", label=phrase(label), value=text))
     told: str = Phrase(MISSING[len(keys) > 1, bool(known)], keys=listed(keys), known=known[0] if known else "")
@@ -159,15 +157,14 @@ def _of_partners(calc: Calculation, keys: tuple[str, ...]) -> Iterator[str]:
             yield Phrase(none, kinds=named(partner.kinds, " or "), key=partner.key)
 
 
-def _known(calc: Calculation, side: str | float, index: int | None) -> float | None:
+def _known(calc: Calculation, check: Check, side: str | float) -> float | None:
     """One side of a check as a number in SI, of repeated parts the one that is judged or the greatest; None where it is not known, or a curve."""
     if not isinstance(side, str) or not (side in calc.values or side in calc.inputs):
         return None
-    found: Any = calc[side]
-    if isinstance(found, tuple):  # of parts that do not all have it
-        found = np.array([[np.nan if part is None else part for part in found]], dtype=float)
-    row = np.asarray(found, dtype=float)[0]
-    row = row if index is None or len(row) == 1 else row[[index]]  # what has one number has it for all parts
+    row = _side(calc, check, side)[0]
+    row = (
+        row if check.index is None or len(row) == 1 else row[[check.index]]
+    )  # what has one number has it for all parts
     return float(np.nanmax(row)) if np.isfinite(row).any() else None
 
 
@@ -202,17 +199,13 @@ class JudgedCheck(NamedTuple):
         return found
 
 
-def check_results(calc: Calculation) -> list[CheckRecord]:
-    """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
-    return _results(calc, is_advised=True)
-
-
 def verdicts(calc: Calculation) -> list[CheckRecord]:
     """Return each check as ``check_results``, but without advice: to find that takes longer than all the rest."""
-    return _results(calc, is_advised=False)
+    return check_results(calc, is_advised=False)
 
 
-def _results(calc: Calculation, *, is_advised: bool) -> list[CheckRecord]:
+def check_results(calc: Calculation, *, is_advised: bool = True) -> list[CheckRecord]:
+    """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
     sides = [(check, _there(calc, check)) for check in checks_of(calc)]
     checks = [(check, None if pair is None else _judged(check, *pair)) for check, pair in sides]
     ids = {check.id for check, found in checks if found is not None}

@@ -55,10 +55,6 @@ class LinkedPart:
         given = self.inputs.get(name)
         return numbers_of(given[index] if isinstance(given, tuple) and index is not None else given)
 
-    def count(self, name: str) -> int:
-        """Return how many parts a list has, by one of its keys."""
-        return len(self.inputs.get(name, ()))
-
     def target(self, *key: str | int) -> Target | None:
         """Return what an input refers to by itself; None where it is a value or an expression."""
         found = self.links.get((self.instance.name, *key))
@@ -137,6 +133,10 @@ class Machine:
         """Yield the mechanisms of a kind."""
         return (part for part in self.parts.values() if part.calc.mechanism.kind == kind)
 
+    def parts_of(self, kind: str, key: str) -> Iterator[tuple[LinkedPart, int]]:
+        """Yield the parts of a list, by one of its keys, of each mechanism of a kind."""
+        return ((part, index) for part in self.of(kind) for index in range(len(part.inputs.get(key, ()))))
+
     def is_of(self, name: str, *kinds: str) -> bool:
         """Return whether a name is that of a mechanism of these kinds."""
         return name in self.parts and self.parts[name].calc.mechanism.kind in kinds
@@ -176,45 +176,37 @@ def named_shafts(machine: Machine) -> Iterator[Disagreement]:
     for bearing in machine.of("rolling_bearing"):
         for index, name in enumerate(bearing.inputs.get("bearings.on", ())):
             if name is not None and name not in shafts:
-                template = phrase("is {name}{nearest}; the name of a shaft is needed. Known: {shafts}.")
-                values = {"name": quoted(name), "nearest": nearest(name, shafts), "shafts": ", ".join(shafts) or "–"}
                 yield Disagreement(
-                    bearing, ("bearings", index, "on"), None, (), np.ones(1, dtype=bool), template, values
-                )
+                    bearing, ("bearings", index, "on"), None, (), np.ones(1, dtype=bool),
+                    phrase("is {name}{nearest}; the name of a shaft is needed. Known: {shafts}."),
+                    {"name": quoted(name), "nearest": nearest(name, shafts), "shafts": ", ".join(shafts) or "–"},
+                )  # fmt: skip
 
 
 def seats(machine: Machine) -> Iterator[Disagreement]:
     """A bearing has the bore of the section that it sits on: at its place where it bears the shaft's reaction, else of any."""
-    for bearing in machine.of("rolling_bearing"):
-        for index in range(bearing.count("bearings.name")):
-            bore = bearing.number("bore", index)
-            found = _seat(machine, bearing, index)
-            if bore is None or found is None:
-                continue
-            shaft, side = found
-            diameters, place = shaft.calc.values.get("section_diameter"), shaft.number(side) if side else None
-            if diameters is None:
-                continue
-            there = np.ones(diameters.shape, dtype=bool) if place is None else shaft.sections_at(place)
-            fits = there & ~_differ(diameters, bore[:, None], 0.0, LENGTH)
-            nearest = int(np.argmax(there[0]))
-            seat = diameters[:, nearest]
-            yield Disagreement(
-                bearing, ("bearings", index, "designation"), shaft, ("sections", nearest, "diameter"), (bore > 0) & ~fits.any(axis=1),
-                phrase("names a bearing with the bore {bore}, but its seat on the shaft {shaft} is {seat} thick"),
-                {"bore": (bore, "mm"), "seat": (seat, "mm"), "shaft": shaft.instance.name},
-            )  # fmt: skip
+    for bearing, index in machine.parts_of("rolling_bearing", "bearings.name"):
+        bore, (shaft, side) = bearing.number("bore", index), _seat(machine, bearing, index) or (None, "")
+        diameters = shaft.calc.values.get("section_diameter") if shaft else None
+        if bore is None or shaft is None or diameters is None:
+            continue
+        place = shaft.number(side) if side else None
+        there = np.ones(diameters.shape, dtype=bool) if place is None else shaft.sections_at(place)
+        fits = there & ~_differ(diameters, bore[:, None], 0.0, LENGTH)
+        nearest = int(np.argmax(there[0]))
+        yield Disagreement(
+            bearing, ("bearings", index, "designation"), shaft, ("sections", nearest, "diameter"), (bore > 0) & ~fits.any(axis=1),
+            phrase("names a bearing with the bore {bore}, but its seat on the shaft {shaft} is {seat} thick"),
+            {"bore": (bore, "mm"), "seat": (diameters[:, nearest], "mm"), "shaft": shaft.instance.name},
+        )  # fmt: skip
 
 
 def _seat(machine: Machine, bearing: LinkedPart, index: int) -> tuple[LinkedPart, str] | None:
     """The shaft that a bearing sits on, with the key of its place there; no key where any section may be meant."""
     target = bearing.target("bearings", index, "radial_force")
-    if (
-        target
-        and machine.is_of(target.instance, "shaft")
-        and str(target.result).removesuffix("_max") in ("reaction_a", "reaction_b")
-    ):
-        return machine.parts[target.instance], str(target.result).removesuffix("_max").replace("reaction", "bearing")
+    result = str(target.result).removesuffix("_max") if target else ""
+    if target and machine.is_of(target.instance, "shaft") and result in ("reaction_a", "reaction_b"):
+        return machine.parts[target.instance], result.replace("reaction", "bearing")
     named = bearing.inputs.get("bearings.on", ())
     name = (named[index] if named else None) or bearing.inputs["bearings.name"][index]
     return (machine.parts[name], "") if machine.is_of(name, "shaft") else None
@@ -240,14 +232,12 @@ def keys(machine: Machine) -> Iterator[Disagreement]:
 
 def pitch_radii(machine: Machine) -> Iterator[Disagreement]:
     """A gear of a shaft, and the drive's pinion, has the pitch radius and the helix of the pair of gears that takes the same torque."""
-    for shaft in machine.of("shaft"):
-        for index in range(shaft.count("loads.name")):
-            target = shaft.target("loads", index, "torque")
-            radius = shaft.number("loads.gear.pitch_radius", index)
-            if target and radius is not None:
-                pairs = machine.gears.get((target.instance, target.result), [])
-                yield from _radius(shaft, ("loads", index, "gear", "pitch_radius"), radius, pairs)
-                yield from _helix(shaft, index, pairs)
+    for shaft, index in machine.parts_of("shaft", "loads.name"):
+        target, radius = shaft.target("loads", index, "torque"), shaft.number("loads.gear.pitch_radius", index)
+        if target and radius is not None:
+            pairs = machine.gears.get((target.instance, target.result), [])
+            yield from _radius(shaft, ("loads", index, "gear", "pitch_radius"), radius, pairs)
+            yield from _helix(shaft, index, pairs)
     for drive in machine.of("cylinder_drive"):
         pinion = drive.number("pinion_radius")
         if pinion is not None:
@@ -322,10 +312,9 @@ def speeds(machine: Machine) -> Iterator[Disagreement]:
             yield from _speed(machine, shaft, ("speed",), _of(shaft.number("turns_per_cycle")))
     for key in machine.of("parallel_key"):
         yield from _speed(machine, key, ("cycle_speed",), np.ones(1))
-    for bearing in machine.of("rolling_bearing"):
-        for index in range(bearing.count("bearings.name")):
-            yield from _speed(machine, bearing, ("bearings", index, "cycle_speed"), np.ones(1))
-            yield from _speed_of_shaft(machine, bearing, index)
+    for bearing, index in machine.parts_of("rolling_bearing", "bearings.name"):
+        yield from _speed(machine, bearing, ("bearings", index, "cycle_speed"), np.ones(1))
+        yield from _speed_of_shaft(machine, bearing, index)
 
 
 def _speed(
@@ -362,28 +351,26 @@ def _speed_of_shaft(machine: Machine, bearing: LinkedPart, index: int) -> Iterat
 
 def axial_forces(machine: Machine) -> Iterator[Disagreement]:
     """The bearing that locates a shaft bears what pushes the shaft along its axis."""
-    for bearing in machine.of("rolling_bearing"):
-        for index in range(bearing.count("bearings.name")):
-            shaft, side = _seat(machine, bearing, index) or (None, "")
-            if shaft is None or side != f"bearing_{shaft.inputs['locating']}":
-                continue
-            own, push = bearing.number("axial_greatest", index), shaft.number("axial_reaction_max")
-            if own is not None and push is not None:
-                yield Disagreement(
-                    bearing, ("bearings", index, "axial_force"), shaft, ("locating",), own < push * (1 - RATIO),
-                    phrase("is at most {own}, but the shaft {shaft}, which this bearing locates, is pushed along its axis by up to {push}; "
-                    "refer to its axial_reaction"),
-                    {"own": (own, "N"), "push": (push, "N"), "shaft": shaft.instance.name},
-                )  # fmt: skip
+    for bearing, index in machine.parts_of("rolling_bearing", "bearings.name"):
+        shaft, side = _seat(machine, bearing, index) or (None, "")
+        if shaft is None or side != f"bearing_{shaft.inputs['locating']}":
+            continue
+        own, push = bearing.number("axial_greatest", index), shaft.number("axial_reaction_max")
+        if own is not None and push is not None:
+            yield Disagreement(
+                bearing, ("bearings", index, "axial_force"), shaft, ("locating",), own < push * (1 - RATIO),
+                phrase("is at most {own}, but the shaft {shaft}, which this bearing locates, is pushed along its axis by up to {push}; "
+                "refer to its axial_reaction"),
+                {"own": (own, "N"), "push": (push, "N"), "shaft": shaft.instance.name},
+            )  # fmt: skip
 
 
 def sprockets(machine: Machine) -> Iterator[Disagreement]:
     """The chain of a conveyor has the teeth and the pitch of the transport's sprocket, whose motion it takes."""
     for chain in machine.of("roller_chain"):
         names = {each.instance for each in chain.curves()}
-        for transport in (
-            machine.parts[n] for n in names if machine.is_of(n, "cam_gear_transport", "geneva_transport")
-        ):
+        known = (name for name in names if machine.is_of(name, "cam_gear_transport", "geneva_transport"))
+        for transport in map(machine.parts.__getitem__, known):
             for own_key, other_key, display in (("teeth_1", "sprocket_teeth", "1"), ("pitch", "chain_pitch", "mm")):
                 own, other = chain.number(own_key), transport.number(other_key)
                 if own is not None and other is not None:
@@ -416,9 +403,8 @@ def train_speeds(machine: Machine) -> Iterator[Disagreement]:
     for train in machine.of("drive_train"):
         turned = train.number("torque_curve_turns")
         if turned is not None:
-            asked = numbers_of(
-                train.inputs["output_speed"]
-            )  # what the pulleys make of it is another result of this name
+            # what the pulleys make of it is another result of this name
+            asked = numbers_of(train.inputs["output_speed"])
             yield from _speed(machine, train, ("output_speed",), turned, asked)
 
 

@@ -69,20 +69,19 @@ class _WholeMachine:
         known: AdvisedCheck | None = calc.advised.get(check.id) if calc else None
         if calc is None or known is None:
             return check
-        ways = [fitting for way in known.ways for fitting in self._holding(name, check.id, way)]
+        ways = self._holding(name, check.id, known.ways)
         if not ways and (kept := self._not_alone(name, known.ways)):
-            ways = [fitting for way in known.again(kept) for fitting in self._holding(name, check.id, way)]
-        if not ways:
-            grown = [self._with_bearings(name, check.id, way) for way in known.ways] or [
-                self._larger_bearing(name, check.id)
-            ]
-            ways = [way for way in grown if way]
+            ways = self._holding(name, check.id, known.again(kept))
+        if not ways and known.ways:
+            ways = list(filter(None, (self._with_bearings(name, check.id, way) for way in known.ways)))
+        elif not ways:
+            ways = list(filter(None, [self._larger_bearing(name, check.id)]))
         made = check.with_(**AdvisedCheck(known.finding, ways).fields) if ways != known.ways else check
-        words = dict.fromkeys(self._origins(name, (change for way in ways for change in way.changes)))
+        changes = [change for way in ways for change in way.changes]
         founded = next(each.founded for each in checks_of(calc) if each.id == check.id)
-        changed = (change.key for way in ways for change in way.changes if not change.mechanism)
-        words |= dict.fromkeys(Phrase(FOUNDED, key=key) for key in changed if dotted(_path(key)) in founded)
-        words |= dict.fromkeys(self._of_bearings(name, (change for way in ways for change in way.changes)))
+        own = (each.key for each in changes if not each.mechanism and dotted(_path(each.key)) in founded)
+        words = dict.fromkeys(self._origins(name, changes)) | dict.fromkeys(Phrase(FOUNDED, key=key) for key in own)
+        words |= dict.fromkeys(self._of_bearings(name, changes))
         return made.with_(message=joined([made.message, *words], " ")) if words else made
 
     def _origins(self, name: str, changes: Iterable[KeyChangeRecord]) -> Iterator[Phrase]:
@@ -108,11 +107,9 @@ class _WholeMachine:
                 template = "Give {keys} of {designation}, too: what is typed there is of the former bearing."
                 yield Phrase(template, keys=named(keys, " and "), designation=str(change.value))
 
-    def _holding(self, name: str, check: str, way: Way) -> Iterator[Way]:
-        """Yield a way as far as the machine allows it, and the check holds with it when all that is made of the parts follows."""
-        fitting = list(self._fitting(name, check, way))
-        further = None if fitting else self._further(name, check, way)
-        yield from fitting or ([further] if further else [])
+    def _holding(self, name: str, check: str, ways: Iterable[Way]) -> list[Way]:
+        """The ways as far as the machine allows them, with which the check holds when all that is made of the parts follows."""
+        return list(filter(None, (self._fitting(name, check, way) or self._further(name, check, way) for way in ways)))
 
     def _further(self, name: str, check: str, way: Way) -> Way | None:
         """A way of a single number that goes further, as all that follows from it makes the check harder to hold; None where none is found."""
@@ -125,8 +122,8 @@ class _WholeMachine:
         relation = "equal" if isinstance(change.value, list) else change.relation
         for share in FURTHER:
             value = outward(nearest + share * (nearest - present), nearest > present, DIGITS)
-            [tried] = changes = [change.with_(relation=relation, value=value)]
-            if self._suits(name, check, changes, [value]):
+            tried = change.with_(relation=relation, value=value)
+            if self._suits(name, check, [tried]):
                 return replace(way, changes=[tried])
         return None
 
@@ -155,7 +152,7 @@ class _WholeMachine:
             changes = [
                 change.with_(relation="equal", value=_shown(grown[change.key], change.unit)) for change in way.changes
             ]
-            if self._is_sound(name, check, [*changes, *with_them]):
+            if self._suits(name, check, [*changes, *with_them], is_sound=True):
                 return replace(way, changes=[*changes, *with_them])
         return None
 
@@ -168,15 +165,11 @@ class _WholeMachine:
             return None
         part = next((each for shaft in parts.shafts.values() for each in shaft.parts if each.path == place[:-1]), None)
         tried = [*(_stronger(parts, name, part) if part else _in_place(parts, name, place))]
-        strongest = next((each for each in reversed(tried) if self._allows(name, each, _values(each))), None)
+        strongest = next((each for each in reversed(tried) if self._allows(name, each)), None)
         # what the strongest one does not mend, such as a speed or a swing, none does
-        if strongest is None or not self._is_sound(name, check, strongest, is_sound=False):
+        if strongest is None or not self._suits(name, check, strongest):
             return None
-        return next((Way(changes, 0) for changes in tried if self._is_sound(name, check, changes)), None)
-
-    def _is_sound(self, name: str, check: str, changes: Sequence[KeyChangeRecord], *, is_sound: bool = True) -> bool:
-        """Whether the parts agree with changes to one value each, a check holds with them, and no other of its mechanism fails by them."""
-        return self._suits(name, check, changes, _values(changes), is_sound=is_sound)
+        return next((Way(changes, 0) for changes in tried if self._suits(name, check, changes, is_sound=True)), None)
 
     def _present(self, name: str, change: KeyChangeRecord) -> float | None:
         """The value that a key has today, in the unit of its change."""
@@ -206,66 +199,48 @@ class _WholeMachine:
     def _not_alone(self, name: str, ways: Iterable[Way]) -> frozenset[str]:
         """Which numbers that several ways change together the machine does not allow by themselves, such as the seat of a bearing."""
         changes = [change for way in ways if len(way.changes) > 1 for change in way.changes]
-        alone = {
-            change.key: self._allows(name, [change], [change.value])
-            for change in changes
-            if not isinstance(change.value, list)
-        }
-        return (
-            frozenset(key for key, is_allowed in alone.items() if not is_allowed)
-            if any(alone.values())
-            else frozenset()
-        )
+        alone = {each.key: self._allows(name, [each]) for each in changes if not isinstance(each.value, list)}
+        refused = (key for key, is_allowed in alone.items() if not is_allowed)
+        return frozenset(refused) if any(alone.values()) else frozenset()
 
-    def _fitting(self, name: str, check: str, way: Way) -> Iterator[Way]:
-        """Yield a way as far as the machine allows it: of several values of one change those that it does."""
-        if len(way.changes) > 1 or not isinstance(way.changes[0].value, list):
-            values = [each.value[0] if isinstance(each.value, list) else each.value for each in way.changes]
-            if self._suits(name, check, way.changes, values):
-                yield way
-            return
+    def _fitting(self, name: str, check: str, way: Way) -> Way | None:
+        """A way as far as the machine allows it: of several values of one change those that it does; None where it allows none."""
+        single = [list(_single(change)) for change in way.changes]
+        if len(single) > 1 or len(single[0]) == 1:
+            return way if self._suits(name, check, [first for first, *_ in single]) else None
+        values = [each.value for each in single[0] if self._suits(name, check, [each])]
+        if not values:
+            return None
         [change] = way.changes
-        values = [each for each in change.value if self._suits(name, check, [change], [each])]  # type: ignore[union-attr]
-        if len(values) > 1:
-            yield replace(way, changes=[change.with_(value=values)])
-        elif values:
-            yield replace(way, changes=[change.with_(relation="equal", value=values[0])])
+        fitting = {"value": values} if len(values) > 1 else {"relation": "equal", "value": values[0]}
+        return replace(way, changes=[change.with_(**fitting)])
 
-    def _suits(
-        self,
-        name: str,
-        check: str,
-        changes: Sequence[KeyChangeRecord],
-        values: Sequence[Value],
-        *,
-        is_sound: bool = False,
-    ) -> bool:
-        """Whether the parts of the machine agree with some values, and a check holds with them."""
+    def _suits(self, name: str, check: str, changes: Sequence[KeyChangeRecord], *, is_sound: bool = False) -> bool:
+        """Whether the parts of the machine agree with changes to one value each, and a check holds with them.
+
+        ``is_sound``: and no other check of its mechanism fails by them.
+        """
         self.tell(name)
-        if not self._allows(name, changes, values):
+        if not self._allows(name, changes):
             return False
-        typed = self._typed(name, changes, values)
         # over what calculates a key, too, its value may be typed
-        own = {_node(name, change): (value, change.unit) for change, value in zip(changes, values, strict=True)}
-        over = {node: given for node, given in own.items() if self._beginning(node) is None}
+        over = {node: typed for node, typed in _given(name, changes).items() if self._beginning(node) is None}
+        typed = self._typed(name, changes)
         made = self._made_anew(typed) | self._felt(name, typed | over)
         return not made or self._holds(name, check, made, is_sound=is_sound)
 
-    def _allows(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> bool:
-        """Whether the parts of the machine agree with some values of a mechanism's keys; of a key that is calculated nothing is known."""
-        typed, parts = self._typed(name, changes, values), self.run.config.parts
+    def _allows(self, name: str, changes: Iterable[KeyChangeRecord]) -> bool:
+        """Whether the parts of the machine agree with changes of a mechanism's keys; of a key that is calculated nothing is known."""
+        typed, parts = self._typed(name, changes), self.run.config.parts
         made = self._made_anew(typed)
         if parts and made and self._contradicts(parts, made):
             return False
         return not self._disagrees({node: given for node, given in typed.items() if node not in made})
 
-    def _typed(self, name: str, changes: Iterable[KeyChangeRecord], values: Iterable[Value]) -> Typed:
-        """Values of a mechanism's keys by where they are typed."""
-        typed: Typed = {}
-        for change, value in zip(changes, values, strict=True):
-            if (begin := self._beginning(_node(name, change))) is not None:
-                typed[begin] = value, change.unit
-        return typed
+    def _typed(self, name: str, changes: Iterable[KeyChangeRecord]) -> Typed:
+        """The values of changes by where they are typed."""
+        begun = {self._beginning(node): given for node, given in _given(name, changes).items()}
+        return {node: given for node, given in begun.items() if node is not None}
 
     def _made_anew(self, typed: Typed) -> Typed:
         """Those that stand at the parts, with which all that is made of them is made anew."""
@@ -382,19 +357,8 @@ class _ChangedRun(Run):
             return super()._made(instance, mechanism, block)
         return known
 
-    def _printed(self, instance: Instance, calculation: Calculation) -> None:
-        """Nothing is printed of it."""
-
     def _agree(self) -> None:
         """What the parts are refused for is known before."""
-
-    def _comparisons(self) -> None:
-        """A comparison has no checks."""
-
-
-def _values(changes: Iterable[KeyChangeRecord]) -> list[Value]:
-    """The values of changes to one value each."""
-    return [change.value for change in changes if not isinstance(change.value, list)]
 
 
 def _of_bore(part: ShaftPart, bore: float) -> Iterator[str]:
@@ -451,6 +415,17 @@ def _whole(key: str, size: float) -> float:
 
 def _shown(value: float, own: str) -> float:
     return float(f"{unit(own).from_si(value):.12g}")
+
+
+def _single(change: KeyChangeRecord) -> Iterator[KeyChangeRecord]:
+    """Yield a change to each of its values."""
+    for value in change.value if isinstance(change.value, list) else [change.value]:
+        yield change.with_(value=value)
+
+
+def _given(name: str, changes: Iterable[KeyChangeRecord]) -> Typed:
+    """The values of changes to one value each, by the inputs that they change."""
+    return {_node(name, each): (each.value, each.unit) for each in changes if not isinstance(each.value, list)}
 
 
 def _node(name: str, change: KeyChangeRecord) -> Node:

@@ -20,8 +20,8 @@ from diecut_report.mechanism.inputs import POINTS, Quantity, Varying, flatten
 from diecut_report.mechanism.names import SI
 from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
-from diecut_report.results.carrying_parts import accepted, counted, unrated
 from diecut_report.results.conclusion import LEFT, judged, summary, unsettled
+from diecut_report.results.drive_line import accepted, counted, unrated
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, SummaryRecord
 from diecut_report.results.origins import as_founded, assumed, at_default, input_path, is_default

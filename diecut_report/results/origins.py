@@ -35,20 +35,15 @@ from diecut_report.text.phrases import Phrase, phrase
 # What a reference takes over of a calculated mechanism.
 
 
-class Unavailable(LookupError):
-    """Stand for a value that a broken or skipped mechanism would have given."""
-
-
-class Valueless(ValueError):
-    """Stand for an expression without a value; the text says why."""
-
-
 class Absent(LookupError):
-    """Stand for a value that this machine does not have; the text says so."""
+    """Stand for a value that this machine does not have, or an expression without one; the text says so."""
 
 
 class Withheld(LookupError):
-    """Stand for a value that is not calculated, since the machine does not meet what it stands on; the text says what is not met."""
+    """Stand for a value that is not calculated, since the machine does not meet what it stands on; the text says what is not met.
+
+    Without a text a broken or skipped mechanism would have given it.
+    """
 
 
 def require_facts(calc: Calculation, name: str, target: Target) -> None:

@@ -41,8 +41,6 @@ from diecut_report.results.origins import (
     Absent,
     Bases,
     Provenance,
-    Unavailable,
-    Valueless,
     Withheld,
     input_path,
     origin_of,
@@ -166,7 +164,7 @@ def compute(config: Config, tell: Tell) -> Run:
 
     ``tell`` is called with the name of each mechanism before it is calculated.
     """
-    return require_possible(Run(config, tell))
+    return require_possible(ReportedRun(config, tell))
 
 
 def require_possible(run: R) -> R:
@@ -209,10 +207,7 @@ class Run:
             self._refuse(each.problem, each.wrong)
 
     def _comparisons(self) -> None:
-        cases = list(found(self.calculations)) if not self.problems else []
-        for case in cases[:MAX_COMPARISONS]:
-            self._compare(case)
-        self.left_out = [case.name for case in cases[MAX_COMPARISONS:]]
+        """Compare mechanisms, where their comparisons are asked for."""
 
     def _value(self, node: Node, target: Target) -> None:
         instance = self.config.instances[str(node[0])]
@@ -221,16 +216,13 @@ class Run:
             values = [self._term(single) for single in target.single]
             value = self._computed(target, values) if target.expression else values[0]
             self.values[node] = self._derived(instance, node, target, value) if target.formula else value
-        except (Unavailable, Withheld) as fault:  # what needs it is skipped; what holds it against others does without
-            if node[1] in instance.derived:
-                self.values[node] = None
-            elif isinstance(fault, Withheld):
-                self.withheld[node] = str(fault)
-        except (Absent, Valueless) as fault:
+        except (Absent, Withheld) as fault:  # what needs it is skipped; what holds it against others does without
             if node[1] in instance.derived:  # a partner does not have it: what needs it is not checked
                 self.values[node] = None
-                return
-            self.problems.append(instance.place.problem(node[1:], str(fault)))
+            elif isinstance(fault, Absent):
+                self.problems.append(instance.place.problem(node[1:], str(fault)))
+            elif words := str(fault):
+                self.withheld[node] = words
 
     def _term(self, target: Target) -> Any:
         try:
@@ -239,14 +231,14 @@ class Run:
             raise Absent(Phrase("{path} {absent}", path=target.told, absent=absent)) from None
 
     def _computed(self, target: Target, values: list[SI]) -> SI:
-        """What an expression gives; Valueless in words where that is nothing."""
+        """What an expression gives; Absent in words where that is nothing."""
         expression = target.expression
         assert expression is not None
         known = {name: given.value for name, given in zip(expression.names, values, strict=True)}
         try:
             return SI(expression.known_value(known), str(target.unit), expression.text)
         except ConditionError as fault:
-            raise Valueless(fault.words) from None
+            raise Absent(fault.words) from None
 
     def _derived(self, instance: Instance, node: Node, target: Target, value: SI) -> SI:
         """A default of the press that is not the press's field itself."""
@@ -257,16 +249,16 @@ class Run:
                 return SI(self._number(target.formula(value.value)), meta.parsed_unit.si, target.path)
         except Exception as cause:
             self._broke(instance, cause)
-            raise Unavailable(target.path) from cause
+            raise Withheld from cause
 
     def _referred(self, target: Target) -> Any:
         if target.result is not None or target.is_broken:
             if target.instance not in self.calculations:
-                raise Unavailable(target.instance)
+                raise Withheld
             return self._output(self.calculations[target.instance], str(target.result), target)
         node = (target.instance, *target.key)
         if node in self.config.links and node not in self.values:
-            raise Unavailable(target.instance)
+            raise Withheld
         instance = self.config.instances[target.instance]
         assert instance is not None, "a broken mechanism's links are marked as broken"
         return self._input(instance, target, self.values.get(node))
@@ -413,6 +405,29 @@ class Run:
         return ChosenUnits(instances.by_si(chosen), instances.by_id(chosen, name))
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        """Make the results of a mechanism, where these are asked for."""
+
+    def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
+        self.calculations.pop(instance.name, None)
+        self.errors[instance.name] = PluginError(words or said(cause), self.config.kinds[instance.name], instance.name)
+        self.errors[instance.name].__cause__ = cause
+
+    @cached_property
+    def bases(self) -> Bases:
+        """Return what the values of the run rest on."""
+        return Bases(self.config, self.calculations)
+
+
+class ReportedRun(Run):
+    """Go through the graph, and make all results of it, comparisons too."""
+
+    def _comparisons(self) -> None:
+        cases = list(found(self.calculations)) if not self.problems else []
+        for case in cases[:MAX_COMPARISONS]:
+            self._compare(case)
+        self.left_out = [case.name for case in cases[MAX_COMPARISONS:]]
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
         self._store(instance, mechanism_results(calculation, self._provenance(instance)))
 
     def _store(self, instance: Instance, found: MechanismRecord) -> None:
@@ -436,16 +451,6 @@ class Run:
         except Exception as cause:
             self.errors[case.name] = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
             self.errors[case.name].__cause__ = cause
-
-    def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
-        self.calculations.pop(instance.name, None)
-        self.errors[instance.name] = PluginError(words or said(cause), self.config.kinds[instance.name], instance.name)
-        self.errors[instance.name].__cause__ = cause
-
-    @cached_property
-    def bases(self) -> Bases:
-        """Return what the values of the run rest on."""
-        return Bases(self.config, self.calculations)
 
     def _provenance(self, instance: Instance) -> dict[str, Provenance]:
         found, bases = {}, self.bases
@@ -488,15 +493,12 @@ class _FeasibilityRun(Run):
             super()._mechanism(name)
 
     def _referred(self, target: Target) -> Any:
-        """Return what a reference stands for; Unavailable where the value there has a problem of its own, for it cannot be read."""
+        """Return what a reference stands for; Withheld where the value there has a problem of its own, for it cannot be read."""
         path = input_path(target.instance, target.key)
         faulty = (problem.path for problem in self.known if target.instance in self.wrong)
         if any(_is_within(each, path) or _is_within(path, each) for each in faulty):
-            raise Unavailable(target.instance)
+            raise Withheld
         return super()._referred(target)
-
-    def _comparisons(self) -> None:
-        """A comparison needs results."""
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         inputs = flatten(block)
@@ -514,9 +516,6 @@ class _FeasibilityRun(Run):
             return calculate(mechanism, inputs, 1, needed(mechanism, given, names))
         except Impossible:  # its words may name what these steps do not know
             return calculate(mechanism, inputs)
-
-    def _printed(self, instance: Instance, calculation: Calculation) -> None:
-        """Nothing is printed."""
 
 
 def _is_within(path: str, home: str) -> bool:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -62,35 +61,84 @@ def parts_of(value: Any) -> list[Any]:
     return [] if value is None else list(value[0] if isinstance(value, np.ndarray) else value)
 
 
-@dataclass(frozen=True)
-class Trials(ABC):
-    """Try other inputs on the machine of a calculation; ``part`` is the only part of a list whose inputs are changed, None for all.
+@lru_cache(maxsize=1024)
+def _required(mechanism: Mechanism, given: frozenset[str], keys: tuple[str, ...]) -> frozenset[str]:
+    """What conditions take that follow from some inputs: without it they are not judged."""
+    conditions = (taken(step) for _, step in mechanism.active(given) if isinstance(step, Require | Clash))
+    return frozenset().union(
+        *(names for names in conditions if not inputs_of(mechanism, given, tuple(sorted(names))).isdisjoint(keys))
+    )
 
-    Numbers at the paths ``kept`` stay as they are.
+
+@lru_cache(maxsize=4096)
+def inputs_of(mechanism: Mechanism, given: frozenset[str], names: tuple[str, ...]) -> frozenset[str]:
+    """Return the inputs that quantities follow from, with what stands between."""
+    ids = needed(mechanism, given, names)
+    steps = [step for _, step in mechanism.active(given) if step.id in ids]
+    found = set(names).union(*(taken(step) | {*getattr(step, "holds", ())} for step in steps))
+    return frozenset(name.removeprefix("inputs.") for name in found)
+
+
+@dataclass(frozen=True)
+class Trials:
+    """Try inputs with which a failing check holds, and others of its mechanism; without a ``check``: with which its machine is possible.
+
+    ``held`` are the checks that hold, ``failing`` those that fail and name the same keys. Numbers at the paths ``kept`` stay as they are.
     """
 
     calc: Calculation
-    part: int | None
     judge: Judge
-    kept: frozenset[str] = field(default=frozenset(), kw_only=True)
+    check: Check | None = None
+    held: Sequence[Check] = ()
+    failing: Sequence[Check] = ()
+    kept: frozenset[str] = frozenset()
 
-    @abstractmethod
     def hold(self, changed: Mapping[str, Any], count: int) -> Array | None:
         """Return for so many machines whether what is asked holds, by level: shape (LEVELS, machines).
 
         None where a machine is among these that cannot be proved, or none is possible.
         """
+        held, failing = (self._affected(tuple(changed), checks) for checks in (self.held, self.failing))
+        made = recalculated(self.calc, changed, count, self._names(changed, [*held, *failing]))
+        if made is None:
+            return None
+        there, holds = self.judge(made, self.check) if self.check else (True, np.ones(count, dtype=bool))
+        own = there & holds
+        own[list(made.flaws)] = False
+        sound = own & self._none_fails(made, held)
+        return np.array([own, sound, sound & self._none_fails(made, failing)])
 
-    @abstractmethod
     def broken(self, changed: Mapping[str, Any]) -> tuple[str, ...]:
-        """Return the titles of the checks that held and fail on a single machine with other inputs."""
+        """Return the titles of the checks that held and fail on a single machine with other inputs; of what was not possible none."""
+        if self.check is None:
+            return ()
+        checks = self._affected(tuple(changed), self.held)
+        made = recalculated(self.calc, changed, 1, self._names(changed, checks))
+        return () if made is None else tuple(check.title for check in checks if not self._none_fails(made, [check])[0])
 
-    def none_fails(self, made: Calculation, checks: Sequence[Check]) -> Array:
-        """Return the machines of which no check fails."""
+    def _none_fails(self, made: Calculation, checks: Sequence[Check]) -> Array:
+        """The machines of which no check fails."""
         found = np.ones(made.count, dtype=bool)
         for there, holds in (self.judge(made, check) for check in checks):
             found &= ~there | holds
         return found
+
+    def _affected(self, keys: tuple[str, ...], checks: Sequence[Check]) -> list[Check]:
+        """The checks that follow from one of these inputs; all where other steps may be made."""
+        if self._needs_all(keys):
+            return list(checks)
+        mechanism, given = self.calc.mechanism, self.calc.given
+        return [each for each in checks if not inputs_of(mechanism, given, (*each.named, *each.needs)).isdisjoint(keys)]
+
+    def _names(self, changed: Mapping[str, Any], checks: Sequence[Check]) -> list[str] | None:
+        """What must be calculated to judge the checks; None for all, as curves are judged when all is known."""
+        names = {name for each in (self.check, *checks) if each for name in each.named}
+        names |= _required(self.calc.mechanism, self.calc.given, tuple(changed))
+        return None if self._needs_all(changed) or names & self.calc.curves.keys() else sorted(names)
+
+    def _needs_all(self, keys: Iterable[str]) -> bool:
+        """Whether steps may be switched on or off: in a machine that was not possible, by what was not given, or by a text."""
+        return self.check is None or any(key not in self.calc.inputs or self.texts(key) for key in keys)
 
     def may_be_given(self, key: str) -> bool:
         """Return whether an input is given, or may be given beside what is: not in place of what else was chosen."""
@@ -107,6 +155,7 @@ class Trials(ABC):
         meta, value = self.calc.meta.get(key), self.calc.inputs.get(key)
         if not isinstance(meta, Quantity) or not isinstance(value, np.ndarray | tuple | None):
             return []
+        only = self.check.index if self.check else None
         meta, home = _possible(self.calc, key, meta), list_inputs(self.calc.mechanism.inputs).get(key)
         if home is None:
             present = None if value is None else float(np.ravel(value)[0])
@@ -115,7 +164,7 @@ class Trials(ABC):
             found = [
                 VariedNumber(key, meta, i, float(part), f"{home}.{i}.{key.removeprefix(f'{home}.')}")
                 for i, part in enumerate(parts_of(value))
-                if isinstance(part, int | float | np.number) and self.part in (None, i)
+                if isinstance(part, int | float | np.number) and only in (None, i)
             ]
         return [each for each in found if each.path not in self.kept]
 
@@ -153,88 +202,3 @@ class Trials(ABC):
             row = found.get(place.key) or (tuple(known[0].tolist()) if isinstance(known, np.ndarray) else tuple(known))
             found[place.key] = (*row[: place.part], values[:, column], *row[place.part + 1 :])
         return found
-
-
-@lru_cache(maxsize=1024)
-def _required(mechanism: Mechanism, given: frozenset[str], keys: tuple[str, ...]) -> frozenset[str]:
-    """What conditions take that follow from some inputs: without it they are not judged."""
-    conditions = (taken(step) for _, step in mechanism.active(given) if isinstance(step, Require | Clash))
-    return frozenset().union(
-        *(names for names in conditions if not inputs_of(mechanism, given, tuple(sorted(names))).isdisjoint(keys))
-    )
-
-
-@lru_cache(maxsize=4096)
-def inputs_of(mechanism: Mechanism, given: frozenset[str], names: tuple[str, ...]) -> frozenset[str]:
-    """Return the inputs that quantities follow from, with what stands between."""
-    ids = needed(mechanism, given, names)
-    steps = [step for _, step in mechanism.active(given) if step.id in ids]
-    found = set(names).union(*(taken(step) | {*getattr(step, "holds", ())} for step in steps))
-    return frozenset(name.removeprefix("inputs.") for name in found)
-
-
-@dataclass(frozen=True)
-class CheckTrials(Trials):
-    """Try inputs with which a failing check holds, and others of its mechanism."""
-
-    check: Check
-    held: Sequence[Check]
-    failing: Sequence[Check]
-
-    def hold(self, changed: Mapping[str, Any], count: int) -> Array | None:
-        """Return whether the check holds; the checks that held, too; the failing ones with the same keys, too."""
-        held, failing = (self._affected(tuple(changed), checks) for checks in (self.held, self.failing))
-        made = recalculated(self.calc, changed, count, self._names(changed, [*held, *failing]))
-        if made is None:
-            return None
-        there, holds = self.judge(made, self.check)
-        own = there & holds
-        own[list(made.flaws)] = False
-        sound = own & self.none_fails(made, held)
-        return np.array([own, sound, sound & self.none_fails(made, failing)])
-
-    def broken(self, changed: Mapping[str, Any]) -> tuple[str, ...]:
-        """Return the titles of the checks that held and fail on a single machine with other inputs."""
-        checks = self._affected(tuple(changed), self.held)
-        made = recalculated(self.calc, changed, 1, self._names(changed, checks))
-        if made is None:
-            return ()
-        judged = [(check, self.judge(made, check)) for check in checks]
-        return tuple(check.title for check, (there, holds) in judged if there[0] and not holds[0])
-
-    def _affected(self, keys: tuple[str, ...], checks: Sequence[Check]) -> list[Check]:
-        """The checks that follow from one of these inputs; all where other steps may be made."""
-        if self._switches(keys):
-            return list(checks)
-        mechanism, given = self.calc.mechanism, self.calc.given
-        return [each for each in checks if not inputs_of(mechanism, given, (*each.named, *each.needs)).isdisjoint(keys)]
-
-    def _names(self, changed: Mapping[str, Any], checks: Sequence[Check]) -> list[str] | None:
-        """What must be calculated to judge the checks; None for all, as curves are judged when all is known."""
-        names = {name for each in (self.check, *checks) for name in each.named}
-        names |= _required(self.calc.mechanism, self.calc.given, tuple(changed))
-        is_whole = self._switches(changed) or names & self.calc.curves.keys()
-        return None if is_whole else sorted(names)
-
-    def _switches(self, keys: Iterable[str]) -> bool:
-        """Whether steps may be switched on or off: by what was not given, or by a text."""
-        return any(key not in self.calc.inputs or self.texts(key) for key in keys)
-
-
-@dataclass(frozen=True)
-class PossibleTrials(Trials):
-    """Try inputs with which a machine is possible that is not."""
-
-    def hold(self, changed: Mapping[str, Any], count: int) -> Array | None:
-        """Return whether the machine is possible; none of its checks fails, too."""
-        made = recalculated(self.calc, changed, count)
-        if made is None:
-            return None
-        is_possible = np.ones(count, dtype=bool)
-        is_possible[list(made.flaws)] = False
-        sound = is_possible & self.none_fails(made, self.calc.mechanism.checks)
-        return np.array([is_possible, sound, sound])
-
-    def broken(self, changed: Mapping[str, Any]) -> tuple[str, ...]:
-        """Return nothing: what was not possible had no checks that held."""
-        return ()

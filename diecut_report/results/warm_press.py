@@ -35,7 +35,6 @@ from diecut_report.results.coherence import PlacedFinding, placed_findings
 from diecut_report.results.conclusion import governing
 from diecut_report.results.document import document, verdict
 from diecut_report.results.drive_line import drive_line
-from diecut_report.results.drive_line_record import DriveLineRecord
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures, shown_figures
 from diecut_report.results.machine_advice import advised
@@ -50,9 +49,9 @@ from diecut_report.results.mechanism import (
     worst,
 )
 from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, SectionRecord
-from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
+from diecut_report.results.model import DriveLineRecord, GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.open_items import run_summary
-from diecut_report.results.press_run import Run, Tell, require_possible, same_inputs
+from diecut_report.results.press_run import ReportedRun, Run, Tell, require_possible, same_inputs
 from diecut_report.results.usual import Beside
 
 Data = dict[str, Any]
@@ -158,9 +157,6 @@ class WarmRun(Run):
         """Only what tells whether the mechanism may be used at all."""
         require_self_tests(self.remembered[instance.name].of(self.press.judge))
 
-    def _comparisons(self) -> None:
-        """A comparison has no checks, and nothing depends on it."""
-
     @cached_property
     def checks(self) -> dict[str, list[CheckRecord]]:
         """Return the checks of each mechanism in the order of the file, as the results hold them."""
@@ -227,12 +223,9 @@ class WarmRun(Run):
         return document(self.press.printed(self.config, self._tell))
 
 
-class _PrintedRun(WarmRun):
+class _PrintedRun(WarmRun, ReportedRun):
     """A run of which everything is printed at once, in the order of the ordinary way."""
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
         of = self.remembered[instance.name].of
         self._store(instance, mechanism_results(calculation, self._provenance(instance), of))
-
-    def _comparisons(self) -> None:
-        Run._comparisons(self)

@@ -20,7 +20,7 @@ from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.press import Press
 from diecut_report.results.document import document
-from diecut_report.results.press_run import Run
+from diecut_report.results.press_run import ReportedRun
 from diecut_report.testing.machines import MachineCase, one_of
 from diecut_report.text.phrases import Phrase
 
@@ -98,7 +98,7 @@ def _by_id(record: Data) -> Data:
 # What the new process does.
 
 
-class _Both(Run):
+class _Both(ReportedRun):
     """Calculate a press, and before or after one of its mechanisms another machine of the same kind."""
 
     def __init__(self, config: Config, name: str, order: str) -> None:

@@ -63,20 +63,26 @@ def test_the_configuration_is_written_with_the_value_alone(press: Path, tmp_path
 
 
 @pytest.mark.parametrize(
-    ("asked", "typed", "role"),
+    ("vary", "asked", "more", "typed", "role"),
     [
-        ("a.moment <= 150 N*m", "75 mm", "upper"),
-        ("a.moment >= 260 N*m", "130 mm", "lower"),
-        ("a.moment <= 210 N*m", "100 mm", "today"),
-        ("max a.moment", "300 mm", "extreme"),
-        ("min a.moment", "33.333 mm", "extreme"),
-        ("max a.arm", "300 mm", "extreme"),
-        ("a.checks.moment <= 0.5", "62.5 mm", "upper"),
+        ("a.arm", "a.moment <= 150 N*m", (), "75 mm", "upper"),
+        ("a.arm", "a.moment >= 260 N*m", (), "130 mm", "lower"),
+        ("a.arm", "a.moment <= 210 N*m", (), "100 mm", "today"),
+        ("a.arm", "max a.moment", (), "300 mm", "extreme"),
+        ("a.arm", "min a.moment", (), "33.333 mm", "extreme"),
+        ("a.arm", "max a.arm", (), "300 mm", "extreme"),
+        ("a.arm", "a.checks.moment <= 0.5", (), "62.5 mm", "upper"),
+        ("a.arm", "a.moment = 700 N*m", ("--to", "0.4 m"), "350 mm", "root"),
+        ("b.teeth", "max b.teeth", ("--to", "33.0"), "33", "extreme"),  # whole numbers are all tried
+        ("b.teeth", "b.teeth >= 25", (), "25", "lower"),
     ],
 )
-def test_limits_and_extremes_of_a_lever(press: Path, capfd: Capture, asked: str, typed: str, role: str) -> None:
-    answer = found(capfd, solve(press, "a.arm", asked, "--format", "json"))
+def test_limits_and_extremes_of_a_lever(
+    press: Path, capfd: Capture, vary: str, asked: str, more: tuple[str, ...], typed: str, role: str
+) -> None:
+    answer = found(capfd, solve(press, vary, asked, *more, "--format", "json"))
     assert (answer["solutions"][0]["typed"], answer["solutions"][0]["role"]) == (typed, role)
+    assert vary == "a.arm" or answer["vary"]["from"] == 12  # the least that is allowed
 
 
 def test_the_greatest_with_which_all_passes(press: Path, capfd: Capture) -> None:
@@ -91,7 +97,6 @@ def test_out_of_reach_tells_the_nearest(press: Path, capfd: Capture, tmp_path: P
     assert "no value of a.arm from 33.3333 mm to 300 mm satisfies it" in out
     assert "nearest: a.arm = 300 mm, where a.moment is 600 N·m, at the end of the search range" in out
     assert err == f"not written: {tmp_path / 'new.yaml'}\n" and not (tmp_path / "new.yaml").exists()
-    assert solve(press, "a.arm", "a.moment = 700 N*m", "--to", "0.4 m") == 0
 
 
 @pytest.mark.parametrize(
@@ -133,36 +138,6 @@ def test_a_value_at_the_limit_of_a_check_lies_on_its_side(vary: str, tmp_path: P
     found = json.loads(capfd.readouterr().out)
     assert found["solutions"][0]["reached"] == pytest.approx(50e-6, rel=1e-5)
     assert "cylinder.deflection" not in found["machine"]["failing"]
-
-
-def test_whole_numbers_are_all_tried(press: Path, capfd: Capture) -> None:
-    answer = found(capfd, solve(press, "b.teeth", "max b.teeth", "--to", "33.0", "--format", "json"))
-    assert answer["solutions"][0]["typed"] == "33" and answer["vary"]["from"] == 12  # the least that is allowed
-
-
-@pytest.mark.parametrize(
-    ("vary", "asked", "more", "words"),
-    [
-        ("a.arn", "a.moment = 1 N*m", [], "'arn' is not an input of a (did you mean 'arm'?)"),
-        ("a.arm", "a.momemt = 1 N*m", [], "a.momemt is neither a number that a gives nor an input of it (did you mean 'moment'?)"),
-        ("a.arm", "c.moment = 1 N*m", [], "there is no mechanism 'c'"),
-        ("a.arm", "a.moment = 1 kg", [], "a.moment: 1 kg is a mass"),
-        ("a.arm", "a.moment 1", [], "'a.moment 1' is not a question"),
-        ("a.arm", "b.moment = 1 N*m", [], "b.moment does not vary with a.arm: it is 200 N·m in the whole range"),
-        ("a.arm", "a.moment = 1 N*m", ["--from", "2 m"], "2 m is out of range"),
-        ("a.arm", "a.moment = 1 N*m", ["--from", "9 mm", "--to", "8 mm"], "the range from 9 mm to 8 mm is empty"),
-        ("a.width", "a.moment = 1 N*m", [], "a.width has no value at present; give the range to search"),
-        ("a.grade", "a.moment = 1 N*m", [], "a.moment does not vary with a.grade: it is 200 N·m in the whole range"),
-        ("a.grade", "a.moment = 1 N*m", ["--from", "1"], "a.grade: is a text; name those that are to be tried with --among"),
-        ("a.arm", "a.moment = 1 N*m", ["--among", "2 g"], "a.arm: 2 g is a mass"),
-    ],
-)  # fmt: skip
-def test_bad_input_is_told_and_ends_with_2(
-    press: Path, capfd: Capture, vary: str, asked: str, more: list[str], words: str
-) -> None:
-    assert solve(press, vary, asked, *more) == 2
-    out, err = capfd.readouterr()
-    assert out == "" and words in err
 
 
 def test_an_input_that_is_not_given_is_put_into_the_file(press: Path, tmp_path: Path) -> None:
@@ -247,8 +222,6 @@ def test_a_text_names_the_nearest_of_many_values(tmp_path: Path, capfd: Capture)
 def test_whole_numbers_with_which_it_holds_are_told_from_first_to_last(press: Path, capfd: Capture) -> None:
     assert solve(press, "b.teeth", "b.teeth <= 30") == 0
     assert "  satisfied from 12 (end of the search range) to 30" in capfd.readouterr().out.splitlines()
-    answer = found(capfd, solve(press, "b.teeth", "b.teeth >= 25", "--format", "json"))
-    assert answer["solutions"][0]["typed"] == "25"
 
 
 BEARING = (

@@ -25,17 +25,16 @@ from diecut_report.report.pages import html
 from diecut_report.report.pages.pdf_figures import FigurePicture
 from diecut_report.report.scope import scope
 from diecut_report.report.text import Catalogue
-from diecut_report.results.carrying_parts import unrated
-from diecut_report.results.drive_line import drive_line
-from diecut_report.results.drive_line_record import (
+from diecut_report.results.drive_line import drive_line, unrated
+from diecut_report.results.mechanism_record import CheckRecord
+from diecut_report.results.model import (
     DriveLineRecord,
     JoinRecord,
     MachineShaftRecord,
     PlacedPartRecord,
     RatingRecord,
+    ResultsRecord,
 )
-from diecut_report.results.mechanism_record import CheckRecord
-from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.text.phrases import Phrase

@@ -11,7 +11,7 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.results.warm_press import WarmPress
-from tests.results.blunders import PRESS, changed
+from tests.configs import EXAMPLE, saved
 
 BLUNDERS = [  # what is typed in place of what, and words of the refusal
     ("a crank pin of 45 mm in a bearing of bore 40", ("40 mm, basis: assumed, note: bore", "45 mm, basis: assumed, note: bore"),
@@ -51,11 +51,18 @@ BLUNDERS = [  # what is typed in place of what, and words of the refusal
 ]  # fmt: skip
 
 
+def changed(folder: Path, old: str, new: str) -> Path:
+    """The published press with its first such text changed."""
+    text = EXAMPLE.read_text(encoding="utf-8")
+    assert old in text
+    return saved(folder, text.replace(old, new, 1))
+
+
 @pytest.fixture(scope="module")
 def warm() -> WarmPress:
     """The press without a blunder, which is calculated."""
     press = WarmPress(is_advised=False)
-    press.calculate(load_config(PRESS, Discovery()))
+    press.calculate(load_config(EXAMPLE, Discovery()))
     return press
 
 
@@ -102,5 +109,5 @@ def test_what_is_only_unusual_warns(warm: WarmPress, tmp_path: Path, change: tup
 
 
 def test_what_is_usual_has_no_check_of_it(warm: WarmPress) -> None:
-    run = warm.calculate(load_config(PRESS, Discovery()))
+    run = warm.calculate(load_config(EXAMPLE, Discovery()))
     assert not [each.id for own in run.checks.values() for each in own if each.id == "usual_values"]

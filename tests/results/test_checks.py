@@ -1,8 +1,10 @@
-"""Checks on rows over repeated parts, on curves and with two bounds: every part and every place is judged, alone and in a study."""
+"""Checks on rows, on curves and with two bounds, alone and in a study; those that are not made; and the self-tests of the calculation."""
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import replace
+from functools import partial
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 import pytest
@@ -16,12 +18,15 @@ from diecut_report.api import (
     Check,
     Inputs,
     Mechanism,
+    OneOf,
     Quantity,
     Text,
     Value,
     bind,
     formula,
 )
+from diecut_report.config.plugins import Discovery
+from diecut_report.declaration import faults
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
@@ -30,18 +35,20 @@ from diecut_report.report.chapters.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.checks import check_results
-from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.conclusion import governing, summary
+from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord, PlaceRecord
 from diecut_report.study.execution import variant_rows
+from diecut_report.testing.contract import _strange_partners
 
 
-class Bar(Block):
+class Rung(Block):
     load: Annotated[float, Quantity("F", "N", "Load of the bar")]
     rated: Annotated[float | None, Quantity("F_r", "N", "Rated load")] = None
 
 
 class Rack(Inputs):
-    bars: Annotated[list[Bar], Text("Bars")]
+    bars: Annotated[list[Rung], Text("Bars")]
     strength: Annotated[float, Quantity("F_z", "N", "Strength")] = 10
     swing: Annotated[float, Quantity("a", "N", "Amplitude")] = 3
     phase: Annotated[float, Quantity("α", "rad", "Phase")] = 0.1
@@ -65,15 +72,9 @@ def bound_of(angle: Any, swing: Any) -> Any:
 
 
 def check(demand: Any, limit: Any, **changes: Any) -> Check:
-    texts: dict[str, Any] = {
-        "check_class": "strength",
-        "id": "c",
-        "title": "Bars",
-        "demand_label": "force",
-        "limit_label": "allowed",
-        "consequence": "relieve it",
-    }
-    return Check(**{**texts, "demand": demand, "limit": limit, "unit": "N", **changes})
+    texts = {"id": "c", "title": "Bars", "demand_label": "force", "limit_label": "allowed", "consequence": "relieve it"}
+    known = {"check_class": "strength", "unit": "N", "demand": demand, "limit": limit}
+    return Check(**{**texts, **known, **changes})
 
 
 def rack(*checks: Check) -> Mechanism:
@@ -83,15 +84,8 @@ def rack(*checks: Check) -> Mechanism:
         Value(id="torque", symbol="T", unit="N", description="Wave", formula=wave),
         Value(id="bound", symbol="B", unit="N", description="Bound", formula=bound_of),
     )
-    return Mechanism(
-        kind="rack",
-        version="1",
-        title="Rack",
-        summary="",
-        inputs=Rack,
-        chapters=(Chapter("All", steps=steps),),
-        checks=checks,
-    )
+    chapters = (Chapter("All", steps=steps),)
+    return Mechanism(kind="rack", version="1", title="", summary="", inputs=Rack, chapters=chapters, checks=checks)
 
 
 def calculated(made: Check, loads: tuple[float, ...] = (1, 6, 4), **values: Any) -> Calculation:
@@ -158,19 +152,14 @@ def test_a_part_without_the_quantity_is_not_judged() -> None:
     assert (left.status, left.missing) == ("not_checked", ["bars.0.rated"])
     assert variant_rows.verdicts({"rack": calc}, 1).unchecked == ["rack.checks.c"]
     [unmade] = check_results(calculated(rated))
-    assert (unmade.status, unmade.missing, unmade.demand, unmade.limit) == (
-        "not_checked",
-        ["bars.rated"],
-        12,
-        None,
-    )
+    assert (unmade.status, unmade.missing) == ("not_checked", ["bars.rated"])
+    assert (unmade.demand, unmade.limit) == (12, None)
 
 
 def test_a_check_on_a_curve_judges_its_extreme_and_not_its_samples() -> None:
     found = judged(check("torque", 2.999))
-    assert found.status == "fail" and found.demand == pytest.approx(
-        3, rel=1e-12
-    )  # of the 36 samples none is above 2.992
+    # of the 36 samples none is above 2.992
+    assert found.status == "fail" and found.demand == pytest.approx(3, rel=1e-12)
     assert found.message == "Force 3 N, allowed 2.999 N at φ = 95.73°: relieve it"
     assert found.at == PlaceRecord(symbol="φ", text="95.73", unit="deg")
 
@@ -228,9 +217,8 @@ def test_a_study_judges_as_each_machine_alone(number: int, count: int) -> None:
     found = variant_rows.verdicts({"rack": together}, count)
     for i in range(count):
         one = {name: values[i] for name, values in varied.items()}
-        [single] = check_results(
-            calculate(made, {"bars": True, "n_points": 36, **one, "bars.load": tuple(loads[:, i])})
-        )
+        alone = calculate(made, {"bars": True, "n_points": 36, **one, "bars.load": tuple(loads[:, i])})
+        [single] = check_results(alone)
         assert variant_rows.STATUS[found.codes[0, i]] == single.status
         expected = np.nan if single.utilisation is None else single.utilisation
         np.testing.assert_allclose(found.ratios[0, i], expected, rtol=1e-9)
@@ -244,3 +232,179 @@ def test_the_report_shows_the_worst_part_and_a_table_of_all() -> None:
     lines = [(number, *(cell.text for cell in cells)) for number, cells in row.parts.lines]
     assert [line[0] for line in lines] == ["1", "2", "3"] and [line[1] for line in lines] == ["2", "12", "8"]
     assert [line[4] for line in lines] == ["pass", "fail", "pass"]
+
+
+# Checks that are not made for want of a key, or do not apply, and the self-tests of the calculation.
+
+
+class Stop(Block):
+    reach: Annotated[float, Quantity("a", "N", "Reach", gt=0)]
+    allowable_reach: Annotated[float | None, Quantity("[a]", "N", "Allowed reach", gt=0)] = None
+
+
+class Bar(Inputs):
+    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("load",), ("weight", "tare"), optional=True),)
+
+    force: Annotated[float, Quantity("F", "N", "Force", gt=0)] = 8
+    rated: Annotated[float | None, Quantity("F_r", "N", "Rated force", gt=0)] = None
+    least: Annotated[float | None, Quantity("F_l", "N", "Least force", gt=0)] = None
+    width: Annotated[float | None, Quantity("b", "N", "Width", gt=0)] = None
+    load: Annotated[float | None, Quantity("L", "N", "Load", gt=0)] = None
+    weight: Annotated[float | None, Quantity("W", "N", "Weight", gt=0)] = None
+    tare: Annotated[float | None, Quantity("T", "N", "Tare", gt=0)] = None
+    material: Annotated[Literal["steel", "wood"], Text("Material")] = "wood"
+    stop: Annotated[Stop | None, Text("Stop")] = None
+
+
+bar_check = partial(check, title="Bar")
+
+
+def bar(*checks: Check) -> Mechanism:
+    chapter = Chapter("All")
+    chapter.value("doubled", "D", "N", "Doubled", lambda force: 2 * force)
+    chapter.value("slack", "Δ", "N", "Slack", lambda force: 10 - force, exists=lambda force: force < 10)
+    chapter.value("spread", "S", "N", "Spread", lambda force, width: force + width, needs=("width",))
+    chapter.value("bent", "B", "N", "Bent", lambda force: 3 * force, needs=("material=steel",))
+    chapter.value("weighed", "G", "N", "Weighed", lambda weight, tare: weight - tare, needs=("weight", "tare"))
+    return Mechanism(kind="bar", version="1", title="Bar", summary="", inputs=Bar, chapters=(chapter,), checks=checks)
+
+
+def calculated_bar(*checks: Check, **values: Any) -> Calculation:
+    return calculate(bar(*checks), flatten(Bar.model_validate(values)))
+
+
+def made_bar(*checks: Check, **values: Any) -> list[CheckRecord]:
+    return check_results(calculated_bar(*checks, **values))
+
+
+def test_a_check_whose_limit_is_not_given_is_listed_with_its_demand_and_the_key() -> None:
+    [found] = made_bar(bar_check("doubled", "rated"))
+    assert (found.status, found.check_class, found.missing) == ("not_checked", "strength", ["rated"])
+    assert (found.demand, found.limit, found.utilisation) == (16, None, None)
+    assert found.message == "Not checked: force 16 N, but rated is not given."
+
+
+def test_what_is_needed_for_the_demand_is_named_too_in_the_order_of_the_keys() -> None:
+    [found] = made_bar(bar_check("spread", "rated"))
+    assert (found.missing, found.demand) == (["rated", "width"], None)
+    assert found.message == "Not checked: rated and width are not given."
+    [found] = made_bar(bar_check("least", "doubled"))
+    assert found.message == "Not checked: allowed 16 N, but least is not given."
+
+
+@pytest.mark.parametrize(
+    ("one", "given"),
+    [
+        (bar_check("bent", "rated"), {}),
+        (bar_check("bent", "rated"), {"rated": 5}),
+        (bar_check("stop.reach", "stop.allowable_reach"), {}),
+        (bar_check("weighed", "rated"), {"load": 5, "rated": 3}),
+        (bar_check("doubled", "rated", only_with=("width",)), {}),
+        (bar_check("doubled", "rated", check_class="numerical"), {}),
+    ],
+    ids=["text", "text with its limit", "block", "alternative", "only with", "self-test"],
+)  # fmt: skip
+def test_what_does_not_apply_is_left_out(one: Check, given: dict[str, Any]) -> None:
+    assert made_bar(one, **given) == []
+
+
+def test_what_this_machine_does_not_have_is_not_asked_for() -> None:
+    assert [one.missing for one in made_bar(bar_check("slack", "rated"), force=9)] == [["rated"]]
+    assert made_bar(bar_check("slack", "rated"), force=11) == []
+
+
+def test_what_applies_and_lacks_a_key_is_told() -> None:
+    assert made_bar(bar_check("bent", "rated"), material="steel")[0].missing == ["rated"]
+    assert made_bar(bar_check("stop.reach", "stop.allowable_reach"), stop={"reach": 3})[0].missing == [
+        "stop.allowable_reach"
+    ]
+    assert made_bar(bar_check("weighed", "rated"))[0].missing == ["rated", "weight", "tare"]
+    assert made_bar(bar_check("doubled", "rated", only_with=("width",)), width=1)[0].missing == ["rated"]
+
+
+def test_of_checks_with_one_id_the_one_that_is_made_is_reported_else_the_first() -> None:
+    both = bar_check("spread", "rated"), bar_check("doubled", "rated")
+    assert [found.status for found in made_bar(*both, rated=20)] == ["pass"]
+    assert len(made_bar(*both)) == 1
+
+
+def test_what_is_not_checked_changes_no_status_and_is_counted() -> None:
+    results = mechanism_results(
+        calculated_bar(bar_check("doubled", 20.0, id="a"), bar_check("doubled", "rated", id="b")), {}
+    )
+    assert results.status == "pass" and results.absent == []
+    counts = {"pass": 1, "warn": 0, "fail": 0, "not_checked": 1, "numerical": {"pass": 0, "fail": 0}}
+    assert results.counts.data() == counts and summary({"bar": results.checks}, []).governing == "bar.a"
+
+
+@pytest.mark.parametrize(
+    ("near", "given", "governs"),
+    [
+        ({"id": "sized", "sized_unless": ("width",)}, {}, "far"),
+        ({"id": "sized", "sized_unless": ("width",)}, {"width": 1}, "sized"),
+        ({"id": "sized", "sized_unless": ("width",)}, {"force": 9}, "sized"),  # it fails
+        ({"id": "same", "limit": 16.0}, {}, "same"),  # what stands exactly at a given limit was not sized by the program
+        ({"id": "range", "presumed": True}, {}, "far"),  # that a machine lies well within the range of a method is no reserve
+        ({"id": "range", "presumed": True}, {"force": 9}, "range"),  # it does not hold
+        ({"id": "own", "check_class": "numerical"}, {}, "far"),
+    ],
+)  # fmt: skip
+def test_what_shows_no_reserve_does_not_govern_unless_it_fails(near: Any, given: Any, governs: str) -> None:
+    first = bar_check("doubled", near.get("limit", 16.5), **{key: near[key] for key in near if key != "limit"})
+    results = mechanism_results(calculated_bar(first, bar_check("doubled", 160.0, id="far"), **given), {})
+    found, other = results.checks
+    assert str(governing({"bar": results.checks})) == f"bar.{governs}"
+    assert found.sized_to_limit is ("sized_unless" in near and "width" not in given) and not other.sized_to_limit
+    assert found.presumed is ("presumed" in near) and not other.presumed
+    is_own, counts = found.check_class == "numerical", results.counts
+    assert counts.numerical.data() == {"pass": int(is_own), "fail": 0} and counts.passing + counts.fail == 2 - is_own
+    assert found.utilisation == found.demand / found.limit
+
+
+def test_a_self_test_that_fails_leaves_no_results() -> None:
+    own = bar_check("doubled", 1.0, id="own", check_class="numerical", severity="warn")
+    with pytest.raises(SelfTestFailed, match="Bar: Force 16 N, allowed 1 N: relieve it") as raised:
+        mechanism_results(calculated_bar(own), {})
+    assert [found.id for found in raised.value.checks] == ["own"]
+
+
+def test_in_a_study_self_tests_make_errors_and_what_is_not_checked_has_columns() -> None:
+    own = bar_check("doubled", 20.0, id="own", check_class="numerical")
+    values = flatten(Bar.model_validate({})) | {"force": np.array([8.0, 12.0])}
+    calc = calculate(bar(own, bar_check("doubled", 20.0), bar_check("doubled", "rated", id="b")), values, 2)
+    found = variant_rows.verdicts({"bar": calc}, 2)
+    assert found.names == ["bar.checks.c"] and found.unchecked == ["bar.checks.b"]
+    assert list(found.faults) == [1] and "Bar" in found.faults[1]
+
+
+@pytest.mark.parametrize("given", [{}, {"check_class": "strenght"}])
+def test_a_check_without_an_allowed_class_is_told_with_those_that_are(given: dict[str, str]) -> None:
+    texts: dict[str, Any] = {
+        "id": "c",
+        "title": "Bar",
+        "demand_label": "f",
+        "limit_label": "a",
+        "consequence": "",
+        "unit": "N",
+    }
+    [fault] = faults(bar(Check(demand="doubled", limit=3.0, **texts, **given)))
+    assert all(word in str(fault) for word in ("check c", "function", "strength", "practice", "numerical"))
+
+
+def test_keys_that_there_are_not_are_told_of_a_check() -> None:
+    wrong = {"only_with": ("widht",), "at_best": ("wieght",), "founded": ("k",), "sized_unless": ("rate",)}
+    told = " ".join(map(str, faults(bar(bar_check("doubled", 3.0, **wrong)))))
+    assert "only_with names widht" in told and "sized_unless names rate" in told
+    assert "at_best names wieght" in told and "founded names k" in told
+
+
+def test_a_kind_that_no_plugin_has_is_told_of_a_check_beside_it() -> None:
+    """Such a check would never be made, and nobody would miss it."""
+    discovery = Discovery([])
+    assert list(_strange_partners(discovery.mechanism("press_consistency"), discovery)) == []
+    timing = discovery.mechanism("cyclogram")
+    misspelt = replace(
+        timing, checks=tuple(replace(each, only_beside=("cylinder_drvie",)) for each in timing.checks[:1])
+    )
+    [told] = map(str, _strange_partners(misspelt, discovery))
+    assert "no plugin has the kind cylinder_drvie" in told

@@ -17,24 +17,18 @@ from diecut_report.results.warm_press import WarmPress
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.press_batch import calculated
 from diecut_report.study.execution.variant_rows import verdicts
-from tests.configs import EXAMPLES, saved
+from tests.configs import EXAMPLE, saved
 
 HEAD = "schema_version: 1\nproject: {title: Gears}\npress: {name: P}\nmechanisms:\n"
+MENDED_PRESS = EXAMPLE.with_name("flat_cylinder_press_mended.yaml")
 FACTORS = ("application_factor", "dynamic_factor", "face_load_factor", "transverse_load_factor")
 DEFAULTS = dict(zip(FACTORS, (1.25, 1.1, 1.3, 1.0), strict=True))
 
 
 def gears(**more: Any) -> dict[str, Any]:
     strength = {f"sigma_h_lim_{i}": "767 MPa" for i in (1, 2)} | {f"sigma_f_lim_{i}": "314 MPa" for i in (1, 2)}
-    own = {
-        "kind": "gear_pair",
-        "module": "5 mm",
-        "teeth_1": 24,
-        "teeth_2": 48,
-        "face_width": "50 mm",
-        "torque": "50 N*m",
-    }
-    return own | strength | more
+    sizes = {"module": "5 mm", "teeth_1": 24, "teeth_2": 48, "face_width": "50 mm", "torque": "50 N*m"}
+    return {"kind": "gear_pair"} | sizes | strength | more
 
 
 def judged(tmp_path: Path, own: dict[str, Any], check: str) -> dict[str, Any]:
@@ -83,13 +77,35 @@ def test_many_machines_are_judged_as_each_alone(tmp_path: Path) -> None:
         made.release()
 
 
+KEY = {"kind": "parallel_key", "shaft_diameter": "40 mm", "yield_shaft": "600 MPa", "yield_hub": "600 MPa"}
+LOADED = KEY | {"torque": "300 N*m", "application_factor": 1.25}
+TURNED = KEY | {"torque_curve": ["300 N*m", "-200 N*m", "100 N*m", "300 N*m"]}
+PRESSURES = ("pressure_shaft", "pressure_hub", "pressure_key")
+
+
 @pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
-@pytest.mark.parametrize(("key", "check"), [("life_factor_h_1", "pitting_1"), ("life_factor_f_2", "root_2")])
-def test_a_life_factor_that_is_only_typed_proves_nothing(
-    tmp_path: Path, key: str, check: str, typed: dict[str, str], status: str
+@pytest.mark.parametrize(
+    ("own", "key", "value", "checks"),
+    [
+        (gears(), "life_factor_h_1", 1.4, ("pitting_1",)),
+        (gears(), "life_factor_f_2", 1.4, ("root_2",)),
+        (TURNED, "flank_changes", 2, ("reversing", *PRESSURES)),
+        (LOADED, "load_distribution_factor", 1, ("pressure_peak", *PRESSURES)),
+    ],
+)
+def test_a_factor_that_is_only_typed_proves_nothing(
+    tmp_path: Path, own: dict[str, Any], key: str, value: float, checks: tuple[str, ...], typed: Any, status: str
 ) -> None:
-    assert judged(tmp_path, gears(), check)["status"] == "pass"
-    assert judged(tmp_path, gears(**{key: {"value": 1.4, **typed}}), check)["status"] == status
+    for check in checks:
+        assert judged(tmp_path, own | {key: {"value": value, **typed}}, check)["status"] == status
+
+
+def test_a_factor_that_is_left_out_or_typed_as_its_default_is_no_way_to_hold(tmp_path: Path) -> None:
+    for check in ("pitting_1", "root_2"):
+        assert judged(tmp_path, gears(), check)["status"] == "pass"
+    for check in ("pressure_peak", *PRESSURES):
+        assert judged(tmp_path, LOADED, check)["status"] == "pass"
+        assert judged(tmp_path, LOADED | {"load_distribution_factor": 1.2}, check)["status"] == "pass"
 
 
 def test_a_factor_that_varies_is_typed_in_all_machines(tmp_path: Path) -> None:
@@ -105,8 +121,7 @@ MENDED = WarmPress(is_advised=False)
 
 def mended(**changes: dict[str, Any]) -> dict[str, Any]:
     """The statuses of the mended press's checks by typing, with other inputs of its mechanisms."""
-    file = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press_mended")
-    tree = load(file)
+    tree = load(MENDED_PRESS)
     for name, own in changes.items():
         block = tree.data["mechanisms"][name]
         tree.data["mechanisms"][name] = {key: value for key, value in (block | own).items() if value is not None}
@@ -134,14 +149,6 @@ def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
     assert told["consistency.clutch_position"] == "fail"
 
 
-@pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
-def test_changes_of_flank_that_are_only_typed_prove_nothing(tmp_path: Path, typed: dict[str, str], status: str) -> None:
-    key = {"kind": "parallel_key", "shaft_diameter": "40 mm", "yield_shaft": "600 MPa", "yield_hub": "600 MPa"}
-    own = key | {"torque_curve": ["300 N*m", "-200 N*m", "100 N*m", "300 N*m"], "flank_changes": {"value": 2, **typed}}
-    for check in ("reversing", "pressure_shaft", "pressure_hub", "pressure_key"):
-        assert judged(tmp_path, own, check)["status"] == status
-
-
 def test_a_life_of_a_second_is_no_life() -> None:
     with pytest.raises(
         UserError, match=r"gives required_life = 0.000278 h, which no machine of this kind has \(usual: 5000 to 60000 h"
@@ -154,31 +161,12 @@ def test_a_torque_that_goes_through_gears_keeps_its_speed() -> None:
         mended(gear_key={"torque": "${main_gears.torque_pinion_curve}", "cycle_speed": "49 rpm"})
 
 
-@pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
-def test_a_distribution_of_the_load_that_is_only_typed_proves_nothing(
-    tmp_path: Path, typed: dict[str, str], status: str
-) -> None:
-    own = {
-        "kind": "parallel_key",
-        "shaft_diameter": "40 mm",
-        "yield_shaft": "600 MPa",
-        "yield_hub": "600 MPa",
-        "torque": "300 N*m",
-        "application_factor": 1.25,
-    }
-    for check in ("pressure_peak", "pressure_shaft", "pressure_hub", "pressure_key"):
-        assert judged(tmp_path, own, check)["status"] == "pass"
-        assert judged(tmp_path, own | {"load_distribution_factor": {"value": 1, **typed}}, check)["status"] == status
-        assert judged(tmp_path, own | {"load_distribution_factor": 1.2}, check)["status"] == "pass"  # a typed default
-
-
 @pytest.mark.parametrize("part", [0, 1])
 @pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
 def test_a_key_of_a_block_and_of_one_part_of_a_list_is_asked_for_its_basis(
     typed: dict[str, str], status: str, part: int
 ) -> None:
-    file = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press_mended")
-    tree = load(file)
+    tree = load(MENDED_PRESS)
     mechanisms = tree.data["mechanisms"]
     mechanisms["train"]["vbelt"]["groove_friction"] = {"value": 0.6, **typed}
     name = next(

@@ -7,12 +7,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.plugins import Discovery
+from diecut_report.design.inputs import design_input, given_numbers
 from diecut_report.errors import UserError
-from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.names import SI
 from diecut_report.results.document import document
 from diecut_report.results.model import ResultsRecord
@@ -20,7 +21,7 @@ from diecut_report.results.press_run import compute
 from diecut_report.results.results_file import results_text
 from diecut_report.results.usual import Beside
 from diecut_report.results.warm_press import Remembered, Told, WarmPress
-from diecut_report.study.definition.base_inputs import Input, find_input, known_paths, with_values
+from diecut_report.study.definition.base_inputs import find_input, with_values
 from tests.configs import BROKEN, DISCOVERY, EXAMPLES, GOOD, HEAD, LEVER, loaded
 from tests.examples import few
 
@@ -118,7 +119,7 @@ def test_a_curve_that_is_as_it_was_leaves_who_takes_it(
 ) -> None:
     """The drive is calculated anew, its curves of unit motion, and those of torque where no force has changed, are the same."""
     press, start = full_press
-    config = changed(start, f"mechanisms.{name}", share * find_given(start, name))
+    config = changed(start, f"mechanisms.{name}", share * (design_input(start, name).present or 0.0))
     names: list[str] = []
     run, cold = press.calculate(config, names.append), WarmPress().calculate(config)
     assert names == calculated or calculated is None
@@ -134,24 +135,13 @@ def full_press() -> tuple[WarmPress, Config]:
     return press, config
 
 
-def find_given(config: Config, name: str) -> float:
-    found = given(config, find_input(config, f"mechanisms.{name}"))
-    assert found is not None
-    return found
-
-
 @pytest.mark.parametrize(
     ("one", "other"),
     [
         (SI(0.0, "m", "a.b"), SI(-0.0, "m", "a.b")),
-        (0.0, -0.0),
-        (1, 1.0),
-        (1, True),
-        ((1.0, None), (1.0,)),
-        ((1.0, 0.0), (1.0, -0.0)),
-        ({"a": 1.0}, {"b": 1.0}),
+        (0.0, -0.0), (1, 1.0), (1, True), ((1.0, None), (1.0,)), ((1.0, 0.0), (1.0, -0.0)), ({"a": 1.0}, {"b": 1.0}),
     ],
-)
+)  # fmt: skip
 def test_inputs_that_are_only_nearly_the_same_are_others(tmp_path: Path, one: Any, other: Any) -> None:
     calculation = WarmPress().calculate(loaded(tmp_path, LEVER)).calculations["a"]
     told = Told(calculation.chosen_units, frozenset(), Beside({}, {}), ())
@@ -174,46 +164,23 @@ def test_an_impossible_machine_is_told_and_the_last_good_one_is_kept(tmp_path: P
 # --- the same as the ordinary way ------------------------------------------------------------------------------------
 
 
-def of_one_key(config: Config) -> Iterator[Input]:
-    """The numbers that may be changed."""
-    for name in config.instances:
-        for path in known_paths(config, name):
-            try:
-                asked = find_input(config, path)
-            except LookupError:  # of a part that a list does not have here
-                continue
-            if isinstance(asked.meta, Quantity):
-                yield asked
-
-
 def edits(config: Config, count: int, seed: int) -> Iterator[Config]:
     """Random changes of one number each, from the last one or from the start."""
-    chance, asked, last = random.Random(seed), list(of_one_key(config)), config
+    chance, numbers, last = random.Random(seed), given_numbers(config), config
     for _ in range(count):
-        key = chance.choice(asked)
-        value = given(config, key)
-        if value is None:
+        design = chance.choice(numbers)
+        value = design.present or 0.0
+        value = round(value) + chance.choice((-1, 1)) if design.is_whole else value * chance.uniform(0.9, 1.1)
+        if not design.allows(
+            np.array(value)
+        ):  # an efficiency above 1; where values are given they are judged before this
             continue
-        value = round(value) + chance.choice((-1, 1)) if key.is_integer else value * chance.uniform(0.9, 1.1)
-        start, asked_for = chance.choice((config, last)), SI(value, str(key.unit), key.path)
-        try:
-            key.meta.validate(asked_for)
-        except ValueError:  # an efficiency above 1; where values are given they are judged before this
-            continue
-        found, problems = with_values(start, {key: asked_for})
+        found, problems = with_values(
+            chance.choice((config, last)), {design.asked: SI(value, str(design.asked.unit), design.name)}
+        )
         if not problems:
             last = found
             yield found
-
-
-def given(config: Config, key: Input) -> float | None:
-    """The number that stands in the file, SI; nothing of a reference."""
-    instance = config.instances[key.instance]
-    assert instance is not None
-    if (key.instance, *key.key) in config.links:
-        return None
-    value = instance.value(key.key)
-    return float(value.value) if isinstance(value, SI) else value if isinstance(value, float | int) else None
 
 
 @pytest.mark.parametrize("path", few(EXAMPLES, lambda path: path.stem == "folding_knife"), ids=lambda path: path.stem)

@@ -11,6 +11,7 @@ import os
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -212,15 +213,6 @@ class SomeMachines:
 
 
 @dataclass(frozen=True)
-class MachinePlace:
-    """Hold where machines are stored, the plugins, and which numbers of them are compared."""
-
-    directory: Path
-    discovery: Discovery
-    names: tuple[str, ...]
-
-
-@dataclass(frozen=True)
 class Recheck:
     """Hold a machine as it was among many and by itself: verdicts, and the number that differs most, with its share, or why there is none."""
 
@@ -244,35 +236,35 @@ def rechecked(store: Store, stored: Stored, variants: Sequence[int], where: Wher
     jobs = min(where.jobs or os.cpu_count() or 1, len(variants)) if len(variants) > FEW else 1
     some = [SomeMachines(tuple(variants[start::jobs])) for start in range(jobs)]
     plugins = tuple(where.plugins)
-    key = "\n".join(["alone", str(store.directory), *plugins])
-    with local_engine(jobs, jobs, WorkerSetup(key, _loaded, (store.directory, plugins, names))) as engine:
-        found = {each.variant: each for _, part in results(engine, _alone, some) for each in part}
+    setup = WorkerSetup("\n".join(["alone", *plugins]), _loaded, plugins)
+    alone = partial(_alone, directory=store.directory, names=names)
+    with local_engine(jobs, jobs, setup) as engine:
+        found = {each.variant: each for _, part in results(engine, alone, some) for each in part}
     return [found[variant] for variant in variants]
 
 
-def _loaded(directory: Path, plugins: tuple[str, ...], names: tuple[str, ...]) -> MachinePlace:
+def _loaded(*plugins: str) -> Discovery:
     settle()
-    return MachinePlace(directory, Discovery([Path(plugin) for plugin in plugins]), names)
+    return Discovery([Path(plugin) for plugin in plugins])
 
 
-def _alone(place: MachinePlace, some: SomeMachines) -> list[Recheck]:
-    with opened(place.directory) as stored:
-        return [_compared(place, stored, variant) for variant in some.variants]
+def _alone(discovery: Discovery, some: SomeMachines, directory: Path, names: Sequence[str]) -> list[Recheck]:
+    with opened(directory) as stored:
+        return [_compared(discovery, stored, names, variant) for variant in some.variants]
 
 
-def _compared(place: MachinePlace, stored: Stored, variant: int) -> Recheck:
-    listed = ", ".join(map(quoted, place.names)) or "NULL"
+def _compared(discovery: Discovery, stored: Stored, names: Sequence[str], variant: int) -> Recheck:
+    listed = ", ".join(map(quoted, names)) or "NULL"
     ((status, *values),) = stored.rows(f"SELECT status, {listed} FROM v WHERE variant = ?", [variant])
     try:
-        tree = variant_of(stored, variant, place.discovery, f"{variant}.yaml")
-        machine = proved(Press.read(yaml.parse(tree.text, tree.file), place.discovery))
+        tree = variant_of(stored, variant, discovery, f"{variant}.yaml")
+        machine = proved(Press.read(yaml.parse(tree.text, tree.file), discovery))
     except (UserError, PluginError) as error:
         return Recheck(variant, status, "error", fault=str(error).splitlines()[0])
     known = _numbers(machine)
     least = {column.name: plausible(column.unit).ends[0] for column in stored.columns.values() if column.unit}
     apart = [
-        (_share(one, known.get(name), least.get(name, NOTHING)), name)
-        for name, one in zip(place.names, values, strict=False)
+        (_share(one, known.get(name), least.get(name, NOTHING)), name) for name, one in zip(names, values, strict=False)
     ]
     share, name = max(apart, default=(0.0, ""))
     return Recheck(variant, status, machine.run.status, name if share else "", share)

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from diecut_report.report.model import utilisation
 from diecut_report.report.text import Catalogue, tidy
-from diecut_report.results.drive_line_record import DriveLineRecord, RatingRecord
 from diecut_report.results.mechanism_record import CheckRecord
+from diecut_report.results.model import DriveLineRecord, RatingRecord
 
 LOW, MIDDLE = 0.5, 0.8  # utilisations up to which a part has its colours
 TONES = ("low", "middle", "high", "fail")

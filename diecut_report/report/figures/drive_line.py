@@ -35,7 +35,7 @@ from diecut_report.report.figures.style import (  # fmt: skip
     text_size,
 )
 from diecut_report.report.text import displayed, joined
-from diecut_report.results.drive_line_record import JoinRecord, MachineShaftRecord, PlacedPartRecord
+from diecut_report.results.model import JoinRecord, MachineShaftRecord, PlacedPartRecord
 
 Array = NDArray[Any]
 Loops = Sequence[Array]

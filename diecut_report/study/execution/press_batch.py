@@ -135,9 +135,6 @@ class _Rows(Run):
         super().__init__(config, tell)
         self._all_wrong(self.problems)
 
-    def _comparisons(self) -> None:
-        """A study compares variants, not mechanisms."""
-
     def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
         """Leave no mechanism of a variant out in silence."""
         raise NotOnArrays(self.config.kinds[instance.name], words or said(cause)) from cause

@@ -14,7 +14,7 @@ from diecut_report.config.parts.demands import Demands
 from diecut_report.config.parts.load_cases import LoadCases, Passing
 from diecut_report.mechanics.load_cases import called
 from diecut_report.press import Press
-from diecut_report.results.carrying_parts import unrated
+from diecut_report.results.drive_line import unrated
 from diecut_report.results.warm_press import WarmPress
 from tests.config.parts.machines import CORRECTED, DISCOVERY, Change, Machine, machine, sound
 from tests.config.parts.test_parts import calculated

@@ -19,7 +19,7 @@ from diecut_report.press import Press
 from diecut_report.report.chapters.front import not_covered
 from diecut_report.report.scope import scope
 from diecut_report.report.text import Catalogue
-from diecut_report.results.carrying_parts import CarryingPart, accepted, carrying_parts, is_rated, unrated
+from diecut_report.results.drive_line import CarryingPart, accepted, carrying_parts, is_rated, unrated
 from diecut_report.results.open_items import is_formula, unrated_forces
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
