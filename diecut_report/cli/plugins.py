@@ -185,9 +185,12 @@ def new_plugin(name: str, as_package: bool, like: str, folder: Path | None, disc
     is_flag=True,
     help="Show chapter and faults in the browser, again after each change of the plugin's files; end with Ctrl-C.",
 )
+@click.option(
+    "--part", "is_part", is_flag=True, hidden=True
+)  # the chapter is to stand within the page that --watch shows
 @common
 def check_plugin(
-    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, is_watched: bool,
+    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, is_watched: bool, is_part: bool,
     discovery: Discovery,
 ) -> int:  # fmt: skip
     """Test a plugin against the rules of its contract; with -o render its chapter as HTML. Ends with 1 where a rule is broken."""
@@ -201,7 +204,7 @@ def check_plugin(
         raise click.UsageError(say(template, folder=plugin, n=len(kinds)))
     with without_output():
         language = asked_language() or spoken_language()
-        found = [checked(known, kind, configs, language, write_po=write_po) for kind in kinds]
+        found = [checked(known, kind, configs, language, write_po=write_po, is_part=is_part) for kind in kinds]
     if form == "json":
         emit_json([each.data for each in found])
     else:
@@ -225,7 +228,7 @@ def _watched(plugin: str, configs: Sequence[Path], discovery: Discovery) -> int:
     from diecut_report.testing.plugin_page import home_of
 
     home = home_of(plugin, discovery.folders)
-    command = [sys.executable, "-m", "diecut_report", "check-plugin", plugin, "--format", "json"]
+    command = [sys.executable, "-m", "diecut_report", "check-plugin", plugin, "--format", "json", "--part"]
     command += [text for file in configs for text in ("--config", str(file))]
     command += [text for folder in discovery.folders for text in ("--plugins", str(folder))]
     command += ["--language", asked_language() or spoken_language()]

@@ -208,7 +208,8 @@ MAX_RULE_SECONDS = 600.0  # seconds of a rule: a plugin may never come back
 class ContractTest:
     """Try the rules of the contract on a mechanism and, where there is one, on a machine of a configuration.
 
-    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page. ``refused`` tells why there is no
+    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page, which is a part of another one
+    where ``is_part`` says so. ``refused`` tells why there is no
     machine, where there are configurations with one that are not sound.
     """
 
@@ -218,6 +219,7 @@ class ContractTest:
     name: str = ""
     language: str = SOURCE_LANGUAGE
     refused: Sequence[Problem] = ()
+    is_part: bool = False
     page: str = field(default="", init=False)
 
     def of(self, config: Config, name: str) -> ContractTest:
@@ -376,7 +378,7 @@ class ContractTest:
         report = self.results.report.with_(detail="full", only=[self.name])
         shown = self.results.with_(project=self.results.project.with_(language=language), report=report)
         rendering = Rendering(shown, catalogues_for(language, [self.mechanism.kind], self.discovery))
-        page = rendering.html()
+        page = rendering.html(is_part=self.is_part)
         if language == self.language:
             self.page = page
         own = [each for each in rendering.faults if each.mechanism == self.name]
