@@ -5,7 +5,8 @@ from __future__ import annotations
 import shutil
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
+from functools import cached_property
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +16,7 @@ import click
 from diecut_report.cli import output
 from diecut_report.cli.options import (
     DASH,
+    flag,
     form_option,
     formats_option,
     from_standard_input,
@@ -35,7 +37,6 @@ from diecut_report.cli.output import (
     Progress,
     asked_language,
     coloured,
-    common,
     emit_json,
     emit_lines,
     in_line,
@@ -89,13 +90,12 @@ class JudgedFile:
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_FILES)
 @click.argument("files", metavar="FILE…", nargs=-1, required=True, type=path_of)
-@click.option(
-    "--dry-run", "tries", is_flag=True,
+@flag(
+    "--dry-run", "tries",
     help="For a study also report its size, columns and first variant, what the constraints exclude, and the time and disk space measured on a "
          "few variants.",
 )  # fmt: skip
 @form_option("text", "json")
-@common
 def validate(files: tuple[Path, ...], tries: bool, form: str, discovery: Discovery) -> int:
     """Validate configurations and studies without calculating; all problems of all files are reported."""
     judged = []
@@ -272,7 +272,6 @@ table_formats = formats_option(
 @strict_option
 @table_formats
 @jobs_option
-@common
 def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
           discovery: Discovery) -> int:  # fmt: skip
     """Calculate many machines and show a table of their verdicts; folders are searched for configurations."""
@@ -304,7 +303,6 @@ def _listed(_: click.Context, option: click.Parameter, given: str | None) -> tup
 @path_option("-o", "folder", metavar="DIR", help="Also write the comparison there: comparison.html and so on.")
 @table_formats
 @jobs_option
-@common
 def compare(given: tuple[Path, ...], show: tuple[str, ...] | None, units: tuple[str, ...] | None, folder: Path | None,
             formats: list[str], jobs: int | None, discovery: Discovery) -> int:  # fmt: skip
     """Compare machines in one table: verdicts, chosen results, and the inputs that were typed differently.
@@ -346,13 +344,13 @@ class NamedMachines:
     machines: list[CheckedMachine]
     asked: AskedResults
     discovery: Discovery
-    spoken: MachineComparison = field(init=False)
 
-    def __post_init__(self) -> None:
-        self.spoken = self._compared()
+    @cached_property
+    def spoken(self) -> MachineComparison:
+        """Return them side by side in the language that is spoken first."""
+        return self._compared()
 
     def _compared(self) -> MachineComparison:
-        """Return them side by side in the language that is spoken."""
         from diecut_report.study.comparison import compared
         from diecut_report.study.machines import in_language
 

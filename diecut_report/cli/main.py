@@ -48,12 +48,10 @@ from diecut_report.cli.output import (
     HelpfulGroup,
     Progress,
     asked_language,
-    common,
     emit,
     emit_json,
     emit_lines,
     inform,
-    language_option,
     of_environment,
     open_streams,
     tell,
@@ -182,7 +180,6 @@ def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
 @click.option(
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version, help="Show the version and exit."
 )
-@language_option
 def program() -> None:
     """Design reports for die-cutting presses, from a YAML description to a checked calculation document."""
 
@@ -214,7 +211,6 @@ def program() -> None:
 )
 @template_option
 @strict_option
-@common
 def report(
     config: Path, folder: Path, formats: list[str], previous: Path | None, detail: str | None, only: tuple[str, ...],
     house: HouseStyle | None, strict: bool, discovery: Discovery
@@ -242,7 +238,6 @@ def report(
 @config_argument
 @target_option
 @strict_option
-@common
 def calc(config: Path, target: Path | None, strict: bool, discovery: Discovery) -> int:
     """Calculate and write only the results file."""
     from diecut_report.design.findings import decided
@@ -260,7 +255,6 @@ def calc(config: Path, target: Path | None, strict: bool, discovery: Discovery) 
 
 
 @program.command()
-@common
 def plugins(discovery: Discovery) -> int:
     """List the kinds, their sources and where each comes from."""
     codes, lines = [PASSED], list[str]()
@@ -281,7 +275,6 @@ def plugins(discovery: Discovery) -> int:
 
 @program.command()
 @click.argument("kind", required=False, shell_complete=output.kinds)
-@common
 def schema(kind: str | None, discovery: Discovery) -> int:
     """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
     from diecut_report.config.schema import config_schema, kind_schema

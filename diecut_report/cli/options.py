@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from diecut_report.cli.output import tell
+from diecut_report.cli.output import inputs, tell
 from diecut_report.config.loader import SHOWN, load_standard_input
 from diecut_report.config.model import DETAILS
 from diecut_report.config.plugins import Discovery
@@ -50,6 +50,21 @@ def split(given: str, between: str = ",") -> list[str]:
 def path_option(*names: str, help: str, metavar: str = "FILE", **more: Any) -> Callable[[Given], Given]:
     """Return an option that names a file or a folder."""
     return click.option(*names, metavar=metavar, type=path_of, help=help, **more)
+
+
+def flag(*names: str, help: str) -> Callable[[Given], Given]:
+    """Return an option that is given or not."""
+    return click.option(*names, is_flag=True, help=help)
+
+
+def count_option(*names: str, least: int, most: int | None = None, help: str, **more: Any) -> Callable[[Given], Given]:
+    """Return an option that is a whole number."""
+    return click.option(*names, metavar="N", type=click.IntRange(least, most), help=help, **more)
+
+
+def input_option(*names: str, help: str, **more: Any) -> Callable[[Given], Given]:
+    """Return an option that names an input of the configuration, which a shell completes."""
+    return click.option(*names, help=help, shell_complete=inputs, **{"metavar": "INPUT", **more})
 
 
 def form_option(*forms: str, help: str = "text (default) or json.") -> Callable[[Given], Given]:
@@ -117,15 +132,12 @@ here_option = path_option("-o", "folder", metavar="DIR", default=".", help="Wher
 study_folder_option = path_option(
     "-o", "folder", metavar="DIR", help="Where to write (default: the study's name, here)."
 )
-jobs_option = click.option(
-    "--jobs", metavar="N", type=click.IntRange(1), help="Number of processes (default: one per core)."
-)
+jobs_option = count_option("--jobs", least=1, help="Number of processes (default: one per core).")
 dask_option = click.option(
     "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
 )
-strict_option = click.option(
+strict_option = flag(
     "--strict",
-    is_flag=True,
     help="Exit with 1 also for a conditional verdict: something is assumed, at its default, not rated, not checked or warns.",
 )
 template_option = path_option(

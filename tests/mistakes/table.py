@@ -1,27 +1,29 @@
-"""Mistakes of authors: what each is, the text that it puts in place of another, where it is told, and in which words."""
+"""The form of the table's rows: the mistake, old text, new text, and the words that the message must hold."""
 
 from __future__ import annotations
 
-from tests.mistakes.rows_chapters import CALLS, CHAPTERS, LAMBDAS
-from tests.mistakes.rows_declared import DECLARED
-from tests.mistakes.rows_formulas import FORMULAS
-from tests.mistakes.rows_inputs import INPUTS, MODULE
-from tests.mistakes.rows_names import NAMES, TWICE
-from tests.mistakes.rows_numbers import DIMENSIONS, NUMBERS
-from tests.mistakes.rows_silent import SILENT
-from tests.mistakes.runner import Mistake
+from typing import Any
 
-TABLE: tuple[Mistake, ...] = (
-    *NAMES,
-    *TWICE,
-    *LAMBDAS,
-    *CALLS,
-    *CHAPTERS,
-    *DECLARED,
-    *INPUTS,
-    *MODULE,
-    *FORMULAS,
-    *DIMENSIONS,
-    *NUMBERS,
-    *SILENT,
-)
+from tests.mistakes.runner import Mistake, Stage
+
+
+def row(
+    told: Stage, what: str, old: str, new: str, *words: str, also: tuple[tuple[str, str], ...] = (), **rest: Any
+) -> Mistake:
+    """A mistake of one text, ``also`` of others, told by ``told``."""
+    return Mistake(what, ((old, new), *also), told, words, **rest)
+
+
+def load(what: str, old: str, new: str, *words: str, **rest: Any) -> Mistake:
+    """A mistake that is told when the plugin is loaded: by each command, with exit code 3, with file and line."""
+    return row("load", what, old, new, *words, **rest)
+
+
+def tested(what: str, old: str, new: str, *words: str, **rest: Any) -> Mistake:
+    """A mistake that ``check_mechanism`` tells of a step, with numbers: dimensions, and what is printed."""
+    return row("check_mechanism", what, old, new, *words, **({"placed": False} | rest))
+
+
+def calc(what: str, old: str, new: str, *words: str, **rest: Any) -> Mistake:
+    """A mistake that only the numbers of a machine show."""
+    return row("calc", what, old, new, *words, **({"placed": False} | rest))
