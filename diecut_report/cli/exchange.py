@@ -247,8 +247,8 @@ def sign(
     The report is verified first: one that differs from what this program produces is not signed.
     The key's password is asked for, or taken from the variable DIECUT_REPORT_KEY_PASSWORD.
     """
-    from diecut_report.exchange.signing import sign as signed
-    from diecut_report.exchange.signing_keys import signing_key
+    from diecut_report.exchange.signatures import sign as signed
+    from diecut_report.exchange.signatures import signing_key
 
     out = target or (report.resolve() if report.is_symlink() else report)  # signed where it stands
     for given in filter(None, (key, cert)):

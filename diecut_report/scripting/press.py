@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -18,20 +19,73 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import as_file
 from diecut_report.config.yaml import KeyPath, Tree, parse, read_text
 from diecut_report.design.findings import decided
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import ConfigError, Problem, UserError
 from diecut_report.exchange.carried import carried_results
 from diecut_report.files import in_words, write, write_all
 from diecut_report.press import Press
+from diecut_report.quantities.units import number_and_unit
 from diecut_report.scripting.parts import NamedParts
 from diecut_report.scripting.press_inputs import InputList, placed, press_inputs
 from diecut_report.scripting.results import Results
-from diecut_report.scripting.values import known_language, plain, told_in
+from diecut_report.scripting.values import QuantityValue, known_language, plain, told_in
 from diecut_report.study.execution.engines import one_thread
-from diecut_report.text.phrases import phrase
+from diecut_report.text.phrases import Phrase, phrase
 
 if TYPE_CHECKING:
-    from diecut_report.scripting.questions import InfluenceTable, MendedPress, Solution
+    from diecut_report.design.answers import Answer, FoundValue
+    from diecut_report.design.inputs import DesignInput
     from diecut_report.scripting.sweeps import SweepTable
+
+Data = dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class _Answered:
+    data: Data
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    __repr__ = __str__
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution(_Answered):
+    """Hold the values of an input that answer (``values``, the nearest to today's first); ``press`` is the press with the first, calculated once.
+
+    Of an input that is a text they are texts. Without one ``values`` is empty, ``nearest`` is the value that comes nearest, and ``press`` is
+    None. ``data`` is what the command gives as JSON; ``str`` what it says.
+    """
+
+    found: bool
+    values: tuple[QuantityValue | str, ...]
+    nearest: QuantityValue | str | None
+    press: LoadedPress | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MendedPress(_Answered):
+    """Hold the least changes with which no check fails: for each path what is to be typed; ``press`` is the press with them.
+
+    ``press`` is None where none was found, or where no check fails today. ``data`` is what the command gives as JSON; ``str`` what it says.
+    """
+
+    changes: dict[str, str]
+    press: LoadedPress | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class InfluenceTable(_Answered):
+    """Hold how far each input moves numbers, the greatest first. ``data`` is what the command gives as JSON; ``str`` what it says."""
+
+    def bars(self) -> list[Data]:
+        """Return for each number its inputs, one below the other: ``of``, ``path``, ``low`` and ``high`` (SI), as rows of a table."""
+        return [
+            {"of": each["name"], "path": bar["path"], "low": bar["low"], "high": bar["high"], "today": each["today"], "unit": each["unit"]}
+            for each in self.data["tornados"]
+            for bar in each["bars"]
+        ]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -174,33 +228,51 @@ class LoadedPress:
 
     def solve(
         self, vary: str, target: str, *, low: str | None = None, high: str | None = None, among: Iterable[str] = (), passing: bool = False
-    ) -> Solution[LoadedPress]:  # fmt: skip
+    ) -> Solution:  # fmt: skip
         """Return the values of one input with which a target is met, ``"drive.crank_torque_peak = 400 N*m"``: the command ``solve``.
 
         It is searched from ``low`` to ``high`` (a third of today's value to three times it), or ``among`` some values, such as bearings;
         with ``passing`` only machines with which no check fails. ConfigError where nothing can be searched.
         """
-        from diecut_report.scripting.questions import solved_press
+        from diecut_report.design.answers import data, lines
+        from diecut_report.design.inputs import solved_input
+        from diecut_report.design.solving import solved
 
         with told_in(self.language), one_thread():
-            return solved_press(self.press.usable(), self._of, vary, target, (low, high), [*among], passing=passing)
+            press = self.press.usable()
+            design = solved_input(press.config, vary, [*among])
+            ends = {name: _end(design, given, name) for name, given in (("low", low), ("high", high))}
+            answer = solved(press, target, design, passing=passing, **ends)
+            values = tuple(_found_value(answer, each) for each in answer.found)
+            near = None if answer.nearest is None else _found_value(answer, answer.nearest)
+            made = None if answer.machine is None else self._of(answer.machine.press)
+            return Solution(data(answer), "\n".join(lines(answer)), bool(values), values, near, made)
 
-    def advise(self, *, free: Iterable[str] = (), keep: Iterable[str] = ()) -> MendedPress[LoadedPress]:
+    def advise(self, *, free: Iterable[str] = (), keep: Iterable[str] = ()) -> MendedPress:
         """Return the smallest changes with which no check fails: the command ``advise``."""
-        from diecut_report.scripting.questions import mended_press
+        from diecut_report.design import advice
 
         with told_in(self.language), one_thread():
-            return mended_press(self.press.usable(), self._of, free, keep)
+            found = advice.mended(self.press.usable(), free=free, keep=keep)
+            press = None if found.machine is None else self._of(found.machine.press)
+            changes = {each.design.name: each.after for each in found.changes} if press else {}
+            return MendedPress(advice.data(found), "\n".join(advice.lines(found)), changes, press)
 
     def influence(self, *of: str, share: float = 0.1, defaults: bool = False) -> InfluenceTable:
         """Return how far each input moves a number (the governing checks, where none is named) when it changes by a share of its value.
 
-        These are the inputs that are given; with ``defaults`` those that stand at their default too.
+        These are the inputs that are given; with ``defaults`` those that stand at their default too. ConfigError where the share is not
+        between 0 and 1.
         """
-        from diecut_report.scripting.questions import influence_of
+        from diecut_report.design import influence
 
         with told_in(self.language), one_thread():
-            return influence_of(self.press.usable().config, of, share, defaults=defaults)
+            config = self.press.usable().config
+            if not (math.isfinite(share) and 0 < share <= 1):
+                template = "{share} is not a share between 0 and 1, such as 0.1 for a tenth."
+                raise ConfigError(Problem(Phrase(template, share=repr(share)), path="share"))
+            found = influence.tornados(config, list(of), share, {}, defaults=defaults)
+            return InfluenceTable(influence.data(found), "\n".join(influence.lines(found, None, "defaults=True")))
 
     def _of(self, press: Press) -> LoadedPress:
         return LoadedPress(press, self.language, self.origin)
@@ -210,6 +282,21 @@ class LoadedPress:
 
     def _repr_html_(self) -> str:
         return self.inputs.html(f"{self.name} · {self.title}")
+
+
+def _end(design: DesignInput, given: str | None, name: str) -> float | None:
+    try:
+        return None if given is None else design.read(given)
+    except ValueError as fault:
+        raise ConfigError(Problem(fault.args[0], path=f"{name} of {design.name}")) from None
+
+
+def _found_value(answer: Answer, found: FoundValue) -> QuantityValue | str:
+    if answer.design.is_text:
+        return found.typed
+    meta, (number, own) = answer.design.meta, number_and_unit(found.typed)
+    shown, name = (str(number), own or "1"), answer.design.name
+    return QuantityValue(found.value, meta.parsed_unit.si, name, meta.symbol, meta.description, "", shown)
 
 
 # Presses and results from files, texts and mappings.

@@ -38,18 +38,19 @@ from diecut_report.api import (
     bind,
     formula,
 )
-from diecut_report.declaration.dimensions import (
+from diecut_report.declaration.formula_checks import (
     ANGLE,
     ANGLE_AT,
     NUMBER,
     Found,
     KindError,
+    check_mechanism,
     dimensions,
+    forms,
     formulas,
     kind_given,
     units_of,
 )
-from diecut_report.declaration.formula_checks import check_mechanism, forms
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common

@@ -17,7 +17,7 @@ from typing import Any
 import pikepdf
 from pyhanko.pdf_utils.generic import DictionaryObject, NameObject, NumberObject
 
-from diecut_report.exchange.signing import Additions
+from diecut_report.exchange.signatures import Additions
 from diecut_report.text.phrases import message_data
 from tests.exchange.reports import saved_pdf
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ import pytest
 from diecut_report.config import yaml
 from diecut_report.config.loader import load_config
 from diecut_report.config.parts.reading import typed_changes, typed_text
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import LIST, Discovery
 from diecut_report.config.references import rewritten
 from diecut_report.config.yaml import Tree, plain_text
 from diecut_report.design.inputs import inputs_of_parts
@@ -28,6 +29,7 @@ from diecut_report.results.warm_press import WarmRun
 from diecut_report.text.translation import speaking
 from tests.configs import EXAMPLES
 from tests.examples import few
+from tools.site.api_examples import configuration, example_of
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 CYRILLIC = re.compile("[а-яіїєґ]")
@@ -865,3 +867,69 @@ def test_the_words_of_the_script_are_those_that_it_says_with_the_same_places() -
     assert said == set(WORDS)
     for name, places in re.findall(r'\bt\("(\w+)", \{([^}]*)\}', script):
         assert set(re.findall(r"(\w+):", places)) == set(re.findall(r"\{(\w+)\}", WORDS[name])), name
+
+
+# The drive line on the live page: the views of a machine of parts, whose parts lead to mechanisms of the page.
+
+
+@pytest.fixture(scope="module")
+def parts(tmp_path_factory: pytest.TempPathFactory) -> LiveSession:
+    """The small machine of parts of the reference."""
+    folder, example = tmp_path_factory.mktemp("parts"), example_of("Port")
+    assert example is not None
+    shutil.copy(example.file, folder)
+    listed = [f"{kind}: {example.file.name}:{name}\n" for kind, name in example.kinds.items()]
+    (folder / LIST).write_text("".join(listed), encoding="utf-8")
+    file = folder / "machine.yaml"
+    file.write_text(configuration(example), encoding="utf-8")
+    return LiveSession(file, Discovery([folder]))
+
+
+def test_a_part_leads_to_its_calculation_on_the_page(parts: LiveSession) -> None:
+    assert parts.machine is not None
+    shown = page_data(parts)["machine"]
+    names = {each["name"] for each in shown["mechanisms"]}
+    assert shown["views"] == ["Drive line, front view", "Shafts of the drive line, side by side"]
+    svg = "".join(Pictures().view(parts.machine, index)["svg"] for index in (0, 1))
+    links = {*re.findall(r'<a href="#([^"]+)"', svg)}
+    assert links == {
+        "shafts_main", "shafts_main_bearings", "shafts_main_wheel_key", "shafts_main_disc_key", "meshes_drive",
+    } and links <= names  # fmt: skip
+
+
+@pytest.mark.nightly
+def test_a_change_on_the_page_changes_the_colour_of_the_part_that_it_overloads(parts: LiveSession) -> None:
+    def told(name: str) -> str:
+        assert parts.machine is not None
+        found = re.search(rf"<title>{name}: ([^<]*)</title>", Pictures().view(parts.machine, 1)["svg"])
+        assert found is not None
+        return found[1]
+
+    before = told("main.disc.key")
+    parts.change({"stamp.force": "80 kN"})
+    assert parts.faults == []
+    assert "fail" not in before and told("main.disc.key").endswith(", fail")
+    parts.take_back()
+    assert told("main.disc.key") == before
+
+
+def test_the_views_speak_the_language_of_the_page(parts: LiveSession) -> None:
+    with speaking("uk"):
+        assert parts.machine is not None
+        assert page_data(parts)["machine"]["views"][0] == "Привод, вигляд спереду"
+        assert "не перевірено на міцність" in Pictures().view(parts.machine, 0)["svg"]
+
+
+def test_a_machine_without_parts_has_no_views(tmp_path: Path) -> None:
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    alone = LiveSession(file, Discovery([]))
+    assert alone.machine is not None and page_data(alone)["machine"]["views"] == []
+    for index in (0, 2):
+        with pytest.raises(UserError, match="There is no figure"):
+            Pictures().view(alone.machine, index)
+
+
+def test_a_click_on_a_part_opens_its_calculation() -> None:
+    script = assets()["live.js"].content.decode()
+    assert re.search(r'byId\("views"\).addEventListener\("click".*?closest\("a"\).*?preventDefault\(\).*?visit\(', script, re.DOTALL)  # fmt: skip
