@@ -17,7 +17,7 @@ from contextlib import closing
 from http.client import HTTPConnection
 from pathlib import Path
 from threading import Event
-from typing import Any
+from typing import Any, Self
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
@@ -36,10 +36,9 @@ from diecut_report.live.server import LiveApplication
 from diecut_report.live.session import LiveSession
 from diecut_report.text.translation import spoken_language
 from tests.cli.test_cli import Capture, run
-from tests.configs import EXAMPLES
 from tests.examples import every, few
+from tests.live.conftest import KNIFE
 
-KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 SECONDS = 120
 
 
@@ -53,6 +52,13 @@ class Server:
         assert self.process.stdout is not None
         address = urlsplit(self.process.stdout.readline().strip())
         self.host, self.path = address.netloc, address.path
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        with self.process:  # which closes its pipes and waits
+            self.process.kill()
 
     def asked(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, str]:
         connection = HTTPConnection(self.host, timeout=SECONDS)
@@ -81,16 +87,12 @@ class Server:
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     file = tmp_path_factory.mktemp("live") / "knife.yaml"
     file.write_bytes(KNIFE.read_bytes())
-    made = Server(file)
-    yield made
-    made.process.kill()
-    made.process.communicate(timeout=SECONDS)
+    with Server(file) as made:
+        yield made
 
 
 @pytest.mark.nightly
-def test_states_are_kept_undone_saved_and_compared_by_whoever_has_the_secret(tmp_path: Path) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
+def test_states_are_kept_undone_saved_and_compared_by_whoever_has_the_secret(file: Path, tmp_path: Path) -> None:
     server = Server(file)
     try:
         own, changed = server.path, {"changes": {"knife.shear_resistance": "50 N/mm**2"}, "stroke": "one"}
@@ -109,11 +111,9 @@ def test_states_are_kept_undone_saved_and_compared_by_whoever_has_the_secret(tmp
         assert server.asked("POST", f"{own}state/keep", {"name": "../soft"})[0] == 422
         assert server.asked("GET", f"{own}state/save?name=soft")[0] == 405
         status, compared = server.asked("GET", f"{own}comparison?state=Initially&state=soft&state=nothing")
-        assert (
-            status == 200
-            and "knife.shear_resistance" in compared
-            and compared.index('data-machine="Initially"') < compared.index('data-machine="soft"')
-        )
+        assert status == 200
+        assert "knife.shear_resistance" in compared
+        assert compared.index('data-machine="Initially"') < compared.index('data-machine="soft"')
         assert server.asked("GET", f"{own}comparison?state=nothing")[0] == 409
         assert sorted(each.name for each in tmp_path.iterdir()) == ["knife.yaml", "soft.yaml"]
     finally:
@@ -228,26 +228,18 @@ def _follow(server: Server, events: Iterator[dict[str, object]]) -> None:
     assert next(events)["edits"] == {} and "111 mm" in server.file.read_text("utf-8")
 
 
-def test_page_script_numbers_and_refusals_are_in_the_language_that_is_asked_for(tmp_path: Path) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
-    server = Server(file, "--language", "uk")
-    try:
+def test_page_script_numbers_and_refusals_are_in_the_language_that_is_asked_for(file: Path) -> None:
+    with Server(file, "--language", "uk") as server:
         _, page = server.asked("GET", server.path)
         with closing(server.events()) as events:
             told = json.dumps(next(events)["machine"], ensure_ascii=False)
         _, refused = server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "5 kg"}})
-    finally:
-        server.process.kill()
-        server.process.communicate(timeout=SECONDS)
     assert '<html lang="uk">' in page and "Записати у файл" in page and "Програма не відповідає" in page
     assert "Рух протягом розрізу" in told and "маса" in json.loads(refused)["refused"]
 
 
 @pytest.mark.parametrize("ending", every(2, [signal.SIGINT, signal.SIGTERM]))
-def test_it_tells_what_is_not_written_when_it_is_ended(tmp_path: Path, ending: signal.Signals) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
+def test_it_tells_what_is_not_written_when_it_is_ended(file: Path, ending: signal.Signals) -> None:
     server = Server(file)
     with closing(server.events()) as events:
         next(events)
@@ -292,7 +284,7 @@ def test_a_study_ends_it_at_once_with_what_to_give(study: Path, capfd: Capture) 
 
 
 def test_the_address_stands_on_no_command_line_and_the_page_waits_for_no_browser(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture
+    file: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture
 ) -> None:
     opened: list[str] = []
     address, is_opened, is_closed = "http://127.0.0.1:1/secret/", Event(), Event()
@@ -314,8 +306,6 @@ def test_the_address_stands_on_no_command_line_and_the_page_waits_for_no_browser
 
     monkeypatch.setattr("webbrowser.open", browser)
     monkeypatch.setattr("diecut_report.live.server.serve", serve)
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
     assert run("live", file) == 0
     assert "secret" not in opened[0] and opened[0].startswith("file:")
     assert not Path(url2pathname(urlsplit(opened[0]).path)).exists()
@@ -352,10 +342,9 @@ def test_a_view_that_is_not_there_is_refused(server: Server) -> None:
 # What the live page's one thread does first: an effect, which takes long, gives way to what a hand waits for.
 
 
-def test_a_page_is_told_that_a_saved_file_is_being_calculated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
-    session = LiveSession(file, Discovery([]))
+def test_a_page_is_told_that_a_saved_file_is_being_calculated(
+    file: Path, session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
     made, read = LiveApplication(session, (), None), session.read
     monkeypatch.setattr(session, "read", lambda: (time.sleep(0.2), read()))
 
@@ -374,11 +363,8 @@ def test_a_page_is_told_that_a_saved_file_is_being_calculated(tmp_path: Path, mo
 
 
 def test_a_file_that_is_emptied_and_filled_is_read_when_it_is_written(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    file: Path, session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
-    session = LiveSession(file, Discovery([]))
     made, marks, looks = LiveApplication(session, (), None), session.marks, 0
 
     def filled_at_the_third_look() -> dict[Path, object]:
@@ -416,11 +402,8 @@ def test_a_table_in_another_folder_is_read_again_when_it_changes(tmp_path: Path)
 
 
 def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
-    session = LiveSession(file, Discovery([]))
     made = LiveApplication(session, (), None)
     monkeypatch.setattr(live_session, "MECHANISM_SECONDS", 0.2)
 
@@ -469,12 +452,11 @@ def test_the_report_of_the_page_is_that_of_the_command(tmp_path: Path, named: bo
 
 
 @pytest.mark.nightly
-def test_full_passes_over_what_stays_do_not_stop_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_full_passes_over_what_stays_do_not_stop_the_page(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
     kept = list[int]()
     monkeypatch.setattr(live_server._Server, "run", lambda *_, **__: kept.append(gc.get_freeze_count()))
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
-    session = LiveSession(file, Discovery([]))
     before = gc.get_freeze_count()
     live_server.serve(LiveApplication(session, (), None), 0, lambda _: None)
     assert kept[0] > before
@@ -487,10 +469,8 @@ def endless(*_: object) -> None:
 
 
 def test_an_effect_gives_way_to_a_change_and_is_made_again_after_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
     session, began, depths = LiveSession(file, Discovery([])), threading.Event(), []
 
     def slow(machine: Any, name: str, tell: Callable[[str], None]) -> dict[str, str]:

@@ -29,17 +29,10 @@ from diecut_report.results.warm_press import WarmRun
 from diecut_report.text.translation import speaking
 from tests.configs import EXAMPLES
 from tests.examples import few
+from tests.live.conftest import KNIFE
 from tools.site.api_examples import configuration, example_of
 
-KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 CYRILLIC = re.compile("[а-яіїєґ]")
-
-
-@pytest.fixture
-def session(tmp_path: Path) -> LiveSession:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
-    return LiveSession(file, Discovery([]))
 
 
 def force(session: LiveSession) -> float:
@@ -190,6 +183,11 @@ mechanisms:
 {SECOND}"""
 
 
+def of_a_shaft(folder: Path) -> LiveSession:
+    (folder / "s.yaml").write_text(SHAFT, encoding="utf-8")
+    return LiveSession(folder / "s.yaml", Discovery([]))
+
+
 @pytest.mark.parametrize(
     ("changed", "old", "new"),
     [
@@ -208,8 +206,7 @@ mechanisms:
     ],
 )
 def test_a_change_of_the_page_goes_to_no_other_item_of_a_list(tmp_path: Path, changed: str, old: str, new: str) -> None:
-    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
-    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session = of_a_shaft(tmp_path)
     session.change({changed: "9 kg" if "mass" in changed else "132 mm" if "position" in changed else "55 mm"})
     replaced(session, old, new)
     saved = session.file.read_text("utf-8")
@@ -224,8 +221,7 @@ def test_a_change_of_the_page_goes_to_no_other_item_of_a_list(tmp_path: Path, ch
 
 def test_a_change_goes_to_the_item_that_the_page_shows_while_the_file_is_at_fault(tmp_path: Path) -> None:
     """The page shows the last machine that could be calculated; meanwhile other items may stand in the file."""
-    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
-    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session = of_a_shaft(tmp_path)
     moved = SHAFT.replace("[{name: gear,", "[{name: new, position: 50 mm, mass: 1 kg}, {name: gear,")
     session.file.write_text(moved.replace("bearing_a: 20 mm", "bearing_a: x20 mm"), encoding="utf-8")
     session.read()
@@ -237,8 +233,7 @@ def test_a_change_goes_to_the_item_that_the_page_shows_while_the_file_is_at_faul
 
 
 def test_a_change_stays_over_a_list_that_grows_behind_its_named_item(tmp_path: Path) -> None:
-    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
-    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session = of_a_shaft(tmp_path)
     session.change({"s.loads.1.mass": "9 kg"})
     replaced(session, "mass: 8 kg}", "mass: 8 kg}, {name: new, position: 50 mm, mass: 1 kg}")
     session.write()
@@ -331,7 +326,8 @@ def test_the_press_moves_as_a_whole_with_its_cyclogram() -> None:
     session, pictures = LiveSession(PRESS_OF_LINES, Discovery([])), Pictures()
     assert session.machine is not None and shown_of(session, "press")["figures"] == ["Press in motion"]
     made = pictures.figure(session.machine, "press", 0)
-    assert made["moving"]["mechanism"] == "timing" and [each["mechanism"] for each in made["driven"]] == [
+    assert made["moving"]["mechanism"] == "timing"
+    assert [each["mechanism"] for each in made["driven"]] == [
         "drive",
         "feeder",
     ]
@@ -440,8 +436,7 @@ def test_a_fault_of_the_file_stands_until_it_is_mended_whatever_the_page_does(se
 
 
 def test_undo_takes_a_change_to_no_other_item_of_a_list(tmp_path: Path) -> None:
-    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
-    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session = of_a_shaft(tmp_path)
     session.change({"s.loads.1.mass": "9 kg"})
     session.take_back()
     replaced(session, "[{name: gear,", "[{name: new, position: 50 mm, mass: 1 kg}, {name: gear,")
@@ -920,9 +915,7 @@ def test_the_views_speak_the_language_of_the_page(parts: LiveSession) -> None:
         assert "не перевірено на міцність" in Pictures().view(parts.machine, 0)["svg"]
 
 
-def test_a_machine_without_parts_has_no_views(tmp_path: Path) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
+def test_a_machine_without_parts_has_no_views(file: Path) -> None:
     alone = LiveSession(file, Discovery([]))
     assert alone.machine is not None and page_data(alone)["machine"]["views"] == []
     for index in (0, 2):
