@@ -167,9 +167,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return FAULT
 
 
-# --- options ---------------------------------------------------------------------------------------------------------
-
-
 def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if asked and not context.resilient_parsing:
         emit(f"diecut-report, version {__version__}\n")
@@ -182,9 +179,6 @@ def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
 )
 def program() -> None:
     """Design reports for die-cutting presses, from a YAML description to a checked calculation document."""
-
-
-# --- commands --------------------------------------------------------------------------------------------------------
 
 
 @program.command(epilog=output.OF_CHECKS)
@@ -306,9 +300,6 @@ OTHERS = (new, validate, check, compare, batch, variants, take, extract, verify,
           new_plugin, check_plugin)  # fmt: skip
 for _command in OTHERS:
     program.add_command(_command)
-
-
-# --- verdict ---------------------------------------------------------------------------------------------------------
 
 
 def _verdict(

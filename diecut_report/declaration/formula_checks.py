@@ -110,8 +110,13 @@ def check_mechanism(mechanism: Mechanism) -> None:
 
 
 def quantities(mechanism: Mechanism) -> Iterator[str]:
-    """Return what is wrong with the numbers of a mechanism in one of its forms."""
-    return chain(dimensions(mechanism), curve_units(mechanism), relations(mechanism), printing(mechanism))
+    """Return what is wrong with the numbers of a mechanism in one of its forms: dimensions, and what is printed."""
+    return chain(unbalanced(mechanism), printing(mechanism))
+
+
+def unbalanced(mechanism: Mechanism) -> Iterator[str]:
+    """Return the dimensions that do not balance in a mechanism in one of its forms."""
+    return chain(dimensions(mechanism), curve_units(mechanism), relations(mechanism))
 
 
 def forms(mechanism: Mechanism) -> Iterator[Mechanism]:

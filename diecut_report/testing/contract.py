@@ -22,7 +22,7 @@ from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, Unkno
 from diecut_report.config.validation import declared
 from diecut_report.declaration import faults, faults_at_load
 from diecut_report.declaration.code import code_texts, template
-from diecut_report.declaration.formula_checks import at_place, by_id, doubts, forms, idle_inputs, printing, quantities
+from diecut_report.declaration.formula_checks import at_place, by_id, doubts, forms, idle_inputs, printing, unbalanced
 from diecut_report.declaration.names import short
 from diecut_report.declaration.texts import files_around, own_files, parsed, texts
 from diecut_report.errors import PluginError, Problem, UserError
@@ -274,7 +274,7 @@ class ContractTest:
 
     def dimensions(self) -> TriedRule:
         """Try whether the dimensions of the formulas balance, in each unit that holds by form."""
-        texts = (text for form in forms(self.mechanism) for text in quantities(form) if " prints " not in text)
+        texts = (text for form in forms(self.mechanism) for text in unbalanced(form))
         return rule("dimensions", "", (by_id(self.mechanism, text) for text in texts))
 
     def printed(self) -> TriedRule:

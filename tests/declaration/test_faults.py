@@ -723,7 +723,6 @@ FAULTS |= {
         made(Words(id="w", function=lambda force, arm: "", takes=("arm", "force"))),
         "step w: its function has the parameters force, arm, and takes names arm, force: each is given by its position; where",
     ),
-    "an erratum that touches an unknown": (made(errata=(Erratum("1", "e", touches=("momnt",)),), sources=(Source("1", "a"),)), "touches momnt"),
     "a field of a block without its need": (
         made(value("x", formula=bind(same, value="extra.rate")), inputs=with_input(Annotated[Spring | None, Text("Spring")], None)),
         "step x: takes extra.rate",
