@@ -29,9 +29,9 @@ from diecut_report.cli.options import (
     config_argument,
     formats_option,
     here_option,
+    names_option,
     path_option,
     read_detail,
-    read_mechanisms,
     report_formats,
     source,
     strict_option,
@@ -196,12 +196,12 @@ def program() -> None:
     callback=read_detail,
     help="brief, standard or full, overriding the configuration (standard).",
 )
-@click.option(
+@names_option(
     "--only",
     metavar="NAMES",
-    shell_complete=output.mechanisms,
-    callback=read_mechanisms,
+    none=phrase("no mechanism is named; give names of the configuration, with commas: drive,clutch."),
     help="Report only these mechanisms: drive,clutch.",
+    shell_complete=output.mechanisms,
 )
 @template_option
 @strict_option

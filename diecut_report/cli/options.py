@@ -107,13 +107,16 @@ def read_detail(_: click.Context, __: click.Parameter, given: str | None) -> str
     raise click.BadParameter(say(words, given=repr(given), nearest=near, known=", ".join(DETAILS)))
 
 
-def read_mechanisms(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
-    """Return the mechanisms that are asked for; BadParameter where none is named."""
-    names = tuple(dict.fromkeys(split(given or "")))
-    if given is not None and not names:
-        template = "no mechanism is named; give names of the configuration, with commas: drive,clutch."
-        raise click.BadParameter(say(template))
-    return names
+def names_option(*names: str, metavar: str, none: str, help: str, **more: Any) -> Callable[[Given], Given]:
+    """Return the option of a list of names, each once; BadParameter, in the words ``none``, where the list is empty."""
+
+    def read(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
+        found = tuple(dict.fromkeys(split(given or "")))
+        if given is not None and not found:
+            raise click.BadParameter(say(none))
+        return found
+
+    return click.option(*names, metavar=metavar, callback=read, help=help, **more)
 
 
 def _read_template(_: click.Context, __: click.Parameter, given: Path | None) -> HouseStyle | None:
