@@ -17,7 +17,7 @@ from diecut_report.errors import UserError
 from diecut_report.exchange.carried import results_of
 from tests.configs import EXAMPLES, HEAD, SMALL, problems, saved
 from tests.examples import few
-from tests.exchange.reports import changed, run
+from tests.exchange.reports import changed, removed_at, run, set_at
 from tests.shared import once
 from tests.test_pictures import png, svg
 
@@ -42,18 +42,6 @@ def test_a_page_of_a_calculation_verifies(tmp_path: Path, capfd: Capture) -> Non
     assert "Everything agrees." in capfd.readouterr().out
 
 
-def no_sections(data: Data) -> None:
-    del data["mechanisms"]["clutch"]["sections"]
-
-
-def section_of_nonsense(data: Data) -> None:
-    data["mechanisms"]["clutch"]["sections"] = [{"title": "T", "items": [{"type": "value", "symbol": 3}]}]
-
-
-def figure_of_nonsense(data: Data) -> None:
-    data["mechanisms"]["clutch"]["figures"] = [{"id": "f", "type": "chart", "title": "T", "caption": ""}]
-
-
 def way_out(data: Data) -> None:
     data["mechanisms"]["../../up"] = data["mechanisms"].pop("clutch")
 
@@ -62,49 +50,34 @@ def export_out(data: Data) -> None:
     data["mechanisms"]["clutch"]["exports"] = [{"id": "../../up", "type": "profile", "title": "T"}]
 
 
-def hidden_letter(data: Data) -> None:
-    data["project"]["title"] = "A\u202e"
-
-
-def unknown_language(data: Data) -> None:
-    data["project"]["language"] = "xx"
+SHAFT = {"name": "s", "axis": [0.0, 0.0], "left": 0.0, "sections": [], "parts": [], "rating": {"state": "none"}}
 
 
 def endless_wheel(data: Data) -> None:
     """A Geneva wheel whose slots nobody could draw."""
-    rating = {"state": "none"}
-    part = {
-        "name": "s.w",
-        "kind": "geneva_wheel",
-        "start": 0.0,
-        "end": 0.03,
-        "seat": 0.05,
-        "radius": 0.2,
-        "slots": 10**9,
-        "rating": rating,
-    }
-    shaft = {"name": "s", "axis": [0.0, 0.0], "left": 0.0, "sections": [], "parts": [part], "rating": rating}
-    data["drive_line"] = {"shafts": [shaft], "joins": []}
+    place = {"start": 0.0, "end": 0.03, "seat": 0.05, "radius": 0.2}
+    part = {"name": "s.w", "kind": "geneva_wheel", **place, "slots": 10**9, "rating": {"state": "none"}}
+    data["drive_line"] = {"shafts": [SHAFT | {"parts": [part]}], "joins": []}
 
 
 def endless_shafts(data: Data) -> None:
-    shaft = {"name": "s", "axis": [0.0, 0.0], "left": 0.0, "sections": [], "parts": [], "rating": {"state": "none"}}
-    data["drive_line"] = {"shafts": 61 * [shaft], "joins": []}
+    data["drive_line"] = {"shafts": 61 * [SHAFT], "joins": []}
 
 
-NONSENSE = [
-    endless_wheel,
-    endless_shafts,
-    no_sections,
-    section_of_nonsense,
-    way_out,
-    export_out,
-    hidden_letter,
-    unknown_language,
-]
+SECTION = {"title": "T", "items": [{"type": "value", "symbol": 3}]}
+NONSENSE = {
+    "a wheel without an end": endless_wheel,
+    "shafts without an end": endless_shafts,
+    "no sections": removed_at("mechanisms/clutch", "sections"),
+    "a section of nonsense": set_at("mechanisms/clutch/sections", [SECTION]),
+    "a way out": way_out,
+    "an export that leads out": export_out,
+    "a hidden letter": set_at("project/title", "A\u202e"),
+    "an unknown language": set_at("project/language", "xx"),
+}
 
 
-@pytest.mark.parametrize("change", NONSENSE, ids=lambda change: change.__name__)
+@pytest.mark.parametrize("change", NONSENSE.values(), ids=NONSENSE)
 def test_results_that_are_not_the_programs_are_refused_in_words(
     small_report: Path, tmp_path: Path, capfd: Capture, change: Callable[[Data], None]
 ) -> None:
@@ -119,7 +92,8 @@ def test_results_that_are_not_the_programs_are_refused_in_words(
 def test_a_figure_that_cannot_be_drawn_is_told_and_the_rest_is_written(
     small_report: Path, tmp_path: Path, capfd: Capture
 ) -> None:
-    file = changed(small_report / "small.json", tmp_path / "a.json", figure_of_nonsense)
+    change = set_at("mechanisms/clutch/figures", [{"id": "f", "type": "chart", "title": "T", "caption": ""}])
+    file = changed(small_report / "small.json", tmp_path / "a.json", change)
     assert run("render", file, "-o", tmp_path, "--format", "html") == 3
     assert "figure 'f' of mechanism 'clutch' cannot be drawn" in capfd.readouterr().err
     assert (tmp_path / "a.html").exists()
