@@ -17,7 +17,7 @@ from diecut_report.results.record import FORM_VERSION
 from diecut_report.time_limit import limited
 from tests.config.test_own_tables import HEAD, SHAFT, TABLES
 from tests.configs import LEVER, SMALL, saved
-from tests.exchange.reports import changed, page_with, pdf_with, run
+from tests.exchange.reports import added_at, changed, page_with, pdf_with, removed_at, run, set_at
 from tests.report.links import links
 
 Capture = pytest.CaptureFixture[str]
@@ -127,6 +127,12 @@ def test_the_users_own_tables_come_back_and_are_used_again(tmp_path: Path, capfd
     assert "shaft.yaml, data/steels.yaml, SHA-256" in capfd.readouterr().out
 
 
+def with_table(name: str, text: str) -> Callable[[dict[str, Any]], None]:
+    """Say that the configuration names a table."""
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    return added_at("config", "materials", [{"file": name, "sha256": digest, "source_text": text}])
+
+
 @pytest.mark.parametrize(
     "name",
     [
@@ -143,11 +149,8 @@ def test_the_users_own_tables_come_back_and_are_used_again(tmp_path: Path, capfd
     ],
 )
 def test_the_name_of_a_table_leads_nowhere_else(small_report: Path, tmp_path: Path, name: str) -> None:
-    def change(data: dict[str, Any]) -> None:
-        data["config"]["materials"] = [{"file": name, "sha256": "", "source_text": "x"}]
-
     (tmp_path / "in").mkdir()
-    report = changed(small_report / "small.json", tmp_path / "in" / "a.json", change)
+    report = changed(small_report / "small.json", tmp_path / "in" / "a.json", with_table(name, "x"))
     for command in ("extract", "verify", "render"):
         assert run(command, report, *(["-o", tmp_path / "in" / "out"] if command != "verify" else [])) == 2
     assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["a.json"]
@@ -155,11 +158,7 @@ def test_the_name_of_a_table_leads_nowhere_else(small_report: Path, tmp_path: Pa
 
 @pytest.mark.parametrize("text", ["x", "on: push\njobs: {}\n", "steels: {own: {strengths: []}}\n", "a: [\n"])
 def test_what_is_no_table_is_not_written(small_report: Path, tmp_path: Path, text: str) -> None:
-    def change(data: dict[str, Any]) -> None:
-        digest = hashlib.sha256(text.encode()).hexdigest()
-        data["config"]["materials"] = [{"file": "compose.yml", "sha256": digest, "source_text": text}]
-
-    report = changed(small_report / "small.json", tmp_path / "a.json", change)
+    report = changed(small_report / "small.json", tmp_path / "a.json", with_table("compose.yml", text))
     assert run("extract", report, "-o", tmp_path / "out") == 2
     assert not (tmp_path / "out").exists()
 
@@ -168,10 +167,7 @@ def test_what_is_no_table_is_not_written(small_report: Path, tmp_path: Path, tex
 def test_a_table_does_not_take_the_place_of_the_configuration(
     small_report: Path, tmp_path: Path, capfd: Capture, name: str
 ) -> None:
-    def change(data: dict[str, Any]) -> None:
-        data["config"]["materials"] = [{"file": name, "sha256": hashlib.sha256(b"x").hexdigest(), "source_text": "x"}]
-
-    report = changed(small_report / "small.json", tmp_path / "a.json", change)
+    report = changed(small_report / "small.json", tmp_path / "a.json", with_table(name, "x"))
     assert run("extract", report, "-o", tmp_path / "out") == 2
     assert "would be called so itself" in capfd.readouterr().err and not (tmp_path / "out").exists()
 
@@ -257,19 +253,15 @@ def test_another_first_number_is_refused_with_both_versions(
     assert f"this program reads form {FORM_VERSION}" in told and advice in told
 
 
-def without_summary(data: dict[str, Any]) -> None:
-    del data["summary"]
-
-
 def without_titles(data: dict[str, Any]) -> None:
     for mechanism in data["mechanisms"].values():
         for section in mechanism["sections"]:
             del section["title"]
 
 
-@pytest.mark.parametrize("change", [without_summary, without_titles])
+@pytest.mark.parametrize("change", [removed_at("", "summary"), without_titles])
 def test_what_is_missing_in_another_form_is_told_with_both_versions(
-    change: Callable[[dict[str, Any]], None], results: dict[str, Any], tmp_path: Path, capfd: Capture
+    change: Callable[[dict[str, Any]], object], results: dict[str, Any], tmp_path: Path, capfd: Capture
 ) -> None:
     change(results)
     assert asked("render", results | {"form_version": "1.0"}, tmp_path) == 2
@@ -288,16 +280,8 @@ def test_a_strange_version_is_not_repeated(results: dict[str, Any], tmp_path: Pa
     assert f"form {'1' + 19 * '0'}; this program" in told and "\x1b" not in told
 
 
-def beyond_floats(data: dict[str, Any]) -> None:
-    [*next(iter(data["mechanisms"].values()))["outputs"].values()][-1]["value"] = 10**400
-
-
-def beyond_floats_in_mm(data: dict[str, Any]) -> None:
-    [*next(iter(data["mechanisms"].values()))["outputs"].values()][-1]["value"] = 1e308
-
-
-def without_mechanisms(data: dict[str, Any]) -> None:
-    data["mechanisms"] = {}
+def last_output(value: float) -> Callable[[dict[str, Any]], object]:
+    return lambda data: [*next(iter(data["mechanisms"].values()))["outputs"].values()][-1].update(value=value)
 
 
 def without_checks(data: dict[str, Any]) -> None:
@@ -308,19 +292,14 @@ def without_checks(data: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (beyond_floats, "beyond the range of numbers"),
-        (beyond_floats_in_mm, "beyond the range of numbers"),
-        (without_mechanisms, "it names no check"),
+        (last_output(10**400), "beyond the range of numbers"),
+        (last_output(1e308), "beyond the range of numbers"),
+        (set_at("mechanisms", {}), "it names no check"),
         (without_checks, "it names no check"),
     ],
 )
 def test_results_that_contradict_themselves_are_refused(
-    command: str,
-    change: Callable[[dict[str, Any]], None],
-    words: str,
-    results: dict[str, Any],
-    tmp_path: Path,
-    capfd: Capture,
+    command: str, change: Callable[[Any], object], words: str, results: Any, tmp_path: Path, capfd: Capture
 ) -> None:
     change(results)
     assert asked(command, results, tmp_path) == 2

@@ -46,10 +46,6 @@ def way_out(data: Data) -> None:
     data["mechanisms"]["../../up"] = data["mechanisms"].pop("clutch")
 
 
-def export_out(data: Data) -> None:
-    data["mechanisms"]["clutch"]["exports"] = [{"id": "../../up", "type": "profile", "title": "T"}]
-
-
 SHAFT = {"name": "s", "axis": [0.0, 0.0], "left": 0.0, "sections": [], "parts": [], "rating": {"state": "none"}}
 
 
@@ -71,7 +67,9 @@ NONSENSE = {
     "no sections": removed_at("mechanisms/clutch", "sections"),
     "a section of nonsense": set_at("mechanisms/clutch/sections", [SECTION]),
     "a way out": way_out,
-    "an export that leads out": export_out,
+    "an export that leads out": set_at(
+        "mechanisms/clutch/exports", [{"id": "../../up", "type": "profile", "title": "T"}]
+    ),
     "a hidden letter": set_at("project/title", "A\u202e"),
     "an unknown language": set_at("project/language", "xx"),
 }
@@ -173,9 +171,7 @@ def test_a_logo_is_in_the_page_goes_with_the_report_and_comes_back(reported: Pat
 
 
 def test_a_logo_that_was_exchanged_in_a_report_is_told(reported: Path, capfd: Capture) -> None:
-    def change(data: dict[str, Any]) -> None:
-        data["config"]["logo"]["base64"] = base64.b64encode(svg("")).decode()
-
+    change = set_at("config/logo/base64", base64.b64encode(svg("")).decode())
     assert run("verify", changed(reported / "press.json", reported / "a.json", change)) == 1
     assert "✗ configuration  pictures/a.svg is not the one that the report names" in capfd.readouterr().out
 
