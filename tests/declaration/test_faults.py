@@ -84,11 +84,6 @@ class Arm(Inputs):
 
 
 @formula
-def turned_round(force: Any, arm: Any) -> Any:
-    return arm * force
-
-
-@formula
 def product(force: Any, arm: Any) -> Any:
     return force * arm
 
@@ -101,16 +96,6 @@ def same(value: Any) -> Any:
 @formula
 def turned(force: Any, arm: Any) -> Any:
     return 1 * arm * (force + 0)
-
-
-@formula
-def least(one: Any, other: Any) -> Any:
-    return np.minimum(one, other)
-
-
-@formula
-def wave(angle: Any, moment: Any) -> Any:
-    return moment * np.sin(angle)
 
 
 @formula
@@ -134,7 +119,7 @@ def value(name: str, symbol: str = "", **changes: Any) -> Value:
 
 MOMENT = value("moment", "M")
 ANGLE = Abscissa(id="angle", symbol="φ", unit="deg", description="Angle", period=2 * np.pi)
-TORQUE = value("torque", "T", formula=wave)
+TORQUE = value("torque", "T", formula=lambda angle, moment: moment * np.sin(angle))
 PEAK = Reduction(id="peak", symbol="T_max", unit="N*m", description="Peak", of="torque", operation="max")
 STEPS = (MOMENT, ANGLE, TORQUE, PEAK)
 
@@ -214,7 +199,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "compares moment with other, which is the same expression: it can never fail",
     ),
     "a check of one product, written the other way round": (
-        made(value("other", "Q", formula=turned_round), checks=(check(limit="other"),)),
+        made(value("other", "Q", formula=lambda force, arm: arm * force), checks=(check(limit="other"),)),
         "compares moment with other, which is the same expression: it can never fail",
     ),
     "a check of a quantity with its copy": (
@@ -231,7 +216,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     "a check of what is bounded by its own limit": (
         made(
-            value("most", "Q", formula=bind(least, one="moment", other="peak")),
+            value("most", "Q", formula=lambda moment, peak: np.minimum(moment, peak)),
             checks=(check(demand="most", limit="peak"),),
         ),
         "compares most with peak, by which it is bounded itself: it can never fail",
@@ -579,21 +564,6 @@ def doubled(arm: Any) -> Any:
     return 2 * arm
 
 
-@formula
-def difference(one: Any, other: Any) -> Any:
-    return abs(one - other) / one
-
-
-@formula
-def quotient(one: Any, other: Any) -> Any:
-    return one / other
-
-
-@formula
-def nested_flag(arm: Any) -> Any:
-    return np.where(arm > 1, arm > 2, arm > 3)
-
-
 def chosen(*cases: Case, **changes: Any) -> Choice:
     return Choice(**{"id": "x", "symbol": "x", "unit": "1", "description": "x", "cases": cases, **changes})
 
@@ -618,7 +588,7 @@ def pick(**changes: Any) -> Pick:
 def root(**changes: Any) -> Root:
     ends = {"low": bind(same, value=0.0), "high": bind(same, value="moment")}
     sides = {
-        "equation": bind(quotient, one="x", other="moment"),
+        "equation": lambda x, moment: x / moment,
         "left": bind(same, value="x"),
         "right": bind(same, value="moment"),
     }
@@ -631,12 +601,12 @@ LONG = bind(is_long)
 SOUND |= {
     "a flag of a flag": made(value("long", "λ", unit="1", formula=is_long),
                              chosen(Case(TWO, "long", bind(same, value="long")), Case(TWO, "short"), unit="mm")),
-    "a condition with branches": made(require(condition=nested_flag)),
+    "a condition with branches": made(require(condition=lambda arm: np.where(arm > 1, arm > 2, arm > 3))),
     "a quantity that exists": made(value("x", exists=LONG)),
     "a neighbour in other millimetres": made(of_bars(Neighbour, "m")),
     "a pick": made(pick()),
     "a root": made(root()),
-    "a self-test of two ways": made(value("x", unit="1", formula=bind(difference, one="moment", other="peak")),
+    "a self-test of two ways": made(value("x", unit="1", formula=lambda moment, peak: abs(moment - peak) / moment),
                                     checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
     "a tolerance of rounding": made(checks=(check(tolerance=1e-6),)),
 }  # fmt: skip
@@ -658,15 +628,15 @@ FAULTS |= {
         made(checks=(check(demand="arm", unit="mm", limit="width", only_with=("width",)),)),
         "check strong: has the limit width and names it in only_with, so that the check vanishes where it is not given"),
     "a self-test of what cancels": (
-        made(value("x", unit="1", formula=bind(difference, one="moment", other="moment")),
+        made(value("x", unit="1", formula=lambda moment: abs(moment - moment) / moment),
              checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
         "check strong: compares x with 1e-06, neither of which depends on an input: its verdict is always the same"),
     "a self-test of what cancels by another name": (
-        made(value("copy", "Q", formula=bind(same, value="moment")), value("x", unit="1", formula=bind(difference, one="moment", other="copy")),
+        made(value("copy", "Q", formula=bind(same, value="moment")), value("x", unit="1", formula=lambda moment, copy: abs(moment - copy) / moment),
              checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
         "check strong: compares x with 1e-06, neither of which depends on an input"),
     "a quotient of what is the same": (
-        made(value("x", unit="1", formula=bind(quotient, one="moment", other="moment")), checks=(check(demand="x", unit="1", limit=1.001),)),
+        made(value("x", unit="1", formula=lambda moment: moment / moment), checks=(check(demand="x", unit="1", limit=1.001),)),
         "check strong: compares x with 1.001, neither of which depends on an input"),
     "a check of one part of what has none": (
         made(checks=(check(index=3),)), "check strong: is of part index=3 alone, but compares no row over repeated parts"),
