@@ -13,12 +13,12 @@ if TYPE_CHECKING:
         InfluenceTable,
         LoadedPress,
         MendedPress,
+        PressInput,
         Solution,
         load,
         load_results,
         loads,
     )
-    from diecut_report.scripting.press_inputs import PressInput
     from diecut_report.scripting.results import MechanismResults, Results
     from diecut_report.scripting.sweeps import SweepTable
     from diecut_report.scripting.values import InputValue, QuantityValue, linspace
@@ -54,8 +54,16 @@ __all__ = [
 _HOMES = {
     "errors": ("ConfigError", "PluginError", "Problem", "UnknownName", "Unwritable", "UserError"),
     "scripting.parts": ("CheckList", "CheckResult", "CurveResult", "FigureResult", "PhaseResult"),
-    "scripting.press": ("InfluenceTable", "LoadedPress", "MendedPress", "Solution", "load", "load_results", "loads"),
-    "scripting.press_inputs": ("PressInput",),
+    "scripting.press": (
+        "InfluenceTable",
+        "LoadedPress",
+        "MendedPress",
+        "PressInput",
+        "Solution",
+        "load",
+        "load_results",
+        "loads",
+    ),
     "scripting.results": ("MechanismResults", "Results"),
     "scripting.sweeps": ("SweepTable",),
     "scripting.values": ("InputValue", "QuantityValue", "linspace"),
