@@ -56,7 +56,6 @@ from diecut_report.api import (
     Words,
     bind,
     formula,
-    standard_series,
 )
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import Fault, faults
@@ -671,7 +670,7 @@ FAULTS |= {
     "an extreme in another unit": (made(replace(PEAK, id="x", symbol="X", unit="N")), "step x: is in N, torque in N*m"),
     "a pick in another unit": (made(pick(unit="N")), "step x: is in N, arm in mm"),
     "a pick by another unit": (made(pick(of="force")), "step x: is in mm, force in N"),
-    "a series in another unit": (made(pick(series=standard_series("iec_60072_ratings"))), "motors (IEC 60072-1)” is in kW, the step in mm"),
+    "a series in another unit": (made(pick(series=StandardSeries("", "R10", "kW", (1.0, 2.0), ()))), "the series “R10” is in kW, the step in mm"),
     # choices
     "text and number": (made(chosen(Case("yes", "a", LONG), Case(TWO, "b"), unit="mm")), "step x: mixes texts and numbers in its cases"),
     "a last case with a condition": (made(chosen(Case(TWO, "a", LONG), Case(TWO, "b", LONG), unit="mm")), "has a condition in its last case"),
