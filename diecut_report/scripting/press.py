@@ -38,7 +38,16 @@ from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
 from diecut_report.scripting.parts import NamedParts, PartList
 from diecut_report.scripting.results import Results
-from diecut_report.scripting.values import QuantityValue, known_language, notebook_page, plain, scalar, told_in, typed
+from diecut_report.scripting.values import (
+    QuantityValue,
+    known_language,
+    notebook_page,
+    plain,
+    scalar,
+    told_in,
+    typed,
+    whole_path,
+)
 from diecut_report.study.definition.base_inputs import (
     MECHANISMS,
     Input,
@@ -476,11 +485,6 @@ def _value(path: str, slot: Slot, value: Any) -> QuantityValue | None:
     if isinstance(value, bool | int | float | str):
         return QuantityValue(value, "1", path, description=meta.description if meta else "")
     return None
-
-
-def whole_path(name: str) -> str:
-    """Return the path of an input in the file, where its mechanism may be named alone."""
-    return name if name.split(".")[0] in (PRESS, MECHANISMS, *WORDS) else f"{MECHANISMS}.{name}"
 
 
 def _typed_at_part(config: Config, found: Input, value: Any) -> str:

@@ -403,9 +403,9 @@ def test_a_state_has_a_name_that_a_file_may_have_and_no_other_state_has(session:
     assert not session.states
 
 
-@pytest.mark.parametrize(("file", "before"), [("20 mm", "2.2 cm"), ("20", "2.2 cm"), ("2 cm", "22 mm")])
-def test_a_bare_number_is_in_the_unit_that_is_shown(session: LiveSession, file: str, before: str) -> None:
-    replaced(session, "eccentricity: {value: 20 mm", f"eccentricity: {{value: {file}")
+@pytest.mark.parametrize(("in_file", "before"), [("20 mm", "2.2 cm"), ("20", "2.2 cm"), ("2 cm", "22 mm")])
+def test_a_bare_number_is_in_the_unit_that_is_shown(session: LiveSession, in_file: str, before: str) -> None:
+    replaced(session, "eccentricity: {value: 20 mm", f"eccentricity: {{value: {in_file}")
     session.change({"knife.eccentricity": before})
     shown = next(each for each in shown_of(session, "knife")["inputs"] if each["name"] == "knife.eccentricity")
     number, unit = before.split()
