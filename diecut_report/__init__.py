@@ -9,9 +9,16 @@ TYPE_CHECKING = False  # as type checkers know it; importing typing would run a 
 if TYPE_CHECKING:
     from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName, Unwritable, UserError
     from diecut_report.scripting.parts import CheckList, CheckResult, CurveResult, FigureResult, PhaseResult
-    from diecut_report.scripting.press import LoadedPress, load, load_results, loads
-    from diecut_report.scripting.press_inputs import PressInput
-    from diecut_report.scripting.questions import InfluenceTable, MendedPress, Solution
+    from diecut_report.scripting.press import (
+        InfluenceTable,
+        LoadedPress,
+        MendedPress,
+        PressInput,
+        Solution,
+        load,
+        load_results,
+        loads,
+    )
     from diecut_report.scripting.results import MechanismResults, Results
     from diecut_report.scripting.sweeps import SweepTable
     from diecut_report.scripting.values import InputValue, QuantityValue, linspace
@@ -25,9 +32,16 @@ __all__ = [
 _HOMES = {
     "errors": ("ConfigError", "PluginError", "Problem", "UnknownName", "Unwritable", "UserError"),
     "scripting.parts": ("CheckList", "CheckResult", "CurveResult", "FigureResult", "PhaseResult"),
-    "scripting.press": ("LoadedPress", "load", "load_results", "loads"),
-    "scripting.press_inputs": ("PressInput",),
-    "scripting.questions": ("InfluenceTable", "MendedPress", "Solution"),
+    "scripting.press": (
+        "InfluenceTable",
+        "LoadedPress",
+        "MendedPress",
+        "PressInput",
+        "Solution",
+        "load",
+        "load_results",
+        "loads",
+    ),
     "scripting.results": ("MechanismResults", "Results"),
     "scripting.sweeps": ("SweepTable",),
     "scripting.values": ("InputValue", "QuantityValue", "linspace"),

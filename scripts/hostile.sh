@@ -7,5 +7,5 @@ set -eu
 
 cd "$(dirname -- "$0")/.."
 exec .venv/bin/python -m pytest -n "${JOBS:-2}" --dist worksteal -m "" -k "not no_machine_is_left_unproved" tests/hostile tests/extremes \
-    tests/cli/test_breaking_inputs.py tests/config/test_limits.py tests/quantities/test_plausible.py \
+    tests/cli/test_faults.py tests/config/test_limits.py tests/quantities/test_plausible.py \
     tests/study/test_damaged_store.py tests/study/test_interrupted.py "$@"

@@ -50,11 +50,11 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "docx": r"diecut_report\.report\.office\.word_file",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
     "threadpoolctl": r"diecut_report\.study\.execution\.engines",
-    "pikepdf": r"diecut_report\.exchange\.(pdf_attachments|added_sections|later_changes)",
-    "pyhanko": r"diecut_report\.exchange\.(signing|signatures)",
-    "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signatures)",
-    "cryptography": r"diecut_report\.exchange\.(signing|signing_keys|signatures)",
-    "asn1crypto": r"diecut_report\.exchange\.signing",
+    "pikepdf": r"diecut_report\.exchange\.(pdf_attachments|later_changes)",
+    "pyhanko": r"diecut_report\.exchange\.signatures",
+    "pyhanko_certvalidator": r"diecut_report\.exchange\.signatures",
+    "cryptography": r"diecut_report\.exchange\.signatures",
+    "asn1crypto": r"diecut_report\.exchange\.signatures",
     "starlette": r"diecut_report\.live\.(server|watched_plugin)",
     "uvicorn": r"diecut_report\.live\.server",
     "watchfiles": r"diecut_report\.live\.(server|watched_plugin)",
@@ -124,7 +124,7 @@ def within(module: str, package: str) -> bool:
 def own_imports(name: str) -> set[str]:
     if (
         name == "diecut_report"
-    ):  # what it offers to scripts is loaded when it is asked for (tests/scripting/test_offered.py)
+    ):  # what it offers to scripts is loaded when it is asked for (tests/scripting/test_press.py)
         return set()
     return {module for module in imports(name) if module in PROGRAM} - {name}
 

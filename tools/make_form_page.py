@@ -13,10 +13,8 @@ from typing import Any
 from diecut_report import api, testing
 from diecut_report.mechanism.steps import Options, StepCondition
 from tools.site.api_examples import FOLDER, example_of
-from tools.site.api_groups import GROUPS, TOLD
 from tools.site.markup import code, plain, table
-from tools.site.reference import declared_by, is_own, short
-from tools.site.signatures import methods, paragraphs, signature
+from tools.site.reference import GROUPS, TOLD, declared_by, is_own, methods, paragraphs, short, signature
 
 PAGE = Path(__file__).parents[1] / "docs" / "reference" / "api.md"
 LISTED = ("Chapter", "Steps")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import shutil
 import sys
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
+from functools import cached_property
 from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,13 +16,14 @@ import click
 from diecut_report.cli import output
 from diecut_report.cli.options import (
     DASH,
+    flag,
     form_option,
     formats_option,
     from_standard_input,
     jobs_option,
+    names_option,
     path_of,
     path_option,
-    split,
     strict_option,
 )
 from diecut_report.cli.output import (
@@ -35,7 +37,6 @@ from diecut_report.cli.output import (
     Progress,
     asked_language,
     coloured,
-    common,
     emit_json,
     emit_lines,
     in_line,
@@ -87,13 +88,12 @@ class JudgedFile:
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_FILES)
 @click.argument("files", metavar="FILE…", nargs=-1, required=True, type=path_of)
-@click.option(
-    "--dry-run", "tries", is_flag=True,
+@flag(
+    "--dry-run", "tries",
     help="For a study also report its size, columns and first variant, what the constraints exclude, and the time and disk space measured on a "
          "few variants.",
 )  # fmt: skip
 @form_option("text", "json")
-@common
 def validate(files: tuple[Path, ...], tries: bool, form: str, discovery: Discovery) -> int:
     """Validate configurations and studies without calculating; all problems of all files are reported."""
     judged = []
@@ -256,6 +256,7 @@ def _whole(results: ResultsRecord) -> Line:
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
 HEADS = (phrase("machine"), phrase("verdict"), phrase("governing check"), phrase("utilisation"), phrase("failed"), phrase("not checked"),
          phrase("warnings"), phrase("assumed"))  # fmt: skip
+NONE_NAMED = phrase("nothing is named; give names with commas between them.")
 given_machines = click.argument("given", metavar="CONFIG|DIR#N|FOLDER…", nargs=-1, required=True, type=path_of)
 table_formats = formats_option(
     lambda: FORMATS, ",".join(FORMATS), "Formats of the table: html,pdf,xlsx,csv,json or some of them."
@@ -270,7 +271,6 @@ table_formats = formats_option(
 @strict_option
 @table_formats
 @jobs_option
-@common
 def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
           discovery: Discovery) -> int:  # fmt: skip
     """Calculate many machines and show a table of their verdicts; folders are searched for configurations."""
@@ -281,29 +281,20 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
     return found.finished(folder, "machines", formats, strict=strict)
 
 
-def _listed(_: click.Context, option: click.Parameter, given: str | None) -> tuple[str, ...] | None:
-    """Return the names of an option's list; None where it is not given, BadParameter where it is empty."""
-    names = tuple(dict.fromkeys(split(given or "")))
-    if given is not None and not names:
-        raise click.BadParameter(say("nothing is named; give names with commas between them."))
-    return names or None
-
-
 @click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
 @given_machines
-@click.option(
-    "--show", metavar="OUTPUTS", callback=_listed,
+@names_option(
+    "--show", metavar="OUTPUTS", none=NONE_NAMED,
     help="The results to show, by output, by INSTANCE.OUTPUT, or by the words rate, mass, torque_max, motor, strength, function "
          "(default: these words).",
 )  # fmt: skip
-@click.option(
-    "--units", metavar="LIST", callback=_listed, help="Units for quantities of their dimensions, such as kN,mm."
+@names_option(
+    "--units", metavar="LIST", none=NONE_NAMED, help="Units for quantities of their dimensions, such as kN,mm."
 )
 @path_option("-o", "folder", metavar="DIR", help="Also write the comparison there: comparison.html and so on.")
 @table_formats
 @jobs_option
-@common
-def compare(given: tuple[Path, ...], show: tuple[str, ...] | None, units: tuple[str, ...] | None, folder: Path | None,
+def compare(given: tuple[Path, ...], show: tuple[str, ...], units: tuple[str, ...], folder: Path | None,
             formats: list[str], jobs: int | None, discovery: Discovery) -> int:  # fmt: skip
     """Compare machines in one table: verdicts, chosen results, and the inputs that were typed differently.
 
@@ -311,9 +302,9 @@ def compare(given: tuple[Path, ...], show: tuple[str, ...] | None, units: tuple[
     """
     from diecut_report.study.comparison import SHOWN_WORDS, AskedResults, refuse_units, refuse_unused_units
 
-    refuse_units(units or ())
-    found = _found(given, discovery, jobs, AskedResults(show or tuple(SHOWN_WORDS), units or ()))
-    refuse_unused_units(units or (), [*found.spoken.results, *found.spoken.changes])
+    refuse_units(units)
+    found = _found(given, discovery, jobs, AskedResults(show or tuple(SHOWN_WORDS), units))
+    refuse_unused_units(units, [*found.spoken.results, *found.spoken.changes])
     emit_lines(_side_by_side(found.spoken))
     return found.finished(folder, "comparison", formats)
 
@@ -343,13 +334,13 @@ class NamedMachines:
     machines: list[CheckedMachine]
     asked: AskedResults
     discovery: Discovery
-    spoken: MachineComparison = field(init=False)
 
-    def __post_init__(self) -> None:
-        self.spoken = self._compared()
+    @cached_property
+    def spoken(self) -> MachineComparison:
+        """Return them side by side in the language that is spoken first."""
+        return self._compared()
 
     def _compared(self) -> MachineComparison:
-        """Return them side by side in the language that is spoken."""
         from diecut_report.study.comparison import compared
         from diecut_report.study.machines import in_language
 

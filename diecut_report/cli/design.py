@@ -8,14 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from diecut_report.cli import output
 from diecut_report.cli.options import (
     DASH,
     RESULTS,
     changeable_source,
     config_argument,
+    count_option,
     dask_option,
+    flag,
     form_option,
+    input_option,
     jobs_option,
     path_of,
     path_option,
@@ -34,7 +36,6 @@ from diecut_report.cli.output import (
     as_json,
     as_lines,
     asked_language,
-    common,
     emit,
     emit_or_write,
     inform,
@@ -64,13 +65,7 @@ corrected_option = path_option(
 
 @click.command(cls=HelpfulCommand)
 @config_argument
-@click.option(
-    "--vary",
-    required=True,
-    metavar="INPUT",
-    shell_complete=output.inputs,
-    help="The input to solve for, such as drive.crank_length.",
-)
+@input_option("--vary", required=True, help="The input to solve for, such as drive.crank_length.")
 @click.option(
     "--for", "asked", required=True, metavar="QUESTION",
     help='`drive.crank_torque_peak = 400 N*m`, with = <= or >=; or `max press.productivity`, `min cylinder.mass`.',
@@ -83,10 +78,9 @@ corrected_option = path_option(
     multiple=True,
     help="A value to try, such as a size of a series or a bearing; may be given several times, or several with semicolons.",
 )
-@click.option("--passing", is_flag=True, help="Only values for which no check fails.")
+@flag("--passing", help="Only values for which no check fails.")
 @corrected_option
 @form_option("text", "json")
-@common
 def solve(
     config: Path, vary: str, asked: str, low: str | None, high: str | None, among: tuple[str, ...], passing: bool, target: Path | None,
     form: str, discovery: Discovery
@@ -110,26 +104,15 @@ def solve(
 
 @click.command(cls=HelpfulCommand)
 @config_argument
-@click.option(
+@input_option(
     "--free",
-    metavar="INPUT",
-    shell_complete=output.inputs,
     multiple=True,
     help="An input that may be changed; may be given several times (default: sizes, angles and ratios).",
 )
-@click.option(
-    "--keep", metavar="INPUT", shell_complete=output.inputs, multiple=True, help="An input to keep unchanged."
-)
-@click.option(
-    "--most",
-    metavar="N",
-    type=click.IntRange(1),
-    default=10_000,
-    help="Maximum number of machines to calculate (default: 10000).",
-)
+@input_option("--keep", multiple=True, help="An input to keep unchanged.")
+@count_option("--most", least=1, default=10_000, help="Maximum number of machines to calculate (default: 10000).")
 @corrected_option
 @form_option("text", "json")
-@common
 def advise(
     config: Path, free: tuple[str, ...], keep: tuple[str, ...], most: int, target: Path | None, form: str,
     discovery: Discovery
@@ -176,12 +159,11 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
     default=10.0,
     help="Percentage by which each input is decreased and increased (default: 10).",
 )
-@click.option("--defaults", is_flag=True, help="Also vary inputs that have their default values.")
-@click.option(
+@flag("--defaults", help="Also vary inputs that have their default values.")
+@input_option(
     "--tolerance",
     "tolerances",
     metavar="INPUT=SIZE",
-    shell_complete=output.inputs,
     multiple=True,
     help="drive.crank_length=0.1 mm: symmetric tolerance of an input; may be given several times.",
 )
@@ -191,23 +173,10 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
     default="normal",
     help="Distribution within the tolerances: normal (the tolerance is three standard deviations) or uniform.",
 )
-@click.option(
-    "--count",
-    metavar="N",
-    type=click.IntRange(10, 1_000_000),
-    default=1000,
-    help="Number of random machines (default: 1000).",
-)
-@click.option(
-    "--seed",
-    metavar="N",
-    type=click.IntRange(0),
-    default=1,
-    help="Random seed; equal seeds give equal machines (default: 1).",
-)
+@count_option("--count", least=10, most=1_000_000, default=1000, help="Number of random machines (default: 1000).")
+@count_option("--seed", least=0, default=1, help="Random seed; equal seeds give equal machines (default: 1).")
 @target_option
 @form_option("text", "json", "html", help="text (default), json or html with figures.")
-@common
 def influence(
     config: Path, names: tuple[str, ...], share: float, defaults: bool, tolerances: tuple[str, ...], distribution: Any, count: int, seed: int,
     target: Path | None, form: str, discovery: Discovery
@@ -255,7 +224,6 @@ def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
 @click.argument("name", metavar="MECHANISM.NAME")
 @config_argument
 @form_option("text", "json")
-@common
 def where(name: str, config: Path, form: str, discovery: Discovery) -> int:
     """Show where a number comes from: file and line of its formula, its inputs, its source, and the checks that use it.
 
@@ -337,9 +305,8 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
 )
 @jobs_option
 @dask_option
-@click.option("--yes", is_flag=True, help="Allow a very large number of machines or reports.")
+@flag("--yes", help="Allow a very large number of machines or reports.")
 @form_option("text", "json", "csv", help="Output format: text (default), json, or csv of the whole front.")
-@common
 def optimise(study: Path | None, folder: Path | None, resume: Path | None, reports: list[str], jobs: int | None, dask: str | None, yes: bool,
              form: str, discovery: Discovery) -> int:  # fmt: skip
     """Find the best machines of a STUDY by its objectives: a search over its varied inputs, within its constraints.

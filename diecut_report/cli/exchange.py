@@ -13,6 +13,7 @@ import click
 
 from diecut_report.cli import checking, output
 from diecut_report.cli.options import (
+    flag,
     form_option,
     formats_option,
     here_option,
@@ -33,7 +34,6 @@ from diecut_report.cli.output import (
     as_json,
     as_lines,
     asked_language,
-    common,
     emit_lines,
     emit_or_write,
     inform,
@@ -114,7 +114,6 @@ def _value(value: object) -> str:
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
 @here_option
-@common
 def extract(report: Path, folder: Path, discovery: Discovery) -> int:
     """Extract the configuration and the results from a REPORT (PDF or HTML), as NAME.yaml and NAME.json."""
     from diecut_report.exchange.carried import extract as taken
@@ -132,11 +131,10 @@ previous_option = path_option(
 
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
-@click.option("--numbers", is_flag=True, help="Compare only the results, not the pages, which takes longer.")
+@flag("--numbers", help="Compare only the results, not the pages, which takes longer.")
 @path_option("--trust", help="Certificates (PEM) to which signatures must lead.")
 @previous_option
 @template_option
-@common
 def verify(
     report: Path, numbers: bool, trust: Path | None, previous: Path | None, house: HouseStyle | None, discovery: Discovery
 ) -> int:  # fmt: skip
@@ -172,7 +170,6 @@ def verified(
 @formats_option(lambda: report_formats()[:-1], "html,pdf", "html,pdf (default), also docx,xlsx.")
 @template_option
 @strict_option
-@common
 def render(results: Path, folder: Path, formats: list[str], house: HouseStyle | None, strict: bool, discovery: Discovery) -> int:  # fmt: skip
     """Regenerate the report from a results file, without calculating."""
     from diecut_report.exchange.rendering import render as rendered
@@ -192,8 +189,7 @@ def render(results: Path, folder: Path, formats: list[str], house: HouseStyle | 
 @click.argument("new", metavar="NEW", type=path_of)
 @form_option("text", "json", "html", help="text, json or html.")
 @target_option
-@click.option("--all", "all_rows", is_flag=True, help="As text, show all changes, not only the most important ones.")
-@common
+@flag("--all", "all_rows", help="As text, show all changes, not only the most important ones.")
 def diff(old: Path, new: Path, form: str, target: Path | None, all_rows: bool, discovery: Discovery) -> int:
     """Report what changed from OLD to NEW: each a configuration, a results file, a report, or a variant of a study (DIR#N).
 
@@ -241,7 +237,6 @@ PASSWORD = "DIECUT_REPORT_KEY_PASSWORD"  # the name of a variable of the environ
 @path_option("-o", "target", help="Write to another file (default: REPORT.pdf itself).")
 @previous_option
 @template_option
-@common
 def sign(
     report: Path, key: Path, cert: Path | None, field: str | None, reason: str | None, target: Path | None, previous: Path | None,
     house: HouseStyle | None, discovery: Discovery
@@ -251,8 +246,8 @@ def sign(
     The report is verified first: one that differs from what this program produces is not signed.
     The key's password is asked for, or taken from the variable DIECUT_REPORT_KEY_PASSWORD.
     """
-    from diecut_report.exchange.signing import sign as signed
-    from diecut_report.exchange.signing_keys import signing_key
+    from diecut_report.exchange.signatures import sign as signed
+    from diecut_report.exchange.signatures import signing_key
 
     out = target or (report.resolve() if report.is_symlink() else report)  # signed where it stands
     for given in filter(None, (key, cert)):

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli.options import DASH, config_argument
-from diecut_report.cli.output import PASSED, HelpfulCommand, asked_language, common, emit, inform, tell, without_output
+from diecut_report.cli.output import PASSED, HelpfulCommand, asked_language, emit, inform, tell, without_output
 from diecut_report.config import yaml
 from diecut_report.config.loader import SHOWN, refuse_study
 from diecut_report.config.plugins import Discovery, catalogues_of
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 @config_argument
 @click.option("--port", metavar="N", type=click.IntRange(0, 65535), default=0, help="The port (default: a free one).")
 @click.option("--open/--no-open", "is_opened", default=True, help="Whether to open the page in the browser.")
-@common
 def live(config: Path, port: int, is_opened: bool, discovery: Discovery) -> int:
     """Show CONFIG as a live page that follows each change of the file and lets you edit its numbers. End with Ctrl-C.
 

@@ -29,9 +29,9 @@ from diecut_report.cli.options import (
     config_argument,
     formats_option,
     here_option,
+    names_option,
     path_option,
     read_detail,
-    read_mechanisms,
     report_formats,
     source,
     strict_option,
@@ -48,12 +48,10 @@ from diecut_report.cli.output import (
     HelpfulGroup,
     Progress,
     asked_language,
-    common,
     emit,
     emit_json,
     emit_lines,
     inform,
-    language_option,
     of_environment,
     open_streams,
     tell,
@@ -169,9 +167,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return FAULT
 
 
-# --- options ---------------------------------------------------------------------------------------------------------
-
-
 def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if asked and not context.resilient_parsing:
         emit(f"diecut-report, version {__version__}\n")
@@ -182,12 +177,8 @@ def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
 @click.option(
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version, help="Show the version and exit."
 )
-@language_option
 def program() -> None:
     """Design reports for die-cutting presses, from a YAML description to a checked calculation document."""
-
-
-# --- commands --------------------------------------------------------------------------------------------------------
 
 
 @program.command(epilog=output.OF_CHECKS)
@@ -205,16 +196,15 @@ def program() -> None:
     callback=read_detail,
     help="brief, standard or full, overriding the configuration (standard).",
 )
-@click.option(
+@names_option(
     "--only",
     metavar="NAMES",
-    shell_complete=output.mechanisms,
-    callback=read_mechanisms,
+    none=phrase("no mechanism is named; give names of the configuration, with commas: drive,clutch."),
     help="Report only these mechanisms: drive,clutch.",
+    shell_complete=output.mechanisms,
 )
 @template_option
 @strict_option
-@common
 def report(
     config: Path, folder: Path, formats: list[str], previous: Path | None, detail: str | None, only: tuple[str, ...],
     house: HouseStyle | None, strict: bool, discovery: Discovery
@@ -242,7 +232,6 @@ def report(
 @config_argument
 @target_option
 @strict_option
-@common
 def calc(config: Path, target: Path | None, strict: bool, discovery: Discovery) -> int:
     """Calculate and write only the results file."""
     from diecut_report.design.findings import decided
@@ -260,7 +249,6 @@ def calc(config: Path, target: Path | None, strict: bool, discovery: Discovery) 
 
 
 @program.command()
-@common
 def plugins(discovery: Discovery) -> int:
     """List the kinds, their sources and where each comes from."""
     codes, lines = [PASSED], list[str]()
@@ -281,7 +269,6 @@ def plugins(discovery: Discovery) -> int:
 
 @program.command()
 @click.argument("kind", required=False, shell_complete=output.kinds)
-@common
 def schema(kind: str | None, discovery: Discovery) -> int:
     """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
     from diecut_report.config.schema import config_schema, kind_schema
@@ -313,9 +300,6 @@ OTHERS = (new, validate, check, compare, batch, variants, take, extract, verify,
           new_plugin, check_plugin)  # fmt: skip
 for _command in OTHERS:
     program.add_command(_command)
-
-
-# --- verdict ---------------------------------------------------------------------------------------------------------
 
 
 def _verdict(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from diecut_report.cli.output import tell
+from diecut_report.cli.output import inputs, tell
 from diecut_report.config.loader import SHOWN, load_standard_input
 from diecut_report.config.model import DETAILS
 from diecut_report.config.plugins import Discovery
@@ -52,6 +52,21 @@ def path_option(*names: str, help: str, metavar: str = "FILE", **more: Any) -> C
     return click.option(*names, metavar=metavar, type=path_of, help=help, **more)
 
 
+def flag(*names: str, help: str) -> Callable[[Given], Given]:
+    """Return an option that is given or not."""
+    return click.option(*names, is_flag=True, help=help)
+
+
+def count_option(*names: str, least: int, most: int | None = None, help: str, **more: Any) -> Callable[[Given], Given]:
+    """Return an option that is a whole number."""
+    return click.option(*names, metavar="N", type=click.IntRange(least, most), help=help, **more)
+
+
+def input_option(*names: str, help: str, **more: Any) -> Callable[[Given], Given]:
+    """Return an option that names an input of the configuration, which a shell completes."""
+    return click.option(*names, help=help, shell_complete=inputs, **{"metavar": "INPUT", **more})
+
+
 def form_option(*forms: str, help: str = "text (default) or json.") -> Callable[[Given], Given]:
     """Return the option of the form in which something is shown, the first where none is named."""
     return click.option("--format", "form", default=forms[0], type=click.Choice(forms), help=help)
@@ -92,13 +107,16 @@ def read_detail(_: click.Context, __: click.Parameter, given: str | None) -> str
     raise click.BadParameter(say(words, given=repr(given), nearest=near, known=", ".join(DETAILS)))
 
 
-def read_mechanisms(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
-    """Return the mechanisms that are asked for; BadParameter where none is named."""
-    names = tuple(dict.fromkeys(split(given or "")))
-    if given is not None and not names:
-        template = "no mechanism is named; give names of the configuration, with commas: drive,clutch."
-        raise click.BadParameter(say(template))
-    return names
+def names_option(*names: str, metavar: str, none: str, help: str, **more: Any) -> Callable[[Given], Given]:
+    """Return the option of a list of names, each once; BadParameter, in the words ``none``, where the list is empty."""
+
+    def read(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
+        found = tuple(dict.fromkeys(split(given or "")))
+        if given is not None and not found:
+            raise click.BadParameter(say(none))
+        return found
+
+    return click.option(*names, metavar=metavar, callback=read, help=help, **more)
 
 
 def _read_template(_: click.Context, __: click.Parameter, given: Path | None) -> HouseStyle | None:
@@ -117,15 +135,12 @@ here_option = path_option("-o", "folder", metavar="DIR", default=".", help="Wher
 study_folder_option = path_option(
     "-o", "folder", metavar="DIR", help="Where to write (default: the study's name, here)."
 )
-jobs_option = click.option(
-    "--jobs", metavar="N", type=click.IntRange(1), help="Number of processes (default: one per core)."
-)
+jobs_option = count_option("--jobs", least=1, help="Number of processes (default: one per core).")
 dask_option = click.option(
     "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
 )
-strict_option = click.option(
+strict_option = flag(
     "--strict",
-    is_flag=True,
     help="Exit with 1 also for a conditional verdict: something is assumed, at its default, not rated, not checked or warns.",
 )
 template_option = path_option(

@@ -14,7 +14,7 @@ from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppres
 from copy import copy
 from pathlib import Path
 from threading import Lock, Timer
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 from unicodedata import category
 
 import click
@@ -179,8 +179,6 @@ VARIABLE = "DIECUT_REPORT_LANGUAGE"
 LOCALES = ("LC_ALL", "LC_MESSAGES", "LANG")  # as gettext has it: the first that is set
 ASKED, QUIET = "diecut_report.language", "diecut_report.quiet"  # what is asked for beside the parameters of a command
 
-Command = TypeVar("Command", bound=Callable[..., Any])
-
 
 def of_environment() -> str:
     """Return the language of messages that the environment asks for; English where the program has no words of the system's.
@@ -211,14 +209,6 @@ def _language(context: click.Context, _: click.Parameter, given: str | None) -> 
     except UnknownLanguage as error:
         raise click.BadParameter(say("The language {error}.", error=error)) from None
     speak(given)
-
-
-def language_option(command: Command) -> Command:
-    """Give a command the option ``--language``, of which it need not know."""
-    template = "Language of messages and documents (en, uk), overriding the environment and the project."
-    option = click.option("--language", metavar="LANGUAGE", is_eager=True, expose_value=False, callback=_language, help=template,
-                          shell_complete=one_of(languages))  # fmt: skip
-    return option(command)
 
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
@@ -440,9 +430,17 @@ class SpokenContext(click.Context):
 
 
 class HelpfulCommand(click.Command):
-    """A command whose help goes the way of all that is asked for, and fails as that does."""
+    """A command with the options that all have, whose help goes the way of all that is asked for, and fails as that does."""
 
     context_class = SpokenContext
+
+    def __init__(self, *given: Any, **more: Any) -> None:
+        super().__init__(*given, **more)
+        self.params += self.shared_options()
+
+    def shared_options(self) -> list[click.Option]:
+        """Return the options that every command has."""
+        return [FOLDERS, QUIETLY, LANGUAGE]
 
     def get_short_help_str(self, limit: int = 45) -> str:
         """What the command does, in a line of the list of commands."""
@@ -469,6 +467,10 @@ class HelpfulGroup(HelpfulCommand, click.Group):
 
     command_class = HelpfulCommand
 
+    def shared_options(self) -> list[click.Option]:
+        """Return the one option of all commands that may stand before them."""
+        return [LANGUAGE]
+
 
 def _help(context: click.Context, _: click.Parameter, asked: bool) -> None:
     if asked and not context.resilient_parsing:
@@ -494,10 +496,15 @@ def _quiet(context: click.Context, _: click.Parameter, asked: bool) -> None:
     context.meta.update({QUIET: True} if asked else {})
 
 
-def common(command: Command) -> Command:
-    """The options that every command has."""
-    folders = click.option("--plugins", "discovery", metavar="DIR", multiple=True, type=click.Path(path_type=Path), callback=_known,
-                           help="A folder with plugins (programs that run with your permissions); may be given several times.")  # fmt: skip
-    quiet = click.option("--quiet", is_flag=True, expose_value=False, callback=_quiet,
-                         help="Show neither progress nor a summary; errors are still reported.")  # fmt: skip
-    return folders(quiet(language_option(command)))
+FOLDERS = click.Option(
+    ["--plugins", "discovery"], metavar="DIR", multiple=True, type=click.Path(path_type=Path), callback=_known,
+    help="A folder with plugins (programs that run with your permissions); may be given several times.",
+)  # fmt: skip
+QUIETLY = click.Option(
+    ["--quiet"], is_flag=True, expose_value=False, callback=_quiet,
+    help="Show neither progress nor a summary; errors are still reported.",
+)  # fmt: skip
+LANGUAGE = click.Option(
+    ["--language"], metavar="LANGUAGE", is_eager=True, expose_value=False, callback=_language, shell_complete=one_of(languages),
+    help="Language of messages and documents (en, uk), overriding the environment and the project.",
+)  # fmt: skip

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli import output
-from diecut_report.cli.options import form_option, output_file, path_option
+from diecut_report.cli.options import flag, form_option, output_file, path_option
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -22,7 +22,6 @@ from diecut_report.cli.output import (
     PLUGIN_BROKE,
     HelpfulCommand,
     asked_language,
-    common,
     emit_json,
     emit_lines,
     emit_or_write,
@@ -48,9 +47,8 @@ if TYPE_CHECKING:
 @click.command("new", cls=HelpfulCommand)
 @click.argument("kinds", metavar="[KIND[:NAME] …]", nargs=-1, shell_complete=output.kinds)
 @click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
-@click.option("--force", is_flag=True, help="Overwrite an existing file.")
+@flag("--force", help="Overwrite an existing file.")
 @click.option("--machine", metavar="NAME", help="A whole machine, described by its parts: flat_cylinder.")
-@common
 def new(kinds: tuple[str, ...], file: Path | None, force: bool, machine: str | None, discovery: Discovery) -> int:
     """Start a configuration with mechanisms of these kinds: example values, linked to each other, with each key explained.
 
@@ -139,9 +137,7 @@ STATES = {
 
 @click.command("new-plugin", cls=HelpfulCommand)
 @click.argument("name")
-@click.option(
-    "--package", "as_package", is_flag=True, help="Create an installable package instead of a folder for --plugins."
-)
+@flag("--package", "as_package", help="Create an installable package instead of a folder for --plugins.")
 @click.option(
     "--like",
     default="parts",
@@ -149,7 +145,6 @@ STATES = {
     help="Template: parts (default; a list of springs), motion (curves over a turn), selection (a size from a table).",
 )
 @path_option("-o", "folder", metavar="DIR", help="Folder to create (default: NAME, here).")
-@common
 def new_plugin(name: str, as_package: bool, like: str, folder: Path | None, discovery: Discovery) -> int:
     """Create a working mechanism of the kind NAME: plugin, tests, example, study, translations."""
     from diecut_report.testing.scaffold import scaffold
@@ -167,26 +162,18 @@ def new_plugin(name: str, as_package: bool, like: str, folder: Path | None, disc
              help="A configuration with machines to test it on (default: those beside the plugin).")  # fmt: skip
 @form_option("text", "json")
 @path_option("-o", "page", help="Write the rendered chapter; of several plugins, or into a folder, each as NAME.html.")
-@click.option(
-    "--write-po",
-    is_flag=True,
-    help="Add missing texts to its catalogues for translation, and mark unused ones as obsolete.",
-)
-@click.option(
-    "--open",
-    "is_shown",
-    is_flag=True,
-    help="Show the rendered chapter in the browser; without -o from a temporary folder.",
-)
-@click.option(
+@flag("--write-po", help="Add missing texts to its catalogues for translation, and mark unused ones as obsolete.")
+@flag("--open", "is_shown", help="Show the rendered chapter in the browser; without -o from a temporary folder.")
+@flag(
     "--watch",
     "is_watched",
-    is_flag=True,
     help="Show chapter and faults in the browser, again after each change of the plugin's files; end with Ctrl-C.",
 )
-@common
+@click.option(
+    "--part", "is_part", is_flag=True, hidden=True
+)  # the chapter is to stand within the page that --watch shows
 def check_plugin(
-    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, is_watched: bool,
+    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, is_watched: bool, is_part: bool,
     discovery: Discovery,
 ) -> int:  # fmt: skip
     """Test a plugin against the rules of its contract; with -o render its chapter as HTML. Ends with 1 where a rule is broken."""
@@ -200,7 +187,7 @@ def check_plugin(
         raise click.UsageError(say(template, folder=plugin, n=len(kinds)))
     with without_output():
         language = asked_language() or spoken_language()
-        found = [checked(known, kind, configs, language, write_po=write_po) for kind in kinds]
+        found = [checked(known, kind, configs, language, write_po=write_po, is_part=is_part) for kind in kinds]
     if form == "json":
         emit_json([each.data for each in found])
     else:
@@ -224,7 +211,7 @@ def _watched(plugin: str, configs: Sequence[Path], discovery: Discovery) -> int:
     from diecut_report.testing.plugin_page import home_of
 
     home = home_of(plugin, discovery.folders)
-    command = [sys.executable, "-m", "diecut_report", "check-plugin", plugin, "--format", "json"]
+    command = [sys.executable, "-m", "diecut_report", "check-plugin", plugin, "--format", "json", "--part"]
     command += [text for file in configs for text in ("--config", str(file))]
     command += [text for folder in discovery.folders for text in ("--plugins", str(folder))]
     command += ["--language", asked_language() or spoken_language()]

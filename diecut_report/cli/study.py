@@ -15,7 +15,9 @@ from diecut_report.cli.checking import WORDS, counted
 from diecut_report.cli.options import (
     DASH,
     RESULTS,
+    count_option,
     dask_option,
+    flag,
     form_option,
     formats_option,
     jobs_option,
@@ -34,7 +36,6 @@ from diecut_report.cli.output import (
     HelpfulCommand,
     Line,
     asked_language,
-    common,
     emit,
     inform,
     is_quiet,
@@ -73,13 +74,11 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     type=click.FloatRange(0),
     help="Time limit for a part of the study, after which it is ended as an error; 0 for none (default: many times the duration of other parts).",
 )
-@click.option("--yes", is_flag=True, help="Calculate even a very large sample without confirmation.")
-@click.option(
+@flag("--yes", help="Calculate even a very large sample without confirmation.")
+@flag(
     "--strict",
-    is_flag=True,
     help="Exit with 1 also where a variant warns, or a check of one is not performed because a key is not given.",
 )
-@common
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
           chunk_limit: float | None, yes: bool, strict: bool, discovery: Discovery) -> int:  # fmt: skip
     """Calculate all variants of a STUDY, and write them with a summary and full reports of some."""
@@ -153,9 +152,7 @@ def told_broken(
     "--where", metavar="CONDITION", help="Such as \"drive.crank_torque_peak < '40 N*m' and status = 'pass'\"."
 )
 @click.option("--sort", metavar="COLUMN", help="Sort by a column; -COLUMN for descending order.")
-@click.option(
-    "--top", metavar="N", type=click.IntRange(1), help="Number of variants (default: 20 in a table, otherwise all)."
-)
+@count_option("--top", least=1, help="Number of variants (default: 20 in a table, otherwise all).")
 @click.option("--pick", metavar="LIST", callback=_numbers, default="", help="Only these variants, such as 3, 17, 205.")
 @click.option(
     "--columns",
@@ -164,7 +161,7 @@ def told_broken(
     default="",
     help="Only these columns, separated by commas.",
 )
-@click.option("--transpose", is_flag=True, help="Compare variants: one row per quantity, one column per variant.")
+@flag("--transpose", help="Compare variants: one row per quantity, one column per variant.")
 @form_option("table", "csv", "json", "xlsx", help="table, csv, json or xlsx.")
 @click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
 @click.option(
@@ -172,7 +169,6 @@ def told_broken(
 )
 @click.option("--separator", type=click.Choice(SEPARATORS), help="Separator of the values in csv.")
 @click.option("--decimal", type=click.Choice(DECIMALS), help="Decimal sign in csv; comma requires another --separator.")
-@common
 def variants(folder: Path, where: str | None, sort: str | None, top: int | None, pick: list[int], columns: list[str] | None,
              transpose: bool, form: str, file: Path | None, units: str | None, separator: str | None, decimal: str | None,
              discovery: Discovery) -> int:  # fmt: skip
@@ -212,8 +208,7 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
 @click.command(cls=HelpfulCommand)
 @click.argument("variant", metavar="DIR#N")
 @path_option("-o", "file", required=True, help="Where to write the configuration.")
-@click.option("--digits", metavar="N", type=click.IntRange(1, 15), help="Round its values to this number of digits.")
-@common
+@count_option("--digits", least=1, most=15, help="Round its values to this number of digits.")
 def take(variant: str, file: Path, digits: int | None, discovery: Discovery) -> int:
     """Write a variant of a study as a configuration: the study's base with that variant's values, comments kept."""
     from diecut_report.study.analysis.variant_config import taken_config

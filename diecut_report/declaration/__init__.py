@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.declaration import advice, checks, code, figures, formulas, inputs, shape, texts
+from diecut_report.declaration import checks, code, figures, formulas, inputs, shape, texts
 from diecut_report.declaration.names import DeclaredNames, Fault
 from diecut_report.mechanism.mechanism import Mechanism
 
@@ -22,7 +22,7 @@ RULES = (
     code.impure_faults,
     checks.messages_faults,
     checks.faults,
-    advice.faults,
+    checks.advice_faults,
     figures.faults,
     figures.spectra_faults,
     texts.document_faults,

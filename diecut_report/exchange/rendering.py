@@ -9,8 +9,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.design.findings import decided
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, refusal
 from diecut_report.exchange.carried import MOST as SIDES_MOST
-from diecut_report.exchange.carried import carried_results, form_of
-from diecut_report.exchange.results_form import other_form
+from diecut_report.exchange.carried import carried_results, form_of, other_form
 from diecut_report.files import content, write_all
 from diecut_report.press import AskedReport, Drawn, Lost, Press, ReportOutcome, Source, Tell, drawn, exported
 from diecut_report.report.chapters.front import ChangedCheck, ChangedRow, printed_changes

@@ -1,4 +1,4 @@
-"""Judges the signatures of a report: who signed, and whether anything changed since.
+"""The signatures of a report: who signed, and whether anything changed since; the key of a signer; and how one more is added.
 
 Whether only signatures were added later is judged by `later_changes`, as the library takes minutes for it.
 """
@@ -7,33 +7,39 @@ from __future__ import annotations
 
 import io
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from asn1crypto import keys
 from cryptography import x509
+from cryptography.exceptions import UnsupportedAlgorithm
+from cryptography.hazmat.primitives import serialization
+from cryptography.hazmat.primitives.asymmetric import dsa, ec, rsa
+from cryptography.hazmat.primitives.serialization import pkcs12
+from cryptography.x509.oid import NameOID
 from pyhanko.keys.internal import translate_pyca_cryptography_cert_to_asn1
+from pyhanko.pdf_utils.content import RawContent
+from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+from pyhanko.pdf_utils.layout import AxisAlignment, BoxConstraints, Margins, SimpleBoxLayoutRule
 from pyhanko.pdf_utils.reader import PdfFileReader
+from pyhanko.sign.fields import SigSeedSubFilter, enumerate_sig_fields
+from pyhanko.sign.signers import PdfSignatureMetadata, PdfSigner, SimpleSigner
 from pyhanko.sign.validation import validate_pdf_signature, validate_pdf_timestamp
 from pyhanko.sign.validation.settings import KeyUsageConstraints
 from pyhanko.sign.validation.status import SignatureCoverageLevel
+from pyhanko.stamp import StaticStampStyle
 from pyhanko_certvalidator import ValidationContext
+from pyhanko_certvalidator.registry import SimpleCertificateStore
 
-from diecut_report.errors import refusal
-from diecut_report.exchange.carried import MOST_RESULTS
-from diecut_report.exchange.later_changes import added_proofs, only_signed
-from diecut_report.exchange.pdf_attachments import damage
-from diecut_report.exchange.signing_keys import (
-    MOST,
-    WEAK_DIGESTS,
-    certificates_in,
-    name_of,
-    public_key,
-    weak_key,
-)
-from diecut_report.files import content
+from diecut_report.errors import UserError, nearest, refusal
+from diecut_report.exchange.carried import MOST, MOST_RESULTS, form_of
+from diecut_report.exchange.later_changes import added_proofs, drawing, only_signed
+from diecut_report.exchange.pdf_attachments import attachments, damage
+from diecut_report.files import content, write_all
 from diecut_report.text.phrases import Phrase, cell, joined, phrase
 from diecut_report.time_limit import Overran, limited
 
@@ -92,7 +98,7 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
 
 def _roots(file: Path) -> list[x509.Certificate]:
     """The certificates that are trusted, without those of keys that are not known here, which no signature can be held against."""
-    every = certificates_in(content(file, MOST, phrase("certificates (PEM)")), file)
+    every = certificates_in(content(file, MAX_KEY_BYTES, phrase("certificates (PEM)")), file)
     if found := [each for each in every if public_key(each) is not None]:
         return found
     raise refusal(
@@ -239,3 +245,234 @@ def silent() -> Iterator[None]:
     finally:
         for each, level in zip(loggers, levels, strict=True):
             each.setLevel(level)
+
+
+# The key that a report is signed with: PKCS #12, or PEM beside its certificate; its password is asked for where it has one.
+
+
+MAX_KEY_BYTES = 1_000_000  # bytes of a key or of certificates
+PEM = b"-----BEGIN"
+WRONG = phrase("The key cannot be opened: the password is wrong, or the file is damaged or not a key (PKCS #12, PEM).")
+UNKNOWN = phrase(
+    "The kind of this key, or of the password's encryption, is not known here: {error}. Keys with RSA and with the curves P-256 to P-521 are taken."
+)
+KEY_FAULTS = (UnsupportedAlgorithm, x509.InvalidVersion)
+"""What the library raises for a key or a certificate of a kind that it does not know, and is no ValueError."""
+WEAK_DIGESTS = ("md2", "md4", "md5", "sha1")  # of which somebody can make another document
+SHORTEST = {"rsa": 2048, "rsassa_pss": 2048, "dsa": 2048, "ec": 224}
+"""Bits of a key: NIST SP 800-131A wants 112 bits of security."""
+Ask = Callable[[], bytes]
+"""Gives the password; UserError where nobody can be asked for it."""
+
+
+@dataclass(frozen=True)
+class SigningKey:
+    """A private key, its certificate, and the certificates that lead from it to one that is trusted."""
+
+    file: Path
+    private: Any
+    certificate: x509.Certificate
+    others: tuple[x509.Certificate, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """Whose certificate it is."""
+        return name_of(self.certificate)
+
+
+def name_of(certificate: x509.Certificate) -> str:
+    """Return the name by which a certificate's owner signs."""
+    found = certificate.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
+    return str(found[0].value) if found else certificate.subject.rfc4514_string()
+
+
+def weak_key(kind: str, bits: int | None) -> str:
+    """Return what is told of a key that can be broken; "" of one that cannot."""
+    least = SHORTEST.get(kind, 0)
+    template = "the key is too short: {kind} with {bits} bits, at least {least} are needed"
+    return "" if bits is None or bits >= least else Phrase(template, kind=kind.upper(), bits=bits, least=least)
+
+
+def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
+    """Return the key in a file with its certificate, which may stand in another one; UserError in words where they do not serve."""
+    whole = content(key, MAX_KEY_BYTES, phrase("a key (PKCS #12 or PEM)"))
+    try:
+        private, found = _pem(whole, key, ask) if PEM in whole else _pkcs12(whole, key, ask)
+    except KEY_FAULTS as error:
+        raise refusal(UNKNOWN, key, error=error) from None
+    if certificates is not None:
+        found = (
+            certificates_in(content(certificates, MAX_KEY_BYTES, phrase("a certificate (PEM)")), certificates) + found
+        )
+    if not found:
+        raise refusal("The file holds no certificate. Give that of the key with --cert.", key)
+    own = next((each for each in found if public_key(each) == private.public_key()), None)
+    if own is None:
+        template = (
+            "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert."
+        )
+        raise refusal(template, certificates or key)
+    kinds = {rsa.RSAPrivateKey: "rsa", dsa.DSAPrivateKey: "dsa", ec.EllipticCurvePrivateKey: "ec"}
+    kind = next((name for type_, name in kinds.items() if isinstance(private, type_)), "")
+    if weak := weak_key(kind, private.key_size if kind else None):
+        raise refusal("Nobody can rely on what this key signs: {weak}. Take another one.", key, weak=weak)
+    first, last = own.not_valid_before_utc, own.not_valid_after_utc
+    if not first <= datetime.now(UTC) <= last:
+        told = {"not_valid_before_utc": f"{first:%Y-%m-%d}", "last": f"{last:%Y-%m-%d}"}
+        template = "The certificate is not valid now: from {not_valid_before_utc} to {last}."
+        raise refusal(template, certificates or key, **told)
+    return SigningKey(key, private, own, tuple(each for each in found if each != own))
+
+
+def public_key(certificate: x509.Certificate) -> Any:
+    """Return the key of a certificate; None where it is damaged, or its kind is not known here."""
+    try:
+        return certificate.public_key()
+    except (ValueError, *KEY_FAULTS):
+        return None
+
+
+def _pkcs12(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certificate]]:
+    try:
+        private, own, others = pkcs12.load_key_and_certificates(whole, None)
+    except ValueError:  # it has a password, or is none
+        try:
+            private, own, others = pkcs12.load_key_and_certificates(whole, ask())
+        except ValueError:
+            raise refusal(WRONG, file) from None
+    if private is None:
+        raise refusal("The file holds no private key.", file)
+    return private, [*([own] if own else []), *others]
+
+
+def _pem(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certificate]]:
+    try:
+        try:
+            private: Any = serialization.load_pem_private_key(whole, None)
+        except TypeError:  # it has a password
+            private = serialization.load_pem_private_key(whole, ask())
+    except (ValueError, TypeError):
+        raise refusal(WRONG, file) from None
+    return private, certificates_in(whole, file) if b"BEGIN CERTIFICATE" in whole else []
+
+
+def certificates_in(whole: bytes, file: Path) -> list[x509.Certificate]:
+    """Return the certificates that a file holds as PEM, or the one that it is; UserError where there is none."""
+    try:
+        return x509.load_pem_x509_certificates(whole) if PEM in whole else [x509.load_der_x509_certificate(whole)]
+    except (ValueError, *KEY_FAULTS):
+        raise refusal("This is not a certificate that can be read. Give one as PEM.", file) from None
+
+
+# Adds a signature into one of a report's fields, and changes none of the bytes that are there.
+
+
+NONE_FREE = phrase(
+    "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
+)
+UNSIGNABLE = phrase("The PDF cannot be signed: {error}. Give the file as the program wrote it.")
+AMBIGUOUS = phrase(
+    "The reason or the signer's name holds words that PDF programs take for parts of the file, such as “startxref” or “1 0 obj”: "
+    "`diecut-report verify` would refuse the signed report. Give a --reason, or sign with a certificate, without them."
+)
+
+
+class Additions(IncrementalPdfFileWriter):
+    """Adds to a PDF, and leaves its metadata as they are: they say what PDF/A it is, which the library would write otherwise."""
+
+    def _update_meta(self) -> None:
+        """Write no metadata."""
+
+
+def sign(
+    report: Path, target: Path, key: SigningKey, tell: Callable[[str], None], judge: Callable[[], None],
+    field: str | None = None, reason: str | None = None,
+) -> None:  # fmt: skip
+    """Write a report with a signature to ``target``; UserError in words where it cannot be signed, and then nothing is written.
+
+    ``field`` may be None where only one is free.
+    ``judge`` raises a UserError where the report is not as the program makes it: nobody signs what others have put into it.
+    """
+    whole = content(report, MOST, phrase("a report as PDF"))
+    if form_of(whole) != "pdf":
+        template = "This is not a PDF. Give a report that `diecut-report report` wrote as PDF; other formats hold no signatures."
+        raise refusal(template, report)
+    attachments(whole, MOST_RESULTS, str(report))  # UserError for what is not read
+    if why := damage(whole, MOST_RESULTS):  # the library that signs reads without bounds
+        raise refusal(UNSIGNABLE, report, error=why)
+    with _signable(report):
+        field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), field, report)
+    judge()
+    with _signable(report):
+        signed = with_signature(Additions(io.BytesIO(whole)), field, reason, key)
+    if not only_signed(whole, signed):
+        raise refusal(AMBIGUOUS, report)
+    found = signatures(signed)
+    if not any(each.is_last and each.holds for each in found):
+        template = (
+            "The signature would not hold, so nothing was signed: {found}. "
+            "Sign with a certificate that is valid now, and whose names all programs can read."
+        )
+        raise refusal(template, report, found=joined([each.words for each in found if not each.holds], "; "))
+    write_all({target: signed}, keep=key.file)
+    tell(Phrase("signed by {name} in the field {field}", name=key.name, field=field))
+
+
+@contextmanager
+def _signable(report: Path) -> Iterator[None]:
+    """UserError where the library that signs cannot read a report, or not soon."""
+    try:
+        with silent(), limited(READING_SECONDS):
+            yield
+    except UserError:
+        raise
+    except Exception as error:  # of any kind: libraries read what a stranger may have made
+        raise refusal(UNSIGNABLE, report, error=error) from error
+    except Overran as error:
+        raise refusal(UNSIGNABLE, report, error=ENDLESS) from error
+
+
+def _free_fields(writer: Additions) -> dict[str, Any]:
+    refuse_nested_fields(writer.prev)
+    return {name: widget.get_object() for name, _, widget in enumerate_sig_fields(writer.prev, filled_status=False)}
+
+
+def with_signature(writer: Additions, field: str, reason: str | None, key: SigningKey) -> bytes:
+    """Return a PDF with a signature in a field that is free; PdfError or SigningError where that is not possible."""
+    now = datetime.now(UTC)
+    x1, y1, x2, y2 = (float(each) for each in _free_fields(writer)[field]["/Rect"])
+    size = abs(x2 - x1), abs(y2 - y1)
+    shown = drawing(key.name, now, reason, *size)
+    form = PdfSignatureMetadata(
+        field_name=field, md_algorithm="sha256", name=key.name, reason=reason, subfilter=SigSeedSubFilter.PADES
+    )
+    layout = SimpleBoxLayoutRule(AxisAlignment.ALIGN_MIN, AxisAlignment.ALIGN_MIN, Margins(0, 0, 0, 0))
+    picture = RawContent(shown, box=BoxConstraints(width=size[0], height=size[1]))
+    style = StaticStampStyle(border_width=0, background=picture, background_layout=layout)
+    signer = PdfSigner(form, _signer_of(key), stamp_style=style)
+    made: Any = signer.sign_pdf(writer, existing_fields_only=True)
+    content: bytes = made.getvalue()
+    return content
+
+
+def _chosen(free: list[str], field: str | None, report: Path) -> str:
+    if not free:
+        raise refusal(NONE_FREE, report)
+    if field is None and len(free) > 1:
+        template = "Several fields are free; name one with --field: {free}."
+        raise refusal(template, report, free=", ".join(free))
+    if field is not None and field not in free:
+        near = nearest(field, free)
+        template = "There is no free field {field}{nearest}; free are: {free}."
+        raise refusal(template, report, field=repr(field), nearest=near, free=", ".join(free))
+    return field or free[0]
+
+
+def _signer_of(key: SigningKey) -> SimpleSigner:
+    secret = key.private.private_bytes(
+        serialization.Encoding.DER, serialization.PrivateFormat.PKCS8, serialization.NoEncryption()
+    )
+    chain: Any = SimpleCertificateStore()  # type: ignore[no-untyped-call]
+    chain.register_multiple(translate_pyca_cryptography_cert_to_asn1(each) for each in key.others)
+    own: Any = translate_pyca_cryptography_cert_to_asn1(key.certificate)
+    return SimpleSigner(signing_cert=own, signing_key=keys.PrivateKeyInfo.load(secret), cert_registry=chain)

@@ -15,9 +15,8 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
 from diecut_report.design.findings import decided, with_findings
 from diecut_report.errors import PluginError, UserError
-from diecut_report.exchange.carried import CarriedResults
+from diecut_report.exchange.carried import VERSION, CarriedResults
 from diecut_report.exchange.rendering import document
-from diecut_report.exchange.results_form import VERSION
 from diecut_report.press import AskedReport, CalculatedPress, Press
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.results.changes import compare_with, is_number

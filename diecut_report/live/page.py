@@ -404,6 +404,7 @@ FILES = {  # place in the folder of the templates: what it is
     "level_names.js": "text/javascript; charset=utf-8",
     "moving.js": "text/javascript; charset=utf-8",
     "live/live.js": "text/javascript; charset=utf-8",
+    "live/plugin.js": "text/javascript; charset=utf-8",
     "uplot/uPlot.min.css": "text/css; charset=utf-8",
     "uplot/uPlot.iife.min.js": "text/javascript; charset=utf-8",
     **{f"fonts/{name}.woff2": "font/woff2" for name in FONTS},

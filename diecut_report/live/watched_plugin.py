@@ -7,7 +7,6 @@ import json
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractAsyncContextManager
-from functools import partial
 from glob import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,16 +19,14 @@ from starlette.responses import Response
 from starlette.routing import Route
 from watchfiles import awatch
 
+from diecut_report.live.page import assets
 from diecut_report.live.server import watching
-from diecut_report.report.pages.html import filled_page, folder
+from diecut_report.report.pages.html import filled_page
 from diecut_report.text.translation import say, spoken_language
 
 AROUND = 2  # lines shown before and behind that of a fault
 SETTLED = 100  # milliseconds: an editor may write a file in several steps
 PLACE = re.compile(r"(?P<file>[^:]+):(?P<line>\d+)")
-STYLE = re.compile(r"<style>.*?</style>", re.DOTALL)
-BODY = re.compile(r"<body\b[^>]*>(.*)</body>", re.DOTALL)
-SCRIPT = re.compile(r"<script\b.*?</script>", re.DOTALL)  # of a chapter, which is shown without its reader
 
 
 class PlacedLine(NamedTuple):
@@ -49,7 +46,10 @@ class ShownFault(NamedTuple):
 
 
 class WatchedPlugin:
-    """Serve the chapter of a plugin. ``command`` judges it, with ``-o FILE`` for the chapter behind it; ``home`` is the folder of its files."""
+    """Serve the chapter of a plugin.
+
+    ``command`` judges it, with ``-o FILE`` behind it for the chapter as a part of a page; ``home`` is the folder of its files.
+    """
 
     def __init__(self, command: Sequence[str], home: Path) -> None:
         self.command, self.home = command, home
@@ -118,11 +118,10 @@ class WatchedPlugin:
                 yield PlacedLine(number, lines[number - 1], number == meant)
 
     def _shown(self, faults: list[ShownFault], chapter: str) -> bytes:
-        """The page: what is wrong, and below it the chapter, whose scripts are left out."""
-        style, body = STYLE.search(chapter), BODY.search(chapter)
+        """The page: what is wrong, and below it the chapter."""
         return filled_page(
             "live/plugin.html.j2", language=spoken_language(), say=say, name=self.home.name, serial=self.serial,
-            faults=faults, style=Markup(style[0] if style else ""), chapter=Markup(SCRIPT.sub("", body[1]) if body else ""),
+            faults=faults, chapter=Markup(chapter),
         ).encode()  # fmt: skip
 
     # --- what the page asks ------------------------------------------------------------------------------------------
@@ -134,7 +133,5 @@ class WatchedPlugin:
         return Response(json.dumps([self.serial, self.is_judging]), media_type="application/json")
 
     async def _script(self, _request: Request) -> Response:
-        return Response(
-            await asyncio.to_thread(partial(Path.read_bytes, folder() / "live" / "plugin.js")),
-            media_type="text/javascript",
-        )
+        script = assets()["plugin.js"]
+        return Response(script.content, media_type=script.media_type)

@@ -11,9 +11,9 @@ from diecut_report.report.pages.html import page
 class Rendering(Material):
     """The report of a results document (schema_version 1), in a firm's own style; what its formats share is made once."""
 
-    def html(self) -> str:
-        """The report as one self-contained HTML page."""
-        return page(self)
+    def html(self, *, is_part: bool = False) -> str:
+        """The report as one self-contained HTML page, or as a part of another page."""
+        return page(self, is_part=is_part)
 
     def pdf(self, begun: Callable[[int], object] = int) -> bytes:
         """The report as PDF (A4, PDF/A-3 and PDF/UA-1); needs the system's pango (OSError without it). ``begun`` gets each sheet's number."""

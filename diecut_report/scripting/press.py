@@ -2,36 +2,121 @@
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from hashlib import sha256
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import yaml
 
+from diecut_report.config.instances import Instance, Slot
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import as_file
+from diecut_report.config.validation import GIVEN, Basis
 from diecut_report.config.yaml import KeyPath, Tree, parse, read_text
 from diecut_report.design.findings import decided
-from diecut_report.errors import Problem, UserError
+from diecut_report.design.inputs import allowed_texts
+from diecut_report.errors import ConfigError, Problem, UserError
 from diecut_report.exchange.carried import carried_results
 from diecut_report.files import in_words, write, write_all
+from diecut_report.mechanism.curve_inputs import InOtherUnit
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.names import Text
 from diecut_report.press import Press
-from diecut_report.scripting.parts import NamedParts
-from diecut_report.scripting.press_inputs import InputList, placed, press_inputs
+from diecut_report.quantities.formatting import given_shown
+from diecut_report.quantities.units import UnitError, number_and_unit, unit, with_point
+from diecut_report.report.symbols import symbol
+from diecut_report.report.text import Catalogue, quantity
+from diecut_report.scripting.parts import NamedParts, PartList
 from diecut_report.scripting.results import Results
-from diecut_report.scripting.values import known_language, plain, told_in
+from diecut_report.scripting.values import (
+    QuantityValue,
+    known_language,
+    notebook_page,
+    plain,
+    scalar,
+    told_in,
+    typed,
+    whole_path,
+)
+from diecut_report.study.definition.base_inputs import (
+    MECHANISMS,
+    Input,
+    UnknownPath,
+    find_input,
+    typed_place,
+    varied_input,
+)
 from diecut_report.study.execution.engines import one_thread
-from diecut_report.text.phrases import phrase
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import said, speaking
 
 if TYPE_CHECKING:
-    from diecut_report.scripting.questions import InfluenceTable, MendedPress, Solution
+    from diecut_report.design.answers import Answer, FoundValue
+    from diecut_report.design.inputs import DesignInput
     from diecut_report.scripting.sweeps import SweepTable
+
+
+Data = dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class _Answered:
+    data: Data
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    __repr__ = __str__
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution(_Answered):
+    """Hold the values of an input that answer (``values``, the nearest to today's first); ``press`` is the press with the first, calculated once.
+
+    Of an input that is a text they are texts. Without one ``values`` is empty, ``nearest`` is the value that comes nearest, and ``press`` is
+    None. ``data`` is what the command gives as JSON; ``str`` what it says.
+    """
+
+    found: bool
+    values: tuple[QuantityValue | str, ...]
+    nearest: QuantityValue | str | None
+    press: LoadedPress | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MendedPress(_Answered):
+    """Hold the least changes with which no check fails: for each path what is to be typed; ``press`` is the press with them.
+
+    ``press`` is None where none was found, or where no check fails today. ``data`` is what the command gives as JSON; ``str`` what it says.
+    """
+
+    changes: dict[str, str]
+    press: LoadedPress | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class InfluenceTable(_Answered):
+    """Hold how far each input moves numbers, the greatest first. ``data`` is what the command gives as JSON; ``str`` what it says."""
+
+    def bars(self) -> list[Data]:
+        """Return for each number its inputs, one below the other: ``of``, ``path``, ``low`` and ``high`` (SI), as rows of a table."""
+        return [
+            {"of": each["name"], "path": bar["path"], "low": bar["low"], "high": bar["high"], "today": each["today"], "unit": each["unit"]}
+            for each in self.data["tornados"]
+            for bar in each["bars"]
+        ]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -174,33 +259,51 @@ class LoadedPress:
 
     def solve(
         self, vary: str, target: str, *, low: str | None = None, high: str | None = None, among: Iterable[str] = (), passing: bool = False
-    ) -> Solution[LoadedPress]:  # fmt: skip
+    ) -> Solution:  # fmt: skip
         """Return the values of one input with which a target is met, ``"drive.crank_torque_peak = 400 N*m"``: the command ``solve``.
 
         It is searched from ``low`` to ``high`` (a third of today's value to three times it), or ``among`` some values, such as bearings;
         with ``passing`` only machines with which no check fails. ConfigError where nothing can be searched.
         """
-        from diecut_report.scripting.questions import solved_press
+        from diecut_report.design.answers import data, lines
+        from diecut_report.design.inputs import solved_input
+        from diecut_report.design.solving import solved
 
         with told_in(self.language), one_thread():
-            return solved_press(self.press.usable(), self._of, vary, target, (low, high), [*among], passing=passing)
+            press = self.press.usable()
+            design = solved_input(press.config, vary, [*among])
+            ends = {name: _end(design, given, name) for name, given in (("low", low), ("high", high))}
+            answer = solved(press, target, design, passing=passing, **ends)
+            values = tuple(_found_value(answer, each) for each in answer.found)
+            near = None if answer.nearest is None else _found_value(answer, answer.nearest)
+            made = None if answer.machine is None else self._of(answer.machine.press)
+            return Solution(data(answer), "\n".join(lines(answer)), bool(values), values, near, made)
 
-    def advise(self, *, free: Iterable[str] = (), keep: Iterable[str] = ()) -> MendedPress[LoadedPress]:
+    def advise(self, *, free: Iterable[str] = (), keep: Iterable[str] = ()) -> MendedPress:
         """Return the smallest changes with which no check fails: the command ``advise``."""
-        from diecut_report.scripting.questions import mended_press
+        from diecut_report.design import advice
 
         with told_in(self.language), one_thread():
-            return mended_press(self.press.usable(), self._of, free, keep)
+            found = advice.mended(self.press.usable(), free=free, keep=keep)
+            press = None if found.machine is None else self._of(found.machine.press)
+            changes = {each.design.name: each.after for each in found.changes} if press else {}
+            return MendedPress(advice.data(found), "\n".join(advice.lines(found)), changes, press)
 
     def influence(self, *of: str, share: float = 0.1, defaults: bool = False) -> InfluenceTable:
         """Return how far each input moves a number (the governing checks, where none is named) when it changes by a share of its value.
 
-        These are the inputs that are given; with ``defaults`` those that stand at their default too.
+        These are the inputs that are given; with ``defaults`` those that stand at their default too. ConfigError where the share is not
+        between 0 and 1.
         """
-        from diecut_report.scripting.questions import influence_of
+        from diecut_report.design import influence
 
         with told_in(self.language), one_thread():
-            return influence_of(self.press.usable().config, of, share, defaults=defaults)
+            config = self.press.usable().config
+            if not (math.isfinite(share) and 0 < share <= 1):
+                template = "{share} is not a share between 0 and 1, such as 0.1 for a tenth."
+                raise ConfigError(Problem(Phrase(template, share=repr(share)), path="share"))
+            found = influence.tornados(config, list(of), share, {}, defaults=defaults)
+            return InfluenceTable(influence.data(found), "\n".join(influence.lines(found, None, "defaults=True")))
 
     def _of(self, press: Press) -> LoadedPress:
         return LoadedPress(press, self.language, self.origin)
@@ -212,11 +315,26 @@ class LoadedPress:
         return self.inputs.html(f"{self.name} · {self.title}")
 
 
+def _end(design: DesignInput, given: str | None, name: str) -> float | None:
+    try:
+        return None if given is None else design.read(given)
+    except ValueError as fault:
+        raise ConfigError(Problem(fault.args[0], path=f"{name} of {design.name}")) from None
+
+
+def _found_value(answer: Answer, found: FoundValue) -> QuantityValue | str:
+    if answer.design.is_text:
+        return found.typed
+    meta, (number, own) = answer.design.meta, number_and_unit(found.typed)
+    shown, name = (str(number), own or "1"), answer.design.name
+    return QuantityValue(found.value, meta.parsed_unit.si, name, meta.symbol, meta.description, "", shown)
+
+
 # Presses and results from files, texts and mappings.
 
 
 Folder = str | os.PathLike[str]
-GIVEN = "press.yaml"  # what documents call a configuration that has no file
+WITHOUT_FILE = "press.yaml"  # what documents call a configuration that has no file
 
 
 def load(
@@ -230,7 +348,7 @@ def load(
     """
     if isinstance(source, Mapping):
         text = yaml.safe_dump(plain(source, ""), allow_unicode=True, sort_keys=False)
-        return _press(parse(text, GIVEN), plugins, known_language(language), without_places=True)
+        return _press(parse(text, WITHOUT_FILE), plugins, known_language(language), without_places=True)
     return _press(Path(source), plugins, known_language(language))
 
 
@@ -238,7 +356,7 @@ def loads(text: str, *, plugins: Iterable[Folder] = (), language: str | None = N
     """Return the press of a configuration that is given as text; tables that it names are sought in the current folder."""
     spoken = known_language(language)
     with told_in(spoken):
-        return _press(read_text(text, GIVEN), plugins, spoken)
+        return _press(read_text(text, WITHOUT_FILE), plugins, spoken)
 
 
 def load_results(file: Folder, *, plugins: Iterable[Folder] = (), language: str | None = None) -> Results:
@@ -262,3 +380,145 @@ def _discovery(plugins: Iterable[Folder]) -> Discovery:
     if isinstance(plugins, str | os.PathLike):
         plugins = (plugins,)
     return Discovery([Path(folder) for folder in plugins])
+
+
+# The inputs of a loaded press as a script sees them: path, value, range, what they rest on.
+
+
+@dataclass(frozen=True)
+class PressInput:
+    """Hold an input of the press or of a mechanism: its path (``drive.crank_length``), the kind of its mechanism, and its value (SI).
+
+    ``value`` is None where it follows from something else: ``typed`` is what stands in the file, empty for a default. ``unit`` is that in
+    which a bare number counts, ``allowed`` the range in it. ``basis`` is what it rests on, ``note`` what is noted of it.
+    """
+
+    path: str
+    kind: str
+    value: QuantityValue | None
+    typed: str
+    unit: str
+    allowed: str
+    symbol: str
+    description: str
+    basis: str
+    note: str
+
+    @property
+    def is_given(self) -> bool:
+        """Return whether it stands in the file; else it is a default."""
+        return bool(self.typed)
+
+    def row(self, words: Catalogue) -> dict[str, object]:
+        """Return it as a row of a table, in the language that is spoken."""
+        value = "" if self.value is None else quantity(*self.value.printed, words["decimal"])
+        basis = words[self.basis] if self.basis else ""
+        return vars(self) | {
+            "description": said(self.description, self.kind),
+            "symbol": symbol(self.symbol),
+            "value": value,
+            "basis": basis,
+        }
+
+    def __repr__(self) -> str:
+        return f"<{self.path}: {self.typed if self.value is None else self.value}>"
+
+
+class InputList(PartList[PressInput]):
+    """Hold inputs in the order of the file: by number, or by path (``press.inputs["drive.crank_length"]``)."""
+
+    _missing = phrase("there is no input")
+
+    def _names(self, part: PressInput) -> tuple[str, ...]:
+        return part.path, f"{MECHANISMS}.{part.path}"
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [each.path for each in self]
+
+    def html(self, title: str = "") -> str:
+        """Return them as a notebook shows them, by mechanism."""
+        words = Catalogue(self.language or SOURCE_LANGUAGE)
+        with speaking(words.language):
+            by_home = groupby(self, lambda each: each.path.split(".")[0])
+            groups = [(home, [each.row(words) for each in rows]) for home, rows in by_home]
+        return notebook_page("inputs", words, title=title, groups=groups)
+
+    _repr_html_ = html
+
+
+def press_inputs(config: Config) -> Iterator[PressInput]:
+    """Yield all inputs that have a value, those that are given and the defaults."""
+    for instance in config.instances.values():
+        for slot in instance.slots if instance else ():
+            is_single = isinstance(slot.meta, Quantity | Text) and not isinstance(slot.value, list | dict)
+            if instance is not None and is_single and slot.value is not None:
+                yield _input(config, instance, slot)
+
+
+def _input(config: Config, instance: Instance, slot: Slot) -> PressInput:
+    path = ".".join(map(str, (instance.name, *slot.key)))
+    typed = str(instance.place.typed(slot.key) or "")
+    is_followed = (instance.name, *slot.key) in config.links
+    basis, meta = instance.bases.get(slot.key, Basis()), slot.meta
+    kind = instance.mechanism.kind if instance.mechanism else ""
+    value = None if is_followed else _value(path, slot, instance.value(slot.key))
+    rests, described = basis.basis, meta.description if meta else ""
+    if not isinstance(meta, Quantity):
+        choices: list[str] = []
+        with suppress(UnknownPath):  # of a key that cannot be varied
+            choices += allowed_texts(find_input(config, whole_path(path)).annotation)
+        return PressInput(path, kind, value, typed, "1", ", ".join(choices), "", described, rests, basis.note)
+    rests = rests or (GIVEN if typed else "")
+    return PressInput(path, kind, value, typed, meta.unit, meta.allowed, meta.symbol, described, rests, basis.note)
+
+
+def _value(path: str, slot: Slot, value: Any) -> QuantityValue | None:
+    meta = slot.meta
+    if isinstance(value, InOtherUnit):
+        shown = given_shown(value.value, value.unit)
+        words = (meta.symbol, meta.description) if meta else ("", "")
+        return QuantityValue(value.value, unit(value.unit).si, path, *words, "", (shown["text"], shown["unit"]))
+    if isinstance(meta, Quantity) and isinstance(value, int | float):
+        shown = given_shown(float(value), meta.unit)
+        printed = shown["text"], shown["unit"]
+        return QuantityValue(value, meta.parsed_unit.si, path, meta.symbol, meta.description, "", printed)
+    if isinstance(value, bool | int | float | str):
+        return QuantityValue(value, "1", path, description=meta.description if meta else "")
+    return None
+
+
+def _typed_at_part(config: Config, found: Input, value: Any) -> str:
+    """A value as it is typed at a part, where it may stand within a text of several numbers."""
+    given = scalar(value, found.path)
+    if not isinstance(found.meta, Quantity) or (isinstance(given, str) and "${" in given):
+        return typed(value, found.path)
+    try:
+        found.meta.validate(given)
+    except ValueError as fault:
+        raise ConfigError(Problem(str(fault), config.tree.file, path=found.path)) from None
+    return str(given)
+
+
+def placed(config: Config, name: str, value: Any) -> tuple[KeyPath, str]:
+    """Return the place in the file of what a path names (an input, or a field of ``project`` or ``report``), and the value as typed there.
+
+    ConfigError in words for an unknown path.
+    """
+    first, *rest = name.removeprefix(f"{MECHANISMS}.").split(".")
+    key: KeyPath = tuple(int(part) if part.isdigit() else part for part in rest)
+    if first in ("project", "report"):
+        return (first, *key), typed(value, name)
+    is_of_parts = first in WORDS and config.parts is not None
+    try:
+        found = varied_input(config, name) if is_of_parts else find_input(config, whole_path(name))
+    except UnknownPath as fault:
+        raise ConfigError(Problem(str(fault), config.tree.file, path=name)) from None
+    if isinstance(value, str) and isinstance(found.meta, Quantity):
+        with suppress(UnitError):  # of an expression, or of what is judged when it is read
+            value = with_point(value)
+    if is_of_parts:
+        return typed_place(config, found), _typed_at_part(config, found, value)
+    instance = config.instances[found.instance]
+    assert instance is not None, "an input of a broken plugin is not found"
+    tree, place = instance.place.stands(found.key)
+    return place if tree is config.tree else (*instance.place.root, *found.key), typed(value, name)

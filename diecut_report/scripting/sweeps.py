@@ -18,8 +18,7 @@ from diecut_report.quantities.formatting import shown
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.text import Catalogue, quantity
 from diecut_report.scripting.parts import NamedParts, Tabular, axis_label
-from diecut_report.scripting.press_inputs import whole_path
-from diecut_report.scripting.values import notebook_page, plain
+from diecut_report.scripting.values import notebook_page, plain, whole_path
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.study_run import result_columns, varied_columns
 from diecut_report.study.execution.worker import Chunk, Done, calculate

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
+from diecut_report.config.model import PRESS
+from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.plugins import Discovery, catalogues_for
 from diecut_report.config.yaml import plain_text
 from diecut_report.errors import ConfigError, Problem, UnknownName, Unwritable, UserError
@@ -24,6 +26,7 @@ from diecut_report.report.pages.html import filled_page
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
 from diecut_report.results.model import ResultsRecord
+from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, of_all_plugins
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, speaking
@@ -259,6 +262,11 @@ def plain(given: Any, path: str) -> Any:
     if isinstance(given, Iterable) and (_is_array(given) or not hasattr(given, "ndim")):
         return [plain(part, f"{path}.{index}") for index, part in enumerate(given)]
     return scalar(given, path)
+
+
+def whole_path(name: str) -> str:
+    """Return the path of an input in the file, where its mechanism may be named alone."""
+    return name if name.split(".")[0] in (PRESS, MECHANISMS, *WORDS) else f"{MECHANISMS}.{name}"
 
 
 # What goes wrong in a script, told in the language that it asked for.

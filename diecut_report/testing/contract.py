@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import re
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -18,9 +20,10 @@ from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind, catalogues_for, said
 from diecut_report.config.validation import declared
 from diecut_report.declaration import faults, faults_at_load
-from diecut_report.declaration.dimensions import at_place, by_id
-from diecut_report.declaration.formula_checks import doubts, forms, idle_inputs, printing, quantities
+from diecut_report.declaration.code import code_texts, template
+from diecut_report.declaration.formula_checks import at_place, by_id, doubts, forms, idle_inputs, printing, unbalanced
 from diecut_report.declaration.names import short
+from diecut_report.declaration.texts import files_around, own_files, parsed, texts
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import content, write_all
 from diecut_report.formulas import Array
@@ -29,17 +32,18 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.machine.steps.soundness import is_made
 from diecut_report.mechanism.inputs import Quantity, fields, flatten
 from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.steps import Interpolated, Lookup, Pick
 from diecut_report.quantities.formatting import told
 from diecut_report.report.rendering import Rendering
 from diecut_report.results.checks import applies, check_results, checks_of, is_of_machine, is_sized, judged
 from diecut_report.results.document import document
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run, compute
+from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
 from diecut_report.testing.machines import Keys, MachineCase, configured, one_of, picks, unlike
 from diecut_report.testing.new_processes import unlike_again
-from diecut_report.testing.plugin_words import PluginWords
-from diecut_report.text.catalogues import SOURCE_LANGUAGE, TextCatalogue, built_in, file_beside, languages
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, TextCatalogue, built_in, file_beside, languages
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 from diecut_report.text.po_files import ChangedCatalogue, changed
 from diecut_report.time_limit import Overran, limited
@@ -207,7 +211,8 @@ MAX_RULE_SECONDS = 600.0  # seconds of a rule: a plugin may never come back
 class ContractTest:
     """Try the rules of the contract on a mechanism and, where there is one, on a machine of a configuration.
 
-    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page. ``refused`` tells why there is no
+    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page, which is a part of another one
+    where ``is_part`` says so. ``refused`` tells why there is no
     machine, where there are configurations with one that are not sound.
     """
 
@@ -217,6 +222,7 @@ class ContractTest:
     name: str = ""
     language: str = SOURCE_LANGUAGE
     refused: Sequence[Problem] = ()
+    is_part: bool = False
     page: str = field(default="", init=False)
 
     def of(self, config: Config, name: str) -> ContractTest:
@@ -267,7 +273,7 @@ class ContractTest:
 
     def dimensions(self) -> TriedRule:
         """Try whether the dimensions of the formulas balance, in each unit that holds by form."""
-        texts = (text for form in forms(self.mechanism) for text in quantities(form) if " prints " not in text)
+        texts = (text for form in forms(self.mechanism) for text in unbalanced(form))
         return rule("dimensions", "", (by_id(self.mechanism, text) for text in texts))
 
     def printed(self) -> TriedRule:
@@ -375,7 +381,7 @@ class ContractTest:
         report = self.results.report.with_(detail="full", only=[self.name])
         shown = self.results.with_(project=self.results.project.with_(language=language), report=report)
         rendering = Rendering(shown, catalogues_for(language, [self.mechanism.kind], self.discovery))
-        page = rendering.html()
+        page = rendering.html(is_part=self.is_part)
         if language == self.language:
             self.page = page
         own = [each for each in rendering.faults if each.mechanism == self.name]
@@ -458,3 +464,92 @@ def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatal
             found[file] = made
     write_all({file: made.content for file, made in found.items()}, keep=None)
     return found
+
+
+# The words of a plugin in another language: which its catalogue lacks, which of it nothing says any more, and what stays as it is given.
+
+
+TABLES = (".csv", ".yaml", ".yml", ".json")
+MAX_FILE_BYTES = 1_000_000  # bytes of a table that is looked through
+IN_WORDS = re.compile(r"(?<![\w.])[a-z]{3,}")  # neither a standard's number nor an author's name alone
+
+
+@dataclass(frozen=True)
+class PluginWords:
+    """Hold a plugin with what knows its catalogues."""
+
+    mechanism: Mechanism
+    discovery: Discovery
+
+    def catalogues(self, language: str) -> Catalogues:
+        """Return the catalogues of a language."""
+        return catalogues_for(language, [], self.discovery)
+
+    def untranslated(self, language: str) -> Iterator[tuple[str, str]]:
+        """Yield the texts that neither the plugin's catalogue nor the program's has, each with what it is of."""
+        known = self.catalogues(language)
+        for text, of in self.said:
+            if not any(catalogue.text(text) for catalogue in known.ahead(self.mechanism.kind)):
+                yield text, of
+
+    def unused(self, language: str) -> Iterator[str]:
+        """Yield the texts of the plugin's own catalogue that stand nowhere in its files, and that the program does not say."""
+        known = self.catalogues(language)
+        own = known.of(self.mechanism.kind)
+        constants, tables = self._written
+        said = {*(text for text, _ in self.said), *self._sources, *known.program.english, *constants}
+        yield from (text for text in (own.english if own else ()) if text not in said and text not in tables)
+
+    def sources_as_given(self, language: str) -> list[str]:
+        """Return the sources that are said in words, and stay so in a report: the plugin's catalogue does not have them as a whole."""
+        own = self.catalogues(language).of(self.mechanism.kind)
+        if built_in(self.mechanism.kind) is not None:
+            return []
+        return [text for text in self._sources if IN_WORDS.search(text) and not (own and own.text(text))]
+
+    @cached_property
+    def said(self) -> list[tuple[str, str]]:
+        """Return the texts that a report shows, those of the code among them."""
+        own = [found for file in own_files(self.mechanism) for found in code_texts(file)]
+        return list(dict.fromkeys([*texts(self.mechanism), *own]))
+
+    @cached_property
+    def _sources(self) -> list[str]:
+        steps = [step for _, step in self.mechanism.steps]
+        tables = [each for step in steps for each in tables_of(step)]
+        said = (*(step.source for step in steps), *(check.source for check in self.mechanism.checks))
+        found = [*said, *(source for table in tables for source in table.sources)]
+        return [text for text in dict.fromkeys(found) if text]
+
+    @cached_property
+    def _written(self) -> tuple[set[str], str]:
+        """The texts in the code of the plugin and of what it may import, and what stands in the tables of its folder."""
+        home = Path(self.mechanism.at.rpartition(":")[0]).parent
+        code = {*files_around(self.mechanism), *home.glob("*.py")}
+        found = home.rglob("*") if (home / "__init__.py").is_file() else home.glob("*")
+        tables = (each for each in found if each.suffix in TABLES and each.is_file())
+        small = (each for each in tables if each.stat().st_size < MAX_FILE_BYTES)
+        constants = {text for file in code for text in _constants(parsed(file))}
+        return constants, "\n".join(each.read_text("utf-8", "replace") for each in small)
+
+
+def _constants(module: ast.Module) -> Iterator[str]:
+    for node in ast.walk(module):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.value
+        elif isinstance(node, ast.JoinedStr):
+            yield template(node)
+
+
+def tables_of(step: object) -> list[StandardTable | StandardSeries]:
+    """Return the tables and series of a plugin's own that a step takes from."""
+    match step:
+        case Lookup(table=StandardTable() as table) | Interpolated(table=table):
+            found: list[StandardTable | StandardSeries] = [table]
+        case Pick(series=StandardSeries() as series):
+            found = [series]
+        case Pick(series=Mapping() as several):
+            found = list(several.values())
+        case _:
+            found = []
+    return [each for each in found if not each.is_of_the_program]

@@ -179,11 +179,18 @@ def meant(asked: str, folders: Sequence[Path]) -> tuple[Discovery, list[str]]:
 
 
 def checked(
-    known: Discovery, kind: str, configs: Sequence[Path], language: str, *, write_po: bool = False
+    known: Discovery,
+    kind: str,
+    configs: Sequence[Path],
+    language: str,
+    *,
+    write_po: bool = False,
+    is_part: bool = False,
 ) -> CheckedPlugin:
     """Return what the rules of the contract find of a kind; UserError where a configuration cannot be used.
 
-    With ``write_po`` the plugin's catalogues get the texts that they lack, and what nothing says is marked, before its words are tried.
+    With ``write_po`` the plugin's catalogues get the texts that they lack, and what nothing says is marked, before its words are tried;
+    with ``is_part`` its chapter is made to stand within another page.
     """
     origin = known.origins[kind][0]
     found = CheckedPlugin(kind, origin.label)
@@ -199,7 +206,7 @@ def checked(
     if configs and not machines:
         raise refusal("There is no mechanism of the kind {kind} in it.", configs[0], kind=repr(kind))
     config, name = machines[0] if machines else (None, "")
-    test = ContractTest(found.mechanism, known, config, name, language, refused)
+    test = ContractTest(found.mechanism, known, config, name, language, refused, is_part)
     if write_po:
         found.changed = write_missing(test, origin)
     found.rules += tried_on_each(test, machines[1:])

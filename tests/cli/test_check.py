@@ -7,6 +7,7 @@ import io
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import openpyxl
 import pytest
@@ -14,8 +15,10 @@ from pypdf import PdfReader
 
 from diecut_report.cli.main import main
 from diecut_report.results.model import ResultsRecord
-from tests.configs import BROKEN, GOOD, LEVER, saved
+from tests.cli.test_cli import run
+from tests.configs import BROKEN, GOOD, HEAD, LEVER, YAML, saved
 from tests.records import filled
+from tests.study.studies import BASE, STUDY
 
 Capture = pytest.CaptureFixture[str]
 LIMITED = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150 N*m")
@@ -157,3 +160,158 @@ def test_what_is_not_checked_is_counted_from_the_results() -> None:
 
     results = filled(ResultsRecord, {"summary": {"not_checked": 7}})
     assert verdict(CheckedMachine("a.yaml", "pass", results), "a").not_checked == 7
+
+
+# What a run says on the whole: what is not checked, --strict, and a calculation that contradicts itself.
+
+
+FREE = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm}\n"
+WITH_LIMIT = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 300 N*m}\n"
+CONTRADICTORY = """
+from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity
+
+
+class Twice(Inputs):
+    length: Annotated[float, Quantity("L", "mm", "Length", gt=0)]
+    beside: Annotated[float, Quantity("B", "mm", "Beside", gt=0)] = 10
+
+
+sizes = Chapter("Sizes")
+sizes.value("doubled", "D", "mm", "Doubled", lambda length: 2 * length)
+sizes.value("residual", "R", "mm", "Residual", lambda doubled, length, beside: abs(doubled - length - beside))
+
+MECHANISM = Mechanism(
+    kind="twice", version="1", title="Twice", summary="", inputs=Twice, chapters=(sizes,),
+    checks=(Check(id="balance", check_class="numerical", title="Balance", demand="residual", limit=1e-6, unit="mm", demand_label="rest",
+                  limit_label="accepted", consequence="do not use it."),),
+)
+"""
+CHAIN = (
+    HEAD
+    + "  a: {kind: twice, length: 20}\n  b: {kind: twice, length: '${a.doubled}', beside: 40}\n  c: {kind: twice, length: 10}\n"
+)
+
+
+def results(config: Path, *more: object) -> tuple[int, dict[str, Any]]:
+    code = run("calc", config, "-o", config.with_suffix(".json"), *more)
+    found: dict[str, Any] = json.loads(config.with_suffix(".json").read_text("utf-8"))
+    return code, found
+
+
+def test_a_check_without_its_limit_is_told_and_counted(tmp_path: Path, capfd: Capture) -> None:
+    code, found = results(saved(tmp_path, FREE))
+    err = capfd.readouterr().err
+    assert code == 0 and found["status"] == "pass"
+    told = found["summary"].pop("conclusion")
+    left = found["summary"].pop("open")
+    assert found["summary"] == {"pass": 0, "warn": 0, "fail": 0, "not_checked": 1, "numerical": {"pass": 0, "fail": 0},
+                                "governing": None, "assumed": [], "verdict": "conditional"}  # fmt: skip
+    assert [(each["what"], each["path"], each["owner"]) for each in left] == [
+        ("not_checked", "mechanisms.a.checks.moment", ""),
+        ("default", "mechanisms.a.arm", ""),  # typed, but what it would be if nobody typed it
+        ("default", "mechanisms.a.teeth", ""),
+    ]
+    assert told["text"] == "Nothing was checked, and 1 check is not made and 2 default values are open."
+    assert told["template"] == "Nothing was checked, and {left}."
+    assert told["values"]["left"]["values"]["first"]["count"] == 1
+    assert err.splitlines() == [
+        "not checked a: Moment. Moment 200 N·m, but allowable_moment is not given.",
+        "Nothing was checked, and 1 check is not made and 2 default values are open.",
+    ]
+
+
+@pytest.mark.parametrize("command", ["calc", "report"])
+@pytest.mark.parametrize(("text", "code"), [(FREE, 1), (WITH_LIMIT, 0)])
+def test_strict_is_for_one_machine_too(tmp_path: Path, command: str, text: str, code: int) -> None:
+    config = saved(tmp_path, text)
+    where = ["-o", tmp_path / "out", "--format", "json"] if command == "report" else ["-o", tmp_path / "press.json"]
+    assert run(command, config, *where) == 0
+    assert run(command, config, *where, "--strict") == code
+
+
+def test_page_1_does_not_say_that_all_checks_pass_where_one_is_not_made(tmp_path: Path) -> None:
+    pages = []
+    for text in (FREE, WITH_LIMIT):
+        assert run("report", saved(tmp_path, text), "-o", tmp_path, "--format", "html", "--quiet") == 0
+        pages.append((tmp_path / "press.html").read_text("utf-8"))
+    assert "All checks pass" not in pages[0] and "Nothing was checked, and 1 check is not made." in pages[0]
+    assert ">allowable_moment</span>" in pages[0]
+    assert "All checks pass" in pages[1] and "1 check is not made" not in pages[1]
+
+
+def test_a_calculation_that_contradicts_itself_is_an_error_and_what_refers_to_it_is_skipped(
+    tmp_path: Path, capfd: Capture
+) -> None:
+    (tmp_path / "plugins").mkdir()
+    (tmp_path / "plugins" / "twice.py").write_text(CONTRADICTORY, encoding="utf-8")
+    code, found = results(saved(tmp_path, CHAIN), "--plugins", tmp_path / "plugins")
+    assert code == 3 and found["status"] == "error"
+    assert [found["mechanisms"][name]["status"] for name in "abc"] == ["error", "skipped", "pass"]
+    assert found["summary"]["numerical"] == {"pass": 1, "fail": 1} and found["mechanisms"]["a"]["outputs"] == {}
+    told = found["mechanisms"]["a"]["error"]
+    assert told in capfd.readouterr().err and told.endswith(": do not use it.")
+    assert "The calculation contradicts itself, and its numbers must not be used. Balance: Rest 10" in told
+
+
+# The command validate: studies too, and what else only a calculation finds, with all faults of a file at once.
+
+
+IMPOSSIBLE = """\
+  cylinder: {kind: cylinder_sizing, working_length: 470 mm, segment_height: 40 mm, generatrix_length: '${press.sheet.length}',
+    bore_radius: 50 mm, radius: 105 mm, bearing_span: '${press.sheet.length} - 10 mm'}
+  knife: {kind: knife_drive, cylinder_rate: 25000 1/h, working_depth: 40 mm, crank_slider: {crank_radius: 35 mm, rod_length: 20 mm}}
+"""
+WRONG = "  clutch: {kind: clutch, torque: 300 N*m, shoe_radius: 120 mm, wedge_angle: 10 deg, radial_gap: 0,5 mm}\n"
+
+
+def told(folder: Path, text: str, capfd: pytest.CaptureFixture[str]) -> list[str]:
+    assert main(["validate", str(saved(folder, text)), "--plugins", str(GOOD)]) == 2
+    return [line.removeprefix(f"{folder / 'press.yaml'}:") for line in capfd.readouterr().err.splitlines()]
+
+
+def test_what_cannot_be_and_what_is_wrong_is_told_at_once(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    found = told(tmp_path, HEAD + IMPOSSIBLE + WRONG, capfd)
+    assert found[0].startswith("6:55: mechanisms.cylinder.bearing_span: is 690 mm, but the bearings stand outside")
+    assert found[1].startswith(
+        "7:126: mechanisms.knife.crank_slider.rod_length: is 20 mm, not longer than the crank_radius"
+    )
+    assert found[2].startswith("8:99: mechanisms.clutch.5 mm: is the remainder of a number with a decimal comma")
+    assert len(found) == 3
+
+
+def test_the_examples_are_valid(
+    capfd: pytest.CaptureFixture[str],
+) -> None:  # among them one that takes mechanisms whole
+    files = [str(path) for path in YAML if path.stem in ("flat_cylinder_press", "flat_cylinder_study")]
+    assert main(["validate", *files]) == 0
+    assert capfd.readouterr().err.splitlines() == [f"{file}: valid" for file in files]
+
+
+def test_what_refers_to_what_is_wrong_is_left_alone(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    text = LEVER.replace("2 kN", "2 kg") + "  b: {kind: lever, force: 1, allowable_moment: '${a.moment}'}\n"
+    assert len(told(tmp_path, text, capfd)) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (HEAD + "  \u0441lutch: {kind: lever, force: 1}\n", "“\u0441lutch” holds letters that only look Latin: “\u0441” (cyrillic small letter es)."),
+        (HEAD + "  a: {kind: l\u0435ver, force: 1}\n", "“l\u0435ver” holds letters that only look Latin: “\u0435” (cyrillic small letter ie)."),
+        (HEAD + "  a: {kind: lev\u03b5r, force: 1}\n", "lev\u03b5r"),  # an epsilon does not look Latin
+        (LEVER + "  b: {kind: lever, force: '${\u0430.force}'}\n", "${\u0430.force}: “\u0430” holds letters that only look Latin"),
+    ],
+)  # fmt: skip
+def test_a_name_in_letters_that_only_look_latin_is_told_as_such(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], text: str, words: str
+) -> None:
+    assert words in "\n".join(told(tmp_path, text, capfd))
+
+
+def test_a_study_is_validated_too(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    saved(tmp_path, BASE)
+    study = saved(tmp_path, STUDY, "study.yaml")
+    assert main(["validate", str(study), "--plugins", str(GOOD)]) == 0
+    assert capfd.readouterr().err == f"{study}: valid\n"
+    saved(tmp_path, STUDY.replace("a.force", "a.forc"), "study.yaml")
+    assert main(["validate", str(study), "--plugins", str(GOOD)]) == 2
+    assert "did you mean" in capfd.readouterr().err

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+import signal
+import time
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from diecut_report import declaration
+from diecut_report import declaration, time_limit
+from diecut_report.api import Quantity
 from diecut_report.cli.main import main
-from tests.configs import HEAD, saved
+from diecut_report.time_limit import TooLong, in_time, limited
+from tests.configs import GOOD, HEAD, saved
 from tests.examples import few
 
 Capture = pytest.CaptureFixture[str]
@@ -147,9 +151,9 @@ def test_the_report_shows_a_box_in_the_place_of_a_lost_figure(tmp_path: Path, ca
     page = (tmp_path / "out" / "press.html").read_text("utf-8")
     assert "This figure could not be drawn." in page and "ZeroDivisionError: division by zero" in page
     assert "Is not there." in page and "100" in page
-    assert (
-        "There are no checks." in page and "All checks pass" not in page and "The mechanisms cite no sources." in page
-    )
+    assert "There are no checks." in page
+    assert "All checks pass" not in page
+    assert "The mechanisms cite no sources." in page
     assert "(disc.py:32)" in page and str(tmp_path) not in page
     assert formats == "html" or (tmp_path / "out" / "press.pdf").read_bytes().startswith(b"%PDF")
 
@@ -224,3 +228,161 @@ def test_code_of_the_inputs_that_raises_gives_3_in_words(tmp_path: Path, capfd: 
     assert run(tmp_path, "calc", plugins) == 3
     err = capfd.readouterr().err
     assert "class Disc: reads its inputs by code of its own (model_post_init)" in err and "Traceback" not in err
+
+
+# A plugin that never comes back is told with its place by each command, and costs its mechanism alone.
+
+
+ENDLESS_PLUGIN = """\
+from typing import Annotated
+
+from diecut_report.api import Chapter, Drawing, Inputs, Mechanism, Quantity
+
+
+class Arm(Inputs):
+    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)] = 10
+
+
+def found(arm):
+    return 2 * arm
+
+
+def drawn(view):
+    return []
+
+
+chapter = Chapter("All")
+chapter.computed("reach", "r", "mm", "Reach", found, takes=("arm",), method="a search")
+MECHANISM = Mechanism(
+    kind="endless", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,),
+    figures=(Drawing(id="arm_drawn", title="Arm", caption="The arm.", build=drawn),),
+)
+"""
+ENDLESS_CONFIG = """\
+schema_version: 1
+project: {title: Endless}
+press: {name: P}
+mechanisms: {a: {kind: endless}}
+"""
+LOOP = "while True:\n        pass\n"
+PLACES = {
+    "at import": ("class Arm(Inputs):", f"if True:\n    {LOOP}\n\nclass Arm(Inputs):"),
+    "in plain code": ("    return 2 * arm", f"    {LOOP}"),
+    "in a drawing": ("    return []", f"    {LOOP}"),
+}
+COMMANDS = {
+    "calc": ("calc", "press.yaml", "-o", "press.json"),
+    "report": ("report", "press.yaml", "-o", "out", "--format", "html"),
+    "check": ("check", "press.yaml"),
+}
+
+
+@pytest.mark.usefixtures("without_summary")
+@pytest.mark.parametrize("command", few(COMMANDS, lambda command: command == "calc"))
+@pytest.mark.parametrize("place", PLACES)
+def test_an_endless_loop_is_ended(
+    place: str, command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    old, new = PLACES[place]
+    assert ENDLESS_PLUGIN.count(old) == 1
+    file = saved(tmp_path, ENDLESS_PLUGIN.replace(old, new), "endless.py")
+    saved(tmp_path, ENDLESS_CONFIG, "press.yaml")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(time_limit, "MECHANISM_SECONDS", 0.5)
+    assert main([*COMMANDS[command], "--plugins", "."]) == 3
+    lines = file.read_text("utf-8").splitlines()
+    line = 1 + next(i for i, text in enumerate(lines) if "while True" in text)
+    told = capfd.readouterr().err
+    assert "it did not come back within 0.5 s; let its loops end" in told
+    assert any(f"(endless.py:{each})" in told for each in (line, line + 1)), told
+
+
+def test_who_waits_already_waits_as_long_as_he_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(time_limit, "MECHANISM_SECONDS", 0.05)
+    with limited(30), in_time():
+        time.sleep(0.2)
+    with pytest.raises(TooLong), in_time():
+        time.sleep(0.2)
+
+
+def test_the_alarm_of_a_program_around_rings_in_its_time() -> None:
+    rung: list[int] = []
+    before = signal.signal(signal.SIGALRM, lambda number, _: rung.append(number))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with in_time():
+            pass
+        assert 0 < signal.getitimer(signal.ITIMER_REAL)[0] <= 0.1
+        time.sleep(0.2)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert rung == [signal.SIGALRM]
+
+
+# Code of a plugin's inputs that breaks is told as the plugin's fault, and the other mechanisms keep their results.
+
+
+LEVER = (GOOD / "lever.py").read_text("utf-8")
+PRESS = "def turn_for_each_sheet(productivity: Any) -> Any:\n    return 2 * np.pi * productivity\n"
+BREAKING_CONFIG = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P, productivity: 5000 1/h}
+mechanisms:
+  a: {kind: lever, force: 2 kN, speed: 1 rpm}
+  b: {kind: breaking, force: 2 kN}
+"""
+LISTED = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P}
+mechanisms:
+  a: {kind: lever, force: 2 kN, speed: 1 rpm}
+  b: {kind: lever, force: 2 kN, speed: 1 rpm, load: [1 N*m, "${a.moment}", 1 N*m, 2 N*m]}
+  c: {kind: lever, force: 2 kN, speed: 1 rpm, load: "${b.load}"}
+"""
+
+
+def test_what_breaks_gives_3_and_the_results_of_the_others(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    sound, breaking = "@formula\n" + PRESS, PRESS.replace("return", "raise KeyError('nothing')  #")
+    assert sound in LEVER
+    text = LEVER.replace('kind="lever"', 'kind="breaking"').replace(sound, breaking)
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "breaking.py").write_text(text, "utf-8")
+    (tmp_path / "press.yaml").write_text(BREAKING_CONFIG, "utf-8")
+    options = ["--plugins", str(GOOD), "--plugins", str(tmp_path / "own")]
+    assert main(["calc", str(tmp_path / "press.yaml"), *options]) == 3
+    out, err = capfd.readouterr()
+    found = json.loads(out)["mechanisms"]
+    assert found["a"]["outputs"]["moment"]["value"] == 200 and found["b"]["status"] == "error"
+    assert err.startswith("mechanism 'b' of plugin 'breaking':") and "KeyError: 'nothing' (breaking.py:" in err
+
+
+def test_a_default_of_an_unknown_field_of_the_press_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    text = LEVER.replace('kind="lever"', 'kind="breaking"').replace('"press.productivity"', '"press.productivty"')
+    (tmp_path / "breaking.py").write_text(text, "utf-8")
+    (tmp_path / "press.yaml").write_text(BREAKING_CONFIG, "utf-8")
+    assert main(["calc", str(tmp_path / "press.yaml"), "--plugins", str(GOOD), "--plugins", str(tmp_path)]) == 3
+    err = capfd.readouterr().err
+    assert (
+        "input speed: takes press.productivty, which is not a number of the press (did you mean 'press.productivity'?)"
+        in err
+    )
+
+
+def test_a_reference_to_a_list_that_holds_references_is_told(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "press.yaml").write_text(LISTED, "utf-8")
+    assert main(["calc", str(tmp_path / "press.yaml"), "--plugins", str(GOOD)]) == 2
+    err = capfd.readouterr().err
+    assert "mechanisms.c.load: ${b.load} is a list that holds references itself (${a.moment})" in err
+
+
+@pytest.mark.parametrize("unit", ["%", "deg", "rpm", "mm", "1/h"])
+def test_a_number_typed_as_its_bound_is_allowed(unit: str) -> None:
+    for bound in range(1, 100):
+        quantity = Quantity("x", unit, "X", ge=bound, le=bound)
+        for given in (bound, f"{bound} {unit}", f"{bound}.0 {unit}"):
+            quantity.validate(given)
+        with pytest.raises(ValueError, match="out of range"):
+            quantity.validate(bound * (1 + 1e-12))

@@ -38,18 +38,19 @@ from diecut_report.api import (
     bind,
     formula,
 )
-from diecut_report.declaration.dimensions import (
+from diecut_report.declaration.formula_checks import (
     ANGLE,
     ANGLE_AT,
     NUMBER,
     Found,
     KindError,
+    check_mechanism,
     dimensions,
+    forms,
     formulas,
     kind_given,
     units_of,
 )
-from diecut_report.declaration.formula_checks import check_mechanism, forms
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
@@ -79,14 +80,9 @@ def wheel(*steps: Step, checks: tuple[Check, ...] = ()) -> Mechanism:
     return Mechanism(kind="wheel", version="1", title="Wheel", summary="", inputs=Wheel, chapters=chapters, checks=checks)  # fmt: skip
 
 
-def value(made: Formula | Bound, unit: str) -> Value:
+def value(made: Any, unit: str) -> Value:
     """A step with this formula and unit."""
     return Value(id="x", symbol="x", unit=unit, description="Quantity", formula=made)
-
-
-@formula
-def product(first: Any, second: Any) -> Any:
-    return first * second
 
 
 @formula
@@ -99,156 +95,53 @@ def quotient_as_angle(above: Any, below: Any) -> Any:
     return as_angle(above / below)
 
 
-@formula
-def inverse(speed: Any) -> Any:
-    return 1 / speed
-
-
-@formula
-def number_of(quantity: Any) -> Any:
-    return as_number(quantity)
-
-
-@formula
-def angle_of(quantity: Any) -> Any:
-    return as_angle(quantity)
-
-
-@formula
-def turns_of(speed: Any) -> Any:
-    return speed / (2 * np.pi)
-
-
-@formula
-def turning(rate: Any) -> Any:
-    return 2 * np.pi * rate
-
-
-@formula
-def turn_time(speed: Any) -> Any:
-    return 2 * np.pi / speed
-
-
-@formula
-def line_stiffness(mass: Any, speed: Any) -> Any:
-    return mass * speed**2
-
-
-@formula
-def line_stiffness_said(mass: Any, speed: Any) -> Any:
-    return mass * as_number(speed) ** 2
-
-
-@formula
-def other_side(angle: Any) -> Any:
-    return np.pi - angle
-
-
-@formula
-def is_less_than_a_turn(angle: Any) -> Any:
-    return angle < 2 * np.pi
-
-
-@formula
-def is_less_than_one(angle: Any) -> Any:
-    return angle < 1
-
-
-@formula
-def sine(quantity: Any) -> Any:
-    return np.sin(quantity)
-
-
-@formula
-def arc_cosine(share: Any) -> Any:
-    return arccos(share)
-
-
-@formula
-def direction(share: Any) -> Any:
-    return np.arctan2(share, 1)
-
-
-@formula
-def along(angle: Any, radius: Any) -> Any:
-    return radius + radius * angle
-
-
-@formula
-def greater(angle: Any, share: Any) -> Any:
-    return np.maximum(angle, share)
-
-
-@formula
-def either(angle: Any, share: Any) -> Any:
-    return np.where(angle > 0, share, angle)
-
-
-@formula
-def swinging(stiffness: Any, inertia: Any) -> Any:
-    return as_angle(np.sqrt(stiffness / inertia))
-
-
-@formula
-def swinging_unsaid(stiffness: Any, inertia: Any) -> Any:
-    return np.sqrt(stiffness / inertia)
-
-
-@formula
-def grown(angle: Any) -> Any:
-    return np.exp(angle)
-
-
-@formula
-def angle_without_length(velocity: Any, radius: Any, speed: Any) -> Any:
-    return (velocity - radius * speed) / radius
-
-
 SOUND = {
-    "v = ω·r": value(bind(product, first="speed", second="radius"), "m/s"),
-    "P = M·ω": value(bind(product, first="torque", second="speed"), "W"),
-    "W = M·φ": value(bind(product, first="torque", second="angle"), "J"),
-    "M = c·φ": value(bind(product, first="stiffness", second="angle"), "N*m"),
-    "ω said of v/r": value(bind(quotient_as_angle, above="velocity", below="radius"), "rpm"),
-    "ω said of sqrt(c/J)": value(swinging, "rad/s"),
-    "n = ω/2π": value(turns_of, "Hz"),
-    "ω = 2π·n": value(turning, "rpm"),
-    "T = 2π/ω": value(turn_time, "s"),
-    "π − φ": value(other_side, "deg"),
-    "φ < 2π": value(is_less_than_a_turn, "1"),
-    "sin φ": value(bind(sine, quantity="angle"), "1"),
-    "arccos k": value(arc_cosine, "deg"),
-    "arctan2": value(direction, "deg"),
-    "r + r·φ": value(along, "mm"),
-    "rad/s said to be 1/s": value(bind(number_of, quantity="speed"), "1/s"),
-    "1/s said to be rad/s": value(bind(angle_of, quantity="rate"), "rad/s"),
-    "m·ω² said": value(line_stiffness_said, "N/m"),
+    "v = ω·r": value(lambda speed, radius: speed * radius, "m/s"),
+    "P = M·ω": value(lambda torque, speed: torque * speed, "W"),
+    "W = M·φ": value(lambda torque, angle: torque * angle, "J"),
+    "M = c·φ": value(lambda stiffness, angle: stiffness * angle, "N*m"),
+    "ω said of v/r": value(lambda velocity, radius: as_angle(velocity / radius), "rpm"),
+    "ω said of sqrt(c/J)": value(lambda stiffness, inertia: as_angle(np.sqrt(stiffness / inertia)), "rad/s"),
+    "n = ω/2π": value(lambda speed: speed / (2 * np.pi), "Hz"),
+    "ω = 2π·n": value(lambda rate: 2 * np.pi * rate, "rpm"),
+    "T = 2π/ω": value(lambda speed: 2 * np.pi / speed, "s"),
+    "π − φ": value(lambda angle: np.pi - angle, "deg"),
+    "φ < 2π": value(lambda angle: angle < 2 * np.pi, "1"),
+    "sin φ": value(lambda angle: np.sin(angle), "1"),
+    "arccos k": value(lambda share: arccos(share), "deg"),
+    "arctan2": value(lambda share: np.arctan2(share, 1), "deg"),
+    "r + r·φ": value(lambda angle, radius: radius + radius * angle, "mm"),
+    "rad/s said to be 1/s": value(lambda speed: as_number(speed), "1/s"),
+    "1/s said to be rad/s": value(lambda rate: as_angle(rate), "rad/s"),
+    "m·ω² said": value(lambda mass, speed: mass * as_number(speed) ** 2, "N/m"),
     "zero as an angle": value(common.zero, "deg"),
 }
 UNSOUND = {
-    "rad/s as Hz": (value(bind(common.same, quantity="speed"), "Hz"), "gives rad/s, declared is 1/s"),
-    "rad/s as 1/min": (value(bind(common.same, quantity="speed"), "1/min"), "gives rad/s, declared is 1/s"),
-    "1/min as rpm": (value(bind(common.same, quantity="rate"), "rpm"), "gives 1/s, declared is rad/s"),
-    "rad as 1": (value(bind(common.same, quantity="angle"), "1"), "gives rad, declared is 1"),
-    "ω = v/r": (value(bind(quotient, above="velocity", below="radius"), "rad/s"),
+    "rad/s as Hz": (value(lambda speed: speed, "Hz"), "gives rad/s, declared is 1/s"),
+    "rad/s as 1/min": (value(lambda speed: speed, "1/min"), "gives rad/s, declared is 1/s"),
+    "1/min as rpm": (value(lambda rate: rate, "rpm"), "gives 1/s, declared is rad/s"),
+    "rad as 1": (value(lambda angle: angle, "1"), "gives rad, declared is 1"),
+    "ω = v/r": (value(lambda velocity, radius: velocity / radius, "rad/s"),
                 "gives 1/s, declared is rad/s; if that counts radians, write as_angle.….$"),
-    "ω = sqrt(c/J)": (value(swinging_unsaid, "rad/s"), "declared is rad/s"),
-    "T = 1/ω": (value(inverse, "s"), "gives s/rad, declared is s"),
-    "ω/2π as rad/s": (value(turns_of, "rad/s"), "gives 1/s, declared is rad/s"),
-    "2π·n as Hz": (value(turning, "Hz"), "gives rad/s, declared is 1/s"),
-    "m·ω² as N/m": (value(line_stiffness, "N/m"), "declared is N/m"),
-    "φ < 1": (value(is_less_than_one, "1"), "brings together rad .angle. and a pure number .1.; if that counts radians, write as_angle.1.$"),
-    "sin k": (value(bind(sine, quantity="share"), "1"),
-              "quantity is a pure number, rad is needed; if that counts radians, write as_angle.quantity.$"),
-    "sin ω": (value(bind(sine, quantity="speed"), "1"), "quantity is rad/s, rad is needed$"),
-    "arccos φ": (value(bind(arc_cosine, share="angle"), "deg"), "share is rad, a pure number is needed"),
-    "arccos as 1": (value(arc_cosine, "1"), "gives rad, declared is 1"),
-    "max(φ, k)": (value(greater, "1"), "brings together rad .angle. and a pure number .share."),
-    "φ or k": (value(either, "1"), "brings together a pure number .share. and rad .angle."),
-    "exp φ": (value(grown, "1"), "angle is rad, a pure number is needed; if the number of radians is meant, write as_number.angle.$"),
-    "(v − ω·r)/r": (value(angle_without_length, "rad/s"), "gives 1/s, declared is rad/s"),
-    "a number said to be one": (value(bind(number_of, quantity="share"), "1"), "says that rad drops, but quantity is a pure number already"),
-    "an angle said to be one": (value(bind(angle_of, quantity="speed"), "rad/s"), "says that rad comes in, but quantity is rad/s already"),
+    "ω = sqrt(c/J)": (value(lambda stiffness, inertia: np.sqrt(stiffness / inertia), "rad/s"), "declared is rad/s"),
+    "T = 1/ω": (value(lambda speed: 1 / speed, "s"), "gives s/rad, declared is s"),
+    "ω/2π as rad/s": (value(lambda speed: speed / (2 * np.pi), "rad/s"), "gives 1/s, declared is rad/s"),
+    "2π·n as Hz": (value(lambda rate: 2 * np.pi * rate, "Hz"), "gives rad/s, declared is 1/s"),
+    "m·ω² as N/m": (value(lambda mass, speed: mass * speed**2, "N/m"), "declared is N/m"),
+    "φ < 1": (value(lambda angle: angle < 1, "1"),
+              "brings together rad .angle. and a pure number .1.; if that counts radians, write as_angle.1.$"),
+    "sin k": (value(lambda share: np.sin(share), "1"),
+              "share is a pure number, rad is needed; if that counts radians, write as_angle.share.$"),
+    "sin ω": (value(lambda speed: np.sin(speed), "1"), "speed is rad/s, rad is needed$"),
+    "arccos φ": (value(lambda angle: arccos(angle), "deg"), "angle is rad, a pure number is needed"),
+    "arccos as 1": (value(lambda share: arccos(share), "1"), "gives rad, declared is 1"),
+    "max(φ, k)": (value(lambda angle, share: np.maximum(angle, share), "1"), "brings together rad .angle. and a pure number .share."),
+    "φ or k": (value(lambda angle, share: np.where(angle > 0, share, angle), "1"), "brings together a pure number .share. and rad .angle."),
+    "exp φ": (value(lambda angle: np.exp(angle), "1"),
+              "angle is rad, a pure number is needed; if the number of radians is meant, write as_number.angle.$"),
+    "(v − ω·r)/r": (value(lambda velocity, radius, speed: (velocity - radius * speed) / radius, "rad/s"), "gives 1/s, declared is rad/s"),
+    "a number said to be one": (value(lambda share: as_number(share), "1"), "says that rad drops, but share is a pure number already"),
+    "an angle said to be one": (value(lambda speed: as_angle(speed), "rad/s"), "says that rad comes in, but speed is rad/s already"),
 }  # fmt: skip
 
 
@@ -265,7 +158,7 @@ def test_an_angle_is_no_number_elsewhere(name: str) -> None:
 
 
 TURN = Abscissa(id="place", symbol="χ", unit="deg", description="Place", period=2 * np.pi)
-RISE = value(bind(product, first="share", second="place"), "deg")
+RISE = value(lambda share, place: share * place, "deg")
 REST: dict[str, Any] = {"symbol": "y", "unit": "1", "description": "Quantity"}
 
 
@@ -285,7 +178,7 @@ def test_what_runs_over_an_angle_has_its_unit(made: Step, unit: str, found: str)
 
 
 def test_the_work_of_a_turn_needs_no_word() -> None:
-    over = value(bind(product, first="torque", second="place"), "N*m")
+    over = value(lambda torque, place: torque * place, "N*m")
     work = Reduction(id="y", of="x", operation="integral", **REST | {"unit": "J"})
     check_mechanism(wheel(TURN, over, work))
 

@@ -9,17 +9,15 @@ import io
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import reduce
-from operator import getitem
 from pathlib import Path
 from typing import Any
 
 import pikepdf
 from pyhanko.pdf_utils.generic import DictionaryObject, NameObject, NumberObject
 
-from diecut_report.exchange.signing import Additions
+from diecut_report.exchange.signatures import Additions
 from diecut_report.text.phrases import message_data
-from tests.exchange.reports import saved_pdf
+from tests.exchange.reports import added_at, removed_at, saved_pdf, set_at
 
 Data = dict[str, Any]
 TRUST = Path(__file__).parents[2] / "docs" / "trust.md"
@@ -36,33 +34,6 @@ class Forgery:
 
 
 # --- results that a report carries, its pages made again of them by this program -----------------------------------------
-
-
-def _set(path: str, value: object) -> Callable[[Data], None]:
-    """Change what stands at a path (``mechanisms/knife/status``); a list's number is a number."""
-    *way, last = (int(key) if key.isdigit() else key for key in path.split("/"))
-
-    def change(data: Any) -> None:
-        home = reduce(getitem, way, data)
-        assert home[last] != value
-        home[last] = value
-
-    return change
-
-
-def _remove(home: str, key: str) -> Callable[[Data], None]:
-    return lambda data: reduce(getitem, home.split("/") if home else [], data).pop(key)
-
-
-def _added(path: str, key: str, value: object) -> Callable[[Data], None]:
-    """Say at a path what the report does not say."""
-
-    def change(data: Any) -> None:
-        home = reduce(getitem, path.split("/"), data)
-        assert key not in home
-        home[key] = value
-
-    return change
 
 
 def other_text(data: Data) -> None:
@@ -99,37 +70,37 @@ NUMBERS = "✗ numbers"
 REFUSED = "is not what stands there in results"
 OF_RESULTS = (
     Forgery("the configuration that it carries", of_config, "✗ configuration"),
-    Forgery("a number, as results", _set("mechanisms/knife/outputs/torque_max/value", 0.9), NUMBERS),
-    Forgery("a number, as it is printed alone", _set("mechanisms/knife/outputs/torque_max/display/text", "0.9"), NUMBERS),
-    Forgery("the unit of a number", _set("mechanisms/knife/outputs/torque_max/display/unit", "kN·m"), NUMBERS),
+    Forgery("a number, as results", set_at("mechanisms/knife/outputs/torque_max/value", 0.9), NUMBERS),
+    Forgery("a number, as it is printed alone", set_at("mechanisms/knife/outputs/torque_max/display/text", "0.9"), NUMBERS),
+    Forgery("the unit of a number", set_at("mechanisms/knife/outputs/torque_max/display/unit", "kN·m"), NUMBERS),
     Forgery("a sentence, in the language of the report alone (its values)", other_text, REFUSED),
-    Forgery("the verdict of a check", _set("mechanisms/knife/checks/0/status", "warn"), NUMBERS),
+    Forgery("the verdict of a check", set_at("mechanisms/knife/checks/0/status", "warn"), NUMBERS),
     Forgery("a check, left out", without_check, REFUSED),
-    Forgery("the verdict on the machine", _set("status", "pass"), NUMBERS),
-    Forgery("the counts of page 1", _set("summary/fail", 0), NUMBERS),
-    Forgery("the first line of page 1", _set("summary/conclusion", message_data("All checks pass.")), NUMBERS),
-    Forgery("what is assumed, left out of page 1", _set("summary/assumed", []), NUMBERS),
-    Forgery("what is open, left out (`summary.open`)", _remove("summary", "open"), NUMBERS),
-    Forgery("the verdict (`summary.verdict`)", _set("summary/verdict", "pass"), NUMBERS),
-    Forgery("what comes of the advice (`summary.advice`)", _added("summary", "advice", {"changes": [], "failing": [], "error": None}), NUMBERS),
-    Forgery("the influence of the inputs", _set("influence/tornados", []), NUMBERS),
-    Forgery("the influence of the inputs, left out", _remove("", "influence"), NUMBERS),
-    Forgery("the status of the document (draft, released)", _set("report/status", "released"), NUMBERS),
-    Forgery("the frame of its sheets", _set("report/frame", "plain"), NUMBERS),
-    Forgery("the units in which it shows numbers", _set("report/units", {"length": "m"}), NUMBERS),
-    Forgery("the title block", _set("project/document_number", "D-2"), NUMBERS),
-    Forgery("who prepared it", _set("project/prepared_by", "Another designer"), NUMBERS),
-    Forgery("the changes since the former revision, left out", _remove("", "changes"), NUMBERS),
+    Forgery("the verdict on the machine", set_at("status", "pass"), NUMBERS),
+    Forgery("the counts of page 1", set_at("summary/fail", 0), NUMBERS),
+    Forgery("the first line of page 1", set_at("summary/conclusion", message_data("All checks pass.")), NUMBERS),
+    Forgery("what is assumed, left out of page 1", set_at("summary/assumed", []), NUMBERS),
+    Forgery("what is open, left out (`summary.open`)", removed_at("summary", "open"), NUMBERS),
+    Forgery("the verdict (`summary.verdict`)", set_at("summary/verdict", "pass"), NUMBERS),
+    Forgery("what comes of the advice (`summary.advice`)", added_at("summary", "advice", {"changes": [], "failing": [], "error": None}), NUMBERS),
+    Forgery("the influence of the inputs", set_at("influence/tornados", []), NUMBERS),
+    Forgery("the influence of the inputs, left out", removed_at("", "influence"), NUMBERS),
+    Forgery("the status of the document (draft, released)", set_at("report/status", "released"), NUMBERS),
+    Forgery("the frame of its sheets", set_at("report/frame", "plain"), NUMBERS),
+    Forgery("the units in which it shows numbers", set_at("report/units", {"length": "m"}), NUMBERS),
+    Forgery("the title block", set_at("project/document_number", "D-2"), NUMBERS),
+    Forgery("who prepared it", set_at("project/prepared_by", "Another designer"), NUMBERS),
+    Forgery("the changes since the former revision, left out", removed_at("", "changes"), NUMBERS),
     Forgery("the former revision that it names", of_former, "✗ options"),
     Forgery("a value of a curve", curve_value, NUMBERS),
-    Forgery("the title of a figure", _set("mechanisms/knife/figures/0/title", "Another figure"), NUMBERS),
+    Forgery("the title of a figure", set_at("mechanisms/knife/figures/0/title", "Another figure"), NUMBERS),
     Forgery("the source of a formula", printed_step, NUMBERS),
-    Forgery("the basis of an input", _set("mechanisms/knife/inputs/friction/basis", "measured"), NUMBERS),
-    Forgery("that a plugin was found faulty (`plugin_check`)", _added("mechanisms/knife", "plugin_check", "passed"), NUMBERS),
-    Forgery("the version of the program", _set("program/version", "0.9.0"), "✗ program"),
-    Forgery("the source of the program", _set("program/source_sha256", 64 * "0"), "✗ program"),
-    Forgery("the source of a plugin", _set("mechanisms/knife/plugin_sha256", 64 * "0"), "✗ plugins"),
-    Forgery("that it was set with templates of a firm (`template_sha256`)", _added("report", "template_sha256", 64 * "a"), "✗ pages"),
+    Forgery("the basis of an input", set_at("mechanisms/knife/inputs/friction/basis", "measured"), NUMBERS),
+    Forgery("that a plugin was found faulty (`plugin_check`)", added_at("mechanisms/knife", "plugin_check", "passed"), NUMBERS),
+    Forgery("the version of the program", set_at("program/version", "0.9.0"), "✗ program"),
+    Forgery("the source of the program", set_at("program/source_sha256", 64 * "0"), "✗ program"),
+    Forgery("the source of a plugin", set_at("mechanisms/knife/plugin_sha256", 64 * "0"), "✗ plugins"),
+    Forgery("that it was set with templates of a firm (`template_sha256`)", added_at("report", "template_sha256", 64 * "a"), "✗ pages"),
 )  # fmt: skip
 
 
@@ -143,12 +114,12 @@ def in_another_file(data: Data) -> None:
 
 
 OF_OPTIONS = (
-    Forgery("its language (`--language`)", _set("project/language", "en"), "✓ options        made with --language en "),
-    Forgery("how much it shows (`--detail`)", _set("report/detail", "brief"), "✓ options        made with --detail brief "),
-    Forgery("which mechanisms alone it shows (`--only`)", _added("report", "only", ["knife"]), "✓ options        made with --only knife "),
+    Forgery("its language (`--language`)", set_at("project/language", "en"), "✓ options        made with --language en "),
+    Forgery("how much it shows (`--detail`)", set_at("report/detail", "brief"), "✓ options        made with --detail brief "),
+    Forgery("which mechanisms alone it shows (`--only`)", added_at("report", "only", ["knife"]), "✓ options        made with --only knife "),
     Forgery("that it shows the changes since a former revision (`--previous`)", without_changes, "✓ options        none: "),
     Forgery("the name of the configuration's file, not what stands in it", in_another_file, "✓ configuration  other.yaml, SHA-256 "),
-    Forgery("the version of a library that it names", _set("program/libraries/NumPy", "9.9"), "the same; NumPy 9.9 then, "),
+    Forgery("the version of a library that it names", set_at("program/libraries/NumPy", "9.9"), "the same; NumPy 9.9 then, "),
 )  # fmt: skip
 """What may be chosen for a report beside its configuration: another choice is told, and is no fault."""
 

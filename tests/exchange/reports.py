@@ -8,6 +8,8 @@ import io
 import json
 import zlib
 from collections.abc import Callable
+from functools import reduce
+from operator import getitem
 from pathlib import Path
 from typing import Any
 
@@ -71,3 +73,31 @@ def changed(results: Path, target: Path, change: Callable[[dict[str, Any]], obje
     change(data)
     target.write_text(json.dumps(data), "utf-8")
     return target
+
+
+def set_at(path: str, value: object) -> Callable[[dict[str, Any]], None]:
+    """Change what stands at a path (``mechanisms/knife/status``); a list's number is a number."""
+    *way, last = (int(key) if key.isdigit() else key for key in path.split("/"))
+
+    def change(data: Any) -> None:
+        home = reduce(getitem, way, data)
+        assert home[last] != value
+        home[last] = value
+
+    return change
+
+
+def removed_at(home: str, key: str) -> Callable[[dict[str, Any]], object]:
+    """Leave out a key of what stands at a path."""
+    return lambda data: reduce(getitem, home.split("/") if home else [], data).pop(key)
+
+
+def added_at(path: str, key: str, value: object) -> Callable[[dict[str, Any]], None]:
+    """Say at a path what the report does not say."""
+
+    def change(data: Any) -> None:
+        home = reduce(getitem, path.split("/"), data)
+        assert key not in home
+        home[key] = value
+
+    return change

@@ -15,7 +15,7 @@ from pyhanko.pdf_utils.generic import ArrayObject, DictionaryObject, NameObject,
 
 from diecut_report.exchange import pdf_attachments
 from diecut_report.exchange.later_changes import only_signed
-from diecut_report.exchange.signing import Additions
+from diecut_report.exchange.signatures import Additions
 from diecut_report.time_limit import limited
 from tests.examples import every
 from tests.exchange.reports import run, saved_pdf

@@ -30,9 +30,7 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report.exchange import signatures as judging
 from diecut_report.exchange.later_changes import only_signed
-from diecut_report.exchange.signatures import signatures
-from diecut_report.exchange.signing import Additions, with_signature
-from diecut_report.exchange.signing_keys import SigningKey
+from diecut_report.exchange.signatures import Additions, SigningKey, signatures, with_signature
 from diecut_report.text.phrases import cell
 from tests.configs import SMALL, saved
 from tests.examples import every, few

@@ -22,9 +22,7 @@ from cryptography.x509.oid import NameOID
 from page import validate_pdf
 
 from diecut_report.errors import UserError
-from diecut_report.exchange.signatures import signatures
-from diecut_report.exchange.signing import sign
-from diecut_report.exchange.signing_keys import SigningKey
+from diecut_report.exchange.signatures import SigningKey, sign, signatures
 from tests.configs import SMALL, saved
 from tests.exchange.forgeries import (
     filled_field,

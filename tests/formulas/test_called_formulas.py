@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Abscissa, Annotated, Chapter, Constant, Inputs, Mechanism, Quantity, Value, bind, formula
-from diecut_report.declaration.dimensions import dimensions
+from diecut_report.declaration.formula_checks import dimensions
 from diecut_report.formulas.formula import Formula, FormulaError, evaluate
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.numerics.curves import Program

@@ -2,32 +2,43 @@
 
 from __future__ import annotations
 
+import asyncio
+import gc
 import json
 import signal
 import socket
 import stat
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import closing
 from http.client import HTTPConnection
 from pathlib import Path
 from threading import Event
+from typing import Any, Self
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 import pytest
+from httpx import ASGITransport, AsyncClient
 
 from diecut_report.cli.main import main
+from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
+from diecut_report.errors import UserError
+from diecut_report.live import server as live_server
+from diecut_report.live import session as live_session
+from diecut_report.live import session as reports
 from diecut_report.live.page import page_data
 from diecut_report.live.server import LiveApplication
+from diecut_report.live.session import LiveSession
 from diecut_report.text.translation import spoken_language
 from tests.cli.test_cli import Capture, run
-from tests.configs import EXAMPLES
 from tests.examples import every, few
+from tests.live.conftest import KNIFE
 
-KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 SECONDS = 120
 
 
@@ -41,6 +52,13 @@ class Server:
         assert self.process.stdout is not None
         address = urlsplit(self.process.stdout.readline().strip())
         self.host, self.path = address.netloc, address.path
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        with self.process:  # which closes its pipes and waits
+            self.process.kill()
 
     def asked(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, str]:
         connection = HTTPConnection(self.host, timeout=SECONDS)
@@ -69,16 +87,12 @@ class Server:
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     file = tmp_path_factory.mktemp("live") / "knife.yaml"
     file.write_bytes(KNIFE.read_bytes())
-    made = Server(file)
-    yield made
-    made.process.kill()
-    made.process.communicate(timeout=SECONDS)
+    with Server(file) as made:
+        yield made
 
 
 @pytest.mark.nightly
-def test_states_are_kept_undone_saved_and_compared_by_whoever_has_the_secret(tmp_path: Path) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
+def test_states_are_kept_undone_saved_and_compared_by_whoever_has_the_secret(file: Path, tmp_path: Path) -> None:
     server = Server(file)
     try:
         own, changed = server.path, {"changes": {"knife.shear_resistance": "50 N/mm**2"}, "stroke": "one"}
@@ -97,11 +111,9 @@ def test_states_are_kept_undone_saved_and_compared_by_whoever_has_the_secret(tmp
         assert server.asked("POST", f"{own}state/keep", {"name": "../soft"})[0] == 422
         assert server.asked("GET", f"{own}state/save?name=soft")[0] == 405
         status, compared = server.asked("GET", f"{own}comparison?state=Initially&state=soft&state=nothing")
-        assert (
-            status == 200
-            and "knife.shear_resistance" in compared
-            and compared.index('data-machine="Initially"') < compared.index('data-machine="soft"')
-        )
+        assert status == 200
+        assert "knife.shear_resistance" in compared
+        assert compared.index('data-machine="Initially"') < compared.index('data-machine="soft"')
         assert server.asked("GET", f"{own}comparison?state=nothing")[0] == 409
         assert sorted(each.name for each in tmp_path.iterdir()) == ["knife.yaml", "soft.yaml"]
     finally:
@@ -216,26 +228,18 @@ def _follow(server: Server, events: Iterator[dict[str, object]]) -> None:
     assert next(events)["edits"] == {} and "111 mm" in server.file.read_text("utf-8")
 
 
-def test_page_script_numbers_and_refusals_are_in_the_language_that_is_asked_for(tmp_path: Path) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
-    server = Server(file, "--language", "uk")
-    try:
+def test_page_script_numbers_and_refusals_are_in_the_language_that_is_asked_for(file: Path) -> None:
+    with Server(file, "--language", "uk") as server:
         _, page = server.asked("GET", server.path)
         with closing(server.events()) as events:
             told = json.dumps(next(events)["machine"], ensure_ascii=False)
         _, refused = server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "5 kg"}})
-    finally:
-        server.process.kill()
-        server.process.communicate(timeout=SECONDS)
     assert '<html lang="uk">' in page and "Записати у файл" in page and "Програма не відповідає" in page
     assert "Рух протягом розрізу" in told and "маса" in json.loads(refused)["refused"]
 
 
 @pytest.mark.parametrize("ending", every(2, [signal.SIGINT, signal.SIGTERM]))
-def test_it_tells_what_is_not_written_when_it_is_ended(tmp_path: Path, ending: signal.Signals) -> None:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
+def test_it_tells_what_is_not_written_when_it_is_ended(file: Path, ending: signal.Signals) -> None:
     server = Server(file)
     with closing(server.events()) as events:
         next(events)
@@ -280,7 +284,7 @@ def test_a_study_ends_it_at_once_with_what_to_give(study: Path, capfd: Capture) 
 
 
 def test_the_address_stands_on_no_command_line_and_the_page_waits_for_no_browser(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture
+    file: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture
 ) -> None:
     opened: list[str] = []
     address, is_opened, is_closed = "http://127.0.0.1:1/secret/", Event(), Event()
@@ -302,8 +306,6 @@ def test_the_address_stands_on_no_command_line_and_the_page_waits_for_no_browser
 
     monkeypatch.setattr("webbrowser.open", browser)
     monkeypatch.setattr("diecut_report.live.server.serve", serve)
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
     assert run("live", file) == 0
     assert "secret" not in opened[0] and opened[0].startswith("file:")
     assert not Path(url2pathname(urlsplit(opened[0]).path)).exists()
@@ -335,3 +337,159 @@ def test_a_view_that_is_not_there_is_refused(server: Server) -> None:
     assert server.asked("GET", f"{server.path}view/0")[0] == 422
     for odd in ("x", "-1", "1e3", "0/1", "9" * 10):
         assert server.asked("GET", f"{server.path}view/{odd}")[0] == 404
+
+
+# What the live page's one thread does first: an effect, which takes long, gives way to what a hand waits for.
+
+
+def test_a_page_is_told_that_a_saved_file_is_being_calculated(
+    file: Path, session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made, read = LiveApplication(session, (), None), session.read
+    monkeypatch.setattr(session, "read", lambda: (time.sleep(0.2), read()))
+
+    async def told() -> list[bytes]:
+        stream = made._stream()
+        found = [await anext(stream)]
+        file.write_bytes(KNIFE.read_bytes() + b"\n")
+        asking = asyncio.create_task(made._read_where_changed())
+        while not found[-1].startswith(b"data: ") or len(found) == 1:
+            found.append(await anext(stream))
+        await asking
+        return found
+
+    found = asyncio.run(asyncio.wait_for(told(), 60))
+    assert found[1] == b"event: busy\ndata: 1\n\n" and found[-1].startswith(b"data: ")
+
+
+def test_a_file_that_is_emptied_and_filled_is_read_when_it_is_written(
+    file: Path, session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made, marks, looks = LiveApplication(session, (), None), session.marks, 0
+
+    def filled_at_the_third_look() -> dict[Path, object]:
+        nonlocal looks
+        if (looks := looks + 1) == 3:
+            file.write_bytes(KNIFE.read_bytes() + b"\n")
+        return marks()
+
+    file.write_bytes(b"")
+    monkeypatch.setattr(session, "marks", filled_at_the_third_look)
+    monkeypatch.setattr(live_server, "SETTLED", 1)
+    asyncio.run(asyncio.wait_for(made._read_where_changed(), 60))
+    assert looks > 3 and not session.faults
+
+
+@pytest.mark.nightly
+def test_a_table_in_another_folder_is_read_again_when_it_changes(tmp_path: Path) -> None:
+    file, table = tmp_path / "knife.yaml", tmp_path / "tables" / "own.yaml"
+    table.parent.mkdir()
+    table.write_text(
+        "source: Works standard 12\ngear_materials: {own: {sigma_h_lim: 1500 MPa, sigma_f_lim: 500 MPa}}\n"
+    )
+    file.write_text(KNIFE.read_text("utf-8") + "materials: tables/own.yaml\n", "utf-8")
+    session = LiveSession(file, Discovery([]))
+    made = LiveApplication(session, (), None)
+
+    async def told() -> None:
+        async with made.starlette.router.lifespan_context(made.starlette):
+            table.write_text("source: [")
+            while not session.faults:
+                await asyncio.sleep(0.05)
+
+    asyncio.run(asyncio.wait_for(told(), 60))
+    assert session.faults[0].file == str(table)
+
+
+def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = LiveApplication(session, (), None)
+    monkeypatch.setattr(live_session, "MECHANISM_SECONDS", 0.2)
+
+    async def told() -> tuple[int, bytes]:
+        with monkeypatch.context() as patch:
+            patch.setattr(LiveSession, "_made", endless)
+            patch.setattr(live_server, "effect", endless)
+            await made._done(session.read)
+            assert session.machine is not None and "did not finish within 0.2 s" in str(session.faults[0].message)
+            transport = ASGITransport(made.starlette)
+            async with AsyncClient(transport=transport, base_url="http://page") as page:
+                answer = await page.get("/effect", params={"input": "knife.depth"})
+        await made._done(session.read)
+        return answer.status_code, answer.content
+
+    status, content = asyncio.run(asyncio.wait_for(told(), 60))
+    assert status == 422 and b"did not finish within 0.2 s" in content and not session.faults
+
+
+def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    config = load_config(KNIFE, Discovery([]))
+    monkeypatch.setattr(reports, "REPORT_SECONDS", 0.05)  # an interpreter takes longer to begin
+    with pytest.raises(UserError, match=r"not finished within 0\.05 s"):
+        asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(config, "html"), 60))
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("named", few([False, True], keep=bool), ids=["alone", "with its table and logo"])
+def test_the_report_of_the_page_is_that_of_the_command(tmp_path: Path, named: bool) -> None:
+    """Assumed values are tried too, and what the file names lies in a folder below it."""
+    file = tmp_path / "my knife.yaml"
+    text = KNIFE.read_text("utf-8")
+    if named:
+        (tmp_path / "pictures").mkdir()
+        (tmp_path / "pictures" / "logo.svg").write_text(
+            '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><path d="M0 0h9v9z"/></svg>'
+        )
+        (tmp_path / "pictures" / "steels.yaml").write_text("{}\n")
+        text = text.replace("press:", "report: {logo: pictures/logo.svg}\nmaterials: pictures/steels.yaml\npress:", 1)
+    file.write_text(text, "utf-8")
+    assert main(["report", str(file), "-o", str(tmp_path), "--format", "html", "--quiet"]) == 0
+    session = LiveSession(file, Discovery([]))
+    assert session.machine is not None, session.faults
+    served = asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(session.machine.config, "html"), 60))
+    assert served == file.with_suffix(".html").read_bytes()
+
+
+@pytest.mark.nightly
+def test_full_passes_over_what_stays_do_not_stop_the_page(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept = list[int]()
+    monkeypatch.setattr(live_server._Server, "run", lambda *_, **__: kept.append(gc.get_freeze_count()))
+    before = gc.get_freeze_count()
+    live_server.serve(LiveApplication(session, (), None), 0, lambda _: None)
+    assert kept[0] > before
+
+
+def endless(*_: object) -> None:
+    """A plugin that does not come back."""
+    while True:
+        time.sleep(0.01)
+
+
+def test_an_effect_gives_way_to_a_change_and_is_made_again_after_it(
+    file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session, began, depths = LiveSession(file, Discovery([])), threading.Event(), []
+
+    def slow(machine: Any, name: str, tell: Callable[[str], None]) -> dict[str, str]:
+        depths.append(machine.inputs[name].present)
+        began.set()
+        while len(depths) == 1:  # the first ends by giving way, or never
+            tell("knife")
+            time.sleep(0.005)
+        return {"input": name}
+
+    monkeypatch.setattr(live_server, "effect", slow)
+
+    async def asked() -> tuple[int, Any]:
+        transport = ASGITransport(LiveApplication(session, (), None).starlette)
+        async with AsyncClient(transport=transport, base_url="http://page") as page:
+            found = asyncio.create_task(page.get("/effect", params={"input": "knife.depth"}))
+            await asyncio.to_thread(began.wait, 20)
+            changed = await page.post("/change", json={"changes": {"knife.depth": "111 mm"}})
+            return changed.status_code, (await found).json()
+
+    assert asyncio.run(asyncio.wait_for(asked(), 60)) == (200, {"input": "knife.depth"})
+    assert depths == [pytest.approx(0.112), pytest.approx(0.111)]

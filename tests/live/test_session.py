@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ import pytest
 from diecut_report.config import yaml
 from diecut_report.config.loader import load_config
 from diecut_report.config.parts.reading import typed_changes, typed_text
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.plugins import LIST, Discovery
 from diecut_report.config.references import rewritten
 from diecut_report.config.yaml import Tree, plain_text
 from diecut_report.design.inputs import inputs_of_parts
@@ -28,16 +29,10 @@ from diecut_report.results.warm_press import WarmRun
 from diecut_report.text.translation import speaking
 from tests.configs import EXAMPLES
 from tests.examples import few
+from tests.live.conftest import KNIFE
+from tools.site.api_examples import configuration, example_of
 
-KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 CYRILLIC = re.compile("[а-яіїєґ]")
-
-
-@pytest.fixture
-def session(tmp_path: Path) -> LiveSession:
-    file = tmp_path / "knife.yaml"
-    file.write_bytes(KNIFE.read_bytes())
-    return LiveSession(file, Discovery([]))
 
 
 def force(session: LiveSession) -> float:
@@ -188,6 +183,11 @@ mechanisms:
 {SECOND}"""
 
 
+def of_a_shaft(folder: Path) -> LiveSession:
+    (folder / "s.yaml").write_text(SHAFT, encoding="utf-8")
+    return LiveSession(folder / "s.yaml", Discovery([]))
+
+
 @pytest.mark.parametrize(
     ("changed", "old", "new"),
     [
@@ -206,8 +206,7 @@ mechanisms:
     ],
 )
 def test_a_change_of_the_page_goes_to_no_other_item_of_a_list(tmp_path: Path, changed: str, old: str, new: str) -> None:
-    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
-    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session = of_a_shaft(tmp_path)
     session.change({changed: "9 kg" if "mass" in changed else "132 mm" if "position" in changed else "55 mm"})
     replaced(session, old, new)
     saved = session.file.read_text("utf-8")
@@ -222,8 +221,7 @@ def test_a_change_of_the_page_goes_to_no_other_item_of_a_list(tmp_path: Path, ch
 
 def test_a_change_goes_to_the_item_that_the_page_shows_while_the_file_is_at_fault(tmp_path: Path) -> None:
     """The page shows the last machine that could be calculated; meanwhile other items may stand in the file."""
-    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
-    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session = of_a_shaft(tmp_path)
     moved = SHAFT.replace("[{name: gear,", "[{name: new, position: 50 mm, mass: 1 kg}, {name: gear,")
     session.file.write_text(moved.replace("bearing_a: 20 mm", "bearing_a: x20 mm"), encoding="utf-8")
     session.read()
@@ -235,8 +233,7 @@ def test_a_change_goes_to_the_item_that_the_page_shows_while_the_file_is_at_faul
 
 
 def test_a_change_stays_over_a_list_that_grows_behind_its_named_item(tmp_path: Path) -> None:
-    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
-    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session = of_a_shaft(tmp_path)
     session.change({"s.loads.1.mass": "9 kg"})
     replaced(session, "mass: 8 kg}", "mass: 8 kg}, {name: new, position: 50 mm, mass: 1 kg}")
     session.write()
@@ -329,7 +326,8 @@ def test_the_press_moves_as_a_whole_with_its_cyclogram() -> None:
     session, pictures = LiveSession(PRESS_OF_LINES, Discovery([])), Pictures()
     assert session.machine is not None and shown_of(session, "press")["figures"] == ["Press in motion"]
     made = pictures.figure(session.machine, "press", 0)
-    assert made["moving"]["mechanism"] == "timing" and [each["mechanism"] for each in made["driven"]] == [
+    assert made["moving"]["mechanism"] == "timing"
+    assert [each["mechanism"] for each in made["driven"]] == [
         "drive",
         "feeder",
     ]
@@ -405,9 +403,9 @@ def test_a_state_has_a_name_that_a_file_may_have_and_no_other_state_has(session:
     assert not session.states
 
 
-@pytest.mark.parametrize(("file", "before"), [("20 mm", "2.2 cm"), ("20", "2.2 cm"), ("2 cm", "22 mm")])
-def test_a_bare_number_is_in_the_unit_that_is_shown(session: LiveSession, file: str, before: str) -> None:
-    replaced(session, "eccentricity: {value: 20 mm", f"eccentricity: {{value: {file}")
+@pytest.mark.parametrize(("in_file", "before"), [("20 mm", "2.2 cm"), ("20", "2.2 cm"), ("2 cm", "22 mm")])
+def test_a_bare_number_is_in_the_unit_that_is_shown(session: LiveSession, in_file: str, before: str) -> None:
+    replaced(session, "eccentricity: {value: 20 mm", f"eccentricity: {{value: {in_file}")
     session.change({"knife.eccentricity": before})
     shown = next(each for each in shown_of(session, "knife")["inputs"] if each["name"] == "knife.eccentricity")
     number, unit = before.split()
@@ -438,8 +436,7 @@ def test_a_fault_of_the_file_stands_until_it_is_mended_whatever_the_page_does(se
 
 
 def test_undo_takes_a_change_to_no_other_item_of_a_list(tmp_path: Path) -> None:
-    (tmp_path / "s.yaml").write_text(SHAFT, encoding="utf-8")
-    session = LiveSession(tmp_path / "s.yaml", Discovery([]))
+    session = of_a_shaft(tmp_path)
     session.change({"s.loads.1.mass": "9 kg"})
     session.take_back()
     replaced(session, "[{name: gear,", "[{name: new, position: 50 mm, mass: 1 kg}, {name: gear,")
@@ -865,3 +862,67 @@ def test_the_words_of_the_script_are_those_that_it_says_with_the_same_places() -
     assert said == set(WORDS)
     for name, places in re.findall(r'\bt\("(\w+)", \{([^}]*)\}', script):
         assert set(re.findall(r"(\w+):", places)) == set(re.findall(r"\{(\w+)\}", WORDS[name])), name
+
+
+# The drive line on the live page: the views of a machine of parts, whose parts lead to mechanisms of the page.
+
+
+@pytest.fixture(scope="module")
+def parts(tmp_path_factory: pytest.TempPathFactory) -> LiveSession:
+    """The small machine of parts of the reference."""
+    folder, example = tmp_path_factory.mktemp("parts"), example_of("Port")
+    assert example is not None
+    shutil.copy(example.file, folder)
+    listed = [f"{kind}: {example.file.name}:{name}\n" for kind, name in example.kinds.items()]
+    (folder / LIST).write_text("".join(listed), encoding="utf-8")
+    file = folder / "machine.yaml"
+    file.write_text(configuration(example), encoding="utf-8")
+    return LiveSession(file, Discovery([folder]))
+
+
+def test_a_part_leads_to_its_calculation_on_the_page(parts: LiveSession) -> None:
+    assert parts.machine is not None
+    shown = page_data(parts)["machine"]
+    names = {each["name"] for each in shown["mechanisms"]}
+    assert shown["views"] == ["Drive line, front view", "Shafts of the drive line, side by side"]
+    svg = "".join(Pictures().view(parts.machine, index)["svg"] for index in (0, 1))
+    links = {*re.findall(r'<a href="#([^"]+)"', svg)}
+    assert links == {
+        "shafts_main", "shafts_main_bearings", "shafts_main_wheel_key", "shafts_main_disc_key", "meshes_drive",
+    } and links <= names  # fmt: skip
+
+
+@pytest.mark.nightly
+def test_a_change_on_the_page_changes_the_colour_of_the_part_that_it_overloads(parts: LiveSession) -> None:
+    def told(name: str) -> str:
+        assert parts.machine is not None
+        found = re.search(rf"<title>{name}: ([^<]*)</title>", Pictures().view(parts.machine, 1)["svg"])
+        assert found is not None
+        return found[1]
+
+    before = told("main.disc.key")
+    parts.change({"stamp.force": "80 kN"})
+    assert parts.faults == []
+    assert "fail" not in before and told("main.disc.key").endswith(", fail")
+    parts.take_back()
+    assert told("main.disc.key") == before
+
+
+def test_the_views_speak_the_language_of_the_page(parts: LiveSession) -> None:
+    with speaking("uk"):
+        assert parts.machine is not None
+        assert page_data(parts)["machine"]["views"][0] == "Привод, вигляд спереду"
+        assert "не перевірено на міцність" in Pictures().view(parts.machine, 0)["svg"]
+
+
+def test_a_machine_without_parts_has_no_views(file: Path) -> None:
+    alone = LiveSession(file, Discovery([]))
+    assert alone.machine is not None and page_data(alone)["machine"]["views"] == []
+    for index in (0, 2):
+        with pytest.raises(UserError, match="There is no figure"):
+            Pictures().view(alone.machine, index)
+
+
+def test_a_click_on_a_part_opens_its_calculation() -> None:
+    script = assets()["live.js"].content.decode()
+    assert re.search(r'byId\("views"\).addEventListener\("click".*?closest\("a"\).*?preventDefault\(\).*?visit\(', script, re.DOTALL)  # fmt: skip

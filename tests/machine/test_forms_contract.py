@@ -12,7 +12,7 @@ from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.mechanism.chapters import form_keys, in_all_units, in_form, in_unit
 from diecut_report.mechanism.inputs import meta_of
 from tests.machine.swing import MECHANISM, RATIOS, SPECTRUM, Swing
-from tests.testing.test_testing import mechanism as of_steps
+from tests.testing.test_calculate import mechanism as of_steps
 
 
 def test_a_form_is_the_model_with_other_units() -> None:

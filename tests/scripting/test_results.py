@@ -44,10 +44,8 @@ def test_outputs_are_attributes_in_si_with_what_a_report_says_of_them(knife: dr.
     assert str(torque) == "2.074 N·m" and torque.to("N*mm").value == pytest.approx(1000 * told["value"])
     assert list(knife["knife"]) == list(data["outputs"]) and list(knife["knife"].intermediate) == list(data["values"])
     assert {"torque_max", "checks", "curves"} <= set(dir(knife["knife"]))
-    assert (
-        knife["knife"].inputs["depth"].basis == "assumed"
-        and knife["knife"].inputs["thickness"].path == "press.sheet.thickness"
-    )
+    assert knife["knife"].inputs["depth"].basis == "assumed"
+    assert knife["knife"].inputs["thickness"].path == "press.sheet.thickness"
 
 
 def test_the_file_is_that_of_the_command(tmp_path: Path, capfd: Capture) -> None:
@@ -56,9 +54,9 @@ def test_the_file_is_that_of_the_command(tmp_path: Path, capfd: Capture) -> None
     results = dr.load(file, plugins=[GOOD]).calculate()
     assert results.to_json() == capfd.readouterr().out
     again = dr.load_results(results.save(tmp_path / "results.json"))
-    assert (
-        again.to_json() == results.to_json() and again["a"].moment == results["a"].moment and again.data == results.data
-    )
+    assert again.to_json() == results.to_json()
+    assert again["a"].moment == results["a"].moment
+    assert again.data == results.data
 
 
 def test_the_report_is_that_of_the_command(tmp_path: Path) -> None:
@@ -89,9 +87,8 @@ def test_checks_are_found_by_name_and_are_a_table(knife: dr.Results, levers: dr.
     reach = knife.checks["knife.reach"]
     assert (reach, knife["knife"].checks["reach"], knife.governing) == (reach,) * 3
     assert reach.demand is not None and reach.limit is not None and reach.margin is not None
-    assert reach.margin.si == pytest.approx(reach.limit.si - reach.demand.si) and reach.utilisation == pytest.approx(
-        reach.demand.si / reach.limit.si
-    )
+    assert reach.margin.si == pytest.approx(reach.limit.si - reach.demand.si)
+    assert reach.utilisation == pytest.approx(reach.demand.si / reach.limit.si)
     assert knife.checks["force"].missing == ["allowable_force"] and knife.checks["force"].margin is None
     assert [check.name for check in levers.checks.failing()] == ["a.moment"] and levers.status == "fail"
     table = knife.checks.to_arrow()
@@ -130,11 +127,9 @@ def test_phases_have_their_intervals(knife: dr.Results) -> None:
 
 def test_figures_are_drawings_as_in_a_report(knife: dr.Results, tmp_path: Path) -> None:
     figure = knife["knife"].figure("load")
-    assert (
-        figure.title == knife["knife"].figures["load"]
-        and figure.svg.startswith("<svg")
-        and "<script" not in figure._repr_html_()
-    )
+    assert figure.title == knife["knife"].figures["load"]
+    assert figure.svg.startswith("<svg")
+    assert "<script" not in figure._repr_html_()
     assert figure.save(tmp_path / "load.svg").read_text("utf-8") == figure.svg
     with pytest.raises(dr.UnknownName, match=r"knife has no figure 'laod' \(did you mean 'load'"):
         knife["knife"].figure("laod")

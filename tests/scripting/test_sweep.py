@@ -63,9 +63,8 @@ def test_what_the_calculation_presumes_does_not_govern_here_either() -> None:
 )
 def test_values_come_in_many_forms(press: dr.LoadedPress, given: Any, arms: list[float]) -> None:
     table = press.sweep({"mechanisms.a.arm": given}, outputs=["a.moment"])
-    assert table["mechanisms.a.arm"] == pytest.approx(arms) and table["a.moment"] == pytest.approx(
-        2000 * np.array(arms)
-    )
+    assert table["mechanisms.a.arm"] == pytest.approx(arms)
+    assert table["a.moment"] == pytest.approx(2000 * np.array(arms))
 
 
 def test_texts_samples_and_constraints_are_those_of_a_study(press: dr.LoadedPress) -> None:
@@ -77,11 +76,9 @@ def test_texts_samples_and_constraints_are_those_of_a_study(press: dr.LoadedPres
         )
         for seed in (1, 1, 2)
     ]
-    assert (
-        drawn[0].to_arrow().equals(drawn[1].to_arrow())
-        and not drawn[0].to_arrow().equals(drawn[2].to_arrow())
-        and len(drawn[0]) == 8
-    )
+    assert drawn[0].to_arrow().equals(drawn[1].to_arrow())
+    assert not drawn[0].to_arrow().equals(drawn[2].to_arrow())
+    assert len(drawn[0]) == 8
     kept = press.sweep({"a.arm": [50, 100, 200]}, constraints=["mechanisms.a.arm >= '90 mm'", "a.moment < '300 N*m'"])
     assert kept["mechanisms.a.arm"].tolist() == [0.1] and kept["variant"].tolist() == [1]
 
@@ -90,10 +87,8 @@ def test_a_table_goes_to_arrow_numpy_pandas_and_polars(press: dr.LoadedPress, mo
     table = press.sweep({"press.productivity": ["6000 1/h", "3000 1/h"]}, outputs=["a.moment", "a.size"])
     arrow, rows = table.to_arrow(), table.to_numpy()
     assert arrow.schema.field("a.moment").metadata == {b"unit": b"N*m", b"symbol": b"M", b"description": b"Moment"}
-    assert (
-        rows["a.moment"].tolist() == [200, 200] == arrow.column("a.moment").to_pylist()
-        and rows["a.size"].tolist() == ["large"] * 2
-    )
+    assert rows["a.moment"].tolist() == [200, 200] == arrow.column("a.moment").to_pylist()
+    assert rows["a.size"].tolist() == ["large"] * 2
     assert table.columns["press.productivity"].unit == "1/s" and repr(table).startswith("<2 machines (2 pass); ")
     monkeypatch.setitem(sys.modules, "polars", None)
     with pytest.raises(dr.ConfigError, match="polars is not installed"):

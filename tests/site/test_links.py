@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from tools.site import links as module
+from tools.site import documents as module
 from tools.site.built_links import judged
-from tools.site.documents import PARTS, add_documents, documents, places
-from tools.site.links import Links
+from tools.site.documents import PARTS, Links, add_documents, documents, places
 from tools.site.sources import Sources
 
 

@@ -21,9 +21,8 @@ from diecut_report.mechanism.steps import Options
 from diecut_report.quantities.units import UnitError, parse_quantity
 from diecut_report.report.figures.drawing import ROLES
 from tools import make_form_page
-from tools.site import drawing_page, functions_page
-from tools.site.api_groups import GROUPS, TOLD
-from tools.site.signatures import signature
+from tools.site import drawing_page, formulas
+from tools.site.reference import GROUPS, TOLD, signature
 
 ROOT = Path(__file__).parents[2]
 UNITS = (ROOT / "docs" / "reference" / "units.md").read_text(encoding="utf-8")
@@ -188,9 +187,9 @@ UNIT_OF = {
 }
 
 
-@pytest.mark.parametrize("name", sorted(functions_page.MEANINGS))
+@pytest.mark.parametrize("name", sorted(formulas.MEANINGS))
 def test_a_function_takes_and_gives_what_the_page_says(tmp_path: Path, name: str) -> None:
-    meaning = functions_page.MEANINGS[name]
+    meaning = formulas.MEANINGS[name]
     (given, _), (_, gives) = UNIT_OF[meaning.takes], UNIT_OF[meaning.gives]
     names = ("y", "x") if name in OF_TWO else ("x",)
     formula = f"np.{name}({', '.join(names)})"
@@ -199,7 +198,7 @@ def test_a_function_takes_and_gives_what_the_page_says(tmp_path: Path, name: str
 
 
 def test_each_function_and_each_role_has_a_meaning() -> None:
-    assert functions_page.MEANINGS.keys() == set(FUNCTIONS.values()) and functions_page.SAYING.keys() == SAID.keys()
+    assert formulas.MEANINGS.keys() == set(FUNCTIONS.values()) and formulas.SAYING.keys() == SAID.keys()
     assert drawing_page.MEANINGS.keys() == ROLES.keys()
 
 

@@ -12,12 +12,10 @@ import yaml
 from diecut_report.config.plugins import Discovery
 from tests.plugins.machine_parts import OF_PARTS
 from tools.site.__main__ import mechanisms
-from tools.site.documents import places
+from tools.site.documents import Links, add_notebooks, places
 from tools.site.examples import Example as ConfigExample
 from tools.site.examples import configurations, shown_kinds
 from tools.site.gallery import page
-from tools.site.links import Links
-from tools.site.notebooks import add_notebooks
 from tools.site.sources import ROOT, Sources
 
 

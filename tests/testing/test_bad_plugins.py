@@ -17,7 +17,7 @@ PLUGIN = """\
 import numpy as np
 
 from diecut_report.api import (
-    Annotated, Chapter, Drawing, Inputs, Mechanism, Quantity, polyline)
+    Annotated, Chapter, Inputs, Mechanism, Quantity)
 
 
 class Bad(Inputs):
@@ -32,23 +32,17 @@ chapter = Chapter("Only")
 chapter.value("a", "a", "mm", "A", lambda x: 2 * x)
 {step}
 
-
-def draw(view):
-    {draw}
-
-
-FIGURE = Drawing(id="sketch", title="Sketch", caption="", build=draw)
 {head}
-MECHANISM = Mechanism(kind="faulty", version="1", title="T", summary="", inputs=Bad, chapters=(chapter,), figures=({figures}))
+MECHANISM = Mechanism(kind="faulty", version="1", title="T", summary="", inputs=Bad, chapters=(chapter,))
 """
 COMPUTED = 'chapter.computed("b", "b", "mm", "B", code, ("x",), "by code")'
 BAD = {  # what stands where in the plugin, and what is told of it
-    "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:25)"),
+    "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:19)"),
     "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (1.0.0) has contract 1; install a newer version"),
     "older contract": ({"head": "CONTRACT = 0"}, "has contract 1; use a newer version of the plugin"),
     "name of another version": (
         {"head": "from diecut_report.api import Wormhole"},
-        "diecut_report.api of this version (1.0.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:25)",
+        "diecut_report.api of this version (1.0.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:19)",
     ),
     "exception": ({"code": "raise RuntimeError('fell over')"}, "RuntimeError: fell over (faulty.py:12)"),
     "end of the program": ({"code": "raise SystemExit(0)"}, "SystemExit: 0 (faulty.py:12)"),
@@ -68,15 +62,7 @@ BAD = {  # what stands where in the plugin, and what is told of it
     ),
 }  # fmt: skip
 TWO = 'chapter.value("b", "b", "mm", "B", lambda q: q)\nchapter.value("c", "c", "mm", "C", lambda r: r)'
-DRAWN = {
-    "a figure that asks for what is not there": (
-        "return [polyline([(0, view['nope'])])]",
-        "there is no number 'nope' in this machine",
-    ),
-    "a figure of a shape that nobody knows": ("return [{'shape': 'cube'}]", "'cube'"),
-    "a figure that breaks": ("return 1 / 0", "ZeroDivisionError: division by zero"),
-}
-LATER = {"code": "return x", "step": COMPUTED, "draw": "return []", "head": "", "figures": ""}
+LATER = {"code": "return x", "step": COMPUTED, "head": ""}
 
 
 def plugin(folder: Path, **parts: str) -> str:
@@ -89,18 +75,18 @@ def plugin(folder: Path, **parts: str) -> str:
     return str(folder / "plugins")
 
 
-def reported(folder: Path, capfd: Capture, formats: str, **parts: str) -> tuple[str, dict[str, dict[str, object]]]:
+def reported(folder: Path, capfd: Capture, **parts: str) -> tuple[str, dict[str, dict[str, object]]]:
     """What is told of a press with a lever and a bad mechanism, and the mechanisms of its results."""
     folders = ("--plugins", plugin(folder, **parts), "--plugins", str(GOOD))
     config = saved(folder, LEVER + "  faulty: {kind: faulty}\n")
-    assert main(["report", str(config), *folders, "-o", str(folder), "--format", formats, "--quiet"]) == 3
+    assert main(["report", str(config), *folders, "-o", str(folder), "--format", "json", "--quiet"]) == 3
     return capfd.readouterr().err, json.loads((folder / "press.json").read_text("utf-8"))["mechanisms"]
 
 
 @pytest.mark.parametrize("name", BAD)
 def test_a_plugin_that_is_bad_costs_its_mechanism_alone(tmp_path: Path, capfd: Capture, name: str) -> None:
     parts, words = BAD[name]
-    told, results = reported(tmp_path, capfd, "json", **parts)
+    told, results = reported(tmp_path, capfd, **parts)
     assert told.startswith("mechanism 'faulty' of plugin 'faulty': ") and words in told and "Traceback" not in told
     assert re.search(r"faulty\.py", told)
     assert results["a"]["status"] == "pass" and results["faulty"]["status"] == "error"
@@ -111,14 +97,6 @@ def test_each_invalid_declaration_has_its_line(tmp_path: Path, capfd: Capture) -
     *_, head, first, second = capfd.readouterr().out.splitlines()
     assert head.endswith("faulty.py has invalid declarations:") and "\\n" not in head
     assert re.search(r"^ {6}\S*faulty\.py:17: step b: takes q", first) and "faulty.py:18: step c: takes r" in second
-
-
-@pytest.mark.parametrize("name", DRAWN)
-def test_a_bad_figure_costs_itself_alone(tmp_path: Path, capfd: Capture, name: str) -> None:
-    draw, words = DRAWN[name]
-    told, results = reported(tmp_path, capfd, "html,json", draw=draw, figures="FIGURE,")
-    assert "plugin 'faulty': figure 'sketch'" in told and words in told and re.search(r"faulty\.py:2[14]\)", told)
-    assert results["a"]["status"] == "pass" and results["faulty"]["status"] == "pass"
 
 
 def test_two_plugins_of_one_kind_are_both_told_and_the_others_stand(tmp_path: Path, capfd: Capture) -> None:

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from diecut_report.api import Chapter, Formula, Mechanism, Step, Value, bind, formula
 from diecut_report.config.loader import load_config
+from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.errors import PluginError
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.testing.machines import Refused, calculate, load
 from diecut_report.testing.values import MechanismFound, NotGiven, PrintedValue, compare
 from tests.configs import BROKEN, DISCOVERY, GOOD, HEAD, saved
+from tests.machine.toy import MECHANISM, READ, ROOTED, Toy, same
 
 LEVER = load("lever", GOOD)
 
@@ -177,3 +181,59 @@ def test_what_is_not_a_printed_number_is_told() -> None:
         compare(FOUND, {"moment": "about 3 N"})
     with pytest.raises(ValueError, match="moment is in N·m, which is not of the kind of mm"):
         compare(FOUND, {"moment": "300 mm"})
+
+
+# The contract test for plugin authors finds each kind of flaw.
+
+
+@formula
+def moment(force: Any, arm: Any) -> Any:
+    return force * arm
+
+
+def mechanism(*steps: Step) -> Mechanism:
+    """A mechanism of these steps on the toy's inputs."""
+    return replace(MECHANISM, inputs=Toy, chapters=(Chapter("Steps", steps=(*steps, READ)),), checks=(), figures=())
+
+
+def value(**changes: Any) -> Value:
+    """A sound step with changes."""
+    sound: dict[str, Any] = {"id": "m", "symbol": "M", "unit": "N*m", "description": "Moment", "formula": moment}
+    return Value(**sound | changes)
+
+
+@pytest.mark.parametrize("sound", [mechanism(value()), MECHANISM, ROOTED])
+def test_a_sound_mechanism_passes(sound: Mechanism) -> None:
+    check_mechanism(sound)
+
+
+def rooted(**changes: Any) -> Mechanism:
+    """The mechanism with a root, its step changed."""
+    step = replace(ROOTED.chapters[0].steps[0], **changes)
+    return replace(ROOTED, chapters=(Chapter("Root", steps=(step,)),))
+
+
+class Lying(Formula):
+    """A formula that computes something else than it prints."""
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        return 2 * super().__call__(*args, **kwargs)
+
+
+FLAWS = {
+    "a length added to a force": (
+        mechanism(value(formula=lambda force, arm: force + arm)),
+        "brings together N .force. and m .arm.",
+    ),
+    "another unit than declared": (mechanism(value(unit="N")), "declared is N"),
+    "a print that is not what is computed": (mechanism(value(formula=Lying(moment.function))), "prints"),
+    "a bracket in another unit than the root": (rooted(low=bind(same, quantity="force")), "gives"),
+    "a relation between unlike quantities": (rooted(right=bind(same, quantity="force")), "the relation equals"),
+}
+
+
+@pytest.mark.parametrize("flaw", FLAWS)
+def test_a_flaw_is_named(flaw: str) -> None:
+    broken, words = FLAWS[flaw]
+    with pytest.raises(AssertionError, match=words):
+        check_mechanism(broken)

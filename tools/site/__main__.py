@@ -8,15 +8,11 @@ from pathlib import Path
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.mechanism.mechanism import Mechanism
-from tools.site.documents import add_documents, places
-from tools.site.examples import examples, shown_kinds
-from tools.site.frame import add_frame
+from tools.site.documents import Links, add_documents, add_notebooks, places
+from tools.site.examples import add_reports, examples, shown_kinds
 from tools.site.gallery import add_gallery
-from tools.site.links import Links
-from tools.site.notebooks import add_notebooks
 from tools.site.reference import add_reference
-from tools.site.reports import add_reports
-from tools.site.sources import Sources
+from tools.site.sources import Sources, add_frame
 
 
 def mechanisms() -> list[Mechanism]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,7 +21,8 @@ from diecut_report.report.scope import letter, parts
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism_record import MechanismRecord
 from diecut_report.results.model import ResultsRecord
-from tools.site.sources import ROOT
+from tools.site.markup import html
+from tools.site.sources import ROOT, Sources
 
 CONFIGS = ROOT / "configs"
 SMALL = ("circular_knife",)  # which alone a quick site calculates
@@ -118,3 +120,33 @@ def block(shown: Shown) -> str:
     while not lines[end - 1].strip() or re.match(r" {0,2}#", lines[end - 1]):
         end -= 1
     return "\n".join(["mechanisms:", *lines[start:end]])
+
+
+# The reports of the examples, as the program writes them, and a page that leads to them.
+
+
+EXTRA = "_extra"  # what stands in it is part of the site as it is
+
+
+def add_reports(sources: Sources, examples: list[Example]) -> None:
+    """Add the reports that there are, and their list."""
+    made = sorted((each for each in examples if each.report), key=lambda each: each.name)
+    for example in made:
+        sources.add(f"{EXTRA}/reports/{example.name}.html", example.report)
+    sources.page("reports.md", _page(made))
+
+
+def _page(made: list[Example]) -> Iterator[str]:
+    yield from ("# Reports of the examples", "")
+    yield "What the program writes of the configurations in `configs/`, as it writes them: each is one file, which needs no network."
+    yield from html(
+        "<ul>",
+        *(f'<li><a href="reports/{each.name}.html">{escape(each.title)}</a> {_verdict(each)}</li>' for each in made),
+        "</ul>",
+    )
+
+
+def _verdict(example: Example) -> str:
+    """The name of the configuration, and the verdict."""
+    status = example.results.status if example.results else ""
+    return f"<code>configs/{example.name}.yaml</code>: {escape(status)}"

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
+import dataclasses
 import inspect
+import re
 from collections.abc import Iterator
 from html import escape
-from typing import Any
+from pathlib import PurePath
+from typing import Any, NamedTuple
 
 from diecut_report import api, testing
+from diecut_report.mechanism.steps import Step
 from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.style import SizesSize
 from diecut_report.report.text import Catalogue
 from tools.site.api_examples import ApiExample, example_of, run
-from tools.site.api_groups import GROUPS, TOLD, Group
 from tools.site.drawing_page import drawing_page
-from tools.site.functions_page import functions_page
+from tools.site.formulas import functions_page
 from tools.site.markup import code, contents, fenced, html, plain, table
-from tools.site.signatures import called, described, methods, paragraphs
 from tools.site.sources import ROOT, Sources
 
 PAGES = ROOT / "docs" / "reference"
@@ -146,3 +148,169 @@ from my_plugins.hook import MECHANISM
 def test_the_hook_keeps_the_contract() -> None:
     check_mechanism(MECHANISM)
 """
+
+
+# Signatures and docstrings of what is documented, as Markdown.
+
+
+WIDEST = 100
+HIDDEN = ("self", "cls")
+
+
+def signature(name: str, thing: Any) -> str:
+    """Return how something is called, on several lines where one would be too wide; empty where it is not called."""
+    if _is_protocol(thing) or not callable(thing):
+        return ""
+    try:
+        found = inspect.signature(
+            thing.__init__ if inspect.isclass(thing) and not dataclasses.is_dataclass(thing) else thing
+        )
+    except (TypeError, ValueError):
+        return ""
+    taken = [each for each in found.parameters.values() if each.name not in HIDDEN and not _is_place(each)]
+    parts: list[str] = []
+    is_keyed = False
+    for each in taken:
+        if each.kind is each.KEYWORD_ONLY and not is_keyed:
+            parts, is_keyed = [*parts, "*"], True
+        is_keyed = is_keyed or each.kind is each.VAR_POSITIONAL
+        parts.append(_parameter(each))
+    gives = (
+        ""
+        if inspect.isclass(thing) or found.return_annotation in (found.empty, None, "None")
+        else f" -> {_type(found.return_annotation)}"
+    )
+    whole = f"{name}({', '.join(parts)}){gives}"
+    return whole if len(whole) <= WIDEST else f"{name}(\n    " + ",\n    ".join(parts) + f",\n){gives}"
+
+
+def _is_place(each: inspect.Parameter) -> bool:
+    """Whether it is where a declaration stands, which the program finds by itself."""
+    return each.name == "at" and each.default is not each.empty
+
+
+def _parameter(each: inspect.Parameter) -> str:
+    stars = "*" if each.kind is each.VAR_POSITIONAL else "**" if each.kind is each.VAR_KEYWORD else ""
+    kind = "" if each.annotation is each.empty else f": {_type(each.annotation)}"
+    default = "" if each.default is each.empty else f" = {_default(each.default)}"
+    return f"{stars}{each.name}{kind}{default}"
+
+
+def _type(annotation: Any) -> str:
+    text = annotation if isinstance(annotation, str) else inspect.formatannotation(annotation)
+    return re.sub(r"\b(?:diecut_report|collections|typing|numpy)\.(?:\w+\.)*", "", text)
+
+
+def _default(value: Any) -> str:
+    text = repr(value)
+    return "..." if text.startswith("<") or "0x" in text or isinstance(value, PurePath) else text
+
+
+def _is_protocol(thing: Any) -> bool:
+    return bool(getattr(thing, "_is_protocol", False))
+
+
+def described(thing: Any) -> Iterator[str]:
+    """Yield the docstring as Markdown."""
+    yield from ("", *(_marked(paragraph) for paragraph in paragraphs(thing)), "")
+
+
+def paragraphs(thing: Any) -> Iterator[str]:
+    """Yield the paragraphs of a docstring, each followed by an empty line."""
+    for paragraph in (inspect.getdoc(thing) or "").split("\n\n"):
+        yield from (" ".join(paragraph.split()), "")
+
+
+def _marked(text: str) -> str:
+    """A text of a docstring, its code in double backticks, as Markdown."""
+    parts = re.split(r"``(.+?)``", text)
+    return "".join(code(part) if index % 2 else plain(part) for index, part in enumerate(parts))
+
+
+def called(name: str, thing: Any) -> Iterator[str]:
+    """Yield the signature as a block of code; nothing where there is none."""
+    found = signature(name, thing)
+    if found:
+        yield from fenced("python", found)
+
+
+def methods(thing: type) -> dict[str, Any]:
+    """Return what a class offers beside its making: methods and properties with words of their own, in their order."""
+    own: dict[str, Any] = {}
+    if issubclass(thing, Step):  # what it offers is for the rooms of the program
+        return own
+    for base in reversed(thing.__mro__):
+        if base.__module__.startswith("diecut_report"):
+            own |= {name: each for name, each in vars(base).items() if not name.startswith("_") and _is_offered(each)}
+    return own
+
+
+def _is_offered(each: Any) -> bool:
+    return isinstance(each, property) or (inspect.isfunction(each) and bool(each.__doc__))
+
+
+# Which page of the reference tells of which names of ``diecut_report.api``, and what is said of those that have no words of their own.
+
+
+class Group(NamedTuple):
+    """A page of the reference: its name, its title, what it is about, and the names in their order."""
+
+    page: str
+    title: str
+    words: str
+    names: tuple[str, ...]
+
+
+GROUPS = (
+    Group("mechanism", "A mechanism", "What a plugin's module declares: the mechanism as a whole, its chapters, checks, sources.", (
+        "Mechanism", "Chapter", "Steps", "Step", "prefixed", "Check", "Vary", "AdviceWay", "Source", "Erratum", "Partner", "Comparison", "Port",
+        "Profile", "CurveTable", "ExampleBlock", "Wired", "ForEach", "CONTRACT",
+    )),
+    Group("inputs", "Inputs", "What a user may give, as a pydantic model; validated values are SI.", (
+        "Inputs", "Block", "Annotated", "Quantity", "InOtherUnit", "Text", "OneOf", "CurveInput", "Varying", "Extremes", "Curve", "PhaseInput",
+        "MechanismInput", "FromPress", "FromTable", "POINTS",
+    )),
+    Group("formulas", "Formulas", "What computes, prints and is checked for its dimensions: a function.", (
+        "formula", "Formula", "bind", "Bound", "Binding", "ByText", "Constant", "GRAVITY", "arccos", "as_number", "as_angle",
+    )),
+    Group("steps", "Numbers and conditions", "Steps that give a number or a text, or say what must hold.", (
+        "Value", "Choice", "case", "Case", "Root", "Computed", "Refusal", "Require", "Words", "Fact",
+    )),
+    Group("curves", "Curves", "Steps that give a curve over an abscissa, or take a number of one.", (
+        "Abscissa", "Breakpoints", "Reduction", "Derivative", "Accumulated", "Crossings", "FromCurve", "CurvePeriod", "MadeCurve", "Spectrum",
+        "SpectrumLine",
+    )),
+    Group("parts", "Repeated parts", "Steps over a list of blocks: rows with a number for each part.", (
+        "Total", "Neighbour", "Running", "Part", "Clash",
+    )),
+    Group("plain-code", "Plain code", "Objects that plain code makes once, and what several steps take of them.", (
+        "Prepared", "ComputedCurve", "PartNames", "PartTable", "PartCurves", "ListedColumn", "Cell",
+    )),
+    Group("phases", "Phases", "When a mechanism does something, and how others take part in it.", ("Phase", "GivenPhase", "GivenMechanism")),
+    Group("tables", "Tables and series", "Numbers of standards and of an author's own tables.", (
+        "Lookup", "Interpolated", "Pick", "standard_table", "standard_series", "standard_series_by", "own_table", "own_series", "table_beside",
+        "StandardTable", "StandardSeries", "StandardFault",
+    )),
+    Group("figures", "Figures", "Diagrams and drawings; [shapes and roles](drawings.md) has each shape and role as a picture.", (
+        "Plot", "Panel", "Series", "Level", "Mark", "Span", "Polar", "Bars", "BarGroup", "Chart", "chart_panel", "line", "fill", "mark", "level",
+        "vertical", "Drawing", "View", "Driven", "Grip", "Shape", "Point", "polyline", "region", "circle", "arc", "dimension", "radius_dimension",
+        "label", "arrow", "box", "point", "rigid",
+    )),
+    Group("texts", "Texts and numbers", "Texts that code makes, and numbers in them.", (
+        "Phrase", "phrase", "joined", "named", "worded", "told", "si", "outward", "below",
+    )),
+)  # fmt: skip
+
+TOLD = {  # names without a docstring of their own
+    "AdviceWay": "A way in which a check may be made to hold: an input that is changed alone, by its key or as a `Vary`, "
+    "or several keys whose inputs are changed together in one proportion.",
+    "Annotated": "Python's own `typing.Annotated`: joins the type of an input with what is declared of it.",
+    "Binding": "What a step takes as its formula: a formula, one that is bound, or one that a text chooses.",
+    "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 1` for which it is written.",
+    "Cell": "What stands in a cell of a listing: a number in SI, a text, or `None` where there is nothing.",
+    "GRAVITY": "The standard acceleration of free fall, 9.80665 m/s², a `Constant`.",
+    "POINTS": "The input with which curves are sampled, for `n_points: Annotated[int, POINTS] = 720`: "
+    "it says how densely they are listed, no more. It has the symbol N: a quantity of yours needs another.",
+    "Point": "A place in a drawing: across and upwards, in metres.",
+    "Shape": "A shape of a drawing, or a panel of a chart, as plain data: made by the functions of this page.",
+}

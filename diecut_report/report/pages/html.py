@@ -64,13 +64,16 @@ MATH = {("Report Math", 400, "normal"): "report-math"}
 
 
 class Screen:
-    """Formulas as MathML, figures as inline SVG; ``style`` is for this report alone, ``frame`` that of sheets."""
+    """Formulas as MathML, figures as inline SVG; ``style`` is for this report alone, ``frame`` that of sheets.
+
+    ``is_part`` says that the report stands within another page: its style and contents alone.
+    """
 
     style = ""
     frame: SheetBlocks | None = None
 
-    def __init__(self, material: Material) -> None:
-        self.material = material
+    def __init__(self, material: Material, *, is_part: bool = False) -> None:
+        self.material, self.is_part = material, is_part
 
     def display(self, equation: Equation) -> Markup:
         """A typeset formula as MathML."""
@@ -98,10 +101,12 @@ class Screen:
         return Markup(figure.text.replace(own, f'class="small" {grown}' if figure.width < SMALL else grown, 1))
 
 
-def page(material: Material) -> str:
-    """The whole HTML page: the report, which needs no script, and behind it what its scripts use."""
+def page(material: Material, *, is_part: bool = False) -> str:
+    """The whole HTML page: the report, which needs no script, and behind it what its scripts use; of a part of another page the report alone."""
     scripts = [_read(name) for name in SCRIPTS]
-    report = filled(material, Screen(material), "screen", *scripts)
+    report = filled(material, Screen(material, is_part=is_part), "screen", *scripts)
+    if is_part:
+        return report
     data = f'<script type="application/json" id="reader-data">{reader_data(material)}</script>\n'
     return report.replace(END, data + "".join(f"<script>{text}</script>\n" for text in scripts) + END)
 
@@ -136,7 +141,7 @@ def template_variables(material: Material, medium: Screen, kind: str, style: str
         "doc": document, "t": document.words, "kind": kind, "style": Markup(style), "policy": policy,
         "math": {name: getattr(medium, name) for name in ("display", "beside", "fits_beside", "has_room_beside")},
         "figure": medium.figure, "failed": material.failed, "abreast": material.are_abreast, "frame": medium.frame, "logo": material.logo,
-        "carried": material.carried, "changes": material.changes,
+        "carried": material.carried, "changes": material.changes, "is_part": medium.is_part,
     }  # fmt: skip
 
 
