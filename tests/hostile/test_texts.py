@@ -1,4 +1,4 @@
-"""Control and invisible characters in texts that are no YAML: a stored study brings its own."""
+"""Control and invisible characters in texts that are no YAML, and what the fuzzer kept (scripts/fuzz.py): read to the end, or refused in words."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from diecut_report.config.yaml import parse, with_values
 from diecut_report.errors import UserError
 from diecut_report.study.storage.state import write_state
 from tests.configs import GOOD, saved
+from tests.hostile.readers import CORPUS, READERS
+from tests.hostile.seeds import seeds, words
 from tests.study.studies import BASE, STUDY
 
 
@@ -35,3 +37,21 @@ def test_a_stored_study_brings_no_control_characters_into_a_report(
     printed = "".join(capfd.readouterr())
     title = json.loads(printed[printed.index("{") : printed.rindex("}") + 1])["project"]["title"]
     assert "\x1b" not in title and "\u202e" not in title
+
+
+@pytest.mark.parametrize("target", READERS)
+@pytest.mark.nightly
+def test_what_the_fuzzer_kept_is_read_or_refused_in_words(target: str) -> None:
+    kept = sorted((CORPUS / target).iterdir())
+    read = READERS[target]()
+    assert kept
+    for path in kept:
+        read(path.read_bytes())
+
+
+@pytest.mark.parametrize("target", READERS)
+def test_the_sound_inputs_that_the_fuzzer_begins_with_are_read(target: str) -> None:
+    read = READERS[target]()
+    for seed in seeds(target):
+        read(seed)
+    assert words(target)

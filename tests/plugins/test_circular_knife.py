@@ -1,4 +1,4 @@
-"""The circular knife against a polygon that turns, finite differences, quadratures and swept areas.
+"""The circular knife against a polygon that turns, differences, quadratures and swept areas; knives of any size; what it refuses and checks.
 
 What goes through many places of a fine polygon is done in CI for a cut through angle zero and for a large knife, which have all
 signs and sizes that the others have.
@@ -6,18 +6,31 @@ signs and sizes that the others have.
 
 from __future__ import annotations
 
+import re
+from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from scipy import integrate
 
+from diecut_report.config.plugins import Discovery
+from diecut_report.errors import UserError
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
+from diecut_report.plugins.circular_knife import MECHANISM
 from diecut_report.plugins.circular_knife import formulas as f
-from tests.examples import few
-from tests.machines import number
-from tests.plugins.knives import SHAPES, at, crossing, edge_points, in_cut, knife
+from diecut_report.press import Press
+from diecut_report.results.mechanism import mechanism_results
+from tests.configs import EXAMPLES, HEAD, problems
+from tests.examples import examples, few
+from tests.machines import inputs, number
+from tests.plugins.knives import SHAPES, at, checks, crossing, edge_points, in_cut, knife
+from tests.validation.rows_circular_knife import KEYS
 
 shapes = pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
 HARD = [SHAPES["through zero"], SHAPES["large"]]
@@ -296,3 +309,228 @@ def test_the_cut_may_lie_on_both_sides_of_the_turns_beginning() -> None:
     through, before = knife(**SHAPES["through zero"]), knife(**SHAPES["before zero"])
     assert number(through, "angle_start") < 0 < number(through, "angle_end")
     assert number(before, "angle_start") < number(before, "angle_end") < 0
+
+
+SHARE = st.floats(0.05, 0.95)
+
+
+def any_knife(radius: float, ecc: float, low: float, board: float, cut: float, thin: float) -> dict[str, Any]:
+    """Inputs (SI) of a knife that can cut: each size as a share of its range."""
+    r = radius * ecc
+    depth = radius + r * (2 * low - 1)
+    reach = np.sqrt((radius + r) ** 2 - depth**2)
+    thickness = 0.01 * thin * r
+    heights = np.array([depth, depth - thickness]) - radius
+    least = np.sqrt(np.maximum(r**2 - heights**2, 0)).max()
+    front = least + board * (reach - least)
+    sized = {"eccentricity": r, "edge_radius": radius, "depth": depth, "front_distance": front, "thickness": thickness,
+             "cut_length": cut * (reach - front)}  # fmt: skip
+    return inputs(MECHANISM, KEYS) | {name: float(value) for name, value in sized.items()}
+
+
+@given(radius=st.floats(0.02, 2), ecc=SHARE, low=SHARE, board=SHARE, cut=SHARE, thin=SHARE)
+def test_any_knife_that_can_cut_is_calculated(
+    radius: float, ecc: float, low: float, board: float, cut: float, thin: float
+) -> None:
+    base = any_knife(radius, ecc, low, board, cut, thin)
+    calc = calculate(MECHANISM, base)
+    angles = in_cut(calc, 101)
+    x = at(calc, "cut_position", angles)
+    assert (np.diff(x) > 0).all()
+    assert x[0] == pytest.approx(base["front_distance"], rel=1e-3) and x[-1] == pytest.approx(
+        number(calc, "cut_end"), rel=1e-3
+    )
+    assert (np.diff(at(calc, "shear_angle", angles)) > 0).all()
+    assert (at(calc, "force", angles) >= at(calc, "working_force", angles)).all()
+    r, center = base["eccentricity"], np.exp(1j * np.array([number(calc, "angle_start"), number(calc, "angle_end")]))
+    points = np.array([base["front_distance"], number(calc, "cut_end")]) + 1j * base["depth"]
+    np.testing.assert_allclose(abs(points - r * center), radius, rtol=1e-12)
+
+
+@given(ecc=SHARE, low=SHARE, board=SHARE, cut=SHARE, thin=SHARE, scale=st.floats(0.1, 10))
+def test_a_knife_of_another_size_has_the_same_angles_and_its_force_grows_with_the_square(
+    ecc: float, low: float, board: float, cut: float, thin: float, scale: float
+) -> None:
+    one, other = (calculate(MECHANISM, any_knife(0.1 * size, ecc, low, board, cut, thin)) for size in (1.0, scale))
+    for name, power in (
+        ("angle_start", 0),
+        ("shear_angle_max", 0),
+        ("cut_speed_max", 1),
+        ("force_max", 2),
+        ("work", 3),
+    ):
+        assert number(other, name) == pytest.approx(number(one, name) * scale**power, rel=1e-7, abs=1e-12), name
+
+
+@examples(25)
+@given(board=SHARE, cut=SHARE, low=SHARE)
+@pytest.mark.nightly
+def test_the_figures_of_any_knife_are_drawn_and_its_three_positions_beside_one_another(
+    board: float, cut: float, low: float
+) -> None:
+    calc = calculate(MECHANISM, any_knife(0.1, 0.2, low, board, cut, 0.5))
+    figures = {figure.id: figure for figure in mechanism_results(calc, {}).figures}
+    assert list(figures) == ["positions", "front", "motion", "load", "placement"]
+    marks = [shape.at for shape in figures["positions"].shapes if shape.shape == "point" and shape.role == "mark"]
+    pivots = [shape.at for shape in figures["positions"].shapes if shape.shape == "point" and shape.role == "pivot"]
+    reached = [mark[0] - pivot[0] for mark, pivot in zip(marks, pivots, strict=True)]
+    assert reached[0] == pytest.approx(number(calc, "front_distance"), rel=1e-9)
+    assert reached[2] == pytest.approx(number(calc, "cut_end"), rel=1e-9)
+    assert {mark[1] for mark in marks} == {-number(calc, "depth")}
+    blades = [
+        np.array(shape.points)[:, 0]
+        for shape in figures["positions"].shapes
+        if shape.shape == "polyline" and shape.role == "body"
+    ]
+    assert len(blades) == 3
+    for left, right in pairwise(blades):
+        assert left.max() < right.min()
+
+
+@pytest.mark.parametrize(
+    "changes, key, words",
+    [
+        ({"edge_radius": "20 mm"}, "edge_radius", "R > r = 20 mm"),
+        ({"depth": "80 mm"}, "depth", "R − r = 80 mm"),
+        ({"depth": "120 mm"}, "depth", "R + r = 120 mm"),
+        ({"thickness": "112 mm"}, "thickness", "h < H = 112 mm"),
+        ({"thickness": "1e-9 mm"}, "thickness", "a millionth of the edge's radius R = 100 mm"),
+        ({"front_distance": "44 mm"}, "front_distance", "cannot reach the board"),
+        ({"cut_length": "18 mm"}, "cut_length", "b + L = 44 mm"),
+        ({"front_distance": "16.2 mm"}, "front_distance", "16.36 mm from the axis"),
+        (
+            {"depth": "95 mm", "front_distance": "19.364 mm", "thickness": "6 mm"},
+            "front_distance",
+            "19.36 mm from the axis",
+        ),
+    ],
+)
+def test_a_knife_that_cannot_cut_is_refused_in_words(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        knife(**changes)
+    assert refused.value.key == key
+    assert words in refused.value.message
+
+
+@pytest.mark.parametrize(
+    "limit, changed",
+    [
+        ("front_distance", lambda v: 0.01636 + v),
+        ("cut_length", lambda v: 0.0170813 - v),
+        ("depth", lambda v: 0.1127786 - v),
+    ],
+)
+def test_within_the_limits_of_the_geometry_a_knife_is_calculated(limit: str, changed: Any) -> None:
+    """b ≥ √(20² − 11.5²) = 16.363 mm; b + L ≤ √(120² − 112²) = 43.081 mm; H ≤ √(120² − 41²) = 112.7786 mm."""
+    value = changed(5e-6)
+    calc = knife(**{limit: f"{value} m"})
+    assert number(calc, "work") > 0
+
+
+def test_a_sound_knife_passes_all_checks() -> None:
+    found = checks(knife())
+    assert list(found) == [
+        "reach",
+        "shear_angle",
+        "expulsion",
+        "monotonic",
+        "entry",
+        "shear_resistance",
+        "force",
+        "torque",
+    ]
+    missing = [found.pop(name).missing for name in ("shear_resistance", "force", "torque")]
+    assert missing == [["rule_force"], ["allowable_force"], ["allowable_torque"]]
+    assert {check.status for check in found.values()} == {"pass"}
+    assert found["reach"].utilisation == pytest.approx(41 / (120**2 - 112**2) ** 0.5, rel=1e-12)
+
+
+def test_the_governing_side_of_the_shear_angle_is_shown() -> None:
+    upper, lower = (
+        checks(knife())["shear_angle"],
+        checks(knife(front_distance="20 mm", cut_length="1 mm"))["shear_angle"],
+    )
+    assert upper.demand == pytest.approx(number(knife(), "shear_angle_max")) and "20°" in upper.message
+    assert "2°" in lower.message and lower.utilisation == pytest.approx(lower.demand / lower.limit)
+    assert lower.limit == number(knife(front_distance="20 mm", cut_length="1 mm"), "shear_angle_min")
+
+
+@pytest.mark.parametrize(
+    "changes, name, words",
+    [
+        ({"front_distance": "18 mm"}, "shear_angle", "below 2°"),
+        ({"front_distance": "29 mm", "cut_length": "14 mm"}, "shear_angle", "beyond 20°"),
+        ({"friction": 0.1}, "expulsion", "clamped"),
+        ({"friction": 0}, "expulsion", "clamped"),
+        ({"friction": 0}, "expulsion", "Set friction to"),
+        ({"thickness": "3 mm", "cut_length": "17 mm"}, "monotonic", "runs back"),
+        ({"depth": "80.3 mm", "front_distance": "4 mm"}, "entry", "from above"),
+    ],
+)
+def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
+    found = checks(knife(**changes))[name]
+    assert found.status == "fail"
+    assert words in found.message
+
+
+@pytest.mark.parametrize(
+    "changed", [{"front_distance": "44"}, {"front_distance": "0"}, {"depth": "95", "front_distance": "10"}]
+)
+def test_a_knife_that_cannot_cut_is_told_of_once(tmp_path: Path, changed: dict[str, str]) -> None:
+    """A place out of reach, or in the blade's way, is one mistake and one message."""
+    file = tmp_path / "press.yaml"
+    file.write_text(
+        HEAD + f"  k: {{kind: circular_knife, {', '.join(f'{k}: {v}' for k, v in (KEYS | changed).items())}}}\n"
+    )
+    with pytest.raises(UserError) as refused:
+        Press.read(file, Discovery([])).calculate()
+    assert len(refused.value.problems) == 1
+
+
+@pytest.mark.parametrize("changed", [{"thickness": "1 mm"}, {"edge_radius": "101 mm"}, {"eccentricity": "21 mm"}])
+def test_what_is_advised_where_no_place_suits_keeps_the_edge_from_running_back(changed: dict[str, Any]) -> None:
+    start = {"thickness": "3 mm", "cut_length": "17 mm"}
+    before, after = (checks(knife(**start | change))["monotonic"].utilisation for change in ({}, changed))
+    assert after < before
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ("eccentricity: 0", "> 0 mm"),
+        ("sharpening_angle: 90 deg", "< 90 °"),
+        ("friction: -0.1", "≥ 0"),
+        ("speed: 60 1/min", "rpm"),
+        ("knife_radius: 3 mm", "knife_radius"),
+    ],
+)
+def test_inputs_out_of_range_are_refused(tmp_path: Path, change: str, words: str) -> None:
+    keys = {"eccentricity": "20", "edge_radius": "100", "depth": "112", "front_distance": "26", "thickness": "0.5",
+            "cut_length": "15", "sharpening_angle": "20", "speed": "60"}  # fmt: skip
+    key, _, value = change.partition(": ")
+    text = ", ".join(f"{name}: {given}" for name, given in (keys | {key: value}).items())
+    found = problems(tmp_path, HEAD + f"  k: {{kind: circular_knife, {text}}}\n", Discovery([]))
+    assert len(found) == 1 and words in found[0]
+
+
+def test_the_example_is_the_worked_example_and_passes() -> None:
+    config = next(path for path in EXAMPLES if path.name == "circular_knife.yaml")
+    results = Press.read(config, Discovery([])).calculate().results
+    found = results.mechanisms["knife"]
+    assert results.status == "pass"
+    assert found.outputs["force_max"].value == pytest.approx(4.2 * 10.5276, rel=5e-6)  # of 42, not 10 N/mm²
+    for name in ("cut_position", "shear_angle", "cut_speed", "sliding_ratio", "force", "torque"):
+        assert found.curves[name].abscissa == "knife_angle"
+
+
+def test_a_resistance_too_small_for_the_force_of_a_rule_is_told() -> None:
+    """25 N/mm over 0.6 mm are 41.67 N/mm²: the advised resistance passes, a little less does not."""
+    board = {"thickness": "0.6 mm", "rule_force": "25 N/mm"}
+    found = checks(knife(**board))["shear_resistance"]
+    assert found.status == "warn"
+    assert found.utilisation == pytest.approx(25 / (10 * 0.6), rel=1e-12)
+    told = re.search(r"shear_resistance to at least ([\d.]+) N/mm²", found.message)
+    assert told and float(told[1]) == pytest.approx(41.67, rel=1e-3)
+    for factor, status in ((1, "pass"), (0.999, "warn")):
+        again = board | {"shear_resistance": f"{float(told[1]) * factor} N/mm**2"}
+        assert checks(knife(**again))["shear_resistance"].status == status
