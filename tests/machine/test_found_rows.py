@@ -319,7 +319,7 @@ def test_a_part_that_the_list_does_not_have_is_told() -> None:
 
 def test_a_count_that_is_not_whole_is_refused() -> None:
     with pytest.raises(
-        Unproven, match=r"Number of belts \(count, test_beyond.py:\d+\) is 0\.5, but is marked as a count"
+        Unproven, match=r"Number of belts \(count, test_found_rows.py:\d+\) is 0\.5, but is marked as a count"
     ):
         run_beyond(lift(whole=True), 50e3)
     assert run_beyond(lift(whole=True), 100e3)["count"][0, 0] == 1

@@ -134,10 +134,10 @@ def test_a_jump_without_a_breakpoint_is_refused(name: str) -> None:
         run(wheel(FORMULAS[name]))
     words = str(caught.value)
     assert (
-        words.startswith("Torque (torque, test_switches.py:")
+        words.startswith("Torque (torque, test_jumps.py:")
         and "declare that place among the breakpoints of angle" in words
     )
-    assert "changes in the formula inner of inner (test_switches.py:" in words
+    assert "changes in the formula inner of inner (test_jumps.py:" in words
 
 
 @pytest.mark.parametrize("name", NARROW)
@@ -356,7 +356,7 @@ def test_a_rough_place_is_refused_with_its_place(name: str, place: float) -> Non
         curves(calculated(*ROUGH[name], place))
     told = str(caught.value)
     assert re.match(
-        r"Rough \(rough, test_rough_places.py:\d+\) (jumps inside a|jumps or has a pole inside a|has a pole at)", told
+        r"Rough \(rough, test_jumps.py:\d+\) (jumps inside a|jumps or has a pole inside a|has a pole at)", told
     )
     found = float(told.partition("φ = ")[2].partition("°")[0])
     assert np.tan(np.radians(found)) == pytest.approx(

@@ -112,9 +112,7 @@ def test_formulas_of_crossings_and_of_their_number_are_printed_with_symbols_of_t
 
 
 def test_a_name_that_nothing_has_is_told_with_the_plugin_and_the_nearest() -> None:
-    with pytest.raises(
-        Misdeclared, match=r"test_named_quantity\.py:\d+: 'zero_cuont' is not a quantity .*'zero_count'"
-    ):
+    with pytest.raises(Misdeclared, match=r"test_part_names\.py:\d+: 'zero_cuont' is not a quantity .*'zero_count'"):
         made().step_or_input("zero_cuont")
     with pytest.raises(
         Misdeclared, match=r"'inputs\.hieght' is not a quantity of this machine \(did you mean 'height'\?\)"

@@ -164,7 +164,7 @@ def test_a_zero_that_the_formula_does_not_give_is_refused(monkeypatch: pytest.Mo
 def test_a_formula_of_a_global_that_changes_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     assert scaled.constants == {"k": 2.0}
     monkeypatch.setattr(sys.modules[__name__], "SHARE", Constant(3.0, "k", "1"))
-    with pytest.raises(Unproven, match=r"is 300 mm, but its formula scaled .* gives 200 mm.*test_rounding\.py:\d+"):
+    with pytest.raises(Unproven, match=r"is 300 mm, but its formula scaled .* gives 200 mm.*test_printing\.py:\d+"):
         item(scaled)
 
 

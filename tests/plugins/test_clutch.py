@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from pydantic import ValidationError
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
@@ -20,9 +19,9 @@ from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.origins import Provenance
-from tests.machines import inputs, number
+from tests.machines import checks, inputs, number, statuses
 from tests.plugins.bearings import Over
-from tests.plugins.clutches import BASE, COOLED, HEATED, checks, clutch
+from tests.plugins.clutches import BASE, COOLED, HEATED, clutch
 
 WEDGE = ("wedge_angle", "wedge_friction")
 
@@ -77,7 +76,7 @@ def test_friction_that_equals_the_slope_locks_and_fails_strictly() -> None:
     values = inputs(MECHANISM, BASE) | {"wedge_angle": 0.2, "wedge_friction": float(np.tan(0.2))}
     calc = calculate(MECHANISM, values)
     assert mechanism_results(calc, {}).outputs["self_locking"].value is True
-    assert checks(calc)["releases"].status == "fail"
+    assert statuses(calc)["releases"] == "fail"
     assert checks(calc)["releases"].utilisation == 1.0
     assert number(calc, "release_force") == pytest.approx(0, abs=1e-9)
     assert calc["release_behaviour"][0, 0] == "stays engaged until the cone is pulled out"
@@ -130,7 +129,7 @@ def test_a_clutch_holds_the_torque_that_passes_it(greatest: float, status: str) 
     curve = Over(lambda angle: -greatest * torque * np.cos(angle) ** 2)
     calculation = clutch(torque_curve=curve, service_factor=1.5)
     assert number(calculation, "transmitted_torque_max") == pytest.approx(greatest * torque)
-    assert checks(calculation)["transmitted_torque"].status == status
+    assert statuses(calculation)["transmitted_torque"] == status
     assert "transmitted_torque" not in checks(clutch())
 
 
@@ -152,7 +151,7 @@ def test_travel_lifts_the_shoes_by_gap_and_wear() -> None:
     lifted = -along[1] / along[0]  # of the face at a fixed place, for each length of travel
     assert number(calc, "engagement_travel") * lifted == pytest.approx(0.4e-3)
     assert number(calc, "axial_travel") * lifted == pytest.approx(2e-3)
-    assert checks(calc)["axial_travel"].status == "fail"
+    assert statuses(calc)["axial_travel"] == "fail"
 
 
 def test_what_is_not_given_is_said_and_left_out() -> None:
@@ -209,19 +208,6 @@ def test_a_load_that_the_clutch_cannot_run_up_is_refused(load: str) -> None:
         clutch(load_torque_at_engagement=load)
     assert refused.value.key == "load_torque_at_engagement"
     assert "300 N·m" in refused.value.message
-
-
-@pytest.mark.parametrize(
-    "key, value",
-    [("torque", 0), ("power", -1), ("speed", 0), ("service_factor", 0.9), ("shoe_radius", 0), ("shoe_friction", 0), ("shoe_friction", 1),
-     ("wedge_angle", 0), ("wedge_angle", 90), ("wedge_friction", -0.1), ("wedge_friction", 1), ("allowable_pressure", 0),
-     ("driven_inertia", 0), ("load_torque_at_engagement", -1), ("shoe_width", 0), ("allowable_power_density", 0),
-     ("engagements_per_hour", -1), ("shoe_coverage", 0), ("shoe_coverage", 1.01), ("radial_gap", -1), ("wear_allowance", -1),
-     ("available_travel", 0), ("drum_mass", 0), ("cooling", {"area": 1}), ("allowable_pv", 0), ("allowable_temperature_rise", 0)],
-)  # fmt: skip
-def test_an_input_out_of_its_range_is_refused(key: str, value: Any) -> None:
-    with pytest.raises(ValidationError, match=key):
-        MECHANISM.inputs.model_validate(BASE | {key: value})
 
 
 @pytest.mark.parametrize("share", [1 - 1e-13, 1 - 1e-15, 1 + 1e-14, 1 + 1e-12])

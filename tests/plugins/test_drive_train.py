@@ -5,13 +5,12 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 from math import cos, pi, prod, sin
-from typing import Any, get_args
+from typing import get_args
 
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from pydantic import ValidationError
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 from scipy.spatial import ConvexHull
 
@@ -144,14 +143,6 @@ def test_the_balance_bears_the_rounding_of_the_greatest_of_its_powers(efficiency
     calc = train(gears=gears, output_speed=150, torque_curve=[100, 730, 410, 260], torque_peak=1500)
     assert check(calc, "power_balance").status == "pass"
     assert number(calc, "power_rounding") < 1e-11 * number(calc, "shaft_1_power")
-
-
-def test_without_backflow_each_shaft_passes_on_what_its_efficiency_leaves() -> None:
-    calc = train(gears=PAIRS)
-    powers = [number(calc, "shaft_1_power"), number(calc, "shaft_2_power"), *calc["gear_shaft_power"][0]]
-    shares = [after / before for before, after in pairwise(powers)]
-    assert shares == pytest.approx([0.95, 0.96, 0.98], rel=1e-12)
-    assert number(calc, "efficiency_total") == pytest.approx(0.95 * 0.96 * 0.98, rel=1e-12)
 
 
 def test_the_curve_of_another_mechanism_travels_with_its_jumps() -> None:
@@ -384,11 +375,6 @@ def test_fewer_belts_than_are_needed_fail() -> None:
     assert found.status == "fail" and "5" in found.message
 
 
-def test_the_usual_reserve_against_slip_makes_the_tensions_five_to_one_at_half_a_turn() -> None:
-    calc = train(output_speed="290 rpm")
-    assert number(calc, "tension_ratio") == pytest.approx(5, rel=0.01)
-
-
 def test_the_number_of_belts_carries_the_motors_power() -> None:
     assert "vbelt_count" not in train().values
     calc = train(power_per_belt="0.3 kW")
@@ -437,28 +423,6 @@ def test_a_belt_faster_than_30_metres_a_second_fails() -> None:
     assert number(slow, "vbelt_speed") == pytest.approx(pi * 0.197 * 2900 / 60, rel=1e-12)
     assert check(slow, "vbelt_speed").status == "pass"
     assert check(train(**fast, vbelt={"driver_diameter": 198, "center_distance": 700}), "vbelt_speed").status == "fail"
-
-
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        ({"speed_fluctuation": 1}, "< 1"),
-        ({"speed_fluctuation": 0}, "> 0"),
-        ({"reserve_factor": 0.9}, "≥ 1"),
-        ({"torque_mean": -1}, "≥ 0"),
-        ({"gears": [{"driver_teeth": 11, "driven_teeth": 50}]}, "≥ 12"),
-        ({"power_per_belt": 0}, "> 0"),
-        ({"motor_speed": "0 rpm"}, "> 0"),
-        ({"output_speed": "50 1/min"}, "rpm"),
-        ({"vbelt": {"driver_diameter": 125}}, "center_distance"),
-        ({"vbelt": EXAMPLE["vbelt"] | {"section": "SPX"}}, "SPA"),
-        ({"flywheel_material": "wood"}, "cast_iron"),
-        ({"torque_curve": [1, 2]}, "at least 4"),
-    ],
-)
-def test_inputs_out_of_range_are_refused(changes: dict[str, Any], words: str) -> None:
-    with pytest.raises(ValidationError, match=re.escape(words)):
-        train(**changes)
 
 
 @pytest.mark.parametrize(("teeth", "status"), [(16, "warn"), (17, "pass")])

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from pydantic import ValidationError
 
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate, varied
@@ -19,8 +18,8 @@ from diecut_report.plugins.gear_pair import formulas as f
 from diecut_report.plugins.gear_pair.sizing import MODULES
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples, few
-from tests.machines import inputs, number
-from tests.plugins.gears import AT_DISTANCE, GRADED, HELICAL, SECTOR, SIZED, SIZED_BY_GRADE, SPUR, STEEL, checks, pair
+from tests.machines import checks, inputs, number, statuses
+from tests.plugins.gears import AT_DISTANCE, GRADED, HELICAL, SECTOR, SIZED, SIZED_BY_GRADE, SPUR, STEEL, pair
 
 SAFE = {"pitting_safety_1": 1.0, "pitting_safety_2": 1.0, "root_safety_1": 1.4, "root_safety_2": 1.4}
 STRENGTH = ("pitting_1", "pitting_2", "root_1", "root_2")
@@ -60,26 +59,6 @@ def test_sector_and_pinion_of_the_sheet() -> None:
     assert bool(calc["reversing"][0, 0])
 
 
-def test_main_gears_of_the_sheet() -> None:
-    keys = STEEL | {
-        "module": 5,
-        "teeth_1": 24,
-        "teeth_2": 48,
-        "face_width": 50,
-        "torque": 494.1107,
-        "torque_on": "wheel",
-        "application_factor": 1,
-    }
-    calc = pair(keys)
-    expected = {
-        "tangential_force": 4117.59, "contact_ratio": 1.674705, "contact_factor_1": 1.043614, "nominal_contact_stress": 422.924e6,
-        "contact_stress_1": 527.80e6, "contact_stress_2": 505.74e6, "form_factor_1": 1.455722, "form_factor_2": 1.304185,
-        "stress_factor_1": 1.886282, "stress_factor_2": 2.039845, "root_stress_1": 61.109e6, "root_stress_2": 59.205e6,
-    }  # fmt: skip
-    for name, value in expected.items():
-        assert number(calc, name) == pytest.approx(value, rel=3e-4), name
-
-
 def test_helical_pair_of_the_sheet() -> None:
     speed = 1274.118 * pi / 30
     keys = STEEL | {"module": 3, "teeth_1": 17, "teeth_2": 38, "helix_angle": 15, "shift_1": 0.2, "shift_2": -0.2, "face_width": 40,
@@ -95,27 +74,11 @@ def test_helical_pair_of_the_sheet() -> None:
     assert degrees(number(calc, "working_pressure_angle")) == pytest.approx(20.646896, abs=1e-6)
 
 
-def test_a_distance_of_65_asks_for_negative_shifts() -> None:
-    keys = STEEL | {
-        "module": 2.5,
-        "teeth_1": 11,
-        "teeth_2": 41,
-        "helix_angle": 14,
-        "center_distance": 65,
-        "face_width": 18,
-        "torque": 10,
-    }
-    calc = pair(keys, shift_1=0.2)
-    assert 0.2 + number(calc, "shift_2") == pytest.approx(-0.701684, abs=1e-6)
-    assert degrees(number(calc, "working_pressure_angle")) == pytest.approx(15.21281, abs=1e-5)
-    assert number(calc, "overlap_ratio") == pytest.approx(0.554444, abs=1e-6)
-
-
 @pytest.mark.parametrize(("teeth", "least"), [(17, 0.00566), (18, -0.05283)])
 def test_seventeen_teeth_are_the_last_that_are_undercut(teeth: int, least: float) -> None:
     calc = pair(teeth_1=teeth)
     assert number(calc, "shift_min_1") == pytest.approx(least, abs=5e-6)
-    assert checks(calc)["undercut"].status == ("warn" if teeth == 17 else "pass")
+    assert statuses(calc)["undercut"] == ("warn" if teeth == 17 else "pass")
 
 
 # --- geometry and contact by other ways ------------------------------------------------------------------------------
@@ -241,7 +204,7 @@ def test_a_curve_counts_with_its_peak_and_bends_both_ways() -> None:
 
 
 def test_assumed_factors_are_named_and_given_ones_are_not() -> None:
-    assert checks(pair(HELICAL))["k_factors"].status == "pass"
+    assert statuses(pair(HELICAL))["k_factors"] == "pass"
     assert number(pair(), "factors_assumed") == 4
     check = checks(pair(dynamic_factor=1.2))["k_factors"]
     assert check.demand == 3
@@ -261,7 +224,7 @@ def test_the_module_is_the_least_of_the_series_with_which_all_holds(keys: dict[s
     held = np.all([given_modules[name] >= required for name, required in SAFE.items()], axis=0)[:, 0]
     calc = pair(STEEL | keys)
     assert number(calc, "module") * 1e3 == pytest.approx(values[held].min(), rel=1e-12)
-    assert {checks(calc)[name].status for name in STRENGTH} == {"pass"}
+    assert {statuses(calc)[name] for name in STRENGTH} == {"pass"}
 
 
 def test_the_modules_beside_the_chosen_one_are_shown() -> None:
@@ -305,15 +268,6 @@ def test_more_teeth_than_the_full_circle_has_are_refused() -> None:
         pair(SECTOR, sector={"swing": "59 deg", "teeth_present": 213})
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [{"teeth_1": 4}, {"helix_angle": 31}, {"shift_1": 1.6}, {"pressure_angle": 14}, {"addendum": 0}, {"module": 0}],
-)
-def test_keys_out_of_their_range_are_refused(changes: dict[str, Any]) -> None:
-    with pytest.raises(ValidationError):
-        inputs(MECHANISM, SPUR | changes)
-
-
 def test_a_wheel_at_a_distance_and_a_curve_on_the_wheel_are_calculated() -> None:
     calc = pair(AT_DISTANCE)
     assert number(calc, "center_distance") == pytest.approx(0.177, rel=1e-12)
@@ -322,65 +276,15 @@ def test_a_wheel_at_a_distance_and_a_curve_on_the_wheel_are_calculated() -> None
     assert number(both, "torque_peak") == pytest.approx(248.37 * 35 / 212, rel=1e-12)
 
 
-def test_lengths_of_a_tooth_grow_with_the_module() -> None:
-    lengths = ("root_chord_1", "root_chord_2", "root_radius_1", "root_radius_2", "tip_thickness_1", "tip_clearance_1")
-    half, whole = pair(module=2), pair(module=4)
-    for name in lengths:
-        assert number(whole, name) == pytest.approx(2 * number(half, name), rel=1e-9), name
-
-
 def test_a_film_that_bears_less_lowers_the_safety_against_pitting_in_proportion() -> None:
     whole, thin = (number(pair(HELICAL, film_factor=factor), "pitting_safety_1") for factor in (1.0, 0.8))
     assert thin == pytest.approx(0.8 * whole, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("change", "raises"),
-    [({"teeth_2": 80}, True), ({"addendum": 1.1}, True), ({"shift_1": 0.3}, True), ({"shift_1": 0.8}, False)],
-)
-def test_the_contact_ratio_rises_with_teeth_and_addendum_and_falls_with_shift(
-    change: dict[str, Any], raises: bool
-) -> None:
-    keys = STEEL | {
-        "module": 4,
-        "teeth_1": 14,
-        "teeth_2": 30,
-        "face_width": 40,
-        "torque": 100,
-        "shift_1": 0.6,
-        "shift_2": 0.6,
-    }
-    assert (number(pair(keys | change), "contact_ratio") > number(pair(keys), "contact_ratio")) is raises
 
 
 SERIES = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)  # ISO 54, series I
 K_1 = {3: (2.1, 1.9), 4: (3.9, 3.5), 5: (7.5, 6.7), 6: (14.9, 13.3), 7: (26.8, 23.9), 8: (39.1, 34.8), 9: (52.8, 47.0), 10: (76.6, 68.2),
        11: (102.6, 91.4)}  # fmt: skip
 FACTORS = ("dynamic_factor", "face_load_factor", "transverse_load_factor")
-
-
-def test_the_crank_drive_of_the_sheet() -> None:
-    calc = pair(GRADED)
-    assert number(calc, "dynamic_factor") == pytest.approx(1.111, abs=5e-4)
-    assert number(calc, "mesh_stiffness") == pytest.approx(19.0e9, abs=0.05e9)
-    assert number(calc, "manufacture") == pytest.approx(28.5e-6, abs=0.06e-6)
-    assert number(calc, "bending") == pytest.approx(5.3e-6)
-    assert number(calc, "face_load_factor") == pytest.approx(2.68, abs=0.01)
-    assert number(calc, "transverse_load_factor") == pytest.approx(1.17, abs=5e-3)
-    assert number(calc, "pitting_safety_1") == pytest.approx(0.924, abs=5e-4)
-    assumed = pair({key: value for key, value in GRADED.items() if key != "grade"}, transverse_load_factor=1.1)
-    assert number(assumed, "pitting_safety_1") == pytest.approx(1.375, abs=1e-3)
-
-
-def test_crowned_teeth_of_grade_6_of_the_sheet() -> None:
-    """The sheet keeps the dynamic factor of grade 8; with that of grade 6 less load makes the misalignment count more."""
-    assert number(pair(GRADED, grade=6, crowned=True, dynamic_factor=1.111), "face_load_factor") == pytest.approx(
-        1.54, abs=5e-3
-    )
-    own = pair(GRADED, grade=6, crowned=True)
-    assert number(own, "dynamic_factor") == pytest.approx(1.045, abs=5e-4)
-    assert number(own, "face_load_factor") == pytest.approx(1.574, abs=1e-3)
-    assert number(own, "crowning_height") == pytest.approx((5.3e-6 + number(own, "manufacture")) / 2)
 
 
 # --- written a second time -------------------------------------------------------------------------------------------
@@ -526,23 +430,17 @@ def test_the_least_module_is_the_first_with_which_the_calculated_factors_hold() 
         )
 
 
-@pytest.mark.parametrize("grade", [2, 12, 7.5, -8, float("nan")])
-def test_a_grade_that_the_standard_does_not_have_is_refused(grade: float) -> None:
-    with pytest.raises(ValidationError):
-        pair(GRADED, grade=grade)
-
-
 def test_coarse_helical_teeth_rest_on_one_source() -> None:
     coarse = HELICAL | {"grade": 9, "slope": 0.1}
-    assert checks(pair(coarse))["grade_confirmed"].status == "warn"
-    assert checks(pair(coarse, grade=8))["grade_confirmed"].status == "pass"
-    assert checks(pair(GRADED, grade=11))["grade_confirmed"].status == "pass"
+    assert statuses(pair(coarse))["grade_confirmed"] == "warn"
+    assert statuses(pair(coarse, grade=8))["grade_confirmed"] == "pass"
+    assert statuses(pair(GRADED, grade=11))["grade_confirmed"] == "pass"
 
 
 def test_method_c_ends_at_a_speed() -> None:
-    assert checks(pair(GRADED))["dynamic_range"].status == "pass"
+    assert statuses(pair(GRADED))["dynamic_range"] == "pass"
     fast = pair(GRADED, speed=2500)
-    assert number(fast, "speed_parameter") > 3 and checks(fast)["dynamic_range"].status == "warn"
+    assert number(fast, "speed_parameter") > 3 and statuses(fast)["dynamic_range"] == "warn"
     assert number(pair(GRADED, speed=2200), "speed_parameter") == pytest.approx(2.97, abs=0.01)
     assert "dynamic_range" not in checks(
         pair(STEEL | {"module": 4, "teeth_1": 24, "teeth_2": 61, "face_width": 40, "torque": 200})
@@ -561,7 +459,7 @@ def test_beyond_method_c_the_teeth_are_not_rated_until_the_dynamic_factor_is_giv
         assert check.status == "not_checked" and "dynamic_factor" in check.message
     known = pair(GRADED, speed=speed, dynamic_factor=1.4)
     assert number(known, "face_load_factor") > 1 and number(known, "transverse_load_factor") >= 1
-    assert all(checks(known)[name].status != "not_checked" for name in RATED)
+    assert all(statuses(known)[name] != "not_checked" for name in RATED)
 
 
 @given(st.floats(1, 1e5), st.integers(3, 11), st.sampled_from([0, 6, 25]), st.floats(1, 5000))
@@ -630,9 +528,3 @@ def test_a_load_case_below_the_run_changes_nothing() -> None:
 def test_a_check_that_fails_names_the_load_case() -> None:
     found = checks(engaged(2000, 1.2e6))
     assert "governing load case: engagement of the clutch" in found["pitting_1"].message
-
-
-@pytest.mark.parametrize("change", [{"cycles": -1}, {"torque": -5}, {"name": "brake"}, {"cycles": None}])
-def test_a_load_case_that_is_none_is_refused(change: dict[str, Any]) -> None:
-    with pytest.raises(ValidationError):
-        pair(ASSUMED, load_cases=[{"name": "engage", "torque": 300, "cycles": 1e6} | change])

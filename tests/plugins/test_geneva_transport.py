@@ -22,9 +22,9 @@ from diecut_report.press import Press
 from diecut_report.results.figure_views import MachineView
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord
-from tests.configs import HEAD, problems, saved
+from tests.configs import HEAD, saved
 from tests.examples import examples, few
-from tests.machines import inputs, number
+from tests.machines import at, inputs, number
 
 CROSS: dict[str, Any] = {"slots": 6, "center_distance": "200 mm", "crank_speed": "100 rpm", "roller_radius": "10 mm"}
 SHEET: dict[str, Any] = {"sprocket_teeth": 24, "chain_pitch": "31.75 mm", "gear_ratio": 4}
@@ -41,12 +41,6 @@ def geneva(**changes: Any) -> Calculation:
 def with_slots(slots: int) -> Calculation:
     """A drive with so many slots, inertia and conveyor, and a roller that fits."""
     return geneva(slots=slots, roller_radius="3 mm", driven_inertia=0.8, locking_clearance=0, **SHEET)
-
-
-def at(calc: Calculation, name: str, alpha: Array) -> Array:
-    """A curve at crank angles from −π to 2π."""
-    places = np.atleast_1d(np.mod(alpha, 2 * np.pi))[None, :]
-    return calc.sample(name, places, calc.domains["crank_angle"].middle_of(places))[0]
 
 
 def engaged(calc: Calculation, points: int = 2001, inside: float = 1 - 1e-9) -> Array:
@@ -118,23 +112,6 @@ def test_the_wheel_makes_one_step_a_turn_and_rests_between(slots: int) -> None:
     assert after - before == pytest.approx(2 * np.pi / slots, abs=1e-7)
     edges = np.array([half - 1e-9, half + 1e-9, 2 * np.pi - half - 1e-9, 2 * np.pi - half + 1e-9])
     assert at(calc, "wheel_angle", edges) == pytest.approx(np.full(4, np.pi / slots), abs=1e-8)
-
-
-@pytest.mark.parametrize("slots", SLOTS)
-def test_the_roller_enters_along_the_slot(slots: int) -> None:
-    """In the resting wheel's frame the roller has no velocity across the slot at entry; its path touches the slot there."""
-    half = np.pi / 2 - np.pi / slots
-    radius = 0.2 * np.sin(np.pi / slots)
-    slot = np.exp(1j * (np.pi + np.pi / slots))  # direction of the slot that waits for the roller
-    alpha = -half + np.array([-1e-4, 0.0, 1e-4])
-    across = np.imag((radius * np.exp(1j * alpha) - 0.2) / slot)
-    assert across[1] == pytest.approx(0, abs=1e-15)
-    assert (across[2] - across[0]) / 2e-4 == pytest.approx(0, abs=1e-8)
-    calc = with_slots(slots)
-    assert at(calc, "wheel_speed", engaged(calc)[:1])[0] == pytest.approx(0, abs=1e-7)
-    assert at(calc, "wheel_acceleration", engaged(calc)[:1])[0] == pytest.approx(
-        np.tan(np.pi / slots) * OMEGA**2, rel=1e-7
-    )
 
 
 @given(slots=st.integers(3, 18), distance=st.floats(50, 900), share=st.floats(0.02, 0.1))
@@ -316,29 +293,6 @@ def test_the_crank_makes_a_turn_for_each_sheet_of_the_press(tmp_path: Path) -> N
     assert found.outputs["time_dwell"].value == pytest.approx(0.4, rel=1e-14)
 
 
-@pytest.mark.parametrize(
-    "keys, words",
-    [
-        ("slots: 2, center_distance: 200, roller_radius: 10", "≥ 3"),
-        ("slots: 19, center_distance: 200, roller_radius: 10", "≤ 18"),
-        ("slots: 4.5, center_distance: 200, roller_radius: 10", "whole number"),
-        ("center_distance: 0, roller_radius: 10", "> 0 mm"),
-        ("roller_radius: 10", "center_distance"),
-    ],
-)
-def test_inputs_out_of_range_are_refused(tmp_path: Path, keys: str, words: str) -> None:
-    found = problems(tmp_path, HEAD + f"  g: {{kind: geneva_transport, {keys}}}\n", Discovery([]))
-    assert len(found) == 1 and words in found[0]
-
-
-def test_more_slots_lower_the_acceleration_also_with_the_same_step() -> None:
-    peaks = [
-        number(geneva(slots=z, roller_radius=3, **SHEET | {"gear_ratio": 4 * z / 6}), "sheet_acceleration_max")
-        for z in range(3, 19)
-    ]
-    assert sorted(peaks, reverse=True) == peaks
-
-
 @pytest.mark.parametrize("slots, roller", [(3, 0.02), (4, 0.03), (6, 0.012), (6, 0.06), (9, 0.03), (18, 0.02)])
 def test_the_wall_between_slots_is_that_of_their_outlines(slots: int, roller: float) -> None:
     calc = geneva(slots=slots, roller_radius=f"{roller} m")
@@ -453,15 +407,6 @@ def test_the_play_is_that_of_the_disc_that_covers_its_arc_on_one_side_in_part(cl
     play = max(turned_until_it_touches(calc, np.radians(cover), way) for way in (1, -1))
     assert number(calc, "locking_play") == pytest.approx(play, rel=1e-6)
     assert number(calc, "sheet_play") == pytest.approx(play * 24 * 0.03175 * 4 / (2 * np.pi), rel=1e-6)
-
-
-def test_the_play_of_the_press_that_passed_was_four_times_what_was_printed() -> None:
-    conveyor = {"sprocket_teeth": 30, "chain_pitch": "19.05 mm", "gear_ratio": 6, "allowable_sheet_play": "0.3 mm"}
-    size = {"center_distance": "240 mm", "roller_radius": "16 mm"}
-    for cover, play in ((10.98, 1.179), (49.3, 0.300), (90, 0.274)):
-        assert number(geneva(**size, **conveyor, cover_angle=cover), "sheet_play") == pytest.approx(
-            play * 1e-3, abs=5e-7
-        )
 
 
 def test_the_usual_proportions_of_stop_arc_and_clearance_arc() -> None:

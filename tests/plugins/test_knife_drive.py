@@ -14,14 +14,12 @@ from hypothesis import strategies as st
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
-from diecut_report.mechanics import four_bar
 from diecut_report.plugins.knife_drive import MECHANISM
 from diecut_report.results.checks import check_results, verdicts
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures
-from tests.configs import EXAMPLES
 from tests.examples import examples
-from tests.machines import inputs, made_possible, number
+from tests.machines import at, inputs, made_possible, number
 
 OMEGA = 2 * np.pi * 50000 / 3600
 DRIVES = ("planetary", "crank_slider", "crank_rocker")
@@ -39,12 +37,6 @@ each_drive = pytest.mark.parametrize(
 def knife(**keys: Any) -> Calculation:
     """A knife with 40 mm below the table unless said otherwise."""
     return calculate(MECHANISM, inputs(MECHANISM, {"working_depth": 40} | keys))
-
-
-def at(calc: Calculation, curve: str, phi: Array) -> Array:
-    """A curve at crank angles of any turn."""
-    places = np.mod(np.atleast_1d(phi), 2 * np.pi)[None, :]
-    return calc.sample(curve, places, calc.domains["crank_angle"].middle_of(places))[0]
 
 
 def heights(calc: Calculation, drive: str, points: int = 400_001) -> tuple[Array, Array]:
@@ -124,20 +116,6 @@ def test_the_rocker_stands_where_two_circles_cross(keys: dict[str, Any], sign: i
     np.testing.assert_allclose(found, 0.107 * sign * (beta - dead), atol=1e-9)
 
 
-@pytest.mark.parametrize("keys, sign", [(OUTER, 1), (INNER, -1)])
-def test_the_rocker_moves_as_the_four_bar(keys: dict[str, Any], sign: int) -> None:
-    phi = np.linspace(0, 2 * np.pi, 361)
-    calc, linkage = knife(**keys), four_bar.motion(phi, 6.0, 5.5, 4.0)
-    np.testing.assert_allclose(
-        at(calc, "crank_rocker_velocity", phi), sign * linkage.rocker_speed_ratio * OMEGA * 0.107, atol=1e-12
-    )
-    np.testing.assert_allclose(
-        at(calc, "crank_rocker_acceleration", phi),
-        sign * linkage.rocker_acceleration_ratio * OMEGA**2 * 0.107,
-        atol=1e-9,
-    )
-
-
 @each_drive
 def test_contact_and_lowest_point_are_those_of_dense_sampling(drive: str, keys: dict[str, Any]) -> None:
     calc = knife(**keys)
@@ -185,17 +163,6 @@ def test_a_deep_stroke_may_have_its_peak_where_the_edge_is_still_speeding_up() -
     calc = knife(crank_slider={"crank_radius": 35, "rod_length": 36}, working_depth=69)
     place = np.array([number(calc, "crank_slider_acceleration_peak_at")])
     assert at(calc, "crank_slider_acceleration", place)[0] < -1.5 * number(calc, "crank_slider_acceleration_end")
-
-
-@each_drive
-def test_what_brakes_the_edge_is_its_speed_at_contact_and_its_way_the_depth(drive: str, keys: dict[str, Any]) -> None:
-    calc = knife(**keys)
-    nodes, weights = np.polynomial.legendre.leggauss(60)
-    lowest, angle = number(calc, f"{drive}_lowest_angle"), number(calc, f"{drive}_working_angle")
-    phi, time = lowest - angle / 2 + angle / 2 * nodes, angle / 2 * weights / OMEGA
-    braked, way = (np.sum(at(calc, f"{drive}_{name}", phi) * time) for name in ("acceleration", "velocity"))
-    assert braked == pytest.approx(number(calc, f"{drive}_contact_velocity"), rel=1e-12)
-    assert way == pytest.approx(-0.04, rel=1e-12)
 
 
 @each_drive
@@ -536,41 +503,6 @@ def test_the_drawn_straight_line_drives_have_their_lengths(drive: str, links: li
 def example() -> Calculation:
     """The knife of the example."""
     return knife(**EVERY, signature_length=273)
-
-
-def test_the_example_is_the_machine_of_these_tests() -> None:
-    text = next(path for path in EXAMPLES if path.name == "folding_knife.yaml").read_text("utf-8")
-    for said in (
-        "carrier_radius: 65.656 mm",
-        "crank_radius: {value: 35 mm",
-        "rod_length: {value: 140 mm",
-        "knife_arm: {value: 107 mm",
-        "working_depth: {value: 40 mm",
-    ):
-        assert said in text
-
-
-def test_the_example_shows_accelerations_three_to_six_times_lower_and_strokes_about_as_much_shorter() -> None:
-    calc = example()
-    for drive, lower, shorter in (("crank_slider", 3.0, 3.75), ("crank_rocker", 6.0, 4.74)):
-        peaks = number(calc, "planetary_acceleration_peak") / number(calc, f"{drive}_acceleration_peak")
-        strokes = number(calc, "planetary_stroke") / number(calc, f"{drive}_stroke")
-        assert peaks == pytest.approx(lower, abs=0.01)
-        assert strokes == pytest.approx(shorter, abs=0.01)
-        assert 3 <= round(peaks, 1) <= 6 and 3 <= strokes <= 6
-
-
-def test_the_examples_planetary_drive_is_harshest_in_all_that_the_paper_names() -> None:
-    calc = example()
-    for drive in ("crank_slider", "crank_rocker"):
-        assert number(calc, "planetary_working_time") < number(calc, f"{drive}_working_time")
-        assert number(calc, "planetary_contact_velocity") > number(calc, f"{drive}_contact_velocity")
-        assert number(calc, "planetary_acceleration_end") > number(calc, f"{drive}_acceleration_end")
-        contact = [
-            abs(at(calc, f"{d}_acceleration", np.array([number(calc, f"{d}_contact_angle")]))[0])
-            for d in ("planetary", drive)
-        ]
-        assert contact[0] > contact[1]
 
 
 def test_a_knife_without_a_drive_says_so_once() -> None:

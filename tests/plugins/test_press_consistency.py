@@ -471,13 +471,6 @@ def test_a_motor_of_the_slip_or_of_the_power_that_is_advised_is_enough(check: st
     assert verdicts(consistency(keys, motor_rated_torque=f"{0.99 * torque} N*m"))[check] != "pass"
 
 
-@pytest.mark.nightly
-def test_a_motor_below_the_mean_torque_is_helped_by_power_alone() -> None:
-    message = message_of("motor_thermal", example_keys() | {"motor_rated_torque": "3 N*m"})
-    assert "motor_rated_torque" in message
-    assert "flywheel_inertia" not in message
-
-
 def advised(message: str, pattern: str) -> float:
     """The number that a check's message advises."""
     found = re.search(pattern, message)

@@ -18,6 +18,7 @@ from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, bore_of,
 from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.loads import speed_over
 from tests.examples import examples
+from tests.machines import checks, statuses
 from tests.plugins.bearings import (
     ANGULAR,
     BALL,
@@ -29,7 +30,6 @@ from tests.plugins.bearings import (
     WAVING,
     Over,
     bearings,
-    checks,
     one,
     value,
 )
@@ -41,17 +41,6 @@ Y = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
 
 
 # --- the method's numbers ----------------------------------------------------------------------------------------------
-
-
-def test_shigleys_bearing_under_both_forces() -> None:
-    calc = one(BALL, static_rating=62, f0=12.3, radial_force=8000, axial_force=4000)
-    assert value(calc, "axial_factor") == pytest.approx(1.66095, rel=1e-5)
-    assert value(calc, "equivalent_load") == pytest.approx(11123.8, rel=1e-5)
-
-
-def test_the_notebooks_bearing_with_an_outer_ring_that_turns() -> None:
-    calc = one(BALL, static_rating=34, f0=12.3, radial_force=8400, axial_force=3000)
-    assert value(calc, "equivalent_load") == pytest.approx(9306.6, rel=1e-5)
 
 
 @pytest.mark.parametrize(("part", "expected"), [(BALL, (4 / (3 * pi)) ** (1 / 3)), (ROLLER, 0.762979)])
@@ -71,15 +60,6 @@ def test_two_levels_count_by_the_revolutions_that_they_last() -> None:
     calc = one(BALL, radial_force=load, speed=speed)
     assert value(calc, "equivalent_load") / 1000 == pytest.approx(((8 + 3) / 4) ** (1 / 3), rel=1e-12)
     assert value(calc, "mean_speed") == pytest.approx(20)
-
-
-def test_a_swing_counts_most_where_it_is_fast() -> None:
-    calc = one(
-        SWINGING | {"type": "ball"},
-        radial_force=Over(lambda phi: 5000 * np.cos(phi)),
-        relative_angle=Over(lambda phi: np.sin(phi)),
-    )
-    assert value(calc, "equivalent_load") / 5000 == pytest.approx(((3 / 8) / (2 / pi)) ** (1 / 3), rel=1e-6)
 
 
 def test_a_swing_of_thirty_degrees_to_either_side_is_a_third_of_a_turn() -> None:
@@ -317,8 +297,8 @@ def test_without_a_series_balls_are_sought_in_62_and_rollers_in_nu2() -> None:
 def test_the_life_check_advises_a_rating_that_is_enough() -> None:
     short = one(BALL, radial_force=9000)
     needed = value(short, "rating_needed")
-    assert checks(short)["ball_life"].status == "fail"
-    assert checks(one(BALL, radial_force=9000, dynamic_rating=needed * 1.0001 / 1e3))["ball_life"].status == "pass"
+    assert statuses(short)["ball_life"] == "fail"
+    assert statuses(one(BALL, radial_force=9000, dynamic_rating=needed * 1.0001 / 1e3))["ball_life"] == "pass"
     assert log10(needed) < 6
 
 

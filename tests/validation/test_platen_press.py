@@ -7,8 +7,7 @@ from math import degrees, pi
 import numpy as np
 import pytest
 
-from tests.machines import number
-from tests.plugins.platens import at
+from tests.machines import at, number
 from tests.validation.rows_platen_press import eq_14, press
 
 
