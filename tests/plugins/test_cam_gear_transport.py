@@ -264,16 +264,6 @@ def test_without_time_for_a_return_the_message_tells_what_leaves_one(machine: di
     assert refused.value.key == "dwell_angle"
 
 
-@pytest.mark.parametrize("module", [{}, {"module": "5 mm"}])
-def test_a_short_return_fails_and_the_advice_lengthens_it(module: dict[str, Any]) -> None:
-    short = checks(stepper(dwell_angle="205 deg", **module))["return_time"]
-    assert short.status == "fail"
-    assert [way[0].key for way in short.advice] == ["dwell_angle", "sector_stop_sweep"]
-    for (change,) in short.advice:
-        longer = {"dwell_angle": "205 deg", **module, change.key: f"{change.value} {change.unit}"}
-        assert statuses(stepper(**longer))["return_time"] == "pass"
-
-
 @pytest.mark.parametrize("rounding", [-1e-12, 0, 1e-12])
 def test_a_return_of_just_the_time_that_it_needs_passes(rounding: float) -> None:
     left = number(stepper(dwell_angle="205 deg"), "time_return")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from itertools import combinations, pairwise
 from typing import Any
 
@@ -19,7 +18,7 @@ from diecut_report.results.checks import check_results, verdicts
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures
 from tests.examples import examples
-from tests.machines import at, inputs, made_possible, number
+from tests.machines import at, inputs, number
 
 OMEGA = 2 * np.pi * 50000 / 3600
 DRIVES = ("planetary", "crank_slider", "crank_rocker")
@@ -378,21 +377,6 @@ def test_an_impossible_knife_is_refused_in_words(keys: dict[str, Any], key: str,
         knife(**keys)
     assert refused.value.key == key
     assert words in refused.value.message
-
-
-@pytest.mark.parametrize(
-    "link, length, limit",
-    [("crank", 85, 80 + 110 - 120), ("frame", 200, 110 + 80 - 20)],
-)  # fmt: skip
-def test_a_link_that_lets_the_crank_turn_fully_is_named(link: str, length: float, limit: float) -> None:
-    """By Grashof: the shortest and the longest link are together shorter than the other two."""
-    changed = {link: length}
-    ways = made_possible(MECHANISM, {"working_depth": 40, "crank_rocker": LINKAGE | changed}, "crank_rocker.crank")
-    (told,) = [way for way in ways if way.startswith(f"set crank_rocker.{link} to")]
-    low, high = (float(end) for end in re.findall(r"([\d.]+) mm", told))
-    assert low < high < limit
-    for end in (low, high):
-        knife(crank_rocker=LINKAGE | {link: end})
 
 
 def test_every_drive_that_would_be_gripped_too_early_is_told_at_once() -> None:

@@ -369,13 +369,6 @@ def test_the_driving_pulley_has_teeth_in_mesh_wherever_it_lies() -> None:
     assert check(calc, "teeth_in_mesh").status == "fail" and calc["teeth_in_mesh"][0, 0] < 1
 
 
-def test_the_advised_pitch_puts_six_teeth_into_mesh() -> None:
-    told = check(listed_belt(OVER, pitch=20), "teeth_in_mesh")
-    advised = re.search(r"toothed_belt.pitch to at most (\d+(?:\.\d+)?) mm", told.message)
-    assert told.status == "fail" and advised
-    assert check(listed_belt(OVER, pitch=float(advised[1])), "teeth_in_mesh").status == "pass"
-
-
 def test_the_figure_draws_the_cylinder_on_the_die_below() -> None:
     figures = {figure.id: figure.shapes for figure in mechanism_results(listed_belt(OVER), {}).figures}
     shapes = figures["toothed_belt_layout"]
