@@ -78,10 +78,15 @@ def at(calculation: Calculation, curve: str, places: Any) -> Array:
 
 
 def checks(calculation: Calculation) -> dict[str, CheckRecord]:
-    """The checks of a machine by their ids."""
+    """The checks of a machine by their ids, without advice, which takes most of the time."""
+    return {check.id: check for check in verdicts(calculation)}
+
+
+def advised(calculation: Calculation) -> dict[str, CheckRecord]:
+    """The checks of a machine by their ids, with advice."""
     return {check.id: check for check in check_results(calculation)}
 
 
 def statuses(calculation: Calculation) -> dict[str, str]:
-    """The statuses of a machine's checks by their ids, without advice, which takes most of the time."""
+    """The statuses of a machine's checks by their ids."""
     return {check.id: check.status for check in verdicts(calculation)}

@@ -21,7 +21,7 @@ from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import arms
 from diecut_report.plugins.cam_gear_transport.rolling import rolling
 from tests.examples import examples, few
-from tests.machines import at, checks, number, statuses
+from tests.machines import advised, at, checks, number, statuses
 from tests.plugins.steppers import CAMS, slope, smooth_places, stepper
 
 TURN = np.linspace(0, 2 * np.pi, 721)[:-1]
@@ -88,7 +88,7 @@ def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
 def test_an_undercut_cam_fails_and_the_message_tells_the_greatest_roller() -> None:
     least = number(stepper(**CAMS), "curvature_min")
     for share, status in ((0.999, "pass"), (1.001, "fail")):
-        check = checks(stepper(**CAMS | {"roller_radius": f"{share * least!r} m"}))["curvature"]
+        check = advised(stepper(**CAMS | {"roller_radius": f"{share * least!r} m"}))["curvature"]
         assert check.status == status
     told = re.search(r"roller_radius to at most ([\d.]+) mm", check.message)
     assert told is not None

@@ -20,7 +20,7 @@ from diecut_report.plugins.cam_gear_transport import MECHANISM, drawing, figures
 from diecut_report.results.figure_views import MachineView, laid_out
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
-from tests.machines import at, checks, made_possible, number, statuses
+from tests.machines import advised, at, checks, made_possible, number, statuses
 from tests.plugins.steppers import CAMS, CONVEYOR, LOADED, PUBLISHED, RATE, slope, smooth_places, stepper
 
 BY_LAW = pytest.mark.parametrize("law", list(LAWS))
@@ -173,7 +173,7 @@ def test_a_module_that_leaves_the_gear_no_tooth_is_refused() -> None:
 
 
 def test_few_teeth_are_a_warning() -> None:
-    few = checks(stepper(module="12 mm"))["tooth_undercut"]
+    few = advised(stepper(module="12 mm"))["tooth_undercut"]
     assert few.status == "warn"
     assert few.message.endswith("Set module to at most 8 mm.")
     assert statuses(stepper(module="8 mm"))["tooth_undercut"] == "pass"

@@ -28,7 +28,7 @@ from diecut_report.press import Press
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import EXAMPLES, HEAD
 from tests.examples import examples, few
-from tests.machines import at, checks, inputs, number, statuses
+from tests.machines import advised, at, checks, inputs, number, statuses
 from tests.plugins.knives import SHAPES, crossing, edge_points, in_cut, knife
 from tests.validation.rows_circular_knife import KEYS
 
@@ -368,7 +368,7 @@ def test_the_governing_side_of_the_shear_angle_is_shown() -> None:
     ],
 )
 def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
-    found = checks(knife(**changes))[name]
+    found = advised(knife(**changes))[name]
     assert found.status == "fail"
     assert words in found.message
 
@@ -407,7 +407,7 @@ def test_the_example_is_the_worked_example_and_passes() -> None:
 def test_a_resistance_too_small_for_the_force_of_a_rule_is_told() -> None:
     """25 N/mm over 0.6 mm are 41.67 N/mm²: the advised resistance passes, a little less does not."""
     board = {"thickness": "0.6 mm", "rule_force": "25 N/mm"}
-    found = checks(knife(**board))["shear_resistance"]
+    found = advised(knife(**board))["shear_resistance"]
     assert found.status == "warn"
     assert found.utilisation == pytest.approx(25 / (10 * 0.6), rel=1e-12)
     told = re.search(r"shear_resistance to at least ([\d.]+) N/mm²", found.message)

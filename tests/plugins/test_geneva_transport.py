@@ -21,10 +21,9 @@ from diecut_report.plugins.geneva_transport.drawing import disc_outline, wheel_o
 from diecut_report.press import Press
 from diecut_report.results.figure_views import MachineView
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.mechanism_record import CheckRecord
 from tests.configs import HEAD, saved
 from tests.examples import examples, few
-from tests.machines import at, inputs, number
+from tests.machines import advised, at, checks, inputs, number
 
 CROSS: dict[str, Any] = {"slots": 6, "center_distance": "200 mm", "crank_speed": "100 rpm", "roller_radius": "10 mm"}
 SHEET: dict[str, Any] = {"sprocket_teeth": 24, "chain_pitch": "31.75 mm", "gear_ratio": 4}
@@ -224,11 +223,6 @@ def test_an_impossible_drive_is_refused_in_words(changes: dict[str, Any], key: s
     assert words in refused.value.message
 
 
-def checks(**changes: Any) -> dict[str, CheckRecord]:
-    """The checks of a drive by their ids."""
-    return {check.id: check for check in mechanism_results(geneva(**changes), {}).checks}
-
-
 @pytest.mark.parametrize(
     "changes, name, words",
     [
@@ -245,7 +239,7 @@ def checks(**changes: Any) -> dict[str, CheckRecord]:
     ],
 )
 def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
-    found = checks(**changes)
+    found = advised(geneva(**changes))
     assert found[name].status == "fail"
     assert words in found[name].message.replace("−", "-")
 
@@ -257,7 +251,7 @@ def test_all_checks_pass_where_the_drive_is_sound() -> None:
         "allowable_contact_pressure": 1200,
         "allowable_sheet_acceleration": 80,
     }
-    found = checks(**SHEET, **everything)
+    found = checks(geneva(**SHEET, **everything))
     assert set(found) == {
         "roller_clearance",
         "arm_thickness",

@@ -16,7 +16,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.parallel_key import MECHANISM
 from diecut_report.plugins.parallel_key.dimensions import KEYS, LENGTHS
 from tests.examples import examples
-from tests.machines import checks, inputs, number, statuses
+from tests.machines import advised, checks, inputs, number, statuses
 from tests.plugins.bearings import Over
 from tests.plugins.keys import KEY, OWN, SIZED, TURNING, key
 
@@ -254,7 +254,7 @@ def test_own_dimensions_and_a_chamfer_are_taken() -> None:
 def test_a_key_that_fails_is_told_the_length_that_holds() -> None:
     keys = KEY | {"key_length": 25}
     for name in ("pressure_hub", "pressure_key"):
-        check = checks(key(keys, yield_hub=300))[name]
+        check = advised(key(keys, yield_hub=300))[name]
         assert check.status == "fail" and "Set key_length to" in check.message
     told = number(key(keys, yield_hub=300), "required_key_length") * 1e3
     again = checks(key(keys, yield_hub=300, key_length=told))
