@@ -15,7 +15,6 @@ from diecut_report.cli.main import main
 from diecut_report.files import remove_stale, write, write_all
 from tests.configs import GOOD, LEVER, saved
 from tests.examples import few
-from tests.study.studies import BASE, STUDY
 
 SECRET = b"not to be touched"
 
@@ -105,18 +104,13 @@ def test_a_link_among_what_a_killed_run_left_is_removed_alone(tmp_path: Path, se
 
 @pytest.mark.parametrize("name", ["variants", "reports", "tables"])
 def test_a_folder_of_a_study_that_is_a_link_is_refused(
-    tmp_path: Path, secret: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, name: str
+    stored: Path, tmp_path: Path, secret: Path, capfd: pytest.CaptureFixture[str], name: str
 ) -> None:
-    monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
-    folder = tmp_path / "out"
-    saved(tmp_path, BASE)
-    study = saved(tmp_path, STUDY, "study.yaml")
-    assert main(["batch", str(study), "-o", str(folder), "--jobs", "1", "--plugins", str(GOOD), "--quiet"]) == 0
-    if (folder / name).exists():
-        (folder / name).rename(tmp_path / "moved")
-    (folder / name).symlink_to(secret.parent)
-    assert main(["batch", "--resume", str(folder), "--plugins", str(GOOD), "--quiet"]) == 2
-    assert f"{folder / name}: This is a link." in capfd.readouterr().err
+    if (stored / name).exists():
+        (stored / name).rename(tmp_path / "moved")
+    (stored / name).symlink_to(secret.parent)
+    assert main(["batch", "--resume", str(stored), "--plugins", str(GOOD), "--quiet"]) == 2
+    assert f"{stored / name}: This is a link." in capfd.readouterr().err
     assert sorted(secret.parent.iterdir()) == [secret]
 
 

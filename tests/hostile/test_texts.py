@@ -11,10 +11,9 @@ from diecut_report.cli.main import main
 from diecut_report.config.yaml import parse, with_values
 from diecut_report.errors import UserError
 from diecut_report.study.storage.state import write_state
-from tests.configs import GOOD, saved
+from tests.configs import GOOD
 from tests.hostile.readers import CORPUS, READERS
 from tests.hostile.seeds import seeds, words
-from tests.study.studies import BASE, STUDY
 
 
 @pytest.mark.parametrize("text", ["a\0b", "a\x1b]0;t\a", "a\u202eb", "a\u2028b", "a\ufffe", "a\u00adb", "\u3164"])
@@ -24,16 +23,11 @@ def test_a_value_that_is_put_into_a_tree_is_judged_as_one_that_is_read(text: str
 
 
 def test_a_stored_study_brings_no_control_characters_into_a_report(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+    stored: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
-    saved(tmp_path, BASE)
-    out = tmp_path / "out"
-    command = ["batch", saved(tmp_path, STUDY, "study.yaml"), "-o", out, "--jobs", 1, "--plugins", GOOD, "--quiet"]
-    assert main([*map(str, command)]) == 0
-    state = json.loads((out / "study.json").read_text("utf-8"))
-    write_state(out, state | {"study": "\x1b[2J\n\u202ex.yaml"})  # by somebody who seals it too
-    assert main(["calc", f"{out}#1", "--plugins", str(GOOD)]) == 0
+    state = json.loads((stored / "study.json").read_text("utf-8"))
+    write_state(stored, state | {"study": "\x1b[2J\n\u202ex.yaml"})  # by somebody who seals it too
+    assert main(["calc", f"{stored}#1", "--plugins", str(GOOD)]) == 0
     printed = "".join(capfd.readouterr())
     title = json.loads(printed[printed.index("{") : printed.rindex("}") + 1])["project"]["title"]
     assert "\x1b" not in title and "\u202e" not in title

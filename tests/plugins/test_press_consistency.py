@@ -272,6 +272,9 @@ BESIDE = {
 }
 """Elements of the mended press, of which neither timing nor consistency takes anything."""
 
+MENDED = WarmPress(is_advised=False)
+"""Calculates anew only the mechanisms that another machine changes."""
+
 
 def mended(text: str = "", **changes: dict[str, Any]) -> dict[str, str]:
     """The statuses of the checks of the mended press, or of a text, without its elements, with other inputs of its mechanisms."""
@@ -281,7 +284,7 @@ def mended(text: str = "", **changes: dict[str, Any]) -> dict[str, str]:
         for name, block in tree.data["mechanisms"].items()
         if name not in BESIDE
     }
-    run = WarmPress(is_advised=False).calculate(load_config(tree, DISCOVERY))
+    run = MENDED.calculate(load_config(tree, DISCOVERY))
     assert not run.errors
     return {f"{name}.{each.id}": each.status for name, made in run.checks.items() for each in made}
 
