@@ -188,14 +188,8 @@ def test_an_impossible_variant_is_marked_and_leaves_its_neighbours_alone() -> No
     np.testing.assert_allclose(calc["torque_max"][[0, 2], 0], np.array([200, 400]) * (np.sin(STEP) + 1))
 
 
-@formula
-def root_of(arm: Any) -> Any:
-    return np.sqrt(arm)
-
-
-@formula
-def is_between(root: Any) -> Any:
-    return root > 0.5
+root_of = formula(lambda arm: np.sqrt(arm))
+is_between = formula(lambda root: root > 0.5)
 
 
 def test_what_follows_from_an_impossible_number_makes_no_message() -> None:

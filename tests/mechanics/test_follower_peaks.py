@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import pytest
@@ -164,64 +163,18 @@ def test_a_stiff_drive_of_great_damping_does_not_overflow(name: str) -> None:
 # --- laws of a user --------------------------------------------------------------------------------------------------
 
 
-@formula
-def stepping_position(k: Any) -> Any:
-    return k - np.sin(24 * np.pi * k) / (24 * np.pi)
-
-
-@formula
-def stepping_velocity(k: Any) -> Any:
-    return 1 - np.cos(24 * np.pi * k)
-
-
-@formula
-def stepping_acceleration(k: Any) -> Any:
-    return 24 * np.pi * np.sin(24 * np.pi * k)
-
-
-@formula
-def stepping_jerk(k: Any) -> Any:
-    return 576 * np.pi**2 * np.cos(24 * np.pi * k)
-
-
-@formula
-def stepping_peak() -> Any:
-    return 24 * np.pi
-
-
-@formula
-def hasty_position(k: Any) -> Any:
-    return np.where(k < 3 / 10, k**2 / 0.3, 1 - (1 - k) ** 2 / 0.7)
-
-
-@formula
-def hasty_velocity(k: Any) -> Any:
-    return np.where(k < 3 / 10, 2 * k / 0.3, 2 * (1 - k) / 0.7)
-
-
-@formula
-def hasty_acceleration(k: Any) -> Any:
-    return np.where(k < 3 / 10, 2 / 0.3, -2 / 0.7)
-
-
-@formula
-def nothing(k: Any) -> Any:
-    return 0 * k
-
-
-@formula
-def hasty_joint(k: Any) -> Any:
-    return k - 3 / 10
-
-
-@formula
-def hasty_peak() -> Any:
-    return 2 / 0.3
-
-
-@formula
-def two() -> Any:
-    return 2
+stepping_position = formula(lambda k: k - np.sin(24 * np.pi * k) / (24 * np.pi))
+stepping_velocity = formula(lambda k: 1 - np.cos(24 * np.pi * k))
+stepping_acceleration = formula(lambda k: 24 * np.pi * np.sin(24 * np.pi * k))
+stepping_jerk = formula(lambda k: 576 * np.pi**2 * np.cos(24 * np.pi * k))
+stepping_peak = formula(lambda: 24 * np.pi)
+hasty_position = formula(lambda k: np.where(k < 3 / 10, k**2 / 0.3, 1 - (1 - k) ** 2 / 0.7))
+hasty_velocity = formula(lambda k: np.where(k < 3 / 10, 2 * k / 0.3, 2 * (1 - k) / 0.7))
+hasty_acceleration = formula(lambda k: np.where(k < 3 / 10, 2 / 0.3, -2 / 0.7))
+nothing = formula(lambda k: 0 * k)
+hasty_joint = formula(lambda k: k - 3 / 10)
+hasty_peak = formula(lambda: 2 / 0.3)
+two = formula(lambda: 2)
 
 
 @pytest.fixture

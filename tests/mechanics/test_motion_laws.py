@@ -143,34 +143,12 @@ def test_the_joint_changes_its_sign_at_the_breakpoints_alone(law: MotionLaw) -> 
 # --- the registry ----------------------------------------------------------------------------------------------------
 
 
-@formula
-def straight(k: Any) -> Any:
-    return k
-
-
-@formula
-def even(k: Any) -> Any:
-    return 1 + 0 * k
-
-
-@formula
-def nothing(k: Any) -> Any:
-    return 0 * k
-
-
-@formula
-def one() -> Any:
-    return 1
-
-
-@formula
-def shifted(k: Any) -> Any:
-    return k + 1 / 10
-
-
-@formula
-def of_two(k: Any, h: Any) -> Any:
-    return h * k
+straight = formula(lambda k: k)
+even = formula(lambda k: 1 + 0 * k)
+nothing = formula(lambda k: 0 * k)
+one = formula(lambda: 1)
+shifted = formula(lambda k: k + 1 / 10)
+of_two = formula(lambda k, h: h * k)
 
 
 def a_law(**changes: Any) -> MotionLaw:

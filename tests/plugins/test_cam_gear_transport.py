@@ -295,49 +295,15 @@ def test_the_arms_may_stand_either_way_round_and_be_counted_backwards() -> None:
         assert number(back, f"cam_2_{name}") == pytest.approx(number(plain, f"cam_2_{name}"))
 
 
-@formula
-def lopsided_position(k: Any) -> Any:
-    return k**2 * (3 - 2 * k) + k**2 * (1 - k) ** 2
-
-
-@formula
-def lopsided_velocity(k: Any) -> Any:
-    return 6 * k * (1 - k) + 2 * k * (1 - k) * (1 - 2 * k)
-
-
-@formula
-def lopsided_acceleration(k: Any) -> Any:
-    return 6 - 12 * k + 2 - 12 * k + 12 * k**2
-
-
-@formula
-def cubic_position(k: Any) -> Any:
-    return k**2 * (3 - 2 * k)
-
-
-@formula
-def cubic_velocity(k: Any) -> Any:
-    return 6 * k * (1 - k)
-
-
-@formula
-def cubic_acceleration(k: Any) -> Any:
-    return 6 - 12 * k
-
-
-@formula
-def cubic_jerk(k: Any) -> Any:
-    return -12 + 0 * k
-
-
-@formula
-def three_halves() -> Any:
-    return 3 / 2
-
-
-@formula
-def six() -> Any:
-    return 6
+lopsided_position = formula(lambda k: k**2 * (3 - 2 * k) + k**2 * (1 - k) ** 2)
+lopsided_velocity = formula(lambda k: 6 * k * (1 - k) + 2 * k * (1 - k) * (1 - 2 * k))
+lopsided_acceleration = formula(lambda k: 6 - 12 * k + 2 - 12 * k + 12 * k**2)
+cubic_position = formula(lambda k: k**2 * (3 - 2 * k))
+cubic_velocity = formula(lambda k: 6 * k * (1 - k))
+cubic_acceleration = formula(lambda k: 6 - 12 * k)
+cubic_jerk = formula(lambda k: -12 + 0 * k)
+three_halves = formula(lambda: 3 / 2)
+six = formula(lambda: 6)
 
 
 @pytest.fixture

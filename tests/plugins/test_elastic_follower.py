@@ -355,19 +355,9 @@ class Moved(Inputs):
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 90
 
 
-@formula
-def begins(begin: Any) -> Any:
-    return 2 * np.pi * begin
-
-
-@formula
-def ends(begin: Any, lasts: Any) -> Any:
-    return 2 * np.pi * (begin + lasts)
-
-
-@formula
-def same(angle: Any) -> Any:
-    return angle
+begins = formula(lambda begin: 2 * np.pi * begin)
+ends = formula(lambda begin, lasts: 2 * np.pi * (begin + lasts))
+same = formula(lambda angle: angle)
 
 
 @formula

@@ -150,9 +150,7 @@ class Turn(Inputs):
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 90
 
 
-@formula
-def same(angle: Any) -> Any:
-    return angle
+same = formula(lambda angle: angle)
 
 
 @pytest.mark.parametrize("curve", ["response", "acceleration", "deflection"])
@@ -162,19 +160,9 @@ def test_what_swings_on_never_rests(curve: str) -> None:
     assert refused.value.key == "motion_curve"
 
 
-@formula
-def standing(angle: Any) -> Any:
-    return 3 + 0 * angle
-
-
-@formula
-def hasty_start(angle: Any, middle: Any) -> Any:
-    return np.where(middle < 2, angle - angle**2 / 4, 1)
-
-
-@formula
-def hasty_end(angle: Any, middle: Any) -> Any:
-    return np.where(middle < 2, 0, (angle - 2) ** 2)
+standing = formula(lambda angle: 3 + 0 * angle)
+hasty_start = formula(lambda angle, middle: np.where(middle < 2, angle - angle**2 / 4, 1))
+hasty_end = formula(lambda angle, middle: np.where(middle < 2, 0, (angle - 2) ** 2))
 
 
 @formula
@@ -187,14 +175,8 @@ def leaping(angle: Any, middle: Any) -> Any:
     return np.where(middle < 2, 0, np.where(middle < 4, 1 + angle * 0, 1 + (angle - 4) ** 2 * (5 - angle)))
 
 
-@formula
-def at_two() -> Any:
-    return 2
-
-
-@formula
-def at_four() -> Any:
-    return 4
+at_two = formula(lambda: 2)
+at_four = formula(lambda: 4)
 
 
 def shaped(shape: Any) -> Calculation:
