@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
+from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form
@@ -12,7 +15,8 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.plugins.cylinder_drive import MECHANISM as DRIVE
 from diecut_report.plugins.cylinder_sizing import MECHANISM as SIZING
 from diecut_report.results.advice import possible_ways
-from diecut_report.results.checks import holds
+from diecut_report.results.checks import check_results, holds, verdicts
+from diecut_report.results.mechanism_record import CheckRecord
 
 PUBLISHED_CYLINDER: dict[str, Any] = {
     "working_length": "470.7 mm",
@@ -62,3 +66,27 @@ def drive(**changes: Any) -> Calculation:
 def number(calculation: Calculation, name: str) -> float:
     """A number of a single machine, SI."""
     return float(calculation[name][0, 0])
+
+
+def at(calculation: Calculation, curve: str, places: Any) -> Array:
+    """A curve of a single machine at any places of its abscissa, each in the smooth piece that it lies in."""
+    domain = calculation.domains[calculation.axis[curve]]
+    x = np.atleast_1d(np.asarray(places, dtype=float))[None, :] % float(domain.period[0, 0])
+    middle = np.concatenate([domain.middle_of(part) for part in np.array_split(x, 20, axis=1)], axis=1)
+    found: Array = calculation.sample(curve, x, middle)[0]
+    return found
+
+
+def checks(calculation: Calculation) -> dict[str, CheckRecord]:
+    """The checks of a machine by their ids, without advice, which takes most of the time."""
+    return {check.id: check for check in verdicts(calculation)}
+
+
+def advised(calculation: Calculation) -> dict[str, CheckRecord]:
+    """The checks of a machine by their ids, with advice."""
+    return {check.id: check for check in check_results(calculation)}
+
+
+def statuses(calculation: Calculation) -> dict[str, str]:
+    """The statuses of a machine's checks by their ids."""
+    return {check.id: check.status for check in verdicts(calculation)}

@@ -1,4 +1,4 @@
-"""The whole way: results document, statuses, what a broken plugin leaves, files written whole or not at all."""
+"""The whole way: results document, statuses, what a broken plugin leaves; the mended press with one thing made absurd does not pass."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
@@ -22,8 +23,10 @@ from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import results_text
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
+from tests.examples import few
 from tests.processes import Example
 from tests.records import filled
+from tests.test_mending import MENDED, calculated, verdicts
 
 ALL = Discovery([GOOD, BROKEN])
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
@@ -358,3 +361,43 @@ def test_the_examples_are_calculated_without_slow_imports() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
+
+
+PINS = ("crank_pin", "rocker_pin")
+BORED = {f"mechanisms.bearings.bearings.{i}.designation": None for i in (2, 3)}  # which thin pins would contradict
+ABSURD: list[tuple[str, dict[str, Any], str, set[str]]] = [
+    ("a sheet longer than the step", {"press.sheet.width": "750 mm"}, "fail", {"consistency.step", "consistency.sheet_gap"}),
+    ("a cylinder shorter than the sheet", {"mechanisms.cylinder.generatrix_length": "400 mm"}, "fail", {"consistency.format_generatrix"}),
+    ("a crank of 5 mm", {"mechanisms.drive.crank_length": "5 mm"}, "fail",
+     {"drive.joint_force", "crankshaft.fatigue", *(f"{pin}.yield" for pin in PINS), "bearings.main_b_static"}),
+    ("pins of 5 mm", {f"mechanisms.{pin}.sections.0.diameter": "5 mm" for pin in PINS} | BORED, "fail",
+     {f"{pin}.{check}" for pin in PINS for check in ("fatigue", "yield")}),
+    ("no limit of sheet and roller",
+     {f"mechanisms.cross.{key}": None for key in ("allowable_contact_pressure", "allowable_sheet_acceleration", "gripper_force")},
+     "not_checked", {"cross.contact_pressure", "cross.sheet_acceleration", "cross.grippers"}),
+]  # fmt: skip
+
+
+def made_absurd(changes: dict[str, Any]) -> dict[str, Any]:
+    """The mended press with values at paths; None takes a key away."""
+    data: dict[str, Any] = yaml.safe_load(MENDED.read_text(encoding="utf-8"))
+    for path, value in changes.items():
+        *parents, key = path.split(".")
+        place: Any = data
+        for parent in parents:
+            place = place[int(parent)] if parent.isdigit() else place[parent]
+        if value is None:
+            del place[key]
+        else:
+            place[key] = value
+    return data
+
+
+@pytest.mark.parametrize(
+    ("changes", "status", "checks"),
+    few([case[1:] for case in ABSURD], keep=lambda case: case[1] == "not_checked"),
+)
+def test_a_press_that_nobody_may_build_does_not_pass(
+    tmp_path: Path, changes: dict[str, Any], status: str, checks: set[str]
+) -> None:
+    assert checks <= verdicts(calculated(tmp_path, made_absurd(changes))).get(status, set())

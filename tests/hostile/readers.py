@@ -1,6 +1,6 @@
 """Readers of all that comes from outside, by what they read: each takes bytes and ends, or says in words why not.
 
-The fuzzer (scripts/fuzz.py) feeds them; test_corpus.py feeds them what the fuzzer kept.
+The fuzzer (scripts/fuzz.py) feeds them; test_texts.py feeds them what the fuzzer kept.
 """
 
 from __future__ import annotations

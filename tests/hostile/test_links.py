@@ -1,8 +1,9 @@
-"""Links, pipes and devices where files are to be written: what they point to stays as it is."""
+"""Links, pipes and devices where files are to be written or plugins are sought: what they point to stays as it is, none is waited for."""
 
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from itertools import product
@@ -14,7 +15,6 @@ from diecut_report.cli.main import main
 from diecut_report.files import remove_stale, write, write_all
 from tests.configs import GOOD, LEVER, saved
 from tests.examples import few
-from tests.study.studies import BASE, STUDY
 
 SECRET = b"not to be touched"
 
@@ -104,16 +104,47 @@ def test_a_link_among_what_a_killed_run_left_is_removed_alone(tmp_path: Path, se
 
 @pytest.mark.parametrize("name", ["variants", "reports", "tables"])
 def test_a_folder_of_a_study_that_is_a_link_is_refused(
-    tmp_path: Path, secret: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, name: str
+    stored: Path, tmp_path: Path, secret: Path, capfd: pytest.CaptureFixture[str], name: str
 ) -> None:
-    monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
-    folder = tmp_path / "out"
-    saved(tmp_path, BASE)
-    study = saved(tmp_path, STUDY, "study.yaml")
-    assert main(["batch", str(study), "-o", str(folder), "--jobs", "1", "--plugins", str(GOOD), "--quiet"]) == 0
-    if (folder / name).exists():
-        (folder / name).rename(tmp_path / "moved")
-    (folder / name).symlink_to(secret.parent)
-    assert main(["batch", "--resume", str(folder), "--plugins", str(GOOD), "--quiet"]) == 2
-    assert f"{folder / name}: This is a link." in capfd.readouterr().err
+    if (stored / name).exists():
+        (stored / name).rename(tmp_path / "moved")
+    (stored / name).symlink_to(secret.parent)
+    assert main(["batch", "--resume", str(stored), "--plugins", str(GOOD), "--quiet"]) == 2
+    assert f"{stored / name}: This is a link." in capfd.readouterr().err
     assert sorted(secret.parent.iterdir()) == [secret]
+
+
+def calculated(tmp_path: Path) -> subprocess.CompletedProcess[str]:
+    """What becomes of a lever with the plugins of a folder; one that waits fails the test."""
+    command = [
+        sys.executable,
+        "-P",
+        "-m",
+        "diecut_report",
+        "validate",
+        saved(tmp_path, LEVER),
+        "--plugins",
+        tmp_path / "plugins",
+    ]
+    return subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=60)
+
+
+@pytest.mark.nightly
+def test_pipes_beside_a_plugin_are_no_part_of_it(tmp_path: Path) -> None:
+    folder = tmp_path / "plugins" / "lever"
+    folder.mkdir(parents=True)
+    shutil.copy(GOOD / "lever.py", folder / "__init__.py")
+    for name in ("data.json", "other.py", "../data.json", "../other.py"):
+        os.mkfifo(folder / name)
+    assert calculated(tmp_path).returncode == 0
+
+
+@pytest.mark.nightly
+def test_a_pipe_is_not_a_plugin(tmp_path: Path) -> None:
+    (tmp_path / "plugins").mkdir()
+    os.mkfifo(tmp_path / "plugins" / "lever.py")
+    done = calculated(tmp_path)
+    assert done.returncode == 2 and "'lever' is not a known kind" in done.stderr
+    (tmp_path / "plugins" / "kinds.yaml").write_text("lever: lever.py", "utf-8")
+    done = calculated(tmp_path)
+    assert done.returncode == 3 and "it is not a regular file" in done.stderr

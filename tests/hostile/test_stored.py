@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import time
 from pathlib import Path
 from typing import Any
@@ -13,37 +12,22 @@ import pytest
 
 from diecut_report.cli.main import main
 from tests.configs import GOOD, saved
-from tests.shared import once
 from tests.study.studies import BASE, STUDY
 
-pytestmark = pytest.mark.usefixtures("no_summary")
+pytestmark = pytest.mark.usefixtures("without_summary")
 Capture = pytest.CaptureFixture[str]
-
-
-@pytest.fixture
-def no_summary(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Studies are left without their summary, which takes seconds."""
-    monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
 
 
 def run(*arguments: object) -> int:
     return main([*map(str, arguments), "--plugins", str(GOOD), "--quiet"])
 
 
-@pytest.fixture
-def stored(tmp_path: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of a stored study of six variants."""
-
-    def make(folder: Path) -> None:
-        saved(folder, BASE)
-        assert run("batch", saved(folder, STUDY, "study.yaml"), "-o", folder / "out", "--jobs", 1) == 0
-
-    return Path(shutil.copytree(once(tmp_path_factory, "stored_study", make) / "out", tmp_path / "out"))
+KINDS, NAMES = ("folder", "pipe", "link"), ("variants/part-00000.parquet", "variants/part-00001.parquet", "study.json")
+READ = [(kind, name, ["variants"]) for kind in KINDS for name in NAMES]
+RESUMED = [(kind, name, ["batch", "--resume"]) for kind, name in zip(KINDS, NAMES, strict=True)]
 
 
-@pytest.mark.parametrize("kind", ["folder", "pipe", "link"])
-@pytest.mark.parametrize("name", ["variants/part-00000.parquet", "variants/part-00001.parquet", "study.json"])
-@pytest.mark.parametrize("command", [["variants"], ["batch", "--resume"]])
+@pytest.mark.parametrize(("kind", "name", "command"), [*READ, *RESUMED])
 def test_a_part_or_a_state_that_is_no_file_is_refused(
     stored: Path, capfd: Capture, kind: str, name: str, command: list[str]
 ) -> None:

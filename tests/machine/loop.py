@@ -77,29 +77,11 @@ class Loop(Inputs):
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 90
 
 
-@formula
-def gap(x: Any, x_next: Any) -> Any:
-    return abs(x_next - x)
-
-
-@formula
-def is_apart(gap: Any) -> Any:
-    return gap > 0
-
-
-@formula
-def limp(turn: Any, swing: Any) -> Any:
-    return swing * np.sin(turn)
-
-
-@formula
-def stiff(turn: Any, swing: Any) -> Any:
-    return swing * np.sin(turn) ** 2
-
-
-@formula
-def weight(mass: Any, gravity: Any) -> Any:
-    return mass * gravity
+gap = formula(lambda x, x_next: abs(x_next - x))
+is_apart = formula(lambda gap: gap > 0)
+limp = formula(lambda turn, swing: swing * np.sin(turn))
+stiff = formula(lambda turn, swing: swing * np.sin(turn) ** 2)
+weight = formula(lambda mass, gravity: mass * gravity)
 
 
 FORMS = {"rope": limp, "chain": stiff}

@@ -58,49 +58,15 @@ class Swing(Inputs):
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 48
 
 
-@formula
-def passed(time: Any, duration: Any) -> Any:
-    return time / duration
-
-
-@formula
-def rising(lift: Any, passed: Any) -> Any:
-    return 64 * lift * passed**3
-
-
-@formula
-def falling(lift: Any, passed: Any) -> Any:
-    return lift * np.cos(2 * np.pi / 3 * (passed - 1 / 4))
-
-
-@formula
-def quarter(duration: Any) -> Any:
-    return duration / 4
-
-
-@formula
-def is_calm(duration: Any, ripple: Any) -> Any:
-    return duration < 1000 * ripple
-
-
-@formula
-def inverse(rate: Any) -> Any:
-    return 1 / rate
-
-
-@formula
-def turned(position: Any, lift: Any, passed: Any) -> Any:
-    return position + 2 * lift * passed
-
-
-@formula
-def level(position: Any, lift: Any) -> Any:
-    return position - lift / 2
-
-
-@formula
-def force(stiffness: Any, position: Any) -> Any:
-    return stiffness * position
+passed = formula(lambda time, duration: time / duration)
+rising = formula(lambda lift, passed: 64 * lift * passed**3)
+falling = formula(lambda lift, passed: lift * np.cos(2 * np.pi / 3 * (passed - 1 / 4)))
+quarter = formula(lambda duration: duration / 4)
+is_calm = formula(lambda duration, ripple: duration < 1000 * ripple)
+inverse = formula(lambda rate: 1 / rate)
+turned = formula(lambda position, lift, passed: position + 2 * lift * passed)
+level = formula(lambda position, lift: position - lift / 2)
+force = formula(lambda stiffness, position: stiffness * position)
 
 
 def between(motion: Curve, share: Any) -> Any:

@@ -1,7 +1,8 @@
-"""What the plugin contract can say, computed on a made-up mechanism whose results are known in closed form."""
+"""What the plugin contract can say, on a made-up mechanism in closed form; vertices of curves; compiled curves against plain formulas."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -9,12 +10,26 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Annotated, Chapter, CurveInput, Inputs, Mechanism, Require, Value, as_angle, bind, formula
+from diecut_report.config.loader import Config, load_config
+from diecut_report.config.model import PRESS
+from diecut_report.config.plugins import Discovery
+from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible, Unproven
+from diecut_report.machine.numerics import curves as curve_evaluation
+from diecut_report.machine.numerics.curves import MANY, Curves, Program
+from diecut_report.machine.numerics.domain import shares
+from diecut_report.machine.numerics.extremes import Spots, around, vertices
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
-from diecut_report.mechanism.steps import Root
+from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.steps import Choice, Root
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import AbsentRecord
+from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, known_paths
+from diecut_report.study.execution.press_batch import calculated
+from tests.configs import ON_ARRAYS
+from tests.examples import few
 from tests.machine.toy import MECHANISM, ROOTED, cube, cubed, doubled, plus_one, same, zero
 from tests.machines import inputs, number
 
@@ -173,14 +188,8 @@ def test_an_impossible_variant_is_marked_and_leaves_its_neighbours_alone() -> No
     np.testing.assert_allclose(calc["torque_max"][[0, 2], 0], np.array([200, 400]) * (np.sin(STEP) + 1))
 
 
-@formula
-def root_of(arm: Any) -> Any:
-    return np.sqrt(arm)
-
-
-@formula
-def is_between(root: Any) -> Any:
-    return root > 0.5
+root_of = formula(lambda arm: np.sqrt(arm))
+is_between = formula(lambda root: root > 0.5)
 
 
 def test_what_follows_from_an_impossible_number_makes_no_message() -> None:
@@ -298,3 +307,201 @@ def test_a_number_may_have_the_name_of_a_place_that_no_extreme_gives() -> None:
     assert (found.outputs["twice"].value, found.outputs["twice"].at) == (2, None) and found.outputs[
         "twice_at"
     ].value == 3
+
+
+INTERVALS = 32
+Curve = Callable[[Array], Array]
+
+
+def told(curve: Curve, left: float, width: float, k: int | None = None) -> tuple[float, float, bool]:
+    """The vertex of a curve in one piece about its greatest value on the grid (or a given point of it)."""
+    values = curve(left + width * shares(INTERVALS))[None, :]
+    spot = np.array([values.argmax() if k is None else k])
+    spots = Spots(spot, around(values, np.array([0]), spot), np.array([left]), np.array([width]), INTERVALS)
+    place, height, holds = vertices(lambda x, _: curve(x), spots)
+    return float(place[0]), float(height[0]), bool(holds[0])
+
+
+@pytest.mark.parametrize("seed", few(range(200), keep=lambda seed: seed % 5 == 0))
+def test_a_peak_between_points_is_found_to_rounding(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    top, left, width, size = (
+        random.uniform(-2, 2),
+        random.uniform(-5, 5),
+        random.uniform(0.3, 2.5),
+        10 ** random.uniform(-6, 6),
+    )
+    peak = left + width * random.uniform(0.05, 0.95)
+    place, height, holds = told(lambda x: size * (top + np.cos(1.3 * (x - peak))), left, width)
+    assert holds
+    assert abs(place - peak) < 1e-7 * width
+    assert abs(height - size * (top + 1)) < 1e-14 * size * (abs(top) + 1)
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+def test_a_curve_that_falls_from_the_end_has_its_top_there(side: str) -> None:
+    curve: Curve = np.exp if side == "right" else lambda x: np.exp(-x)
+    place, height, holds = told(curve, 1.0, 2.0)
+    assert holds
+    assert height == (curve(np.array([3.0 if side == "right" else 1.0])))[0]
+    assert abs(place - (3.0 if side == "right" else 1.0)) < 1e-15
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_peak_between_the_end_and_the_next_point_is_found(side: int) -> None:
+    first = shares(INTERVALS)[1]
+    peak = side * (1 - 0.9 * first)  # in a piece from -1 to 1, nearer to its end than the first point
+    curve: Curve = lambda x: 3 - (x - peak) ** 2  # noqa: E731
+    place, height, holds = told(curve, -1.0, 2.0, INTERVALS if side > 0 else 0)
+    assert holds
+    assert abs(place - peak) < 1e-7
+    assert abs(height - 3) < 1e-15
+
+
+@pytest.mark.parametrize(
+    "curve",
+    [
+        lambda x: -np.abs(x - 0.3),  # a corner
+        lambda x: np.where(x < 0.3, x, x - 1),  # a jump
+        lambda x: np.cos(3 * x) + 0.2 * np.cos(120 * x),  # more waves than points
+        lambda x: np.sqrt(np.abs(x - 0.99)),  # an endless slope
+        lambda x: np.where(np.abs(x - 0.3) < 0.001, 2.0, np.cos(x - 0.3)),  # a spike that the points do not show
+    ],
+    ids=["corner", "jump", "waves", "root", "spike"],
+)
+def test_a_curve_that_does_not_follow_the_polynomial_is_left_to_the_search(curve: Curve) -> None:
+    values = curve(-1 + 2 * shares(INTERVALS))
+    inner = 1 + int(np.argmax(values[1:-1]))
+    assert not told(curve, -1.0, 2.0, inner)[2]
+
+
+def test_nothing_holds_where_the_curve_is_no_number() -> None:
+    assert not told(lambda x: np.full_like(x, np.nan), 0.0, 1.0, 4)[2]
+
+
+def test_a_straight_line_has_no_vertex_inside() -> None:
+    assert not told(lambda x: 2 * x, 0.0, 1.0, 5)[2]
+
+
+COUNT = 2 * MANY
+SPREAD = 0.02  # of each number about that of the example
+PLACES = 9  # in each smooth piece
+KINDS = {"cam_gear_transport", "circular_knife", "cylinder_drive", "drive_train", "elastic_follower", "geneva_transport", "knife_drive",
+         "platen_press"}  # fmt: skip
+
+SLOW = ("flat_cylinder_elements", "platen_press_zppt30")
+EXAMPLES_AT_HAND = few(
+    ON_ARRAYS, keep=lambda path: path.stem != "flat_cylinder_elements"
+)  # its curves are also in another
+
+
+def stem(path: Any) -> str:
+    """The name of a test by that of its file."""
+    return str(path.stem)
+
+
+def varied(base: Config, random: np.random.Generator) -> dict[Input, Any]:
+    """All numbers that the example gives, each as an array about its value there."""
+    found: dict[Input, Any] = {}
+    for asked, value in numbers_given(base):
+        found[asked] = float(asked.meta.validate(value)) * random.uniform(1 - SPREAD, 1 + SPREAD, COUNT)
+    return found
+
+
+def numbers_given(base: Config) -> Iterator[tuple[Input, Any]]:
+    for name, instance in base.instances.items():
+        for path in known_paths(base, name) if instance and name != PRESS else ():
+            try:
+                asked = find_input(base, path)
+            except UnknownPath:  # a list that the example does not give
+                continue
+            value = _given(instance.data, asked.key) if instance else None
+            words = getattr(asked.meta, "words", ())  # that stand for a number
+            is_number = isinstance(value, int | float | str) and "${" not in str(value) and value not in words
+            if is_number and asked.unit and isinstance(asked.meta, Quantity) and not asked.meta.integer:
+                yield asked, value
+
+
+def _given(data: Any, key: Any) -> Any:
+    for part in key:
+        data = data[part] if isinstance(data, list) else (data or {}).get(part)
+    return data
+
+
+def machines(base: Config, texts: dict[str, str], seed: int) -> dict[str, Calculation]:
+    values = varied(base, np.random.default_rng(seed)) | {find_input(base, path): text for path, text in texts.items()}
+    return calculated(base, values, COUNT).calculations
+
+
+def axes(calc: Calculation) -> Iterator[tuple[str, list[str]]]:
+    for axis in calc.domains:
+        yield axis, [name for name in calc.curves if calc.axis[name] == axis]
+
+
+def assert_alike(calc: Calculation, axis: str, curves: list[str], seed: int) -> None:
+    """The compiled curves are the plain ones to 1e-12 of the greatest term, at random places of random pieces."""
+    pieces = calc.table(axis).pieces()
+    possible = [row for row in range(len(pieces.left)) if pieces.variant[row] not in calc.flaws]
+    middle, variant = pieces.middle[possible], pieces.variant[possible]
+    shares = np.random.default_rng(seed).uniform(0.001, 0.999, (len(possible), PLACES))
+    x = pieces.left[possible][:, None] + pieces.width[possible][:, None] * shares
+    with np.errstate(all="ignore"):
+        compiled = Curves(calc, axis, curves, middle, variant)
+        assert compiled.program is not None
+        plain = calc.sampler_of(axis, x, middle[:, None], variant)
+        for name, found in zip(curves, compiled.at(x), strict=True):
+            expected = np.broadcast_to(plain[name], x.shape)
+            scale = np.nanmax(np.abs(expected), initial=0) + _terms(calc, axis, name, plain)
+            np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * scale, err_msg=name)
+
+
+def _terms(calc: Calculation, axis: str, name: str, plain: Any) -> float:
+    """The greatest of what a curve is made of, of any kind of quantity over the abscissa."""
+    step = calc.curves[name]
+    taken = [n for n in step.takes() if isinstance(n, str)] if isinstance(step, Value | Choice) else []
+    sizes = [np.nanmax(np.abs(np.asarray(plain[n], dtype=float)), initial=0) for n in taken if calc.axis.get(n) == axis]
+    return max(map(float, sizes), default=0.0)
+
+
+@pytest.mark.parametrize("path", few(ON_ARRAYS, lambda path: path.stem not in SLOW), ids=stem)
+def test_compiled_curves_are_the_plain_formulas(path: Any) -> None:
+    base = load_config(path, Discovery([]))
+    for seed in range(2):
+        found = machines(base, {}, seed)
+        assert found
+        for calc in found.values():
+            assert len(calc.flaws) < COUNT
+            for axis, curves in axes(calc):
+                assert_alike(calc, axis, curves, seed)
+
+
+@pytest.mark.parametrize("law", few(LAWS, keep=lambda law: law == "modified_trapezoidal"))
+def test_compiled_motion_laws_are_the_plain_formulas(law: str) -> None:
+    base = load_config(next(path for path in ON_ARRAYS if path.stem == "flat_cylinder_mechanisms"), Discovery([]))
+    calc = machines(base, {"mechanisms.feeder.motion_law": law}, 3)["feeder"]
+    assert calc.inputs["motion_law"] == law
+    for axis, curves in axes(calc):
+        assert_alike(calc, axis, curves, 3)
+
+
+def test_all_kinds_that_have_curves_are_compared() -> None:
+    found = {
+        instance.mechanism.kind
+        for path in ON_ARRAYS
+        for instance in load_config(path, Discovery([])).instances.values()
+        if instance and instance.mechanism and instance.mechanism.axes(instance.given)
+    }
+    assert found >= KINDS
+
+
+def test_the_comparison_sees_a_wrong_term(monkeypatch: pytest.MonkeyPatch) -> None:
+    base = load_config(next(path for path in ON_ARRAYS if path.stem == "flat_cylinder_mechanisms"), Discovery([]))
+    calc = machines(base, {}, 0)["drive"]
+
+    class Wrong(Program):
+        def _constant(self, value: float) -> str:
+            return super()._constant(value * (1 + 1e-9))
+
+    monkeypatch.setattr(curve_evaluation, "program", lambda curves, *rest: Wrong(dict(curves), *rest))
+    with pytest.raises(AssertionError):
+        assert_alike(calc, "crank_angle", ["rocker_speed_ratio"], 0)

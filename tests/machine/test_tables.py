@@ -1,16 +1,36 @@
-"""Numbers of tables: as given or by a text, several columns of a row, between rows; for one machine and for many."""
+"""Numbers of tables: as given, by a text, by a number, between rows, on logarithmic axes; for one machine, for many and in a report."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from diecut_report.api import BarGroup, Bars, Chart, Polar, Series, chart_panel, level, line
+from diecut_report.api import (
+    POINTS,
+    BarGroup,
+    Bars,
+    Block,
+    Chapter,
+    Chart,
+    Inputs,
+    Mechanism,
+    Polar,
+    Quantity,
+    Series,
+    Text,
+    chart_panel,
+    level,
+    line,
+    own_table,
+)
+from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.formulas.formula import evaluate
@@ -18,9 +38,15 @@ from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
+from diecut_report.mechanism.names import Misdeclared
+from diecut_report.press import Press
 from diecut_report.quantities.units import unit
+from diecut_report.report.figures.labels import Across, Line, Note, PanelData
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures
+from diecut_report.study.definition.base_inputs import find_input
+from diecut_report.study.execution.variant_rows import calculate_rows
+from tests.configs import HEAD, loaded, saved
 from tests.machine.geared import FACTORS, LIFTS, MECHANISM, Geared
 
 TEETH, Y = (column.values for column in FACTORS.columns)
@@ -239,3 +265,263 @@ def test_a_charts_panel_has_a_range_in_its_unit() -> None:
     assert chart((0, 2)).panels[0].range == [0, 0.002]
     assert "h reaches 1 mm, outside of the range of 'Lift', … to 0.5 mm" in chart((None, 0.5)).error
     assert "top reaches 3 mm" in chart((0, 2), levels=[level(0.003, "top")]).error
+
+
+GEARED = "  a: {kind: geared, bearing: '6204', teeth: 17}\n"
+AS_GIVEN = "  a: {kind: geared, bore_given: 30 mm, teeth: 17}\n"
+
+
+@pytest.fixture
+def plugins(tmp_path: Path) -> Discovery:
+    folder = tmp_path / "plugins"
+    folder.mkdir()
+    (folder / "geared.py").write_text("from tests.machine.geared import MECHANISM\n", "utf-8")
+    return Discovery([folder])
+
+
+def test_the_report_prints_rows_sources_and_the_line_between(tmp_path: Path, plugins: Discovery) -> None:
+    outcome = Press.read(saved(tmp_path, HEAD + GEARED), plugins).calculate().report(tmp_path / "out", ["html"])
+    text = (tmp_path / "out" / "press.html").read_text("utf-8")
+    assert outcome.broken == ()
+    assert text.count("From “Bearings” for 6204<") == 1  # of the bore and of the capacity together
+    assert text.count("Bearings: List one; List two") == 1
+    plain = re.sub("<[^>]*>", "", text).replace("\u00a0", " ")
+    assert "Rows of the table: z1 = 15, Y1 = 0.29; z2 = 20, Y2 = 0.32." in plain
+    assert plain.count("Factors of teeth: Book one; Book two") == 1
+
+
+def test_the_report_says_what_is_as_given(tmp_path: Path, plugins: Discovery) -> None:
+    Press.read(saved(tmp_path, HEAD + AS_GIVEN), plugins).calculate().report(tmp_path / "out", ["html"])
+    text = (tmp_path / "out" / "press.html").read_text("utf-8")
+    assert "Bore: as given" in text and "From “Bearings”" not in text
+
+
+def test_in_a_study_what_is_outside_of_a_table_is_marked_in_words(tmp_path: Path, plugins: Discovery) -> None:
+    base = loaded(tmp_path, HEAD + GEARED, plugins)
+    teeth = [12.0, 13.0, 31.0, 30.0]
+    rows = calculate_rows(base, {find_input(base, "mechanisms.a.teeth"): np.array(teeth)}, 4)
+    assert list(rows.status) == ["pass", "pass", "error", "pass"]
+    assert "mechanisms.a.teeth: is z = 31, outside of the table “Factors of teeth”" in rows.errors[2]
+    wanted = np.interp(teeth, *(column.values for column in FACTORS.columns))
+    assert rows.columns["a.factor"][[0, 1, 3]] == pytest.approx(wanted[[0, 1, 3]])
+    assert rows.slow == {}
+
+
+def test_in_a_study_what_may_be_given_is_given_for_all(tmp_path: Path, plugins: Discovery) -> None:
+    base = loaded(tmp_path, HEAD + AS_GIVEN, plugins)
+    rows = calculate_rows(base, {find_input(base, "mechanisms.a.bore_given"): np.array([0.01, 0.02])}, 2)
+    assert rows.columns["a.bore"] == pytest.approx([0.01, 0.02])
+
+
+def diagram(
+    limits: tuple[float | None, float | None] | None, heights: list[float], *, zero: bool = True
+) -> tuple[float, float]:
+    line = Line(np.arange(len(heights)), np.array(heights), "v")
+    return PanelData(title="v", unit="1", across=Across("t", "t", "s", 0, 1), lines=[line], levels=[Note(0, heights[0], "")],
+                 zero=zero, limits=limits).heights  # fmt: skip
+
+
+def test_a_diagram_has_the_range_that_is_given_and_room_at_a_free_end() -> None:
+    assert diagram((0, 2), [0.99, 1.01]) == (0, 2)
+    low, high = diagram((0, None), [0.99, 1.01], zero=False)
+    assert low == 0 and high == pytest.approx(1.01 * 1.08)
+    low, high = diagram((None, None), [0.99, 1.01])
+    assert (low, high) == pytest.approx((0.99 - 0.0016, 1.01 + 0.0016))  # tight, where zero would be shown without it
+    assert diagram(None, [0.99, 1.01])[0] < 0
+
+
+SPEEDS, FORCES = (10.0, 100.0, 1000.0), (8.0, 2.0, 1.0)  # rpm, kN
+LIFE = own_table(
+    title="Forces that a bearing carries",
+    columns={"speed": "rpm", "force": "kN"},
+    rows=tuple(zip(SPEEDS, FORCES, strict=True)),
+    sources=("List",),
+    only_source="measured",
+)
+KINDS = {"log-x": "x", "log-y": "y", "log-log": "z"}
+
+
+class Bearing(Inputs):
+    speed: Annotated[float, Quantity("n", "rpm", "Speed", gt=0)]
+    swing: Annotated[float, Quantity("Δn", "rpm", "Swing of the speed", ge=0)]
+    n_points: Annotated[int, POINTS] = 36
+
+
+chapter = Chapter("Bearing")
+for kind, symbol in KINDS.items():
+    name = kind.replace("-", "_")
+    chapter.interpolated(name, f"F_{symbol}", "kN", "Force", LIFE, of="speed", interpolation=kind)  # type: ignore[arg-type]
+chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
+chapter.value("here", "n_φ", "rpm", "Speed at a place", lambda turn, speed, swing: speed + swing * np.sin(turn))
+chapter.interpolated("force", "F", "kN", "Force there", LIFE, of="here", key="swing", interpolation="log-log")
+chapter.reduction("mean", "F_m", "kN", "Mean force", "mean", of="force")
+chapter.reduction("greatest", "F_max", "kN", "Greatest force", "max", of="force")
+BEARING = Mechanism(kind="bearing", version="1", title="Bearing", summary="Of a table.", inputs=Bearing, chapters=(chapter,))  # fmt: skip
+
+
+def forms(speed: float) -> dict[str, float]:
+    """What SciPy's and NumPy's own straight lines give on axes of logarithms, kN."""
+    x, y, at = np.log10(SPEEDS), np.log10(FORCES), np.log10(speed)
+    return {"log_x": np.interp(at, x, FORCES), "log_y": 10 ** np.interp(speed, SPEEDS, y), "log_log": 10 ** np.interp(at, x, y)}  # fmt: skip
+
+
+def made(speed: float, swing: float = 0.0) -> Calculation:
+    return calculate(BEARING, flatten(Bearing(speed=f"{speed!r} rpm", swing=f"{swing!r} rpm")))  # type: ignore[arg-type]
+
+
+def test_the_declaration_of_logarithmic_tables_is_sound() -> None:
+    assert faults(BEARING) == []
+    check_mechanism(BEARING)
+
+
+@pytest.mark.parametrize("speed", [10.0, 17.0, 100.0, 316.2278, 999.9, 1000.0])
+def test_a_value_is_on_the_straight_line_of_its_axes(speed: float) -> None:
+    calc = made(speed)
+    for name, wanted in forms(speed).items():
+        assert calc[name][0, 0] / 1000 == pytest.approx(wanted, rel=1e-12), name
+
+
+def test_what_is_printed_gives_the_result() -> None:
+    calc = made(200.0)
+    items = {item.get("id"): item for section in section_items(calc) for item in section["items"]}
+    for name, wanted in forms(200.0).items():
+        assert eval_json(items[name]["substituted"]) == pytest.approx(1000 * wanted, rel=1e-3)
+        assert "n_1 = 100 r/min, F_" in items[name]["table_rows"]
+    assert items["log_x"]["result"] == {"text": "1.699", "unit": "kN"}  # 2 − lg 2
+
+
+def test_a_curve_has_its_corners_at_the_rows() -> None:
+    calc = made(300.0, 250.0)
+    corners = [np.pi + np.arcsin(200 / 250), 2 * np.pi - np.arcsin(200 / 250)]
+    whole, _ = quad(lambda a: forms(300 + 250 * np.sin(a))["log_log"], 0, 2 * np.pi, points=corners, epsabs=1e-12)
+    assert calc["mean"][0, 0] / 1000 == pytest.approx(whole / (2 * np.pi), rel=1e-10)
+    assert calc["greatest"][0, 0] / 1000 == pytest.approx(forms(50)["log_log"], rel=1e-11)
+
+
+@pytest.mark.parametrize("count", [3, 12])
+def test_many_variants_of_a_logarithmic_table_are_each_alone(count: int) -> None:
+    turns = 2 * np.pi / 60
+    speed, swing = np.linspace(120, 600, count), np.linspace(5, 80, count)
+    swing[1] = 1000  # below nothing, where no logarithm is
+    given = flatten(Bearing(speed="300 rpm", swing="0 rpm"))  # type: ignore[arg-type]
+    many = calculate(BEARING, given | {"speed": speed * turns, "swing": swing * turns}, count)
+    assert list(many.flaws) == [1]
+    for row in set(range(count)) - {1}:
+        alone = made(float(speed[row]), float(swing[row]))
+        for name in ("log_x", "log_y", "log_log", "mean", "greatest"):
+            assert many[name][row, 0] == pytest.approx(alone[name][0, 0], rel=1e-11), name
+
+
+WRONG: dict[str, tuple[Any, str, str]] = {
+    "an unknown one": (((1, 1), (2, 2)), "loglog", "interpolation is 'loglog' (did you mean 'log-log'?); allowed: linear, log-x, log-y, log-log"),
+    "a row at zero": (((0, 1), (2, 2)), "log-x", "“Own” has the number 0 in its column x, which has no logarithm"),
+    "a value below zero": (((1, 1), (2, -2)), "log-log", "“Own” has the number -2 in its column y, which has no logarithm"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("rows", "kind", "told"), WRONG.values(), ids=WRONG)
+def test_what_cannot_be_interpolated_is_told_where_it_is_declared(rows: Any, kind: Any, told: str) -> None:
+    table = own_table(title="Own", columns={"x": "1", "y": "1"}, rows=rows, sources=("A",), only_source="own")
+    with pytest.raises(Misdeclared) as fault:
+        Chapter("Own").interpolated("own", "Y", "1", "Own", table, of="x", interpolation=kind)
+    assert told in str(fault.value)
+
+
+def test_a_column_whose_axis_is_not_logarithmic_may_have_any_numbers() -> None:
+    table = own_table(
+        title="Own", columns={"x": "1", "y": "1"}, rows=((1, -1), (2, 0)), sources=("A",), only_source="own"
+    )
+    Chapter("Own").interpolated("own", "Y", "1", "Own", table, of="x", interpolation="log-x")
+
+
+RODS = own_table(
+    title="Cylinders",
+    columns={"bore": "mm", "rod": "mm"},
+    rows=((25, 12), (32, 14), (40, 20)),
+    sources=("One list", "Another list"),
+)
+MOTORS = own_table(
+    title="Motors",
+    columns={"P": "kW", "m": "kg"},
+    rows={"a90": (1.5, 14), "a80": (0.75, 9), "a100": (3, 30)},
+    sources=("One list", "Another list"),
+)
+
+
+class Column(Block):
+    bore: Annotated[float, Quantity("D_i", "mm", "Bore of a column", gt=0)]
+
+
+class Lift(Inputs):
+    needed: Annotated[float, Quantity("D_n", "mm", "Bore that is needed", gt=0)] = 30
+    bore_given: Annotated[float | None, Quantity("D_g", "mm", "Bore of another cylinder", gt=0)] = None
+    power: Annotated[float, Quantity("P_n", "kW", "Power that is needed", gt=0)] = 1
+    columns: Annotated[list[Column], Text("Columns")] = []  # noqa: RUF012
+
+
+sizes = Chapter("Sizes")
+sizes.pick("bore", "D", "mm", "Bore", "above", of="needed", series=RODS.series("bore"))
+sizes.lookup("rod", "d", "mm", "Rod", RODS, by="bore", column="rod")
+sizes.lookup("own_rod", "d_o", "mm", "Rod of another", RODS, by="bore_given", column="rod", needs=("bore_given",))
+sizes.pick("rating", "P", "kW", "Rating", "above", of="power", series=MOTORS.series("P"))
+sizes.lookup("mass", "m", "kg", "Mass of the motor", MOTORS, by="rating", sought_in="P", column="m")
+several = Chapter("Columns", needs=("columns",), absent="no columns")
+several.lookup("rods", "d_i", "mm", "Rods of the columns", RODS, by="columns.bore", column="rod")
+
+LIFT = Mechanism(kind="lift", version="1", title="Lift", summary="A lift.", inputs=Lift, chapters=(sizes, several))
+
+
+def lift(**inputs: Any) -> Calculation:
+    return calculate(LIFT, flatten(Lift(**inputs)))
+
+
+def lift_item(calc: Calculation, title: str) -> dict[str, Any]:
+    items = [each for section in section_items(calc) for each in section["items"]]
+    return next(each for each in items if title in (each.get("description"), each.get("title")))
+
+
+def test_the_declaration_of_a_lookup_by_number_is_sound() -> None:
+    assert faults(LIFT) == []
+    check_mechanism(LIFT)
+
+
+def test_a_picked_number_takes_its_own_row_and_prints_it() -> None:
+    calc = lift(needed="30 mm")
+    assert calc["rod"][0, 0] == pytest.approx(0.014, rel=1e-15)
+    printed = lift_item(calc, "Rod")
+    assert (printed["type"], printed["by"], printed["key"]) == ("lookup", "Bore", "D = 32 mm")
+    assert (printed["table"], printed["column"]) == ("Cylinders", "rod")
+    assert printed["result"] == {"text": "14", "unit": "mm"} and printed["note"] == "Cylinders: One list; Another list"
+
+
+def test_a_number_is_sought_in_the_column_that_is_named() -> None:
+    calc = lift(power="1 kW")
+    assert (calc["rating"][0, 0], calc["mass"][0, 0]) == (1500, 14)
+
+
+def test_each_of_repeated_parts_has_its_row() -> None:
+    calc = lift(columns=[{"bore": "40 mm"}, {"bore": "25 mm"}])
+    assert calc["rods"][0] == pytest.approx([0.020, 0.012])
+    assert lift_item(calc, "Rods of the columns")["rows"] == [["1", "40", "20"], ["2", "25", "12"]]
+
+
+@pytest.mark.parametrize(
+    ("inputs", "key", "told"),
+    [
+        ({"bore_given": "33 mm"}, "bore_given", "is D_g = 33 mm, which no row of the table “Cylinders” has for Rod of another (d_o)"),
+        ({"columns": [{"bore": "25 mm"}, {"bore": "26 mm"}]}, "columns.1.bore", "is D_i = 26 mm, which no row"),
+    ],
+)  # fmt: skip
+def test_a_number_that_no_row_has_is_refused_at_its_input(inputs: dict[str, Any], key: str, told: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        lift(**inputs)
+    assert refused.value.key == key and refused.value.message.startswith(told)
+    assert refused.value.message.endswith("the nearest have 25, 32, 40 mm")
+
+
+def test_many_machines_have_each_its_row_and_those_without_one_are_marked() -> None:
+    given = np.array([0.025, 0.033, 0.040, 0.032])
+    calc = calculate(LIFT, flatten(Lift()) | {"needed": np.array([0.02, 0.03, 0.026, 0.04]), "bore_given": given}, 4)
+    assert calc["rod"][:, 0] == pytest.approx([0.012, 0.014, 0.014, 0.020])
+    assert list(calc.flaws) == [1] and calc.flaws[1][0] == "bore_given"
+    assert calc["own_rod"][[0, 2, 3], 0] == pytest.approx([0.012, 0.020, 0.014])

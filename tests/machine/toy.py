@@ -62,79 +62,21 @@ class Toy(Inputs):
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 90
 
 
-@formula
-def moment(force: Any, arm: Any) -> Any:
-    return force * arm
-
-
-@formula
-def wave(place: Any, moment: Any, on: Any) -> Any:
-    return moment * (np.sin(place) + on)
-
-
-@formula
-def is_on(place: Any, step_angle: Any) -> Any:
-    return place >= step_angle
-
-
-@formula
-def one() -> Any:
-    return 1
-
-
-@formula
-def zero() -> Any:
-    return 0
-
-
-@formula
-def ratio(driver_teeth: Any, driven_teeth: Any) -> Any:
-    return driven_teeth / driver_teeth
-
-
-@formula
-def cube(x: Any, target: Any) -> Any:
-    return x**3 - target
-
-
-@formula
-def cubed(x: Any) -> Any:
-    return x * x * x
-
-
-@formula
-def same(quantity: Any) -> Any:
-    return quantity
-
-
-@formula
-def plus_one(target: Any) -> Any:
-    return 1 + target
-
-
-@formula
-def heavy(force: Any) -> Any:
-    return force > HEAVY
-
-
-@formula
-def sag(force: Any, stiffness: Any) -> Any:
-    return force / stiffness
-
-
-@formula
-def doubled(moment: Any) -> Any:
-    return 2 * moment
-
-
-@formula
-def is_light(moment: Any) -> Any:
-    return moment < LIGHT
-
-
-@formula
-def shorter(arm: Any) -> Any:
-    return arm < LONG
+moment = formula(lambda force, arm: force * arm)
+wave = formula(lambda place, moment, on: moment * (np.sin(place) + on))
+is_on = formula(lambda place, step_angle: place >= step_angle)
+one = formula(lambda: 1)
+zero = formula(lambda: 0)
+ratio = formula(lambda driver_teeth, driven_teeth: driven_teeth / driver_teeth)
+cube = formula(lambda x, target: x**3 - target)
+cubed = formula(lambda x: x * x * x)
+same = formula(lambda quantity: quantity)
+plus_one = formula(lambda target: 1 + target)
+heavy = formula(lambda force: force > HEAVY)
+sag = formula(lambda force, stiffness: force / stiffness)
+doubled = formula(lambda moment: 2 * moment)
+is_light = formula(lambda moment: moment < LIGHT)
+shorter = formula(lambda arm: arm < LONG)
 
 
 FAMILY = (

@@ -12,8 +12,6 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.rolling_bearing import MECHANISM
-from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 Function = Callable[[Array], Array]
@@ -87,8 +85,3 @@ def one(part: dict[str, Any], **changes: Any) -> Calculation:
 def value(calc: Calculation, name: str, part: int = 0) -> float:
     """A number of one of the bearings, SI."""
     return float(calc[name][0, part])
-
-
-def checks(calc: Calculation) -> dict[str, CheckRecord]:
-    """The checks by their id."""
-    return {check.id: check for check in mechanism_results(calc, {}).checks}

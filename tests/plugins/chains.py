@@ -7,8 +7,6 @@ from typing import Any
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.roller_chain import MECHANISM
-from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 DRIVE: dict[str, Any] = {
@@ -32,11 +30,6 @@ RATED: dict[str, Any] = {key: value for key, value in DRIVE.items() if key not i
 def chain(keys: dict[str, Any] = DRIVE, **changes: Any) -> Calculation:
     """A chain with changes."""
     return calculate(MECHANISM, inputs(MECHANISM, keys | changes))
-
-
-def checks(calc: Calculation) -> dict[str, CheckRecord]:
-    """The checks of a chain by their id."""
-    return {check.id: check for check in mechanism_results(calc, {}).checks}
 
 
 def without(keys: dict[str, Any], *names: str) -> dict[str, Any]:

@@ -7,8 +7,6 @@ from typing import Any
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.clutch import MECHANISM
-from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 BASE: dict[str, Any] = {"torque": "300 N*m", "service_factor": 1, "shoe_radius": "120 mm", "wedge_angle": "10 deg"}
@@ -27,8 +25,3 @@ COOLED: dict[str, Any] = HEATED | {
 def clutch(keys: dict[str, Any] = BASE, **changes: Any) -> Calculation:
     """A clutch with changes."""
     return calculate(MECHANISM, inputs(MECHANISM, keys | changes))
-
-
-def checks(calc: Calculation) -> dict[str, CheckRecord]:
-    """The checks of a clutch by their id."""
-    return {check.id: check for check in mechanism_results(calc, {}).checks}

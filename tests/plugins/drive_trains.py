@@ -13,9 +13,8 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM
-from diecut_report.results.checks import check_results, verdicts
 from diecut_report.results.mechanism_record import CheckRecord
-from tests.machines import inputs
+from tests.machines import checks, inputs
 
 RPM = 2 * pi / 60
 EXAMPLE: dict[str, Any] = {
@@ -80,12 +79,12 @@ def sine_load(**changes: Any) -> CurveHandle:
 
 def check(calc: Calculation, name: str) -> CheckRecord:
     """A check's result."""
-    return {c.id: c for c in check_results(calc)}[name]
+    return checks(calc)[name]
 
 
 def checked(calc: Calculation) -> set[str]:
     """The checks that take part."""
-    return {c.id for c in verdicts(calc)}
+    return set(checks(calc))
 
 
 def over_a_turn(values: Sequence[float], points: int) -> tuple[Array, Array]:

@@ -17,8 +17,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.plugins.elastic_follower import MECHANISM
-from diecut_report.results.checks import applies, check_results, judged
-from diecut_report.results.mechanism_record import CheckRecord
+from diecut_report.results.checks import applies, judged
 
 SHAFT: dict[str, Any] = {
     "inertia": "0.8 kg*m**2",
@@ -38,11 +37,6 @@ def follower(**changes: Any) -> Calculation:
 def driven(source: Calculation, curve: str, **changes: Any) -> Calculation:
     """The shaft driven by a curve of another machine, with changes."""
     return follower(**{"rise": None, "rise_time": None, "motion_curve": CurveHandle(source, curve)} | changes)
-
-
-def checks(calc: Calculation) -> dict[str, CheckRecord]:
-    """The checks of a follower by their id."""
-    return {check.id: check for check in check_results(calc)}
 
 
 def verdicts(calc: Calculation) -> dict[str, str]:

@@ -7,8 +7,6 @@ from typing import Any
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.gear_pair import MECHANISM
-from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 STEEL: dict[str, Any] = {"sigma_h_lim_1": 767, "sigma_h_lim_2": 767, "sigma_f_lim_1": 314, "sigma_f_lim_2": 314}
@@ -44,8 +42,3 @@ SIZED: dict[str, Any] = {key: value for key, value in HELICAL.items() if key != 
 def pair(keys: dict[str, Any] = SPUR, **changes: Any) -> Calculation:
     """A gear pair with changes."""
     return calculate(MECHANISM, inputs(MECHANISM, keys | changes))
-
-
-def checks(calc: Calculation) -> dict[str, CheckRecord]:
-    """The checks of a gear pair by their id."""
-    return {check.id: check for check in mechanism_results(calc, {}).checks}

@@ -7,8 +7,6 @@ from typing import Any
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.parallel_key import MECHANISM
-from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 KEY: dict[str, Any] = {
@@ -30,8 +28,3 @@ OWN: dict[str, Any] = KEY | {
 def key(keys: dict[str, Any] = KEY, **changes: Any) -> Calculation:
     """A parallel key with changes."""
     return calculate(MECHANISM, inputs(MECHANISM, keys | changes))
-
-
-def checks(calc: Calculation) -> dict[str, CheckRecord]:
-    """The checks of a parallel key by their id."""
-    return {check.id: check for check in mechanism_results(calc, {}).checks}

@@ -10,8 +10,6 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.circular_knife import MECHANISM
-from diecut_report.results.checks import check_results
-from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs, number
 from tests.validation.rows_circular_knife import KEYS
 
@@ -33,18 +31,6 @@ SHAPES: dict[str, dict[str, Any]] = {
 def knife(**changes: Any) -> Calculation:
     """The knife of the worked example with changes."""
     return calculate(MECHANISM, inputs(MECHANISM, KEYS | changes))
-
-
-def checks(calc: Calculation) -> dict[str, CheckRecord]:
-    """The checks of a knife by their id."""
-    return {check.id: check for check in check_results(calc)}
-
-
-def at(calc: Calculation, curve: str, angles: Any) -> Array:
-    """A curve at any knife angles."""
-    places = np.mod(np.atleast_1d(np.asarray(angles, dtype=float)), 2 * np.pi)[None, :]
-    found: Array = calc.sample(curve, places, calc.domains["knife_angle"].middle_of(places))[0]
-    return found
 
 
 def in_cut(calc: Calculation, points: int = 401, inside: float = 1e-6) -> Array:

@@ -10,9 +10,7 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cam_gear_transport import MECHANISM
-from diecut_report.results.checks import check_results
-from diecut_report.results.mechanism_record import CheckRecord
-from tests.machines import inputs
+from tests.machines import at, inputs
 
 PUBLISHED: dict[str, Any] = {
     "dwell_angle": "160 deg",
@@ -38,20 +36,6 @@ RATE = 6000 / 3600  # cycles a second
 def stepper(**changes: Any) -> Calculation:
     """The published stepper with changes."""
     return calculate(MECHANISM, inputs(MECHANISM, PUBLISHED | changes))
-
-
-def checks(calc: Calculation) -> dict[str, CheckRecord]:
-    """The checks of a stepper by their id."""
-    return {check.id: check for check in check_results(calc)}
-
-
-def at(calc: Calculation, curve: str, phi: Any) -> Array:
-    """A curve at any disc angles, each taken in the smooth piece that it lies in."""
-    places = np.mod(np.atleast_1d(np.asarray(phi, dtype=float)), 2 * np.pi)[None, :]
-    domain = calc.domains["disc_angle"]
-    middle = np.concatenate([domain.middle_of(part) for part in np.array_split(places, 20, axis=1)], axis=1)
-    found: Array = calc.sample(curve, places, middle)[0]
-    return found
 
 
 def smooth_places(calc: Calculation, count: int = 1501, clear: float = 2e-3) -> Array:

@@ -1,6 +1,7 @@
-"""The stepper's cams: rollers tangent to the profiles, undercut, pressure angles, hollow flanks.
+"""The stepper's cams: rollers tangent to their profiles, pressure angles, hollow flanks, and the arms that messages advise.
 
-In CI each cam runs with a law of many joints and one that jumps; at night with all.
+In CI each cam runs with a law of many joints and one that jumps, and a machine of each way in which arms, sweeps or laws fail; at
+night all, whose messages are made by the same code from other numbers.
 """
 
 from __future__ import annotations
@@ -17,9 +18,11 @@ from scipy.optimize import minimize_scalar
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.plugins.cam_gear_transport import arms
+from diecut_report.plugins.cam_gear_transport.steps import rolling
 from tests.examples import examples, few
-from tests.machines import number
-from tests.plugins.steppers import CAMS, at, checks, slope, smooth_places, stepper
+from tests.machines import advised, at, checks, number, statuses
+from tests.plugins.steppers import CAMS, slope, smooth_places, stepper
 
 TURN = np.linspace(0, 2 * np.pi, 721)[:-1]
 
@@ -72,7 +75,7 @@ def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
     calc = stepper(
         arm_length=arm, roller_radius=roller, arm_angle_1=one, arm_angle_2=other, dwell_angle=dwell, n_points=36
     )
-    sharp, turns = (checks(calc)[name].status == "pass" for name in ("curvature", "profile_turns"))
+    sharp, turns = (statuses(calc)[name] == "pass" for name in ("curvature", "profile_turns"))
     if sharp and turns:
         for n in "12":
             assert nearest(calc, n, phi) == pytest.approx(roller / 1000, rel=1e-9)
@@ -85,7 +88,7 @@ def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
 def test_an_undercut_cam_fails_and_the_message_tells_the_greatest_roller() -> None:
     least = number(stepper(**CAMS), "curvature_min")
     for share, status in ((0.999, "pass"), (1.001, "fail")):
-        check = checks(stepper(**CAMS | {"roller_radius": f"{share * least!r} m"}))["curvature"]
+        check = advised(stepper(**CAMS | {"roller_radius": f"{share * least!r} m"}))["curvature"]
         assert check.status == status
     told = re.search(r"roller_radius to at most ([\d.]+) mm", check.message)
     assert told is not None
@@ -117,8 +120,8 @@ def test_the_published_arms_have_pressure_angles_of_about_43_and_45_degrees() ->
         assert np.abs(angles - np.degrees(at(calc, f"cam_{n}_pressure_angle", phi))).max() < 1e-5
         assert angles.max() == pytest.approx(degrees, abs=0.5)
         assert np.degrees(number(calc, f"cam_{n}_pressure_angle_max")) == pytest.approx(angles.max(), abs=1e-3)
-    assert checks(calc)["pressure_angle"].status == "pass"
-    assert checks(stepper(**CAMS, max_pressure_angle="44 deg"))["pressure_angle"].status == "fail"
+    assert statuses(calc)["pressure_angle"] == "pass"
+    assert statuses(stepper(**CAMS, max_pressure_angle="44 deg"))["pressure_angle"] == "fail"
 
 
 def test_the_least_radius_of_curvature_is_that_of_three_neighbouring_points() -> None:
@@ -160,3 +163,151 @@ def test_arms_are_accepted_where_one_stays_left_and_the_other_right_of_the_pin(o
         assert {key for key, _ in refused.reasons} <= {"arm_angle_1", "arm_angle_2"}
     else:
         assert accepted
+
+
+NAMED = r"an? (arm_length|arm_angle_[12]|sector_dwell_sweep|sector_stop_sweep) of (-?[\d.]+)( mm|°)"
+CAM_CHECKS = ("pressure_angle", "curvature", "profile_turns", "return_time")
+
+
+def told(message: str) -> dict[str, float]:
+    """Arms and sweeps that a message names."""
+    return {key: float(value) for key, value, _ in re.findall(NAMED, message)}
+
+
+MACHINES: list[dict[str, Any]] = [
+     {"motion_law": "harmonic"}, {"motion_law": "harmonic", "arm_angle_2": "236 deg"}, {"dwell_angle": "194.3 deg"},
+     {"dwell_angle": "194.3 deg", "arm_length": "5 mm", "roller_radius": "3 mm"}, {"max_pressure_angle": "44 deg"},
+     {"max_pressure_angle": "30 deg"}, {"max_pressure_angle": "30 deg", "module": "2.5 mm"}, {"max_pressure_angle": "41 deg"},
+     {"arm_angle_1": "40 deg", "arm_angle_2": "-150 deg"}, {"arm_angle_1": "250 deg", "arm_angle_2": "40 deg"},
+     {"roller_radius": "100 mm", "arm_length": "140 mm"}, {"arm_length": "240 mm", "dwell_angle": "185 deg"},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("changes", few(MACHINES, keep=lambda changes: MACHINES.index(changes) in (1, 3, 6, 8, 10, 11)))
+def test_the_named_arms_pass_all_checks_of_the_cams(changes: dict[str, Any]) -> None:
+    machine = CAMS | changes
+    failing = [
+        check for check in checks(stepper(**machine)).values() if check.status == "fail" and check.id in CAM_CHECKS
+    ]
+    assert failing
+    for check in failing:
+        advised = told(check.message)
+        assert advised
+        again = checks(stepper(**machine | advised))
+        assert {again[name].status for name in CAM_CHECKS} == {"pass"}, advised
+
+
+@pytest.mark.parametrize(
+    "changes", [{"arm_length": "9000 mm"}, {"max_pressure_angle": "30 deg"}, {"motion_law": "harmonic"}]
+)
+def test_a_search_that_is_spared_would_have_found_nothing(
+    changes: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    machine = stepper(**CAMS | changes | {"n_points": 36})
+    rocker = [number(machine, name) for name in arms.TAKES]
+    found = arms.arms_that_fit.__wrapped__(*rocker)
+    monkeypatch.setattr(arms, "FACTORS", arms.FACTORS[::6])
+    thin = arms.arms_that_fit.__wrapped__(*rocker)
+    monkeypatch.setattr(arms, "_ends_allow", lambda *_: True)
+    assert arms.arms_that_fit.__wrapped__(*rocker) == thin and found
+
+
+def test_arms_that_are_far_too_long_are_judged_without_a_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = stepper(**CAMS | {"arm_length": "9000 mm", "n_points": 36})
+    rocker = [number(machine, name) for name in arms.TAKES]
+    tried: list[float] = []
+    searched = arms.pressure_angles
+    monkeypatch.setattr(arms, "pressure_angles", lambda *of: tried.append(of[2]) or searched(*of))
+    assert arms.arms_that_fit.__wrapped__(*rocker) == "no arms pass with this dwell; take a shorter dwell_angle"
+    assert len(tried) <= 400  # the arm as it is, for each length and each sweep; 7200 with the search
+
+
+def test_where_narrower_sweeps_are_advised_no_arms_pass_as_the_sweeps_are() -> None:
+    machine = CAMS | {"max_pressure_angle": "38 deg", "n_points": 36}
+    message = checks(stepper(**machine))["pressure_angle"].message
+    assert "no arms pass with this dwell and these sweeps" in message
+    for length in (10, 40, 80, 120):
+        for one in range(15, 110, 16):
+            tried = stepper(**machine | {"arm_length": length, "roller_radius": 5, "arm_angle_1": one})
+            assert np.degrees(number(tried, "cam_1_pressure_angle_max")) > 38
+
+
+def test_without_a_return_the_arms_wait_for_it() -> None:
+    assert "leave the return its time first" in checks(stepper(**CAMS, dwell_angle="212 deg"))["pressure_angle"].message
+
+
+def test_arms_across_the_line_are_told_where_they_may_stand() -> None:
+    with pytest.raises(Impossible) as refused:
+        stepper(**CAMS | {"arm_angle_1": "120 deg"})
+    best = re.search(r"take ([\d.]+)° and ([\d.]+)°", refused.value.message)
+    assert best is not None
+    arms = {"arm_angle_1": float(best[1]), "arm_angle_2": float(best[2])}
+    assert statuses(stepper(**CAMS | arms))["pressure_angle"] == "pass"
+
+
+DEGREE = np.pi / 180
+
+
+def rocker(law: str, held: float = 40, stop: float = 15) -> arms.Rocker:
+    """A sector with these sweeps in degrees."""
+    return arms.Rocker(np.radians(200), np.radians(held), np.radians(stop), LAWS[law].B, LAWS[law].A, 0.01, 0.12, 0.06, 0.015,
+                       1.5, 4.0, np.radians(45))  # fmt: skip
+
+
+@pytest.mark.parametrize("law", ["cycloidal", "modified_sine"])
+def test_speeds_and_accelerations_of_the_sector_are_those_of_its_angle(law: str) -> None:
+    machine = rocker(law)
+    cycle, count = arms.motion(machine), len(arms.PLACES)
+    angle, speed, bend = cycle.angle[count:], cycle.turn[count:] - 1, cycle.bend[count:]
+    middle = len(angle) // 2
+    for part in (slice(0, middle), slice(middle, None)):  # stop and start, return
+        dealt = np.concatenate([[0], np.cumsum((bend[part][1:] + bend[part][:-1]) / 2 * np.diff(angle[part]))])
+        assert speed[part] ** 2 / 2 - speed[part][0] ** 2 / 2 == pytest.approx(dealt, abs=2e-3 * max(speed[part] ** 2))
+    highest, lowest = machine.held + machine.stop / 2, -machine.stop / 2  # half a stop beyond each end of what is held
+    assert angle[[0, middle - 1, middle, -1]] == pytest.approx([lowest, highest, highest, lowest], abs=1e-12)
+    steady = cycle.turn[:count] - 1
+    assert cycle.angle[count - 1] == pytest.approx(steady[0] * machine.dwell) and np.ptp(steady) == 0
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"arm_length": "80 mm", "arm_angle_1": "70°"},
+         "take an arm_length of 80 mm, an arm_angle_1 of 70°: the greatest pressure angle is then 30° (shorter arms raise the roller forces)"),
+        ({"sector_dwell_sweep": "20°", "arm_angle_1": "70°"},
+         "take a sector_dwell_sweep of 20°, an arm_angle_1 of 70°: the greatest pressure angle is then 30°"),
+    ],
+)  # fmt: skip
+def test_the_words_have_their_articles_and_warn_of_shorter_arms_alone(values: dict[str, str], words: str) -> None:
+    assert str(arms._told(values, 30 * DEGREE)) == words
+
+
+@pytest.mark.parametrize("place", [20, 80, 110, -80, -130])
+def test_an_arm_that_passes_stays_where_it_is(place: float) -> None:
+    machine = rocker("cycloidal", held=10, stop=3)._replace(accepted=np.radians(88))
+    left, arm = place > 0, place * DEGREE
+    assert arms._best(machine, arms.motion(machine), machine.arm_length, arm, left)[0] == pytest.approx(place)
+
+
+def test_wheels_of_one_tooth_are_some_and_of_none_are_not() -> None:
+    (rule,) = [step for step in rolling.steps if step.id == "some_teeth"]
+    condition = rule.condition.function
+    assert [bool(condition(one, other)) for one, other in ((1, 9), (9, 1), (0, 9), (9, 0))] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+
+
+def test_where_no_whole_degree_passes_a_tenth_does(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stands for a machine whose pressure angle is the accepted one but at 37.3°, and by 0.2° to either side."""
+    machine = rocker("cycloidal")
+    accepted = machine.accepted - arms.CLEAR
+
+    def steep(_: object, __: object, ___: float, places: np.ndarray) -> np.ndarray:
+        return np.asarray(accepted + abs(places - 37.3 * DEGREE) - 0.2 * DEGREE)
+
+    monkeypatch.setattr(arms, "pressure_angles", steep)
+    found = arms._best(machine, arms.motion(machine), machine.arm_length, 100 * DEGREE, True)
+    assert found == (37.3, pytest.approx(accepted - 0.2 * DEGREE, rel=1e-9))

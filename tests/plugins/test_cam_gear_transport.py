@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from pydantic import ValidationError
 from scipy.integrate import quad
 
 from diecut_report.api import formula
@@ -21,8 +20,8 @@ from diecut_report.plugins.cam_gear_transport import MECHANISM, figures
 from diecut_report.results.figure_views import MachineView, laid_out
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
-from tests.machines import made_possible, number
-from tests.plugins.steppers import CAMS, CONVEYOR, LOADED, PUBLISHED, RATE, at, checks, slope, smooth_places, stepper
+from tests.machines import advised, at, checks, made_possible, number, statuses
+from tests.plugins.steppers import CAMS, CONVEYOR, LOADED, PUBLISHED, RATE, slope, smooth_places, stepper
 
 BY_LAW = pytest.mark.parametrize("law", list(LAWS))
 MACHINES = st.fixed_dictionaries(
@@ -53,7 +52,7 @@ def test_the_gear_makes_exactly_one_turn_a_cycle(machine: dict[str, Any]) -> Non
     assert turn == pytest.approx(2 * np.pi, rel=1e-9)
     assert number(calc, "gear_rotation_per_cycle") == pytest.approx(2 * np.pi, rel=1e-12)
     assert at(calc, "gear_angle", 2 * np.pi - 1e-9)[0] == pytest.approx(2 * np.pi, abs=1e-6)
-    assert checks(calc)["gear_turn"].status == "pass"
+    assert statuses(calc)["gear_turn"] == "pass"
 
 
 @given(machine=MACHINES)
@@ -169,16 +168,16 @@ def test_a_module_that_leaves_the_gear_no_tooth_is_refused() -> None:
     module, *others = made_possible(MECHANISM, PUBLISHED | coarse, "module")
     finer = re.fullmatch(r"set module to at most ([\d.]+) mm", module)
     assert finer is not None
-    assert checks(stepper(module=float(finer[1]), **sweeps))["tooth_undercut"].status == "pass"
+    assert statuses(stepper(module=float(finer[1]), **sweeps))["tooth_undercut"] == "pass"
     assert [way.split()[1] for way in others] == ["sector_dwell_sweep", "dwell_angle"]
 
 
 def test_few_teeth_are_a_warning() -> None:
-    few = checks(stepper(module="12 mm"))["tooth_undercut"]
+    few = advised(stepper(module="12 mm"))["tooth_undercut"]
     assert few.status == "warn"
     assert few.message.endswith("Set module to at most 8 mm.")
-    assert checks(stepper(module="8 mm"))["tooth_undercut"].status == "pass"
-    assert checks(stepper(module="5 mm"))["tooth_undercut"].status == "pass"
+    assert statuses(stepper(module="8 mm"))["tooth_undercut"] == "pass"
+    assert statuses(stepper(module="5 mm"))["tooth_undercut"] == "pass"
     assert checks(stepper())["tooth_undercut"].missing == ["module"]
 
 
@@ -192,25 +191,6 @@ def test_a_cycle_moves_the_sheet_by_one_step() -> None:
     way = sum(quad(lambda phi: at(calc, "sheet_velocity", phi)[0], low, high)[0]
               for low, high in pairwise(edges))  # fmt: skip
     assert way / (2 * np.pi * RATE) == pytest.approx(number(calc, "sheet_step"), rel=1e-9)
-
-
-@pytest.mark.parametrize("law", ["cycloidal", "modified_trapezoidal"])
-def test_the_discs_power_is_the_rate_of_the_energy_of_conveyor_and_sector(law: str) -> None:
-    calc = stepper(**LOADED, motion_law=law)
-    phi, omega = smooth_places(calc, clear=4e-3), 2 * np.pi * RATE
-
-    def energy(place: Any) -> Any:
-        sector = omega * (1 + at(calc, "sector_speed", place) / (2 * np.pi))
-        return 20 * at(calc, "sheet_velocity", place) ** 2 / 2 + 0.3 * sector**2 / 2
-
-    step = 4e-4
-    rate = (8 * (energy(phi + step) - energy(phi - step)) - energy(phi + 2 * step) + energy(phi - 2 * step)) / (
-        12 * step
-    )
-    torque = at(calc, "drive_torque", phi)
-    np.testing.assert_allclose(torque, rate, atol=1e-6 * np.abs(torque).max())
-    assert number(calc, "energy_residual") < 1e-9
-    assert checks(calc)["energy_balance"].status == "pass"
 
 
 def test_the_disc_is_in_balance_under_teeth_and_rollers() -> None:
@@ -266,7 +246,7 @@ def test_the_sheets_acceleration_is_judged_where_a_limit_is_given() -> None:
     assert made["sheet_acceleration"].missing == ["sprocket_teeth", "chain_pitch"]
     for allowed, status in ((117, "fail"), (118, "pass")):
         assert (
-            checks(stepper(**CONVEYOR, allowable_sheet_acceleration=f"{allowed} m/s**2"))["sheet_acceleration"].status
+            statuses(stepper(**CONVEYOR, allowable_sheet_acceleration=f"{allowed} m/s**2"))["sheet_acceleration"]
             == status
         )
 
@@ -284,37 +264,10 @@ def test_without_time_for_a_return_the_message_tells_what_leaves_one(machine: di
     assert refused.value.key == "dwell_angle"
 
 
-@pytest.mark.parametrize("module", [{}, {"module": "5 mm"}])
-def test_a_short_return_fails_and_the_advice_lengthens_it(module: dict[str, Any]) -> None:
-    short = checks(stepper(dwell_angle="205 deg", **module))["return_time"]
-    assert short.status == "fail"
-    assert [way[0].key for way in short.advice] == ["dwell_angle", "sector_stop_sweep"]
-    for (change,) in short.advice:
-        longer = {"dwell_angle": "205 deg", **module, change.key: f"{change.value} {change.unit}"}
-        assert checks(stepper(**longer))["return_time"].status == "pass"
-
-
 @pytest.mark.parametrize("rounding", [-1e-12, 0, 1e-12])
 def test_a_return_of_just_the_time_that_it_needs_passes(rounding: float) -> None:
     left = number(stepper(dwell_angle="205 deg"), "time_return")
-    assert checks(stepper(dwell_angle="205 deg", min_return_time=left * (1 + rounding)))["return_time"].status == "pass"
-
-
-@pytest.mark.parametrize(
-    "keys, words",
-    [
-        ({"motion_law": "cycloid"}, r"did you mean 'cycloidal'"),
-        ({"dwell_angle": "360 deg"}, "out of range"),
-        ({"dwell_angle": "0 deg"}, "out of range"),
-        ({"sector_stop_sweep": "-1 deg"}, "out of range"),
-        ({"center_distance": "60 deg"}, "mm"),
-        ({"cycles_per_hour": "50 rpm"}, "1/h"),
-        ({"sprocket_teeth": 17.5}, "whole number"),
-    ],
-)
-def test_bad_values_are_refused_in_words(keys: dict[str, Any], words: str) -> None:
-    with pytest.raises(ValidationError, match=words):
-        stepper(**keys)
+    assert statuses(stepper(dwell_angle="205 deg", min_return_time=left * (1 + rounding)))["return_time"] == "pass"
 
 
 @pytest.mark.parametrize(
@@ -342,49 +295,15 @@ def test_the_arms_may_stand_either_way_round_and_be_counted_backwards() -> None:
         assert number(back, f"cam_2_{name}") == pytest.approx(number(plain, f"cam_2_{name}"))
 
 
-@formula
-def lopsided_position(k: Any) -> Any:
-    return k**2 * (3 - 2 * k) + k**2 * (1 - k) ** 2
-
-
-@formula
-def lopsided_velocity(k: Any) -> Any:
-    return 6 * k * (1 - k) + 2 * k * (1 - k) * (1 - 2 * k)
-
-
-@formula
-def lopsided_acceleration(k: Any) -> Any:
-    return 6 - 12 * k + 2 - 12 * k + 12 * k**2
-
-
-@formula
-def cubic_position(k: Any) -> Any:
-    return k**2 * (3 - 2 * k)
-
-
-@formula
-def cubic_velocity(k: Any) -> Any:
-    return 6 * k * (1 - k)
-
-
-@formula
-def cubic_acceleration(k: Any) -> Any:
-    return 6 - 12 * k
-
-
-@formula
-def cubic_jerk(k: Any) -> Any:
-    return -12 + 0 * k
-
-
-@formula
-def three_halves() -> Any:
-    return 3 / 2
-
-
-@formula
-def six() -> Any:
-    return 6
+lopsided_position = formula(lambda k: k**2 * (3 - 2 * k) + k**2 * (1 - k) ** 2)
+lopsided_velocity = formula(lambda k: 6 * k * (1 - k) + 2 * k * (1 - k) * (1 - 2 * k))
+lopsided_acceleration = formula(lambda k: 6 - 12 * k + 2 - 12 * k + 12 * k**2)
+cubic_position = formula(lambda k: k**2 * (3 - 2 * k))
+cubic_velocity = formula(lambda k: 6 * k * (1 - k))
+cubic_acceleration = formula(lambda k: 6 - 12 * k)
+cubic_jerk = formula(lambda k: -12 + 0 * k)
+three_halves = formula(lambda: 3 / 2)
+six = formula(lambda: 6)
 
 
 @pytest.fixture
@@ -461,22 +380,6 @@ def test_the_drawn_sector_touches_the_gear_and_the_drawn_cams_are_closed() -> No
         np.testing.assert_allclose(np.hypot(*(pitch - profile).T), 0.025, rtol=1e-9)
 
 
-def test_all_that_the_method_promises_is_in_the_results() -> None:
-    results = mechanism_results(stepper(**LOADED, module="5 mm", allowable_sheet_acceleration="200 m/s**2"), {})
-    outputs = """radius_ratio gear_radius sector_radius gear_teeth sector_teeth time_dwell time_stop time_return angle_stop angle_start
-        sector_speed_dwell sector_speed_return_peak gear_speed_peak gear_speed_ratio_peak gear_speed_peak_sector_referred
-        gear_acceleration_peak gear_rotation_per_cycle sheet_step sheet_velocity_max sheet_acceleration_max torque_peak
-        cam_1_pressure_angle_max cam_1_curvature_min cam_2_pressure_angle_max cam_2_curvature_min"""
-    curves = """sector_angle sector_speed sector_acceleration gear_angle gear_speed gear_acceleration sheet_position sheet_velocity
-        sheet_acceleration cam_1_x cam_1_y cam_2_x cam_2_y cam_1_pitch_x cam_1_pitch_y cam_2_pitch_x cam_2_pitch_y"""
-    assert set(outputs.split()) <= set(results.outputs)
-    assert set(curves.split()) <= set(results.curves)
-    assert {"return_time", "pressure_angle", "curvature", "sheet_acceleration"} <= {
-        check.id for check in results.checks
-    }
-    assert [profile.id for profile in results.exports] == ["cam_1", "cam_2"]
-
-
 def test_without_further_keys_nothing_of_sheet_and_cams_is_said() -> None:
     results = mechanism_results(stepper(), {})
     assert not any(name.startswith(("sheet_", "cam_", "torque")) for name in (*results.outputs, *results.curves))
@@ -515,10 +418,3 @@ def test_jumping_laws_print_at_all_dwells() -> None:
 def test_teeth_are_counted_in_whole_numbers() -> None:
     outputs = mechanism_results(stepper(module="2 mm"), {}).outputs
     assert isinstance(outputs["gear_teeth"].value, int)
-
-
-def test_a_limit_that_nothing_is_held_against_is_told() -> None:
-    found = mechanism_results(stepper(allowable_sheet_acceleration="50 m/s**2"), {})
-    unmade = next(check for check in found.checks if check.id == "sheet_acceleration")
-    assert (unmade.status, unmade.missing) == ("not_checked", ["sprocket_teeth", "chain_pitch"])
-    assert "sprocket_teeth and chain_pitch are not given" in unmade.message

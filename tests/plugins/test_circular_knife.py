@@ -1,4 +1,4 @@
-"""The circular knife against a polygon that turns, finite differences, quadratures and swept areas.
+"""The circular knife against a polygon that turns, differences, quadratures and swept areas; knives of any size; what it refuses and checks.
 
 What goes through many places of a fine polygon is done in CI for a cut through angle zero and for a large knife, which have all
 signs and sizes that the others have.
@@ -6,18 +6,30 @@ signs and sizes that the others have.
 
 from __future__ import annotations
 
+import re
+from itertools import pairwise
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from scipy import integrate
 
+from diecut_report.config.plugins import Discovery
+from diecut_report.errors import UserError
 from diecut_report.formulas import Array
-from diecut_report.machine.calculation import Calculation
-from diecut_report.plugins.circular_knife import steps
-from tests.examples import few
-from tests.machines import number
-from tests.plugins.knives import SHAPES, at, crossing, edge_points, in_cut, knife
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
+from diecut_report.plugins.circular_knife import MECHANISM
+from diecut_report.press import Press
+from diecut_report.results.mechanism import mechanism_results
+from tests.configs import EXAMPLES, HEAD
+from tests.examples import examples, few
+from tests.machines import advised, at, checks, inputs, number, statuses
+from tests.plugins.knives import SHAPES, crossing, edge_points, in_cut, knife
+from tests.validation.rows_circular_knife import KEYS
 
 shapes = pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
 HARD = [SHAPES["through zero"], SHAPES["large"]]
@@ -31,7 +43,7 @@ def sizes(calc: Calculation) -> tuple[float, ...]:
 
 def test_a_distance_is_below_another_by_more_than_a_millionth_of_the_radius_or_where_there_is_no_other() -> None:
     others = np.array([1 + 2e-6, 1 + 5e-7, 0.5, 0.01, np.nan])
-    assert steps.is_clear_of(1.0, others, 1.0).tolist() == [True, False, False, False, True]
+    assert f.is_clear_of(1.0, others, 1.0).tolist() == [True, False, False, False, True]
 
 
 # --- geometry and motion ---------------------------------------------------------------------------------------------
@@ -143,67 +155,7 @@ def test_the_force_is_the_stress_times_the_area_behind_the_polygon(shape: dict[s
         behind, before = np.trapezoid(x - x[-1], levels), np.trapezoid(x[0] - x, levels)
         assert at(calc, "force", angle)[0] == pytest.approx(stress * behind, rel=2e-6)
         assert at(calc, "working_force", angle)[0] == pytest.approx(stress * before, rel=2e-6)
-
-
-def energy(calc: Calculation, angle: float, right: float = 0.0, down: float = 0.0) -> float:
-    """Energy put into the board before the cutting point: each mm of it takes σ(h·p − p²/2) where the edge is p deep in it.
-
-    That is a resistance of σ times the thickness left. The polygon is moved by ``right`` and ``down``.
-    """
-    depth, face, stress = sizes(calc)
-    levels = np.linspace(face, depth, 100_001)
-    x = crossing(calc, angle, levels - down) + right
-    return float(stress * np.trapezoid((depth - levels) * x, levels))
-
-
-@hard_shapes
-def test_by_virtual_work_the_forces_are_those_of_the_thickness_left_and_the_torque_is_theirs(
-    shape: dict[str, Any],
-) -> None:
-    """M_u, F_w and F_h are the derivatives of the energy; F_v, which counts the thickness passed, is not."""
-    calc = knife(**shape)
-    step = 1e-3 * number(calc, "thickness")
-    for angle in map(float, in_cut(calc, 5, inside=0.05)):
-        sinking, pushing = (
-            (energy(calc, angle, **{way: step}) - energy(calc, angle, **{way: -step})) / (2 * step)
-            for way in ("down", "right")
-        )
-        turning = (energy(calc, angle + 1e-5) - energy(calc, angle - 1e-5)) / 2e-5
-        assert at(calc, "working_force", angle)[0] == pytest.approx(sinking, rel=1e-4)
-        assert number(calc, "thrust") == pytest.approx(pushing, rel=1e-6)
-        assert at(calc, "useful_torque", angle)[0] == pytest.approx(turning, rel=1e-4, abs=1e-6)
-        bow = number(calc, "shear_resistance") * at(calc, "bow_area", angle)[0]
-        assert at(calc, "force", angle)[0] - sinking == pytest.approx(2 * bow, rel=1e-2)
-
-
-def entering(calc: Calculation) -> Array:
-    """While the edge enters the board: force with the thickness passed, force and torque with the thickness left."""
-    depth, face, stress = sizes(calc)
-    front, found = number(calc, "front_distance"), []
-    levels = np.linspace(face, depth, 20_001)
-    for angle in np.linspace(number(calc, "angle_entry"), number(calc, "angle_start"), 16):
-        x = crossing(calc, angle, levels, 40_001)
-        within = np.maximum(x, front)
-        rate = (crossing(calc, angle + 1e-6, levels, 40_001) - crossing(calc, angle - 1e-6, levels, 40_001)) / 2e-6
-        left = np.sum((depth - (levels[1:] + levels[:-1]) / 2) * -np.diff(within))
-        torque = np.trapezoid(np.where(x > front, (depth - levels) * rate, 0.0), levels)
-        found.append((np.trapezoid(within - front, levels), left, torque))
-    return stress * np.array(found)
-
-
-@hard_shapes
-def test_while_the_edge_enters_the_force_rises_but_not_the_torque_of_cutting(shape: dict[str, Any]) -> None:
-    """As the assumptions say: F_v is greatest at φ_1, F_w and M_u before it; with friction above 0.1 the whole torque at φ_1."""
-    calc = knife(**shape)
-    passed, left, torque = entering(calc).T
-    start = in_cut(calc, 1, inside=0.0)[0] + 1e-9
-    assert (np.diff(passed) > 0).all() and passed[-1] == pytest.approx(at(calc, "force", start)[0], rel=1e-4)
-    assert left[-1] == pytest.approx(at(calc, "working_force", start)[0], rel=1e-3)
-    assert torque[-1] == pytest.approx(at(calc, "useful_torque", start)[0], rel=1e-3)
-    assert torque.max() > 1.001 * torque[-1]
-    assert left.max() < passed[-1]
-    rubbed = at(calc, "friction_torque", start)[0] * passed / passed[-1] * 0.1 / number(calc, "friction")
-    assert (torque + rubbed).max() == pytest.approx((torque + rubbed)[-1], rel=5e-3)
+    assert number(calc, "thrust") == pytest.approx(stress * number(calc, "thickness") ** 2 / 2, rel=1e-12)
 
 
 @shapes
@@ -243,37 +195,12 @@ def test_the_work_is_the_integral_of_the_torque_and_that_of_the_forces_over_the_
     assert number(calc, "useful_work") == pytest.approx(float(by_forces), rel=1e-7)
 
 
-@shapes
-def test_the_work_of_cutting_is_the_stress_over_the_area_that_the_edge_sweeps(shape: dict[str, Any]) -> None:
-    """Each place (x, y) of the board that the edge passes takes σ(H − y): the energy between the edge's first and last position."""
-    calc = knife(**shape)
-    depth, face, stress = sizes(calc)
-    levels = np.linspace(face, depth, 20_001)
-    first, last = (crossing(calc, number(calc, name), levels) for name in ("angle_start", "angle_end"))
-    swept = np.trapezoid((depth - levels) * (last - first), levels)
-    assert number(calc, "useful_work") == pytest.approx(stress * float(swept), rel=1e-6)
-
-
 def test_a_long_cut_takes_half_the_stress_for_each_unit_of_area() -> None:
     """With a thin board the ends of the cut do not matter: work per area σh/2."""
     calc = knife(thickness="0.01 mm")
     assert number(calc, "useful_work") == pytest.approx(number(calc, "guillotine_work"), rel=5e-3)
     assert number(calc, "guillotine_force") == pytest.approx(1e7 * 1e-5 * 0.015, rel=1e-14)
     assert number(calc, "guillotine_work") == pytest.approx(number(calc, "guillotine_force") * 1e-5 / 2, rel=1e-14)
-
-
-@pytest.mark.parametrize("tau", [2.3, 12, 20])
-def test_the_triangle_under_a_straight_edge_is_high_where_the_shear_angle_is_small(tau: float) -> None:
-    """σh²/(2·tan τ) leaves out that the edge rises ever steeper: by the share h/(3R·sin²τ·cos τ) at first, by 60 % at 2.3°."""
-    slope = np.radians(tau)
-    face = np.arccos(np.cos(slope) - 0.5 / 100)
-    area = integrate.quad(lambda t: 100 * (np.sin(t) - np.sin(slope)) * 100 * np.sin(t), slope, face)[0]
-    excess = 0.60 if tau < 3 else 0.5 / (300 * np.sin(slope) ** 2 * np.cos(slope))
-    assert 0.5**2 / (2 * np.tan(slope)) / area - 1 == pytest.approx(excess, rel=0.05)
-    length = steps.front_length(0.1, face, slope)
-    half = (face - slope) / 2
-    bow = 0.1**2 * (half - np.sin(half) * np.cos(half))
-    assert steps.force(1e7, 5e-4, length, bow) == pytest.approx(1e7 * area * 1e-6, rel=1e-10)
 
 
 # --- curves over the turn --------------------------------------------------------------------------------------------
@@ -296,3 +223,194 @@ def test_the_cut_may_lie_on_both_sides_of_the_turns_beginning() -> None:
     through, before = knife(**SHAPES["through zero"]), knife(**SHAPES["before zero"])
     assert number(through, "angle_start") < 0 < number(through, "angle_end")
     assert number(before, "angle_start") < number(before, "angle_end") < 0
+
+
+SHARE = st.floats(0.05, 0.95)
+
+
+def any_knife(radius: float, ecc: float, low: float, board: float, cut: float, thin: float) -> dict[str, Any]:
+    """Inputs (SI) of a knife that can cut: each size as a share of its range."""
+    r = radius * ecc
+    depth = radius + r * (2 * low - 1)
+    reach = np.sqrt((radius + r) ** 2 - depth**2)
+    thickness = 0.01 * thin * r
+    heights = np.array([depth, depth - thickness]) - radius
+    least = np.sqrt(np.maximum(r**2 - heights**2, 0)).max()
+    front = least + board * (reach - least)
+    sized = {"eccentricity": r, "edge_radius": radius, "depth": depth, "front_distance": front, "thickness": thickness,
+             "cut_length": cut * (reach - front)}  # fmt: skip
+    return inputs(MECHANISM, KEYS) | {name: float(value) for name, value in sized.items()}
+
+
+@given(radius=st.floats(0.02, 2), ecc=SHARE, low=SHARE, board=SHARE, cut=SHARE, thin=SHARE)
+def test_any_knife_that_can_cut_is_calculated(
+    radius: float, ecc: float, low: float, board: float, cut: float, thin: float
+) -> None:
+    base = any_knife(radius, ecc, low, board, cut, thin)
+    calc = calculate(MECHANISM, base)
+    angles = in_cut(calc, 101)
+    x = at(calc, "cut_position", angles)
+    assert (np.diff(x) > 0).all()
+    assert x[0] == pytest.approx(base["front_distance"], rel=1e-3) and x[-1] == pytest.approx(
+        number(calc, "cut_end"), rel=1e-3
+    )
+    assert (np.diff(at(calc, "shear_angle", angles)) > 0).all()
+    assert (at(calc, "force", angles) >= at(calc, "working_force", angles)).all()
+    r, center = base["eccentricity"], np.exp(1j * np.array([number(calc, "angle_start"), number(calc, "angle_end")]))
+    points = np.array([base["front_distance"], number(calc, "cut_end")]) + 1j * base["depth"]
+    np.testing.assert_allclose(abs(points - r * center), radius, rtol=1e-12)
+
+
+@examples(25)
+@given(board=SHARE, cut=SHARE, low=SHARE)
+@pytest.mark.nightly
+def test_the_figures_of_any_knife_are_drawn_and_its_three_positions_beside_one_another(
+    board: float, cut: float, low: float
+) -> None:
+    calc = calculate(MECHANISM, any_knife(0.1, 0.2, low, board, cut, 0.5))
+    figures = {figure.id: figure for figure in mechanism_results(calc, {}).figures}
+    assert list(figures) == ["positions", "front", "motion", "load", "placement"]
+    marks = [shape.at for shape in figures["positions"].shapes if shape.shape == "point" and shape.role == "mark"]
+    pivots = [shape.at for shape in figures["positions"].shapes if shape.shape == "point" and shape.role == "pivot"]
+    reached = [mark[0] - pivot[0] for mark, pivot in zip(marks, pivots, strict=True)]
+    assert reached[0] == pytest.approx(number(calc, "front_distance"), rel=1e-9)
+    assert reached[2] == pytest.approx(number(calc, "cut_end"), rel=1e-9)
+    assert {mark[1] for mark in marks} == {-number(calc, "depth")}
+    blades = [
+        np.array(shape.points)[:, 0]
+        for shape in figures["positions"].shapes
+        if shape.shape == "polyline" and shape.role == "body"
+    ]
+    assert len(blades) == 3
+    for left, right in pairwise(blades):
+        assert left.max() < right.min()
+
+
+@pytest.mark.parametrize(
+    "changes, key, words",
+    [
+        ({"edge_radius": "20 mm"}, "edge_radius", "R > r = 20 mm"),
+        ({"depth": "80 mm"}, "depth", "R − r = 80 mm"),
+        ({"depth": "120 mm"}, "depth", "R + r = 120 mm"),
+        ({"thickness": "112 mm"}, "thickness", "h < H = 112 mm"),
+        ({"thickness": "1e-9 mm"}, "thickness", "a millionth of the edge's radius R = 100 mm"),
+        ({"front_distance": "44 mm"}, "front_distance", "cannot reach the board"),
+        ({"cut_length": "18 mm"}, "cut_length", "b + L = 44 mm"),
+        ({"front_distance": "16.2 mm"}, "front_distance", "16.36 mm from the axis"),
+        (
+            {"depth": "95 mm", "front_distance": "19.364 mm", "thickness": "6 mm"},
+            "front_distance",
+            "19.36 mm from the axis",
+        ),
+    ],
+)
+def test_a_knife_that_cannot_cut_is_refused_in_words(changes: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        knife(**changes)
+    assert refused.value.key == key
+    assert words in refused.value.message
+
+
+@pytest.mark.parametrize(
+    "limit, changed",
+    [
+        ("front_distance", lambda v: 0.01636 + v),
+        ("cut_length", lambda v: 0.0170813 - v),
+        ("depth", lambda v: 0.1127786 - v),
+    ],
+)
+def test_within_the_limits_of_the_geometry_a_knife_is_calculated(limit: str, changed: Any) -> None:
+    """b ≥ √(20² − 11.5²) = 16.363 mm; b + L ≤ √(120² − 112²) = 43.081 mm; H ≤ √(120² − 41²) = 112.7786 mm."""
+    value = changed(5e-6)
+    calc = knife(**{limit: f"{value} m"})
+    assert number(calc, "work") > 0
+
+
+def test_a_sound_knife_passes_all_checks() -> None:
+    found = checks(knife())
+    assert list(found) == [
+        "reach",
+        "shear_angle",
+        "expulsion",
+        "monotonic",
+        "entry",
+        "shear_resistance",
+        "force",
+        "torque",
+    ]
+    missing = [found.pop(name).missing for name in ("shear_resistance", "force", "torque")]
+    assert missing == [["rule_force"], ["allowable_force"], ["allowable_torque"]]
+    assert {check.status for check in found.values()} == {"pass"}
+    assert found["reach"].utilisation == pytest.approx(41 / (120**2 - 112**2) ** 0.5, rel=1e-12)
+
+
+def test_the_governing_side_of_the_shear_angle_is_shown() -> None:
+    upper, lower = (
+        checks(knife())["shear_angle"],
+        checks(knife(front_distance="20 mm", cut_length="1 mm"))["shear_angle"],
+    )
+    assert upper.demand == pytest.approx(number(knife(), "shear_angle_max")) and "20°" in upper.message
+    assert "2°" in lower.message and lower.utilisation == pytest.approx(lower.demand / lower.limit)
+    assert lower.limit == number(knife(front_distance="20 mm", cut_length="1 mm"), "shear_angle_min")
+
+
+@pytest.mark.parametrize(
+    "changes, name, words",
+    [
+        ({"front_distance": "18 mm"}, "shear_angle", "below 2°"),
+        ({"front_distance": "29 mm", "cut_length": "14 mm"}, "shear_angle", "beyond 20°"),
+        ({"friction": 0.1}, "expulsion", "clamped"),
+        ({"friction": 0}, "expulsion", "clamped"),
+        ({"friction": 0}, "expulsion", "Set friction to"),
+        ({"thickness": "3 mm", "cut_length": "17 mm"}, "monotonic", "runs back"),
+        ({"depth": "80.3 mm", "front_distance": "4 mm"}, "entry", "from above"),
+    ],
+)
+def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
+    found = advised(knife(**changes))[name]
+    assert found.status == "fail"
+    assert words in found.message
+
+
+@pytest.mark.parametrize(
+    "changed", [{"front_distance": "44"}, {"front_distance": "0"}, {"depth": "95", "front_distance": "10"}]
+)
+def test_a_knife_that_cannot_cut_is_told_of_once(tmp_path: Path, changed: dict[str, str]) -> None:
+    """A place out of reach, or in the blade's way, is one mistake and one message."""
+    file = tmp_path / "press.yaml"
+    file.write_text(
+        HEAD + f"  k: {{kind: circular_knife, {', '.join(f'{k}: {v}' for k, v in (KEYS | changed).items())}}}\n"
+    )
+    with pytest.raises(UserError) as refused:
+        Press.read(file, Discovery([])).calculate()
+    assert len(refused.value.problems) == 1
+
+
+@pytest.mark.parametrize("changed", [{"thickness": "1 mm"}, {"edge_radius": "101 mm"}, {"eccentricity": "21 mm"}])
+def test_what_is_advised_where_no_place_suits_keeps_the_edge_from_running_back(changed: dict[str, Any]) -> None:
+    start = {"thickness": "3 mm", "cut_length": "17 mm"}
+    before, after = (checks(knife(**start | change))["monotonic"].utilisation for change in ({}, changed))
+    assert after < before
+
+
+def test_the_example_is_the_worked_example_and_passes() -> None:
+    config = next(path for path in EXAMPLES if path.name == "circular_knife.yaml")
+    results = Press.read(config, Discovery([])).calculate().results
+    found = results.mechanisms["knife"]
+    assert results.status == "pass"
+    assert found.outputs["force_max"].value == pytest.approx(4.2 * 10.5276, rel=5e-6)  # of 42, not 10 N/mm²
+    for name in ("cut_position", "shear_angle", "cut_speed", "sliding_ratio", "force", "torque"):
+        assert found.curves[name].abscissa == "knife_angle"
+
+
+def test_a_resistance_too_small_for_the_force_of_a_rule_is_told() -> None:
+    """25 N/mm over 0.6 mm are 41.67 N/mm²: the advised resistance passes, a little less does not."""
+    board = {"thickness": "0.6 mm", "rule_force": "25 N/mm"}
+    found = advised(knife(**board))["shear_resistance"]
+    assert found.status == "warn"
+    assert found.utilisation == pytest.approx(25 / (10 * 0.6), rel=1e-12)
+    told = re.search(r"shear_resistance to at least ([\d.]+) N/mm²", found.message)
+    assert told and float(told[1]) == pytest.approx(41.67, rel=1e-3)
+    for factor, status in ((1, "pass"), (0.999, "warn")):
+        again = board | {"shear_resistance": f"{float(told[1]) * factor} N/mm**2"}
+        assert statuses(knife(**again))["shear_resistance"] == status

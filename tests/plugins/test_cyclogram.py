@@ -136,15 +136,6 @@ def test_the_automatic_offset_is_that_of_the_method(
     assert found == pytest.approx(feasible, abs=6e-5) if feasible else np.isnan(found).all()
 
 
-def test_margins_at_both_ends_are_those_of_the_method() -> None:
-    calc = example("feeder", "cutting passing")
-    assert rows(calc, "margin_start") == pytest.approx([-23.8309, 12.6172], abs=6e-5)
-    assert rows(calc, "margin_end") == pytest.approx([-6.8923, 6.8388], abs=6e-5)
-    calc = example("cross", "cutting passing")
-    assert rows(calc, "margin_start") == pytest.approx([49.9093, 11.3273], abs=6e-5)
-    assert rows(calc, "margin_end") == pytest.approx([13.2799, 11.3273], abs=6e-5)
-
-
 SUMS = {
     "feeder": (70.9560, 149.9328, 363.1615, -332.8959, 277.0757, 3803.0, 191.087),
     "cross": (71.3934, 155.6199, 379.1602, -355.4616, 277.8589, 3970.6, 218.014),
@@ -177,26 +168,6 @@ def test_the_greatest_consumer_alone_is_the_cylinder_of_the_method(transport: st
     assert number(calc, "peak_ratio") == pytest.approx(1.43 if transport == "feeder" else 1.49, abs=0.005)
     ratios = [number(calc, name) for name in ("mean_ratio", "rms_ratio", "fluctuation_ratio")]
     assert ratios == pytest.approx([mean / 68.1960, rms / 117.6007, fluctuation / 289.7135], rel=3e-5)
-
-
-def test_torques_add_up_to_those_of_a_fine_grid() -> None:
-    calc, drive, cross = (
-        example("cross", "cutting passing"),
-        *(base().calculations[name] for name in ("drive", "cross")),
-    )
-    main = (np.arange(200_000) + 0.5) / 200_000 * 4 * pi
-    total = np.zeros_like(main)
-    for line, turns, offset, curve, efficiency in (
-        (drive, 0.5, 0.0, "crank_torque", 0.97),
-        (cross, 1.0, float(calc["line_offset"][0, 1]), "torque", 0.95),
-    ):
-        own = ((main - offset) * turns % (2 * pi))[None, :]
-        torque = line.sample(curve, own, line.domains["crank_angle"].middle_of(own))[0]
-        total += turns * np.where(torque > 0, torque / efficiency, torque * efficiency)
-    assert number(calc, "torque_mean") == pytest.approx(total.mean(), rel=1e-5)
-    assert number(calc, "torque_rms") == pytest.approx(np.sqrt((total**2).mean()), rel=1e-5)
-    excess = np.cumsum(total - total.mean()) * 4 * pi / len(main)
-    assert number(calc, "energy_fluctuation") == pytest.approx(np.ptp(excess), rel=1e-4)
 
 
 def test_friction_adds_to_the_mean_and_leaves_the_fluctuation() -> None:
@@ -559,22 +530,6 @@ def test_the_brake_takes_the_energy_of_flywheel_and_lines() -> None:
     angle = energy / (50 + 71.3934)
     assert found["stopping_angle"].value == pytest.approx(angle, rel=1e-5)
     assert found["stopping_time"].value == pytest.approx(2 * angle / (2 * pi * 5918.367 / 3600), rel=1e-5)
-
-
-def test_the_mean_energy_is_that_of_a_fine_grid() -> None:
-    drive, cross = (base().calculations[name] for name in ("drive", "cross"))
-    own = (np.arange(100_000)[None, :] + 0.5) / 100_000 * 2 * pi
-
-    def curve(calc: Calculation, name: str) -> Any:
-        return calc.sample(name, own, calc.domains["crank_angle"].middle_of(own))[0]
-
-    turned, speed = curve(drive, "cylinder_rotation"), curve(drive, "cylinder_speed")
-    unbalance = 2 * number(drive, "cylinder_radius") * number(drive, "static_unbalance") * np.cos(turned)
-    energy = (number(drive, "reduced_inertia") + unbalance) * speed**2 / 2
-    wheel = 3.57 * curve(cross, "wheel_speed") ** 2 / 2
-    assert number(example("cross", "cutting"), "kinetic_energy_mean") == pytest.approx(
-        energy.mean() + wheel.mean(), rel=1e-5
-    )
 
 
 def test_what_is_not_given_is_listed() -> None:

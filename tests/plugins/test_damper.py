@@ -167,15 +167,6 @@ def test_the_modulus_is_that_of_a_half_space_under_the_durometers_punch(hardness
 # --- length ----------------------------------------------------------------------------------------------------------
 
 
-@given(steps=st.integers(1, 2000), stress=st.floats(0.1, 5), modulus=st.floats(1, 30), count=st.integers(1, 8))
-@pytest.mark.nightly
-def test_a_length_that_is_a_multiple_of_the_step_stays(steps: int, stress: float, modulus: float, count: int) -> None:
-    energy = count * 1.5e-3 * stress**2 * steps * 0.005 / (2 * modulus) * 1e6
-    calc = damper(kinetic_energy=energy, allowable_stress=stress, elastic_modulus=modulus, damper_count=count)
-    assert number(calc, "adopted_length") == pytest.approx(steps * 0.005, rel=1e-12)
-    assert "stress" in passing(calc)
-
-
 @given(energy=st.floats(0.01, 1e5))
 def test_the_adopted_length_is_the_next_multiple_of_five_millimetres(energy: float) -> None:
     calc = damper(kinetic_energy=energy)
@@ -366,15 +357,8 @@ def test_half_the_sheets_heat_each_end(tmp_path: Path, press: str, impacts: floa
             "elastic_modulus: 8, mass: 80, inertia: 1, rolling_radius: 100, velocity: 0.5, static_unbalance: 2",
             ("carriage_mass and contact_distance is missing beside mass",),
         ),
-        (SURE + ", loss_tangent: 1.5", ("out of range", "≤ 1")),
-        ("kinetic_energy: 150, velocity: 0.5, shore_hardness: 19.9", ("out of range", "≥ 20", "≤ 80")),
-        (SURE + ", damper_count: 0", ("out of range", "≥ 1")),
-        (SURE + ", damper_count: 1.5", ("not a whole number",)),
-        (SURE + ", max_strain: 1", ("out of range", "< 1")),
-        (SURE + ", loss_fraction: 1.01", ("out of range", "≤ 1")),
         (SURE + ", drive: {}", ("force", "torque")),
         (SURE + ", drive: {torque: 20}", ("rolling_radius is missing beside torque",)),
-        (SURE + ", drive: {force: -1}", ("out of range",)),
     ],
 )
 def test_bad_input_is_told_in_words(tmp_path: Path, keys: str, words: tuple[str, ...]) -> None:

@@ -6,15 +6,12 @@ from math import pi, sin
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from diecut_report.formulas import Array
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from tests.examples import examples
 from tests.machines import inputs, number
 from tests.plugins.drive_trains import (
     EXAMPLE,
@@ -38,18 +35,6 @@ def test_energy_fluctuation_is_that_of_brute_force() -> None:
     assert number(calc, "energy_fluctuation") == pytest.approx(np.ptp(energy), rel=1e-7)
     assert number(calc, "excess_energy_max") == pytest.approx(energy.max(), rel=1e-7)
     assert number(calc, "excess_energy_max_at") == pytest.approx(phi[np.argmax(energy)], abs=1e-4)
-
-
-@examples(40)
-@given(values=st.lists(st.integers(-500, 1500), min_size=4, max_size=24))
-def test_energy_fluctuation_of_any_list_is_that_of_brute_force(values: list[int]) -> None:
-    phi, torque = over_a_turn(values, 40_001)
-    torque = at_flywheel(torque, 5, 0.97)
-    mean = float((torque[1:] + torque[:-1]).mean() / 2)
-    assume(mean > 0)
-    found = number(train(torque_curve=values), "energy_fluctuation")
-    energy = cumulative_trapezoid((torque - mean) * 5, phi, initial=0)
-    assert found == pytest.approx(np.ptp(energy), rel=1e-4, abs=1e-3)
 
 
 def test_a_torque_over_two_turns_is_that_of_both_turns() -> None:
@@ -84,13 +69,6 @@ def test_the_swing_of_the_speed_is_held_against_the_motors_slip(speed: str, sync
     assert number(given_speed, "swing_to_slip") == pytest.approx(2.9, rel=1e-9)
 
 
-def test_a_curve_over_several_turns_swings_over_all_of_them() -> None:
-    """The same values over twice the angle are twice the work."""
-    once, twice = train(torque_curve=UNEVEN), train(torque_curve=UNEVEN, torque_curve_turns=2)
-    assert number(twice, "energy_fluctuation") == pytest.approx(2 * number(once, "energy_fluctuation"), rel=1e-9)
-    assert number(twice, "flywheel_torque_mean") == pytest.approx(number(once, "flywheel_torque_mean"), rel=1e-9)
-
-
 def test_a_steady_torque_needs_no_flywheel() -> None:
     calc = train(torque_curve=[200.0] * 12, torque_peak=200)
     assert number(calc, "energy_fluctuation") == pytest.approx(0, abs=1e-9)
@@ -114,16 +92,6 @@ def test_the_flywheels_speed_swings_as_the_equation_of_motion_says(fluctuation: 
     fast, slow = run.y[1].max(), run.y[1].min()
     mean = (fast + slow) / 2
     assert (fast - slow) / mean * (mean / speed) ** 2 == pytest.approx(fluctuation, rel=1e-6)
-
-
-def test_the_speed_is_the_flywheels_not_the_outputs() -> None:
-    """The wheel on the slow output shaft would have to be i² times as heavy."""
-    calc = train(
-        torque_curve=sine_load(mean=200, swing=200), gears=[{"driver_teeth": 20, "driven_teeth": 100, "efficiency": 1}]
-    )
-    assert number(calc, "energy_fluctuation") == pytest.approx(2 * 200, rel=1e-9)
-    on_output = 2 * 200 / (0.1 * number(calc, "output_speed") ** 2)
-    assert number(calc, "flywheel_inertia") == pytest.approx(on_output / 25, rel=1e-9)
 
 
 @pytest.mark.parametrize(("material", "density", "limit"), [("steel", 7850, 60), ("cast_iron", 7200, 35)])
@@ -174,24 +142,6 @@ def test_the_run_up_takes_as_long_as_the_coupled_equations_of_motion_say() -> No
     run = solve_ivp(motion, (0, 1000), [0.0], events=there, rtol=1e-10)
     assert run.t_events is not None
     assert number(calc, "run_up_time") == pytest.approx(run.t_events[0][0], rel=1e-8)
-
-
-def test_a_run_up_longer_than_the_protection_accepts_fails() -> None:
-    time = number(train(**WORKING), "run_up_time")
-    for allowed, status in ((time * 1.01, "pass"), (time * 0.99, "fail")):
-        assert check(train(**WORKING, allowable_run_up_time=allowed), "run_up_time").status == status
-
-
-@pytest.mark.parametrize("missing", [("motor_inertia",), ("load_inertia",), ("motor_inertia", "load_inertia")])
-def test_inertias_that_nobody_gave_are_no_run_up_that_holds(missing: tuple[str, ...]) -> None:
-    keys = {key: value for key, value in (EXAMPLE | WORKING).items() if key not in missing} | {
-        "allowable_run_up_time": 100
-    }
-    calc = calculate(MECHANISM, inputs(MECHANISM, keys))
-    assert check(calc, "run_up_time").status == "not_checked"
-    assert check(calc, "run_up_time").missing == list(missing)
-    least = number(calc, "run_up_time_least")
-    assert least == pytest.approx(number(train(**WORKING), "run_up_time"))
 
 
 def test_without_a_flywheel_and_inertias_the_run_up_is_not_checked() -> None:

@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
-from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.press import Press
 from tests.configs import HEAD, saved
-from tests.examples import every, few
+from tests.examples import few
 from tests.machines import number
 from tests.plugins.followers import driven, follower
 
@@ -28,7 +27,6 @@ OTHERS = {
     "k": "{kind: knife_drive, working_depth: 40, crank_slider: {crank_radius: 35, rod_length: 140}}",
     "o": "{kind: elastic_follower, inertia: 0.8, stiffness: 5200, rise: 1 rad, rise_time: 0.2 s, damping_ratio: 0}",
 }
-Capture = pytest.CaptureFixture[str]
 
 
 def config(folder: Path, keys: dict[str, Any], changes: dict[str, Any]) -> Path:
@@ -46,25 +44,16 @@ def stiffness(ratio: float) -> str:
 
 
 REFUSED = [
-    (TURNING, {"stiffness": 0}, "f.stiffness: 0 N·m/rad is out of range; allowed: > 0 N·m/rad"),
-    (TURNING, {"stiffness": "-3 N*m/rad"}, "f.stiffness: -3 N*m/rad is out of range"),
     (TURNING, {"stiffness": None}, "f.stiffness: is missing. Give it in N·m/rad"),
-    (TURNING, {"inertia": 0}, "f.inertia: 0 kg·m² is out of range"),
-    (SLIDING, {"mass": 0}, "f.mass: 0 kg is out of range"),
-    (SLIDING, {"stiffness": 0}, "f.stiffness: 0 N/m is out of range"),
     (TURNING, {"inertia": None}, "f: inertia, or mass is needed"),
     (TURNING, {"mass": 3}, "f: inertia and mass are both given, but only one can hold"),
     (TURNING, {"stiffness": "5200 N/m"}, "f.stiffness: 5200 N/m is a line force or stiffness; an angular stiffness is needed"),
     (TURNING, {"rise": "20 mm"}, "f.rise: 20 mm is a length; an angle is needed"),
-    (TURNING, {"rise": 0}, "f.rise: 0 rad is out of range"),
-    (TURNING, {"rise": "-1 rad"}, "f.rise: -1 rad is out of range"),
     (TURNING, {"inertia": "3 kg"}, "f.inertia: 3 kg is a mass; a moment of inertia is needed"),
     (SLIDING, {"stiffness": "5200 N*m/rad"}, "f.stiffness: 5200 N*m/rad is an angular stiffness"),
     (SLIDING, {"rise": "1 rad"}, "f.rise: 1 rad is an angle; a length is needed"),
-    (TURNING, {"rise_time": 0}, "f.rise_time: 0 s is out of range"),
     (TURNING, {"rise_time": 1.5, "cycles_per_hour": 6000}, "f.rise_time: is 1.5, more than the cycle"),
     (TURNING, {"cycles_per_hour": 6000}, "f.rise_time: 0.2 s is a time; a pure number is needed"),
-    (TURNING, {"rise_time": 0.5, "cycles_per_hour": 0}, "f.cycles_per_hour: 0 1/h is out of range"),
     (TURNING, {"rise_time": 0.5, "cycles_per_hour": "100 rpm"}, "f.cycles_per_hour: 100 rpm is an angular speed"),
     (TURNING, {"rise_time": None}, "f: rise_time is missing beside rise"),
     (TURNING, {"rise": None}, "f: rise is missing beside rise_time"),
@@ -93,30 +82,17 @@ REFUSED = [
     (TURNING, {"stiffness": stiffness(50.02)}, "f.stiffness: leaves 50.02 natural periods within the rise; with more than 50"),
     (TURNING, {"stiffness": 1e200}, "natural periods within the rise; with more than 50"),
     (TURNING, {"inertia": 1e200}, "natural periods within the rise; at least 0.1"),
-    (TURNING, {"damping_ratio": 1}, "f.damping_ratio: 1 is out of range; allowed: ≥ 0, < 1"),
-    (TURNING, {"damping_ratio": -0.1}, "f.damping_ratio: -0.1 is out of range"),
     (TURNING, {"motion_law": "cyclodial"}, "f.motion_law: is “cyclodial” (did you mean 'cycloidal'?); allowed: cycloidal, harmonic"),
-    (TURNING, {"motion_law": "null"}, "f.motion_law: has no value"),
-    (TURNING, {"stiffness": ".nan"}, "f.stiffness: '.nan' does not begin with a finite number"),
-    (TURNING, {"inertia": ".inf"}, "f.inertia: '.inf' does not begin with a finite number"),
-    (TURNING, {"rise": "1e400"}, "f.rise: '1e400' is not a finite number, or too large to calculate with"),
-    (TURNING, {"dwell_cycles": 0}, "f.dwell_cycles: 0 is out of range; allowed: > 0, ≤ 50"),
-    (TURNING, {"dwell_cycles": 51}, "f.dwell_cycles: 51 is out of range"),
-    (TURNING, {"allowable_peak_ratio": 0}, "f.allowable_peak_ratio: 0 is out of range"),
-    (TURNING, {"stifness": 3}, "f.stifness: is an unknown key (did you mean 'stiffness'?)"),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("keys, changes, words", every(3, REFUSED), ids=lambda part: str(part)[:60])
+@pytest.mark.parametrize("keys, changes, words", REFUSED, ids=lambda part: str(part)[:60])
 def test_bad_inputs_are_told_in_words(
-    tmp_path: Path, capfd: Capture, keys: dict[str, Any], changes: dict[str, Any], words: str
+    tmp_path: Path, keys: dict[str, Any], changes: dict[str, Any], words: str
 ) -> None:
-    target = tmp_path / "out.json"
-    assert main(["calc", str(config(tmp_path, keys, changes)), "-o", str(target)]) == 2
-    told = capfd.readouterr().err
-    assert words in told
-    assert "Traceback" not in told and "elastic_follower'" not in told
-    assert not target.exists()
+    with pytest.raises(UserError) as refused:
+        Press.read(config(tmp_path, keys, changes), Discovery([])).calculate()
+    assert words in "\n".join(map(str, refused.value.problems))
 
 
 def test_wrong_form_and_wrong_key_are_told_together(tmp_path: Path) -> None:
@@ -165,13 +141,6 @@ def test_numbers_of_any_size_give_the_same_ratios(size: float) -> None:
             assert number(calc, name) == pytest.approx(number(known, name), rel=1e-10)
 
 
-def test_the_greatest_numbers_break_nothing() -> None:
-    """Stiffness times inertia is beyond the greatest number, their ratio is not."""
-    calc = follower(inertia=0.8e180, stiffness=5200e180)
-    assert number(calc, "peak_ratio") == pytest.approx(number(follower(), "peak_ratio"), rel=1e-10)
-    assert number(calc, "damping_constant") == pytest.approx(0.1 * 0.8e180 * np.sqrt(6500), rel=1e-12)
-
-
 # --- motions that no drive can make ----------------------------------------------------------------------------------
 
 
@@ -181,9 +150,7 @@ class Turn(Inputs):
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 90
 
 
-@formula
-def same(angle: Any) -> Any:
-    return angle
+same = formula(lambda angle: angle)
 
 
 @pytest.mark.parametrize("curve", ["response", "acceleration", "deflection"])
@@ -193,19 +160,9 @@ def test_what_swings_on_never_rests(curve: str) -> None:
     assert refused.value.key == "motion_curve"
 
 
-@formula
-def standing(angle: Any) -> Any:
-    return 3 + 0 * angle
-
-
-@formula
-def hasty_start(angle: Any, middle: Any) -> Any:
-    return np.where(middle < 2, angle - angle**2 / 4, 1)
-
-
-@formula
-def hasty_end(angle: Any, middle: Any) -> Any:
-    return np.where(middle < 2, 0, (angle - 2) ** 2)
+standing = formula(lambda angle: 3 + 0 * angle)
+hasty_start = formula(lambda angle, middle: np.where(middle < 2, angle - angle**2 / 4, 1))
+hasty_end = formula(lambda angle, middle: np.where(middle < 2, 0, (angle - 2) ** 2))
 
 
 @formula
@@ -218,14 +175,8 @@ def leaping(angle: Any, middle: Any) -> Any:
     return np.where(middle < 2, 0, np.where(middle < 4, 1 + angle * 0, 1 + (angle - 4) ** 2 * (5 - angle)))
 
 
-@formula
-def at_two() -> Any:
-    return 2
-
-
-@formula
-def at_four() -> Any:
-    return 4
+at_two = formula(lambda: 2)
+at_four = formula(lambda: 4)
 
 
 def shaped(shape: Any) -> Calculation:

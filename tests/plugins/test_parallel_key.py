@@ -16,9 +16,9 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.parallel_key import MECHANISM
 from diecut_report.plugins.parallel_key.steps import KEYS, LENGTHS
 from tests.examples import examples
-from tests.machines import inputs, number
+from tests.machines import advised, checks, inputs, number, statuses
 from tests.plugins.bearings import Over
-from tests.plugins.keys import KEY, OWN, SIZED, TURNING, checks, key
+from tests.plugins.keys import KEY, OWN, SIZED, TURNING, key
 
 STRENGTH = ("pressure_shaft", "pressure_hub", "pressure_key", "pressure_peak", "shear")
 DRAWN = st.fixed_dictionaries(
@@ -41,41 +41,6 @@ DRAWN = st.fixed_dictionaries(
 # --- the sheet's numbers ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("diameter", "pressures"), [(50, (73.321, 115.219, 28.805)), (45, (81.468, 128.021, 32.005))])
-def test_a_key_of_63_mm_carries_494_newton_metres(diameter: float, pressures: tuple[float, float, float]) -> None:
-    calc = key(shaft_diameter=diameter, load_distribution_factor=1)
-    assert [number(calc, name) * 1e3 for name in ("width", "height", "depth_shaft", "bearing_length")] == pytest.approx(
-        [14, 9, 5.5, 49]
-    )
-    assert number(calc, "key_force") == pytest.approx(2 * 494 / (diameter / 1e3))
-    found = [number(calc, name) / 1e6 for name in ("pressure_shaft", "pressure_hub", "shear_stress")]
-    assert found == pytest.approx(pressures, abs=6e-4)
-
-
-@pytest.mark.parametrize(
-    ("diameter", "length", "expected"),
-    [
-        (55, 70, (16, 10, 54, 17968, 55.46, 83.18, 20.80, 0.1499)),
-        (50, 50, (14, 9, 36, 19764, 99.82, 156.86, 39.22, 0.2826)),
-    ],
-)
-def test_the_keys_of_gear_and_crank(diameter: float, length: float, expected: tuple[float, ...]) -> None:
-    calc = key(
-        TURNING | {"key_count": 1, "brittle_hub": False},
-        shaft_diameter=diameter,
-        key_length=length,
-        torque_curve=[494.1107, 100, -327.404, 0],
-        load_distribution_factor=1,
-        load_direction_factor=1,
-    )
-    sizes = [number(calc, name) * 1e3 for name in ("width", "height", "bearing_length")]
-    stresses = [number(calc, name) / 1e6 for name in ("pressure_shaft", "pressure_hub", "shear_stress")]
-    utilisation = number(calc, "pressure_hub") / number(calc, "allowed_hub")
-    found = [*sizes, number(calc, "key_force"), *stresses, utilisation]
-    assert found == pytest.approx(expected, rel=2e-4)
-    assert calc["governing"][0, 0] == "key, equivalent load"  # pressed as the hub is, of weaker steel
-
-
 def test_a_second_key_takes_three_quarters_as_much_and_nine_tenths_at_the_peak() -> None:
     one, two = key(), key(key_count=2)
     for name, share in (
@@ -91,31 +56,15 @@ def test_two_keys_of_43_mm_press_as_the_public_code_says() -> None:
     keys = {"shaft_diameter": 30, "form": "A", "key_length": 43, "key_count": 2, "torque": 535.93, "application_factor": 1.75,
             "yield_shaft": 900, "yield_hub": 900, "yield_key": 900, "load_distribution_factor": 1}  # fmt: skip
     assert number(key(keys), "pressure_hub") == pytest.approx(396.985e6, rel=1e-6)
-    assert checks(key(keys | {"yield_hub": 264.7}))["pressure_hub"].status == "pass"  # 396.985 MPa / 1.5
-    assert checks(key(keys | {"yield_hub": 264.6}))["pressure_hub"].status == "fail"
-    assert checks(key(keys | {"yield_key": 360.9}))["pressure_key"].status == "pass"  # 396.985 MPa / 1.1
-    assert checks(key(keys | {"yield_key": 360.8}))["pressure_key"].status == "fail"
+    assert statuses(key(keys | {"yield_hub": 264.7}))["pressure_hub"] == "pass"  # 396.985 MPa / 1.5
+    assert statuses(key(keys | {"yield_hub": 264.6}))["pressure_hub"] == "fail"
+    assert statuses(key(keys | {"yield_key": 360.9}))["pressure_key"] == "pass"  # 396.985 MPa / 1.1
+    assert statuses(key(keys | {"yield_key": 360.8}))["pressure_key"] == "fail"
 
 
 # --- changes of flank ------------------------------------------------------------------------------------------------
 
 LIFE = {"required_life": "20000 h", "cycle_speed": "50 rpm"}
-PRESS_TORQUE = [494.11, 100, -327.4, -50, 130, 100, -327.4, 0]  # changes its sign four times a turn
-
-
-def test_the_keys_of_the_press_by_method_b() -> None:
-    """By hand, of the press as it was: 4 · 50/min · 60 · 20000 h = 2.4·10⁸ changes; f_w = 2 · (2.4·10⁸)^−0.1 = 0.2903."""
-    turning = {name: value for name, value in TURNING.items() if name not in ("key_count", "brittle_hub")}
-    changes = {"torque_curve": PRESS_TORQUE, "load_distribution_factor": 1, "yield_key": 335} | LIFE
-    crank = key(turning, shaft_diameter=50, key_length=50, **changes)
-    assert number(crank, "changes_of_flank") == pytest.approx(2.4e8)
-    assert number(crank, "direction_factor") == pytest.approx(2 * np.exp(-0.1 * np.log(2.4e8)), rel=1e-12)
-    assert number(crank, "direction_factor") == pytest.approx(0.290, abs=5e-4)
-    assert number(crank, "allowed_key") / 1e6 == pytest.approx(107.0, abs=0.05)
-    assert number(crank, "allowed_hub") / 1e6 == pytest.approx(161.2, abs=0.1)
-    assert checks(crank)["pressure_key"].status == "fail"
-    gear = key(turning, shaft_diameter=55, key_length=70, **changes)
-    assert checks(gear)["pressure_key"].status == "pass"
 
 
 @pytest.mark.parametrize(("changed", "factor"), [(0, 1), (1024, 1), (1025, 0.99990), (1e5, 0.63246), (1e10, 0.2)])
@@ -159,7 +108,7 @@ def test_what_agrees_with_the_curve_is_taken(typed: dict[str, Any]) -> None:
 @pytest.mark.parametrize(("factor", "status"), [(0.3922, "warn"), (0.3916, "pass")])
 def test_a_factor_beyond_that_of_the_curve_is_told(factor: float, status: str) -> None:
     """By hand: 2 · (1.2·10⁷)^−0.1 = 0.3920."""
-    assert checks(turning_with(50, load_direction_factor=factor))["reversing"].status == status
+    assert statuses(turning_with(50, load_direction_factor=factor))["reversing"] == status
 
 
 def test_life_and_a_factor_of_its_own_exclude_each_other() -> None:
@@ -251,8 +200,8 @@ def _holds(keys: dict[str, Any], length: float) -> bool:
 def test_a_curve_counts_with_its_greatest_size_and_no_factor() -> None:
     calc = key(TURNING)
     assert number(calc, "torque_equivalent") == pytest.approx(494.11) and bool(calc["reversing"][0, 0])
-    assert checks(calc)["two_keys"].status == "warn"
-    assert checks(key(TURNING, load_direction_factor=0.9))["reversing"].status == "pass"
+    assert statuses(calc)["two_keys"] == "warn"
+    assert statuses(key(TURNING, load_direction_factor=0.9))["reversing"] == "pass"
     assert "two_keys" not in checks(key(key_count=2))
 
 
@@ -305,7 +254,7 @@ def test_own_dimensions_and_a_chamfer_are_taken() -> None:
 def test_a_key_that_fails_is_told_the_length_that_holds() -> None:
     keys = KEY | {"key_length": 25}
     for name in ("pressure_hub", "pressure_key"):
-        check = checks(key(keys, yield_hub=300))[name]
+        check = advised(key(keys, yield_hub=300))[name]
         assert check.status == "fail" and "Set key_length to" in check.message
     told = number(key(keys, yield_hub=300), "required_key_length") * 1e3
     again = checks(key(keys, yield_hub=300, key_length=told))
@@ -323,14 +272,14 @@ def test_a_key_that_no_standard_length_saves_is_told_so() -> None:
 def test_practice_is_watched() -> None:
     found = checks(key(key_length=95, hub_length=80))
     assert [found[name].status for name in ("length_ratio", "standard_length", "hub_length")] == ["warn"] * 3
-    assert checks(key(SIZED))["standard_length"].status == "pass"
-    assert checks(key())["hub_length"].status == "not_checked"
+    assert statuses(key(SIZED))["standard_length"] == "pass"
+    assert statuses(key())["hub_length"] == "not_checked"
 
 
 @pytest.mark.parametrize("length", LENGTHS.values)
 def test_each_standard_length_is_one(length: float) -> None:
     """36 mm as the series has them are the 36 mm that somebody types: no rounding lies between them."""
-    assert checks(key(key_length=length, form="B"))["standard_length"].status == "pass"
+    assert statuses(key(key_length=length, form="B"))["standard_length"] == "pass"
 
 
 @pytest.mark.parametrize(
@@ -353,14 +302,6 @@ def test_what_no_key_can_be_is_refused_in_words(changes: dict[str, Any], name: s
 
 
 @pytest.mark.parametrize(
-    "changes", [{"form": "C"}, {"key_count": 3}, {"load_peak_factor": 1.6}, {"load_direction_factor": 0.19}]
-)
-def test_keys_out_of_their_range_are_refused(changes: dict[str, Any]) -> None:
-    with pytest.raises(ValidationError):
-        inputs(MECHANISM, KEY | changes)
-
-
-@pytest.mark.parametrize(
     ("keys", "left_out"),
     [(KEY, 0), (TURNING, 1), (TURNING | {"load_direction_factor": 0.8}, 0), (TURNING | {"flank_changes": 1e6}, 0)],
     ids=["steady", "reversing", "given", "counted"],
@@ -368,7 +309,7 @@ def test_keys_out_of_their_range_are_refused(changes: dict[str, Any]) -> None:
 def test_a_reversal_that_nothing_counts_is_told_and_only_that(keys: dict[str, Any], left_out: int) -> None:
     calc = key(keys)
     assert number(calc, "reversal_left_out") == left_out
-    assert checks(calc)["reversing"].status == ("warn" if left_out else "pass")
+    assert statuses(calc)["reversing"] == ("warn" if left_out else "pass")
 
 
 REGULAR = ("pressure_shaft", "pressure_hub", "pressure_key")
@@ -380,7 +321,7 @@ def test_a_reversing_torque_without_a_life_gives_no_verdict_on_the_regular_press
     assert {found[name].status for name in REGULAR} == {"not_checked"}
     assert all(found[name].missing == ["required_life", "cycle_speed"] for name in REGULAR)
     assert found["pressure_peak"].status == found["shear"].status == "pass"  # no factor of reversals is in them
-    assert {checks(key(TURNING | LIFE, key_count=1))[name].status for name in REGULAR} >= {"fail"}
+    assert {statuses(key(TURNING | LIFE, key_count=1))[name] for name in REGULAR} >= {"fail"}
     steady = checks(key(TURNING | {"torque_curve": [494.11, 130, 20, 50]}, key_count=1))
     assert {steady[name].status for name in REGULAR} == {"pass"}
 

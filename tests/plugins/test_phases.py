@@ -18,7 +18,7 @@ from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.plugins.knife_drive import MECHANISM as KNIFE_DRIVE
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import AbsentPhaseRecord, ShownIntervalRecord
-from tests.machines import cylinder, drive, inputs, number
+from tests.machines import at, cylinder, drive, inputs, number
 from tests.plugins import steppers
 from tests.plugins.cases import FULL
 from tests.plugins.followers import follower, integrated, law_stretches
@@ -106,28 +106,15 @@ def test_the_sheet_moves_and_dwells_when_the_method_says(
     assert np.ravel(in_degrees(machine(), name)) == pytest.approx(np.ravel(places), abs=6e-5)
 
 
-@pytest.mark.parametrize(("machine", "length"), [(stepper, 172.0596), (cross, 242.8662)])
-def test_the_sheet_rests_within_a_tenth_of_a_millimetre(machine: Callable[[], Calculation], length: float) -> None:
-    ((start, end),) = in_degrees(machine(), "rest")
-    assert end - start == pytest.approx(length, abs=6e-5)
-
-
 # --- a second way: where a condition on the curves changes, by dense sampling and bisection ------------------------------
-
-
-def curve(calc: Calculation, name: str, places: Array) -> Array:
-    """A curve at any places, each in the smooth piece that it lies in."""
-    domain = calc.domains[calc.axis[name]]
-    x = places[None, :] % float(domain.period[0, 0])
-    return calc.sample(name, x, domain.middle_of(x))[0]
 
 
 def edges_by_bisection(holds: Callable[[Array], Array], period: float, steps: int = 1440) -> list[float]:
     """The places over a period where a condition changes."""
     places = period * (np.arange(steps + 1) + 0.123) / steps
     before = holds(places)
-    at = np.flatnonzero(before[1:] != before[:-1])
-    low, high, first = places[at], places[at + 1], before[at]
+    edge = np.flatnonzero(before[1:] != before[:-1])
+    low, high, first = places[edge], places[edge + 1], before[edge]
     for _ in range(50):
         middle = (low + high) / 2
         is_low = holds(middle) == first
@@ -149,12 +136,12 @@ def corner_height(calc: Calculation, theta: Array) -> Array:
 
 def cylinder_condition(name: str, calc: Calculation, place: Array) -> Array:
     """Whether the cylinder does it, from its curves at crank angles."""
-    theta = curve(calc, "cylinder_rotation", place)
+    theta = at(calc, "cylinder_rotation", place)
     if name in ("forward", "return"):
-        return (curve(calc, "velocity", place) > 0) == (name == "forward")
+        return (at(calc, "velocity", place) > 0) == (name == "forward")
     if name == "cutting":
         middle = number(calc, "stroke") / 2
-        return abs(curve(calc, "displacement", place) - middle) <= number(calc, "cutting_arc_fraction") * middle
+        return abs(at(calc, "displacement", place) - middle) <= number(calc, "cutting_arc_fraction") * middle
     if name == "standstill":
         end = number(calc, "sector_ratio") * number(calc, "swing_angle")
         return np.minimum(theta, end - theta) <= number(calc, "standstill_rotation")
@@ -184,7 +171,7 @@ def test_each_edge_of_the_cylinder_is_where_its_curves_change(name: str, changes
 
 def travel(calc: Calculation, place: Array) -> Array:
     """How far the sheet is from where it stood in the dwell before, or will stand in the next one."""
-    step, position = number(calc, "sheet_step"), curve(calc, "sheet_position", place)
+    step, position = number(calc, "sheet_step"), at(calc, "sheet_position", place)
     position = position + (step / 2 if calc.mechanism is GENEVA else 0.0)
     return np.minimum(position % step, -position % step)
 
@@ -250,7 +237,7 @@ def edges_of(calc: Calculation, name: str) -> list[float]:
 @pytest.mark.parametrize("shape", SHAPES)
 def test_the_circular_knife_cuts_where_it_takes_torque(shape: str) -> None:
     calc = knife(**SHAPES[shape])
-    expected = edges_by_bisection(lambda place: curve(calc, "torque", place) > 0, 2 * pi)
+    expected = edges_by_bisection(lambda place: at(calc, "torque", place) > 0, 2 * pi)
     assert edges_of(calc, "cutting") == pytest.approx(expected, abs=1e-7)
     assert edges_of(calc, "free") == pytest.approx(expected, abs=1e-7)
 
@@ -258,7 +245,7 @@ def test_the_circular_knife_cuts_where_it_takes_torque(shape: str) -> None:
 def test_the_platen_opens_for_the_carriages_where_its_travel_leaves_them_room() -> None:
     calc = platen(carriage_clearance="30 mm")
     needed = number(calc, "carriage_clearance") + number(calc, "drive_deformation")
-    expected = edges_by_bisection(lambda place: curve(calc, "platen_displacement", place) >= needed, 2 * pi)
+    expected = edges_by_bisection(lambda place: at(calc, "platen_displacement", place) >= needed, 2 * pi)
     assert edges_of(calc, "carriage_window") == pytest.approx(expected, abs=1e-7)
 
 
@@ -266,7 +253,7 @@ def test_the_platen_cuts_before_the_dead_centre_and_relaxes_after_it() -> None:
     calc = platen()
     stretch, board = number(calc, "drive_deformation"), number(calc, "material_thickness")
     edges = [
-        edges_by_bisection(lambda place, u=u: curve(calc, "platen_displacement", place) < u, 2 * pi)
+        edges_by_bisection(lambda place, u=u: at(calc, "platen_displacement", place) < u, 2 * pi)
         for u in (stretch, stretch + board)
     ]
     assert np.ravel(intervals(calc, "relaxing")) == pytest.approx([0, edges[0][0]], abs=1e-7)
@@ -282,9 +269,9 @@ def test_the_knife_is_below_the_table_where_its_edge_is(drive_kind: str, side: s
     depth = number(calc, "working_depth")
 
     def height(place: Array) -> Array:
-        found = curve(calc, f"{drive_kind}_displacement", place)
+        found = at(calc, f"{drive_kind}_displacement", place)
         return found - (
-            curve(calc, f"{drive_kind}_displacement", np.array([3 * pi / 2]))[0] if drive_kind == "planetary" else 0.0
+            at(calc, f"{drive_kind}_displacement", np.array([3 * pi / 2]))[0] if drive_kind == "planetary" else 0.0
         )
 
     expected = edges_by_bisection(lambda place: height(place) < depth, 2 * pi)
@@ -298,7 +285,7 @@ def test_the_knife_is_below_the_table_where_its_edge_is(drive_kind: str, side: s
 def test_the_driven_link_rests_once_its_deflection_stays_within_the_tolerance() -> None:
     calc = follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.2 deg", dwell_cycles=20)
     duration, rise = number(calc, "duration"), number(calc, "rise_duration")
-    edges = edges_by_bisection(lambda place: abs(curve(calc, "deflection", place)) > np.radians(0.2), duration, 20_000)
+    edges = edges_by_bisection(lambda place: abs(at(calc, "deflection", place)) > np.radians(0.2), duration, 20_000)
     assert np.ravel(intervals(calc, "settling")) == pytest.approx([rise, edges[-1]])
     assert np.ravel(intervals(calc, "moving")) == pytest.approx([0.0, rise])
     assert np.ravel(intervals(calc, "rest")) == pytest.approx([edges[-1], 2.0])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -23,11 +22,9 @@ from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.plugins.press_consistency.relations import listed
 from diecut_report.press import Press
 from diecut_report.results import checks
-from diecut_report.results.checks import check_results
 from diecut_report.results.warm_press import WarmPress
 from diecut_report.text.phrases import Phrase
 from tests.configs import DISCOVERY, EXAMPLE
-from tests.examples import few
 from tests.machines import drive, inputs, number
 from tests.mechanics.timing.example_press import calculations
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
@@ -275,6 +272,9 @@ BESIDE = {
 }
 """Elements of the mended press, of which neither timing nor consistency takes anything."""
 
+MENDED = WarmPress(is_advised=False)
+"""Calculates anew only the mechanisms that another machine changes."""
+
 
 def mended(text: str = "", **changes: dict[str, Any]) -> dict[str, str]:
     """The statuses of the checks of the mended press, or of a text, without its elements, with other inputs of its mechanisms."""
@@ -284,7 +284,7 @@ def mended(text: str = "", **changes: dict[str, Any]) -> dict[str, str]:
         for name, block in tree.data["mechanisms"].items()
         if name not in BESIDE
     }
-    run = WarmPress(is_advised=False).calculate(load_config(tree, DISCOVERY))
+    run = MENDED.calculate(load_config(tree, DISCOVERY))
     assert not run.errors
     return {f"{name}.{each.id}": each.status for name, made in run.checks.items() for each in made}
 
@@ -442,54 +442,6 @@ def test_without_any_mechanism_nothing_is_claimed() -> None:
     found = consistency({})
     assert verdicts(found) == {}
     assert not found.values
-
-
-HOT = {
-    "motor_thermal": {"motor_rated_torque": "6 N*m"},
-    "motor_peak": {"breakdown_ratio": 1.5},
-    "speed_swing": {"speed_fluctuation": 0.02},
-}
-
-
-@pytest.mark.parametrize("check", few(HOT, keep=lambda check: check == "speed_swing"))
-def test_a_flywheel_as_heavy_as_is_advised_is_enough_and_a_lighter_one_is_not(check: str) -> None:
-    keys = example_keys() | HOT[check]
-    needed = advised(message_of(check, keys), r"flywheel_inertia to at least ([\d.]+) kg")
-    assert verdicts(consistency(keys, flywheel_inertia=f"{needed} kg*m**2"))[check] == "pass"
-    assert verdicts(consistency(keys, flywheel_inertia=f"{0.99 * needed} kg*m**2"))[check] != "pass"
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("check", ["motor_thermal", "motor_peak"])
-def test_a_motor_of_the_slip_or_of_the_power_that_is_advised_is_enough(check: str) -> None:
-    keys = example_keys() | HOT[check]
-    message = message_of(check, keys)
-    speed = advised(message, r"motor_speed to at most ([\d.]+) r/min")
-    assert verdicts(consistency(keys, motor_speed=f"{speed} rpm"))[check] == "pass"
-    torque = advised(message, r"motor_rated_torque to at least ([\d.]+) N")
-    assert verdicts(consistency(keys, motor_rated_torque=f"{torque} N*m"))[check] == "pass"
-    assert verdicts(consistency(keys, motor_rated_torque=f"{0.99 * torque} N*m"))[check] != "pass"
-
-
-@pytest.mark.nightly
-def test_a_motor_below_the_mean_torque_is_helped_by_power_alone() -> None:
-    message = message_of("motor_thermal", example_keys() | {"motor_rated_torque": "3 N*m"})
-    assert "motor_rated_torque" in message
-    assert "flywheel_inertia" not in message
-
-
-def advised(message: str, pattern: str) -> float:
-    """The number that a check's message advises."""
-    found = re.search(pattern, message)
-    assert found, message
-    return float(found[1])
-
-
-def message_of(check: str, keys: dict[str, Any]) -> str:
-    """What a check that does not hold says."""
-    found = next(each for each in check_results(consistency(keys)) if each.id == check)
-    assert found.status != "pass"
-    return str(found.message)
 
 
 def test_lines_are_no_words_of_their_own_which_would_be_translated() -> None:

@@ -15,7 +15,10 @@ from scipy.integrate import quad
 from diecut_report.machine import mechanism
 from diecut_report.machine.steps.run import recalculated
 from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, bore_of, outside_of
+from diecut_report.plugins.rolling_bearing.duty import Duty
+from diecut_report.plugins.rolling_bearing.loads import speed_over
 from tests.examples import examples
+from tests.machines import checks, statuses
 from tests.plugins.bearings import (
     ANGULAR,
     BALL,
@@ -27,7 +30,6 @@ from tests.plugins.bearings import (
     WAVING,
     Over,
     bearings,
-    checks,
     one,
     value,
 )
@@ -39,17 +41,6 @@ Y = (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00)
 
 
 # --- the method's numbers ----------------------------------------------------------------------------------------------
-
-
-def test_shigleys_bearing_under_both_forces() -> None:
-    calc = one(BALL, static_rating=62, f0=12.3, radial_force=8000, axial_force=4000)
-    assert value(calc, "axial_factor") == pytest.approx(1.66095, rel=1e-5)
-    assert value(calc, "equivalent_load") == pytest.approx(11123.8, rel=1e-5)
-
-
-def test_the_notebooks_bearing_with_an_outer_ring_that_turns() -> None:
-    calc = one(BALL, static_rating=34, f0=12.3, radial_force=8400, axial_force=3000)
-    assert value(calc, "equivalent_load") == pytest.approx(9306.6, rel=1e-5)
 
 
 @pytest.mark.parametrize(("part", "expected"), [(BALL, (4 / (3 * pi)) ** (1 / 3)), (ROLLER, 0.762979)])
@@ -69,15 +60,6 @@ def test_two_levels_count_by_the_revolutions_that_they_last() -> None:
     calc = one(BALL, radial_force=load, speed=speed)
     assert value(calc, "equivalent_load") / 1000 == pytest.approx(((8 + 3) / 4) ** (1 / 3), rel=1e-12)
     assert value(calc, "mean_speed") == pytest.approx(20)
-
-
-def test_a_swing_counts_most_where_it_is_fast() -> None:
-    calc = one(
-        SWINGING | {"type": "ball"},
-        radial_force=Over(lambda phi: 5000 * np.cos(phi)),
-        relative_angle=Over(lambda phi: np.sin(phi)),
-    )
-    assert value(calc, "equivalent_load") / 5000 == pytest.approx(((3 / 8) / (2 / pi)) ** (1 / 3), rel=1e-6)
 
 
 def test_a_swing_of_thirty_degrees_to_either_side_is_a_third_of_a_turn() -> None:
@@ -315,8 +297,8 @@ def test_without_a_series_balls_are_sought_in_62_and_rollers_in_nu2() -> None:
 def test_the_life_check_advises_a_rating_that_is_enough() -> None:
     short = one(BALL, radial_force=9000)
     needed = value(short, "rating_needed")
-    assert checks(short)["ball_life"].status == "fail"
-    assert checks(one(BALL, radial_force=9000, dynamic_rating=needed * 1.0001 / 1e3))["ball_life"].status == "pass"
+    assert statuses(short)["ball_life"] == "fail"
+    assert statuses(one(BALL, radial_force=9000, dynamic_rating=needed * 1.0001 / 1e3))["ball_life"] == "pass"
     assert log10(needed) < 6
 
 
@@ -437,3 +419,76 @@ def test_the_mean_diameter_of_machines_of_a_study_is_that_of_the_bearing_which_e
     taken = made["dynamic_rating"][:, 0].tolist()
     assert len(set(taken)) == 3
     assert made["mean_diameter"][:, 0].tolist() == pytest.approx([means[rating] for rating in taken])
+
+
+class AngleOfTwoLines:
+    """A relative angle that is two straight lines, each of which goes on beyond its piece."""
+
+    breakpoints = joints = np.array([[0.5]])
+
+    def values(self, share: Any, middle: Any, rows: Any) -> Any:
+        """Up with 2 in the first half, down with 1 in the second."""
+        return np.where(middle < 0.5, 2 * share, 1.5 - share)
+
+
+def duty(**changes: Any) -> Duty:
+    """A bearing of a single machine under a constant force."""
+    one = np.ones((1, 1))
+    return Duty(
+        **(
+            {"radial": one, "axial": 0 * one, "speed": None, "angle": AngleOfTwoLines(), "factor": one, "variants": 1}
+            | changes
+        )
+    )
+
+
+def test_the_angle_at_the_end_of_the_cycle_is_that_of_its_last_piece() -> None:
+    found = [duty()._angle_at(np.full((1, 1), share))[0, 0] for share in (0.0, 1.0)]
+    assert found == pytest.approx([0.0, 0.5], abs=1e-12)  # by the first piece's line the end would be 2
+
+
+def test_all_peaks_of_a_curve_are_looked_at_together() -> None:
+    """Each look at a curve costs about the same, be it at one place or at many."""
+    looks: list[tuple[int, ...]] = []
+
+    class Waves:
+        breakpoints = joints = np.empty((1, 0))
+
+        def values(self, share: Any, middle: Any, rows: Any) -> Any:
+            looks.append(share.shape)
+            return 2 + np.sin(10 * np.pi * share) + 0.1 * np.sin(2 * np.pi * share - 0.2)
+
+    of_waves = duty(radial=Waves(), speed=np.ones((1, 1)), angle=None)
+    first = of_waves.first
+    looks.clear()
+    radial, _ = of_waves.greatest(lambda radial, _: radial, first)
+    assert len(looks) <= 5
+    fine = np.linspace(0, 1, 200_001)
+    expected = np.max(2 + np.sin(10 * np.pi * fine) + 0.1 * np.sin(2 * np.pi * fine - 0.2))
+    assert radial[0, 0] == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_neighbours_of_a_place_lie_in_its_own_piece() -> None:
+    share = np.array([[[0.0, 0.1, 0.2], [0.2, 0.6, 1.0]]])
+    for index, expected in (
+        (0, (0.0, 0.0, 0.1, 0.1)),
+        (2, (0.2, 0.1, 0.2, 0.1)),
+        (3, (0.2, 0.2, 0.6, 0.6)),
+        (4, (0.6, 0.2, 1.0, 0.6)),
+    ):
+        found = duty()._about(np.array([0]), np.array([index]), share)
+        assert [each[0, 0] for each in found] == pytest.approx(expected)
+
+
+def test_the_speed_of_a_bearing_is_asked_for_at_shares_of_its_cycle() -> None:
+    asked: list[Any] = []
+
+    class NotedSpeeds:
+        """Notes what it is asked for."""
+
+        def speed(self, *given: Any) -> Any:
+            asked.append(given)
+            return 0
+
+    speed_over(3, NotedSpeeds(), np.array([[np.pi]]), np.array([[3 * np.pi / 2]]), None)  # type: ignore[arg-type]
+    assert asked == [(3, 0.5, 0.75, None)]

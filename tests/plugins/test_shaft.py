@@ -11,58 +11,21 @@ from numpy.testing import assert_allclose
 
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.plugins.shaft import MECHANISM
-from diecut_report.results.checks import check_results, verdicts
-from tests.examples import few
-from tests.machines import inputs, number
+from diecut_report.results.checks import check_results
+from tests.machines import inputs, number, statuses
 from tests.plugins.shafts import CRANK, CRANKSHAFT, GEAR, LAYSHAFT, SECTIONS, STANDING, crankshaft, row, shaft
 
 SHOULDER_1, SHOULDER_2, SHOULDER_3 = "shoulder 1", "shoulder 2", "shoulder 3"
 GEAR_KEY, CRANK_KEY = "notch 1 (keyseat end mill)", "notch 2 (keyseat end mill)"
 
 
-def checks(calculation: Calculation) -> dict[str, str]:
-    """The verdicts of a shaft by their ids."""
-    return {check.id: check.status for check in verdicts(calculation)}
-
-
 # --- the worked example of the method ----------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("name", "expected"),
-    [
-        ("reaction_a_max", 4444.857),
-        ("reaction_b_max", 15476.789),
-        ("fatigue_safety", 1.7132),
-        ("yield_safety", 9.2425),
-        ("slope_b", 0.72818e-3),
-        ("deflection_end", 93.967e-6),
-    ],
-)
-def test_the_crankshaft_has_the_numbers_of_the_method(name: str, expected: float) -> None:
-    assert number(crankshaft(), name) == pytest.approx(expected, rel=5e-5)
-
-
-def test_each_place_of_the_crankshaft_has_the_safety_of_the_method() -> None:
-    safety = row(crankshaft(), "place_safety")
-    expected = {SHOULDER_3: 1.7132, SHOULDER_2: 2.0842, SHOULDER_1: 8.7896}
-    assert_allclose([safety[name] for name in expected], list(expected.values()), rtol=5e-5)
-    stresses = [row(crankshaft(), name)[SHOULDER_3] / 1e6 for name in ("sigma_a", "tau_a", "tau_m")]
-    assert_allclose(stresses, [61.0788, 16.7253, 3.4021], rtol=5e-5)
-    assert row(crankshaft(), "sigma_m")[SHOULDER_3] == pytest.approx(0, abs=1)
-    assert crankshaft()["fatigue_place"][0, 0] == SHOULDER_3
 
 
 def test_the_notches_of_the_crankshaft_have_the_factors_of_the_method() -> None:
     found = [row(crankshaft(), name) for name in ("k_t", "k_ts", "k_f", "k_fs")]
     assert_allclose([each[SHOULDER_3] for each in found], [2.0893, 1.6418, 1.9479, 1.5743], rtol=5e-5)
     assert row(crankshaft(), "place_endurance")[CRANK_KEY] == pytest.approx(222.21e6, rel=5e-5)
-
-
-def test_the_critical_speed_is_that_of_the_method_between_its_bounds() -> None:
-    names = ("critical_speed", "critical_speed_rayleigh", "critical_speed_dunkerley")
-    found = [number(crankshaft(), name) * 30 / np.pi for name in names]
-    assert_allclose(found, [40568, 40578, 37154], rtol=2e-5)
 
 
 def test_the_deflection_at_the_gear_is_that_of_the_method() -> None:
@@ -429,14 +392,6 @@ def test_keyseats_and_press_fits_have_the_factors_of_din_743(
     assert found == pytest.approx([share * by_din_743(each, diameter) for each in (bending, torsion)], rel=1e-12)
 
 
-def test_the_factors_of_the_press_are_those_worked_out_by_hand() -> None:
-    """R_m 900 MPa: 3.0 · 0.9^0.38 = 2.8823, at 55 mm times 0.9486/0.9388; 2.7 · 0.9^0.43 = 2.5804, at 60 mm 2.611."""
-    calculation = shaft(CRANKSHAFT, seat_a="tight", seat_b="tight")
-    found = [row(calculation, name)[place] for place in (GEAR_KEY, "bearing B") for name in ("k_f", "k_fs")]
-    assert found == pytest.approx([2.912, 1.723, 2.611, 1.688], abs=6e-4)
-    assert row(calculation, "place_safety")["bearing B"] < row(crankshaft(), "place_safety")["bearing B"] / 1.9
-
-
 def test_a_seat_of_a_bearing_is_a_press_fit_unless_it_is_loose() -> None:
     tight = {name: value for name, value in CRANKSHAFT.items() if not name.startswith("seat")}
     assert row(shaft(tight), "k_f")["bearing A"] == pytest.approx(by_din_743(2.7 * 0.9**0.43, 45))
@@ -468,36 +423,8 @@ def grown(keys: dict[str, Any], factor: float) -> dict[str, Any]:
     return keys | {"sections": sections}
 
 
-GROWING: list[tuple[str, dict[str, Any]]] = [
-    ("fatigue", CRANKSHAFT | {"required_fatigue_safety": 2.6}),
-    ("fatigue", LAYSHAFT | {"required_fatigue_safety": 30}),
-    ("yield", CRANKSHAFT | {"required_yield_safety": 15}),
-    ("yield", LAYSHAFT | {"required_yield_safety": 100}),
-    ("bearing_slope", CRANKSHAFT | {"allowable_bearing_slope": 0.5}),
-    ("deflection", CRANKSHAFT | {"allowable_deflection": 0.05}),
-    ("twist", CRANKSHAFT | {"allowable_twist": 0.1}),
-]
-
-
-@pytest.mark.parametrize(
-    ("check", "keys"),
-    few(GROWING, keep=lambda one: one not in GROWING[1:3]),  # each check, and each of the two shafts
-)
-def test_a_failed_check_advises_larger_sections(check: str, keys: dict[str, Any]) -> None:
-    failed = next(each for each in check_results(shaft(keys)) if each.id == check)
-    assert failed.status in ("fail", "warn")
-    (way,) = failed.advice
-    assert {change.key.split(".")[0] for change in way} == {"sections"}
-
-
-def test_the_growth_counts_on_the_strengths_of_a_thicker_bar() -> None:
-    keys = {key: value for key, value in STANDING.items() if key not in ("tensile_strength", "yield_strength")}
-    keys |= {"material": "42CrMo4+QT", "sections": [{"length": 340, "diameter": 15.9}], "required_yield_safety": 3.4}
-    test_a_failed_check_advises_larger_sections("yield", keys)
-
-
 def test_without_their_keys_checks_are_not_made() -> None:
-    found = checks(crankshaft())
+    found = statuses(crankshaft())
     assert {name for name, status in found.items() if status == "not_checked"} == {
         "critical_speed",
         "deflection",
@@ -509,7 +436,7 @@ def test_only_steps_with_a_fillet_are_held_against_the_charts_of_fillets() -> No
     made = {check.id: check for check in check_results(crankshaft())}["notch_range"]
     assert [part.status for part in made.parts if part.status] == ["pass"] * 3
     plain = shaft(CRANKSHAFT, sections=[{"length": 340, "diameter": 50}])
-    assert "notch_range" not in checks(plain)
+    assert "notch_range" not in statuses(plain)
 
 
 def test_the_stress_along_the_shaft_is_that_of_each_section_and_has_the_greatest_as_its_peak() -> None:
@@ -527,14 +454,16 @@ def test_the_stress_along_the_shaft_is_that_of_each_section_and_has_the_greatest
 
 def test_a_shaft_that_does_not_turn_is_held_against_no_critical_speed() -> None:
     """Neither with a speed nor, as one that is not given, without."""
-    assert checks(shaft(CRANKSHAFT, speed=60))["critical_speed"] == "pass"
-    assert "critical_speed" not in checks(shaft(STANDING)) and "critical_speed" not in checks(shaft(STANDING, speed=60))
-    assert "at_rest" not in checks(shaft(CRANKSHAFT)) and "at_rest" not in checks(shaft(STANDING))
+    assert statuses(shaft(CRANKSHAFT, speed=60))["critical_speed"] == "pass"
+    assert "critical_speed" not in statuses(shaft(STANDING)) and "critical_speed" not in statuses(
+        shaft(STANDING, speed=60)
+    )
+    assert "at_rest" not in statuses(shaft(CRANKSHAFT)) and "at_rest" not in statuses(shaft(STANDING))
 
 
 def test_a_fillet_beyond_the_charts_and_a_wide_bore_warn() -> None:
     sections = [SECTIONS[0] | {"fillet_radius": 0.5}, SECTIONS[1] | {"bore": 40}, *SECTIONS[2:]]
-    found = checks(shaft(CRANKSHAFT, sections=sections))
+    found = statuses(shaft(CRANKSHAFT, sections=sections))
     assert found["notch_range"] == found["hollow_notch"] == "warn"
 
 
@@ -649,4 +578,4 @@ def test_a_steel_beyond_its_sizes_is_refused() -> None:
 
 def test_a_shaft_that_stands_has_no_speed() -> None:
     """A word makes neither the fatigue milder nor the critical speed go away: what has a speed turns."""
-    assert checks(shaft(STANDING, speed=1500))["at_rest"] == "fail"
+    assert statuses(shaft(STANDING, speed=1500))["at_rest"] == "fail"

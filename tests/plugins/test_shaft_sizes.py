@@ -1,18 +1,25 @@
-"""Diameters that are left out: the least preferred ones with which the shaft holds, found again by trying every size."""
+"""Diameters that are left out, found again by trying every size; what the shaft leaves out to be fast changes nothing."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.machine import mechanism
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanics.beams import Supports
 from diecut_report.plugins.shaft import MECHANISM
+from diecut_report.plugins.shaft.body import NO_NOTCH, Body
+from diecut_report.plugins.shaft.cycle import _instants
+from diecut_report.plugins.shaft.elastic import ElasticShaft, remembered
+from diecut_report.plugins.shaft.material_point import Points
 from diecut_report.plugins.shaft.sizing import SERIES
+from diecut_report.plugins.shaft.strength import by_size
 from diecut_report.press import Press
 from diecut_report.results.checks import verdicts
 from diecut_report.study.definition.study_file import load_study
@@ -160,3 +167,81 @@ def test_the_columns_of_a_study_name_the_safety_at_each_place(tmp_path: Path) ->
     assert [name for name in known if "place_safety" in name] == [
         f"crankshaft.place_safety.{index}" for index in range(9)
     ]
+
+
+def test_the_edges_of_each_machines_cycle_ascend_by_themselves() -> None:
+    joints = [np.array([[0.7], [0.1]]), np.array([[0.2], [0.4]])]
+    share, middle, edges = _instants(joints, np.array([4, 4]))
+    assert edges == pytest.approx(np.array([[0, 0.2, 0.7, 1], [0, 0.1, 0.4, 1]]))
+    assert share.shape == middle.shape
+
+
+def test_the_strength_is_that_of_the_least_size_that_holds_the_shaft() -> None:
+    sizes = np.array([[0.016, 0.04, 0.1], [0.02, 0.05, 0.08]])
+    values = np.array([[900.0, 800.0, 700.0], [1000.0, 850.0, 600.0]])
+    found = [
+        by_size(sizes, values, np.array([[first], [second]])).ravel().tolist()
+        for first, second in ((0.016, 0.021), (0.05, 0.2))
+    ]
+    assert found == [[900.0, 850.0], [700.0, 600.0]]
+
+
+def test_reactions_asked_for_in_several_rows_of_one_machine_are_those_of_each_row() -> None:
+    under = shaft(CRANKSHAFT).inputs["under_load"]
+    angle = np.array([[0.1, 2.0], [1.1, 3.0], [4.0, 6.0]])
+    together = under.reactions(angle, angle, None)
+    for row in range(3):
+        alone = under.reactions(angle[row : row + 1], angle[row : row + 1], None)
+        assert together[:, :, row] == pytest.approx(alone[:, :, 0])
+
+
+PLACES, INSTANTS = 5, 300
+
+
+def points(seed: int, *, has_axial: bool) -> Points:
+    """Places under random moments, the last without any."""
+    random = np.random.default_rng(seed)
+    moments = random.normal(size=(PLACES, 2, INSTANTS)) * 1e8
+    moments[-1] = 0
+    axial = random.normal(size=(PLACES, INSTANTS)) * 1e7 if has_axial else None
+    shear = (np.full(PLACES, 1e7), np.full(PLACES, 2e7))
+    own = {"k_f": 1.5, "k_fs": 1.3, "endurance": 3e8, "tensile_strength": 9e8}
+    return Points(moments, axial, np.zeros((2, PLACES)), shear, {k: np.full(PLACES, v) for k, v in own.items()})
+
+
+@pytest.mark.parametrize("has_axial", [False, True])
+@pytest.mark.parametrize("seed", range(5))
+def test_instants_left_out_are_extreme_nowhere_within_the_turn(seed: int, has_axial: bool) -> None:
+    whole = points(seed, has_axial=has_axial)
+    psi = np.random.default_rng(seed + 100).uniform(0, 2 * np.pi, (PLACES, 1))
+    near = whole.near(psi, turn := 0.06)
+    assert near.moments.shape[2] < INSTANTS / 3
+    around = psi + np.linspace(-turn, turn, 41)
+    for few, all_of_them in zip(near.judged(around), whole.judged(around), strict=True):
+        np.testing.assert_allclose(few, all_of_them, rtol=1e-12, atol=1e-3)
+
+
+def turning_shaft(diameters: list[float]) -> ElasticShaft:
+    """A plain shaft of 0.5 m with a mass in the middle, a variant for each diameter."""
+    ones = np.ones(len(diameters))
+    none = np.zeros((1, len(diameters)))
+    ends, x = np.outer([0, 0.5], ones), np.outer([0.25], ones)
+    places = np.concatenate([x, np.outer([0.05, 0.45], ones)])
+    body = Body(ends, np.array([diameters]), none, ("load",), (NO_NOTCH,), places, none, none, none, none, none)
+    return ElasticShaft(body, Supports(0.05 * ones, 0.45 * ones), x, 20 * ones[None], 210e9 * ones, 7850 * ones)
+
+
+def test_variants_of_one_body_among_others_have_the_numbers_of_each_alone() -> None:
+    diameters = [0.04, 0.05, 0.04, 0.03, 0.05]
+    together = turning_shaft(diameters)
+    alone = [turning_shaft([each]) for each in diameters]
+    assert together.critical.speed == pytest.approx([each.critical.speed[0] for each in alone], rel=1e-12)
+    for index, each in enumerate(alone):
+        np.testing.assert_allclose(together.at_joints.slope[:, index], each.at_joints.slope[:, 0], rtol=1e-12)
+
+
+def test_a_body_that_is_the_same_is_known_already() -> None:
+    known = remembered(turning_shaft([0.04]))
+    assert remembered(turning_shaft([0.04])) is known
+    assert remembered(turning_shaft([0.05])) is not known
+    assert remembered(together := turning_shaft([0.04, 0.05])) is together

@@ -1,20 +1,21 @@
-"""The toothed belt as a chapter of a machine of its own: numbers of the method, statics of motion, layouts that cannot be."""
+"""The toothed belt: numbers of the method, layouts that cannot be, and the pulleys in its list against the drive."""
 
 from __future__ import annotations
 
-from math import degrees, pi
+import re
+from math import pi
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.api import Annotated, Inputs, Mechanism, Source, Text
-from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
-from diecut_report.plugins.drive_train.figures import TOOTHED_BELT_FIGURES
+from diecut_report.plugins.drive_train.figures import TOOTHED_BELT_FIGURES, layout
 from diecut_report.plugins.drive_train.toothed_belt import (
     TOOTHED_BELT,
     TOOTHED_BELT_ASSUMPTIONS,
@@ -23,8 +24,10 @@ from diecut_report.plugins.drive_train.toothed_belt import (
     ToothedBelt,
 )
 from diecut_report.results.mechanism import mechanism_results
+from tests.configs import EXAMPLES
 from tests.examples import examples
 from tests.machines import inputs, number
+from tests.plugins.drive_trains import check, checked, train
 
 
 class BeltDrive(Inputs):
@@ -71,17 +74,7 @@ def refused(pulleys: Pulleys | None = None, **changes: Any) -> Impossible:
     return caught.value
 
 
-def test_the_declaration_keeps_the_plugin_contract() -> None:
-    check_mechanism(MECHANISM)
-
-
 # --- speed -----------------------------------------------------------------------------------------------------------
-
-
-def test_the_driving_pulley_of_the_method() -> None:
-    calc = belt()
-    assert number(calc, "belt_speed") == pytest.approx(11 / 7, rel=1e-12)
-    assert number(calc, "driving_pulley_radius") == pytest.approx(0.1000402, abs=5e-8)
 
 
 @given(
@@ -127,20 +120,10 @@ def test_a_pitch_beyond_the_pulley_is_refused() -> None:
 # --- path ------------------------------------------------------------------------------------------------------------
 
 
-def test_the_layout_of_the_method() -> None:
+def test_the_take_up_is_what_whole_teeth_leave() -> None:
     calc = belt(IDLER)
-    assert number(calc, "toothed_belt_length") == pytest.approx(1.850262, abs=5e-7)
-    assert [degrees(a) for a in calc["wraps"][0]] == pytest.approx([196.0044, 196.0044, 32.0087], abs=5e-5)
     assert number(calc, "toothed_belt_teeth") == 231
     assert number(calc, "toothed_belt_take_up") == pytest.approx(231 * 0.008 - 1.850262, abs=5e-7)
-
-
-def test_two_pulleys_are_an_open_belt() -> None:
-    calc = belt([(0, 0, 100, "inside"), (500, 0, 200, "inside")])
-    assert number(calc, "toothed_belt_length") == pytest.approx(1.962545, abs=5e-7)
-    assert [degrees(a) for a in calc["wraps"][0]] == pytest.approx([156.926, 203.074], abs=5e-4)
-    runs = np.sqrt(0.5**2 - 0.1**2)
-    assert calc["straight_runs"][0] == pytest.approx([runs, runs], rel=1e-12)
 
 
 def test_teeth_in_mesh_count_on_inside_pulleys_only() -> None:
@@ -163,14 +146,6 @@ def test_without_pulleys_there_is_a_driving_pulley_and_no_length() -> None:
     assert results.checks == []
     assert [figure.id for figure in results.figures] == ["toothed_belt_rolling"]
     assert {told.title for told in results.absent} == {section.title for section in TOOTHED_BELT[1:]}
-
-
-def test_the_outputs_of_the_method_are_there() -> None:
-    outputs = mechanism_results(belt(IDLER), {}).outputs
-    names = {"belt_speed", "driving_pulley_radius", "driving_pulley_teeth", "toothed_belt_length", "toothed_belt_teeth"}
-    assert set(outputs) >= names | {
-        f"{row}.{i}" for row in ("wraps", "straight_runs", "teeth_in_mesh") for i in range(3)
-    }
 
 
 def test_the_drawn_belt_is_a_closed_line_of_the_belt_s_length() -> None:
@@ -256,3 +231,166 @@ def test_an_impossible_layout_names_its_pulleys(case: str) -> None:
     for part in words:
         assert part in told.message
     assert len(told.reasons) == 1
+
+
+EXAMPLE = next(path for path in EXAMPLES if path.name == "flat_cylinder_belt_press.yaml")
+LISTED_CHECKS = ("belt_engagement", "driving_pulley_listed", "pulley_teeth_whole", "cylinder_pulley_listed")
+Pulley = tuple[float, float, float, str, str]
+
+
+def whole(teeth: int) -> float:
+    """Pitch radius of so many teeth of 8 mm, mm."""
+    return teeth * 8 / (2 * pi)
+
+
+OVER: list[Pulley] = [  # the upper run passes over the cylinder's pulley, between two smooth guides on its back
+    (0, 0, whole(79), "inside", "other"),
+    (1700, 0, whole(79), "inside", "other"),
+    (1000, 150, 50, "outside", "other"),
+    (850, 150, whole(48), "inside", "cylinder"),
+    (700, 150, 50, "outside", "other"),
+]
+UNDER: list[Pulley] = [  # the upper run dips under the cylinder's pulley, between two toothed guides
+    (0, 0, whole(40), "inside", "other"),
+    (1700, 0, whole(40), "inside", "other"),
+    (1000, 40, whole(48), "inside", "other"),
+    (850, 40, whole(48), "outside", "cylinder"),
+    (700, 40, whole(48), "inside", "other"),
+]
+
+
+def listed_belt(pulleys: list[Pulley], **changes: Any) -> Calculation:
+    keys: dict[str, Any] = {
+        "cylinder_radius": 105,
+        "driven_radius": whole(48),
+        "cylinder_velocity": 1,
+        "shaft_speed": 150,
+    }
+    named = [dict(zip(("x", "y", "radius", "side", "role"), pulley, strict=True)) for pulley in pulleys]
+    return train(toothed_belt=keys | {"pitch": 8, "pulleys": named} | changes)
+
+
+def statuses(calc: Calculation) -> dict[str, str]:
+    return {name: check(calc, name).status for name in LISTED_CHECKS}
+
+
+def replaced(pulleys: list[Pulley], index: int, radius: float) -> list[Pulley]:
+    x, y, _, side, role = pulleys[index]
+    return [*pulleys[:index], (x, y, radius, side, role), *pulleys[index + 1 :]]
+
+
+def test_a_layout_that_fits_the_drive_passes() -> None:
+    calc = listed_belt(OVER)
+    assert set(statuses(calc).values()) == {"pass"}
+    assert number(calc, "driving_pulley_pitch_radius") * 1e3 == pytest.approx(whole(79), rel=1e-12)
+
+
+def test_the_belt_on_the_other_side_than_engagement_fails() -> None:
+    slow = listed_belt(UNDER, engagement="die", shaft_speed=75)
+    assert check(slow, "belt_engagement").status == "pass"
+    assert check(listed_belt(UNDER), "belt_engagement").status == "fail"
+    assert check(listed_belt(OVER, engagement="die"), "belt_engagement").status == "fail"
+    assert check(listed_belt(UNDER), "belt_engagement").demand == pytest.approx(pi)
+
+
+def test_mirrored_about_the_cylinder_the_engagement_angle_turns_round() -> None:
+    leaning = [*OVER[:2], (1000, 190, 50, "outside", "other"), *OVER[3:]]
+    below = listed_belt(leaning, engagement="die")
+    angle = check(listed_belt(leaning), "belt_engagement").demand
+    assert 0.01 < angle < pi / 2
+    assert check(below, "belt_engagement").demand == pytest.approx(pi - angle, rel=1e-12)
+    # the wrap's middle lies between the normals at which the two runs touch the pulley
+    first, second = below["run_direction"][0, 2:4]
+    across, up = np.sin(first) + np.sin(second), -np.cos(first) - np.cos(second)
+    assert angle == pytest.approx(abs(np.arctan2(across, up)), rel=1e-9)
+
+
+def test_a_belt_of_unmarked_pulleys_is_not_compared_with_the_cylinder() -> None:
+    calc = listed_belt([(*pulley[:4], "other") for pulley in OVER])
+    assert checked(calc).isdisjoint({"belt_engagement", "cylinder_pulley_listed"})
+    assert check(calc, "driving_pulley_listed").status == "pass"
+    assert mechanism_results(calc, {}).status != "error"
+
+
+def test_only_one_pulley_is_fixed_to_the_cylinder() -> None:
+    with pytest.raises(Impossible, match="pulleys 2 and 4 both have role: cylinder") as refused:
+        listed_belt([OVER[0], (*OVER[1][:4], "cylinder"), *OVER[2:]])
+    assert refused.value.key == "toothed_belt.pulleys"
+
+
+@pytest.mark.parametrize(("index", "radius"), [(1, 100.0), (3, 60.0)])
+def test_a_pulley_without_whole_teeth_is_told_and_the_advised_radius_has_them(index: int, radius: float) -> None:
+    told = check(listed_belt(replaced(OVER, index, radius)), "pulley_teeth_whole")
+    teeth = 2 * pi * radius / 8
+    assert told.status == "fail" and told.demand == pytest.approx(abs(teeth - round(teeth)), rel=1e-9)
+    assert f"radius {radius:.0f} mm" in told.message and f"have {teeth:.4f} teeth" in told.message
+    advised = re.search(r"give it a radius of (\d+\.\d+) mm", told.message)
+    assert advised
+    fixed = listed_belt(replaced(OVER, index, float(advised[1])))
+    assert check(fixed, "pulley_teeth_whole").status == "pass"
+
+
+def test_a_smooth_pulley_on_the_back_needs_no_whole_teeth() -> None:
+    for radius in (47.0, 50.0, 52.3):
+        assert check(listed_belt(replaced(OVER, 2, radius)), "pulley_teeth_whole").status == "pass"
+
+
+def test_another_driving_pulley_in_the_list_is_told_and_the_advised_one_passes() -> None:
+    told = check(listed_belt(replaced(OVER, 0, whole(70))), "driving_pulley_listed")
+    assert told.status == "fail" and told.demand == pytest.approx(9, rel=1e-9)
+    advised = re.search(r"radius of (\d+\.\d+) mm, (\d+) teeth", told.message)
+    assert advised and int(advised[2]) == 79
+    assert check(listed_belt(replaced(OVER, 0, float(advised[1]))), "driving_pulley_listed").status == "pass"
+
+
+@pytest.mark.parametrize("driven", [60.0, 66.0])
+def test_the_cylinder_s_pulley_in_the_list_is_the_driven_one(driven: float) -> None:
+    told = check(listed_belt(OVER, driven_radius=driven), "cylinder_pulley_listed")
+    assert told.status == "fail" and told.demand == pytest.approx(abs(2 * pi * driven / 8 - 48), rel=1e-9)
+    advised = re.search(r"give both (\d+\.\d+) mm", told.message)
+    assert advised
+    fixed = listed_belt(replaced(OVER, 3, float(advised[1])), driven_radius=float(advised[1]))
+    assert {check(fixed, n).status for n in ("cylinder_pulley_listed", "pulley_teeth_whole")} == {"pass"}
+
+
+def test_a_loaded_pulley_outside_has_teeth_in_mesh_too() -> None:
+    pressed = (850, whole(40) + whole(48) - 30, whole(48), "outside", "cylinder")
+    calc = listed_belt([*UNDER[:2], pressed], engagement="die", shaft_speed=75)
+    assert check(calc, "teeth_in_mesh").limit == pytest.approx(calc["teeth_in_mesh"][0, 2], rel=1e-12)
+    assert calc["teeth_in_mesh"][0, 2] < 6 < calc["teeth_in_mesh"][0, 0]
+
+
+def test_the_driving_pulley_has_teeth_in_mesh_wherever_it_lies() -> None:
+    """On the back of a belt with teeth on both sides it is wrapped least."""
+    driving = (300, whole(126) + whole(40) - 6, whole(40), "outside", "other")
+    calc = listed_belt([driving, (0, 0, whole(126), "inside", "other"), (600, 0, whole(126), "inside", "other")])
+    assert check(calc, "teeth_in_mesh").limit == pytest.approx(calc["teeth_in_mesh"][0, 0], rel=1e-12)
+    assert check(calc, "teeth_in_mesh").status == "fail" and calc["teeth_in_mesh"][0, 0] < 1
+
+
+def test_the_figure_draws_the_cylinder_on_the_die_below() -> None:
+    figures = {figure.id: figure.shapes for figure in mechanism_results(listed_belt(OVER), {}).figures}
+    shapes = figures["toothed_belt_layout"]
+    ground = next(s for s in shapes if getattr(s, "role", "") == "ground")
+    assert [y for _, y in ground.points] == pytest.approx([0.150 - 0.105] * 2)
+    assert {"die", "cylinder, on pulley 4"} <= {getattr(s, "text", "") for s in shapes}
+
+
+def test_the_example_wraps_its_pulley_on_the_side_away_from_the_die() -> None:
+    block = yaml.safe_load(EXAMPLE.read_text(encoding="utf-8"))["mechanisms"]["train"]["toothed_belt"]
+    values = {key: given["value"] if isinstance(given, dict) else given for key, given in block.items()}
+    calc = train(toothed_belt=values | {"cylinder_radius": "105 mm"})
+    assert block["engagement"] == "away"
+    assert set(statuses(calc).values()) == {"pass"}
+    assert number(calc, "teeth_in_mesh_min") >= 6
+    assert calc["wraps"][0, 0] == pytest.approx(
+        pi, abs=1e-9
+    )  # level runs: the carriage's place does not change the length
+
+
+def test_the_arrow_of_a_belt_stands_outside_its_longest_run() -> None:
+    """Three like pulleys, counter-clockwise; the belt comes down from the third to the first, upright and longest."""
+    shapes = layout([0, 0.3, 0], [0, 0.5, 1], [0.05] * 3, [1, 1, 1])
+    start, end = next((shape["from"], shape["to"]) for shape in shapes if shape["shape"] == "arrow")
+    assert (start[0], end[0]) == pytest.approx((-0.05 - 0.06,) * 2)
+    assert (start[1], end[1]) == pytest.approx((0.6, 0.4))

@@ -183,54 +183,37 @@ def test_the_best_sweep_is_below_the_limit_for_any_number_of_slots(slots: int, h
     assert 0 < together["stop_sweep_best"] < together["stop_sweep_limit"]
 
 
+NARROW = {"sector_stop_sweep": 2}
+SMALLER, WITH_ITS_OWN, ALREADY = (
+    "only with a smaller sweep of stop and start",
+    "yes, with its sweep of stop and start",
+    "it does already",
+)
+
+
 @pytest.mark.parametrize(
-    "changes, slots, verdict, dwell",
+    ("changes", "slots", "is_gentle", "is_longer", "dwell"),
     [
-        (
-            {},
-            6,
-            f"{HAS} lower peak acceleration and a longer dwell, but {JUMPS}",
-            "only with a smaller sweep of stop and start",
-        ),
-        (
-            {},
-            3,
-            f"{HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}",
-            "only with a smaller sweep of stop and start",
-        ),
-        (
-            {"sector_stop_sweep": 2},
-            3,
-            f"{HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}",
-            "yes, with its sweep of stop and start",
-        ),
-        (
-            {"dwell_angle": 250, "sector_stop_sweep": 2},
-            8,
-            f"{HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}",
-            "it does already",
-        ),
-        (
-            {"dwell_angle": 241, "sector_stop_sweep": 2.5, "motion_law": "parabolic"},
-            6,
-            f"{HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}",
-            "it does already",
-        ),
+        ({}, 6, True, True, SMALLER),
+        ({}, 3, False, True, SMALLER),
+        (NARROW, 3, False, True, WITH_ITS_OWN),
+        (NARROW | {"dwell_angle": 250}, 8, True, False, ALREADY),
+        ({"dwell_angle": 241, "sector_stop_sweep": 2.5, "motion_law": "parabolic"}, 6, False, False, ALREADY),
     ],
 )
 def test_the_verdict_follows_from_peaks_and_dwells(
-    changes: dict[str, Any], slots: int, verdict: str, dwell: str
+    changes: dict[str, Any], slots: int, is_gentle: bool, is_longer: bool, dwell: str
 ) -> None:
     together = outputs(cam(**changes), geneva(slots=slots))
-    gentle = together["geneva_acceleration_peak"] <= together["cam_acceleration_peak"]
-    longer = together["dwell_ratio"] >= 1
+    assert (together["geneva_acceleration_peak"] <= together["cam_acceleration_peak"]) is is_gentle
+    assert (together["dwell_ratio"] >= 1) is is_longer
     told = {
         (True, True): f"{HAS} lower peak acceleration and a longer dwell, but {JUMPS}",
         (False, True): f"{HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}",
         (True, False): f"{HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}",
         (False, False): f"{HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}",
     }
-    assert together["verdict"] == verdict == told[gentle, longer]
+    assert together["verdict"] == told[is_gentle, is_longer]
     assert together["dwell_verdict"] == dwell
     lower = {name for name in ("velocity", "torque") if together[f"{name}_ratio"] < 1}
     words = {("torque", "velocity"): "lower peak velocity and torque", ("velocity",): "lower peak velocity, but no lower torque",

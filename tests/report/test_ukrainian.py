@@ -1,4 +1,4 @@
-"""A report in Ukrainian: no English word is left in it, and numbers have a decimal comma."""
+"""A report in Ukrainian: no English word is left in it; names that a configuration gives, and papers by their number."""
 
 from __future__ import annotations
 
@@ -13,10 +13,16 @@ import pytest
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.press import Press
+from diecut_report.report.chapters.value_tables import value_row
 from diecut_report.report.rendering import Rendering
-from diecut_report.results.model import ResultsRecord
+from diecut_report.report.text import given_names, numbered, translated, value_in_words
+from diecut_report.results.mechanism_record import ItemRecord, MechanismRecord, QuantityRecord, ShownRecord
+from diecut_report.results.model import ChangedQuantityRecord, ResultsRecord
 from diecut_report.text import po_files
+from diecut_report.text.catalogues import Catalogues
 from tests.examples import few
+from tests.records import filled
+from tests.report.made_results import typed
 
 ROOT = Path(__file__).parents[2]
 CONFIGS = ROOT / "configs"
@@ -145,3 +151,110 @@ def test_no_english_word_is_left_in_an_example(config: Path) -> None:
         return
     outcome = Press.read(config, Discovery([])).calculate()
     assert left_over(outcome.results, in_ukrainian(outcome.results)) == {}
+
+
+Data = dict[str, Any]
+
+
+def named(text: str, quantity: str = "name", **more: Any) -> QuantityRecord:
+    """An input of a part of a list."""
+    part = {"family": "loads", "index": 0, "quantity": quantity}
+    given = {"value": text, "display": {"text": text, "unit": "1"}, "origin": "given", "text": text, "part": part}
+    return filled(QuantityRecord, given | more)
+
+
+@pytest.mark.parametrize(
+    ("row", "text"),
+    [
+        (named("main_a"), "main_a"),
+        (named("deep_groove", "type"), "deep groove"),
+        (named("crank_rocker", "type"), "crank-rocker"),
+        (named("gripper_chain", "mechanism", origin="reference", path="gripper_chain"), "gripper_chain"),
+    ],
+)
+def test_a_name_keeps_its_form_and_a_choice_is_said_in_words(row: QuantityRecord, text: str) -> None:
+    assert value_in_words(row) == text
+
+
+def test_a_result_that_is_the_name_of_a_part_is_printed_as_it_is_typed() -> None:
+    found = filled(QuantityRecord, {"value": "main_b", "display": {"text": "main_b", "unit": "1"}})
+    assert value_in_words(found, {"main_b"}) == "main_b" and value_in_words(found) == "main b"
+    result = ShownRecord(text="main_b", unit="1")
+    item = ItemRecord(type="lookup", description="Bearing with the shortest life", symbol="B_L", result=result)
+    assert value_row(item, "F.21", None, "", ".", {"main_b"}).value == "main_b"
+
+
+def test_names_are_those_of_parts_and_of_mechanisms_that_are_taken() -> None:
+    inputs = {
+        "loads.0.name": named("crank"),
+        "loads.0.type": named("gear", "type"),
+        "drives": named("", "", value=["feeder"]),
+        "pulleys.0.role": named("cylinder", "role"),  # a word that one of the mechanisms is called by, too
+    }
+    assert given_names(filled(MechanismRecord, {"inputs": inputs}), {"feeder", "gear_1", "cylinder"}) == {
+        "crank",
+        "feeder",
+    }
+
+
+def test_a_name_that_is_a_word_of_the_catalogue_is_not_translated(plain: Data) -> None:
+    """“drive” is a word of several catalogues."""
+    data = plain["mechanisms"]["cylinder"]
+    data["inputs"]["lines.0.name"] = named("drive")
+    data["figures"] = [
+        {"id": "torque", "caption": "", "type": "plot", "title": "Torque", "panels": [{"series": [{"label": "drive"}]}]}
+    ]
+    catalogues = Catalogues("uk")
+    catalogues.know(["cyclogram", "drive_train"])
+    one = typed({**plain, "mechanisms": {"cylinder": data}, "comparisons": {}})
+    said = translated(one, catalogues).mechanisms["cylinder"]
+    assert said.inputs["lines.0.name"].display.text == "drive"
+    assert said.figures[0].panels[0].series[0].label == "drive"
+
+
+def test_papers_stand_by_their_number_and_nothing_else_changes() -> None:
+    sources = [{"id": "003", "citation": "C"}, {"id": "ISO 76", "citation": "I"}, {"id": "000", "citation": "A"}]
+    item = ItemRecord(
+        type="note",
+        source="003 eq. 4, ISO 76",
+        symbol="I_000",
+        text="as I_000 (figure 3 of 000): 10 000 h, 0.003 mm, 5,003",
+    )
+    curves = {"x": {"values": [3.0], "source": "000"}}
+    mechanism = {
+        "sources": sources,
+        "sections": [{"items": [item]}],
+        "curves": curves,
+        "inputs": {"load": {"description": "Line load (000)", "note": "drawing 003, sheet 4", "text": "003"}},
+        "assumptions": ["the press (000)", "003."],
+    }
+    results = filled(ResultsRecord, {"mechanisms": {"m": mechanism}, "config": {"file": "000"}})
+    found = numbered(results)
+    assert [source.id for source in found.mechanisms["m"].sources] == ["[2]", "ISO 76", "[1]"]
+    (printed,) = found.mechanisms["m"].sections[0].items
+    assert printed == item.with_(
+        source="[2] eq. 4, ISO 76", text="as I_000 (figure 3 of [1]): 10 000 h, 0.003 mm, 5,003"
+    )
+    assert found.mechanisms["m"].assumptions == ["the press [1]", "[2]."]
+    load = results.mechanisms["m"].inputs["load"]
+    assert load.note == "drawing 003, sheet 4" and load.text == "003"
+    assert found.mechanisms["m"].inputs["load"] == load.with_(description="Line load [1]")
+    assert found.mechanisms["m"].curves["x"].values == [3.0]
+    assert found.config == results.config
+
+
+def test_results_without_papers_stay_as_they_are() -> None:
+    mechanism = {"sources": [{"id": "ISO 76", "citation": "I"}], "summary": "100 of 000"}
+    results = filled(ResultsRecord, {"mechanisms": {"m": mechanism}})
+    assert numbered(results) is results
+
+
+def test_inputs_that_were_changed_keep_what_was_typed() -> None:
+    sources = [{"id": "003", "citation": "C"}]
+    new = {"value": "drawing 003", "display": {"text": "drawing 003", "unit": "1"}}
+    row = filled(
+        ChangedQuantityRecord, {"path": "m.load", "description": "Line load (003)", "new": new, "follows": "003"}
+    )
+    given = {"mechanisms": {"m": {"sources": sources}}, "changes": {"inputs": [row]}}
+    found = numbered(filled(ResultsRecord, given))
+    assert found.changes is not None and found.changes.inputs == [row.with_(description="Line load [1]")]

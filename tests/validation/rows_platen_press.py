@@ -11,8 +11,8 @@ from math import degrees, pi, radians
 from typing import Any
 
 from diecut_report.machine.calculation import Calculation
-from tests.machines import number
-from tests.plugins.platens import at, platen
+from tests.machines import at, number
+from tests.plugins.platens import platen
 from tests.validation.rows import Row
 
 WORKED = "worked example"

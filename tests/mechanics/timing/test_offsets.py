@@ -1,7 +1,8 @@
-"""Margins, the best offset and the largest productivity, against brute force; tests/plugins/test_cyclogram.py has the printed numbers."""
+"""Sets on a circle, margins, the best offset and the largest productivity, against brute force; printed numbers: tests/plugins/test_cyclogram.py."""
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import inf
 
 import numpy as np
@@ -10,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.mechanics.timing import intervals
-from diecut_report.mechanics.timing.intervals import Intervals
+from diecut_report.mechanics.timing.intervals import DrivenLine, Intervals, common_period, composed, exact_turns
 from diecut_report.mechanics.timing.productivity import (
     Interlock,
     fixed_productivity_limit,
@@ -18,7 +19,7 @@ from diecut_report.mechanics.timing.productivity import (
     tents_of,
 )
 from tests.examples import examples
-from tests.mechanics.timing.example_press import PERIOD, TURN, dwell, phase
+from tests.mechanics.timing.example_press import COMMON, PERIOD, TURN, dwell, phase
 
 MS = 1e-3
 
@@ -72,24 +73,6 @@ def least(inner: Intervals, outer: Intervals, period: float) -> float:
     """The least margin of all."""
     pair = intervals.worst(intervals.margins_within(inner, outer, period))
     return inf if pair is None else pair.least
-
-
-PAIRS = [
-    ("cam", 141.0056, "cutting", [(-23.8309, -6.8923), (7.0202, -23.8309)]),
-    ("cam", 141.0056, "passing", [(13.7269, 24.7424), (12.6172, 6.8388)]),
-    ("geneva", 38.1164, "cutting", [(19.0583, 30.2185), (49.9093, 13.2799)]),
-    ("geneva", 38.1164, "passing", [(12.4370, 29.2308), (11.3273, 11.3273)]),
-]
-
-
-@pytest.mark.parametrize("transport, offset, name, expected", PAIRS)
-def test_the_margins_of_each_interval_are_the_printed_ones(
-    transport: str, offset: float, name: str, expected: list[tuple[float, float]]
-) -> None:
-    (lock,) = interlocks(transport, name, offset)
-    found = intervals.margins_within(lock.inner, lock.outer, PERIOD)
-    degrees = sorted((float(np.degrees(pair.start)), float(np.degrees(pair.end))) for pair in found)
-    assert degrees == [pytest.approx(pair, abs=3e-4) for pair in sorted(expected)]
 
 
 @pytest.mark.parametrize("name, expected", [("cutting", 207.6618), ("contact", 217.8062)])
@@ -191,3 +174,108 @@ def test_the_best_shift_is_that_of_brute_force(
         assert found.shift == next(k / 4 for k in range(4 * WHOLE) if quarters[k] >= max(quarters) - 1e-9)
         feasible = [any(a <= k / 4 <= b for a, b in found.feasible) for k in range(4 * WHOLE)]
         assert feasible == [each >= -1e-9 for each in quarters]
+
+
+SHEET_PERIOD = 24
+pairs = st.lists(
+    st.tuples(st.integers(-60, 60), st.integers(0, 30)).map(lambda pair: (float(pair[0]), float(sum(pair)))), max_size=6
+)
+
+
+def places(of: list[tuple[float, float]] | Intervals) -> set[int]:
+    """The unit cells of the circle that pairs of whole numbers cover."""
+    return {cell % SHEET_PERIOD for start, end in of for cell in range(round(start), round(end))}
+
+
+def assert_ordered(found: Intervals) -> None:
+    assert all(0 <= start < SHEET_PERIOD and start < end <= start + SHEET_PERIOD for start, end in found)
+    edges = [edge for pair in found for edge in pair]
+    assert edges == sorted(set(edges)), "sorted, disjoint, none that touch"
+    assert not found or len(found) == 1 or edges[-1] - SHEET_PERIOD < edges[0], "the seam does not part an interval"
+
+
+@given(one=pairs)
+@examples(200)
+def test_a_merged_set_covers_the_same_places_in_order(one: list[tuple[float, float]]) -> None:
+    found = intervals.merged(one, SHEET_PERIOD)
+    assert_ordered(found)
+    assert places(found) == places(one)
+    assert intervals.total_length(found) == pytest.approx(len(places(one)))
+    assert intervals.is_whole(found, SHEET_PERIOD) == (len(places(one)) == SHEET_PERIOD)
+
+
+@given(one=pairs, other=pairs, by=st.integers(-50, 50))
+@examples(200)
+def test_sets_are_combined_as_sets_of_places(
+    one: list[tuple[float, float]], other: list[tuple[float, float]], by: int
+) -> None:
+    a, b = intervals.merged(one, SHEET_PERIOD), intervals.merged(other, SHEET_PERIOD)
+    everywhere = set(range(SHEET_PERIOD))
+    for found, expected in (
+        (intervals.complement(a, SHEET_PERIOD), everywhere - places(one)),
+        (intervals.union(a, b, SHEET_PERIOD), places(one) | places(other)),
+        (intervals.intersection(a, b, SHEET_PERIOD), places(one) & places(other)),
+        (intervals.shifted(a, by, SHEET_PERIOD), {(place + by) % SHEET_PERIOD for place in places(one)}),
+    ):
+        assert_ordered(found)
+        assert places(found) == expected
+    assert places(a) == places(one)
+
+
+@given(one=pairs)
+@examples(50)
+def test_a_set_that_repeats_holds_at_each_turn_what_it_holds_at_one(one: list[tuple[float, float]]) -> None:
+    a = intervals.merged(one, SHEET_PERIOD)
+    found = intervals.repeated(a, SHEET_PERIOD, 3 * SHEET_PERIOD)
+    cells = {cell % (3 * SHEET_PERIOD) for start, end in found for cell in range(round(start), round(end))}
+    assert cells == {place for place in range(3 * SHEET_PERIOD) if place % SHEET_PERIOD in places(one)}
+
+
+def test_rounding_neither_parts_nor_adds_an_interval_at_the_seam() -> None:
+    third = SHEET_PERIOD / 3
+    assert intervals.merged(
+        [(0, third), (third * 1.0000000000000002, 2 * third), (2 * third, SHEET_PERIOD - 1e-14)], SHEET_PERIOD
+    ) == ((0.0, SHEET_PERIOD),)
+    assert intervals.merged([(-1e-15, 2.0)], SHEET_PERIOD) == (pytest.approx((0.0, 2.0)),)
+
+
+@pytest.mark.parametrize(
+    "typed, expected",
+    [(1, "1"), (0.5, "1/2"), (Fraction(1, 2), "1/2"), (1 / 3, "1/3"), (63 / 64, "63/64"), (2.75, "11/4")],
+)
+def test_turns_are_taken_as_the_fraction_they_are(typed: float, expected: str) -> None:
+    assert exact_turns(typed) == Fraction(expected)
+
+
+@pytest.mark.parametrize("typed", [0, -1, -0.5, 1 / 65, 0.1234567, 1e-9])
+def test_turns_without_a_small_fraction_are_refused(typed: float) -> None:
+    with pytest.raises(ValueError, match="not a fraction above zero with a denominator of at most 64"):
+        exact_turns(typed)
+
+
+@given(turns=st.lists(st.fractions(Fraction(1, 8), 8, max_denominator=8), min_size=1, max_size=4))
+@examples(100)
+def test_the_common_period_is_the_first_at_which_all_lines_are_whole(turns: list[Fraction]) -> None:
+    found = common_period([1 / each for each in turns])
+    wholes = (k / turns[0] for k in range(1, 10**6))  # turns of the main shaft after which the first line is whole
+    assert next(whole for whole in wholes if all((whole * each).denominator == 1 for each in turns)) == found
+
+
+def test_an_offset_and_every_second_turn_are_counted_on_the_main_shaft() -> None:
+    line = DrivenLine(Fraction(1), 1.0)
+    assert line.on_main_shaft(((6.0, 6.5),), COMMON, every=2) == (pytest.approx((7.0, 7.5)),)
+    assert line.on_main_shaft(((6.0, 6.5),), COMMON) == (
+        pytest.approx((7.0 - 2 * 3.141592653589793, 7.5 - 2 * 3.141592653589793)),
+        pytest.approx((7.0, 7.5)),
+    )
+
+
+def test_a_set_that_is_others_together_is_told_with_these() -> None:
+    sets = {
+        "a": frozenset({1}),
+        "b": frozenset({2}),
+        "both": frozenset({1, 2}),
+        "again": frozenset({2}),
+        "other": frozenset({2, 3}),
+    }
+    assert composed(sets) == {"both": ("a", "b", "again"), "again": ("b",)}
