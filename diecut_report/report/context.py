@@ -80,8 +80,11 @@ class Material:
     def figures(self) -> dict[str, Svg]:
         """All figures by their number, but those that cannot be drawn: these are in ``faults``."""
         from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
+        from diecut_report.report.figures.kept import make_room
 
-        return self._drawn(render)
+        made = self._drawn(render)
+        make_room()
+        return made
 
     @cached_property
     def rasters(self) -> dict[str, Raster]:

@@ -69,6 +69,7 @@ def test_each_figure_is_drawn_once_and_few_boxes_are_laid_out(tmp_path: Path, mo
     from matplotlib.figure import Figure
     from weasyprint.formatting_structure.boxes import Box
 
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))  # where no figure is kept yet
     drawn, boxes = list[Figure](), list[int]()
     save, make = Figure.savefig, Box.__init__
     monkeypatch.setattr(
@@ -79,3 +80,5 @@ def test_each_figure_is_drawn_once_and_few_boxes_are_laid_out(tmp_path: Path, mo
     made.report(tmp_path, ("html", "pdf"))
     figures = sum(len(each.figures) for each in made.results.mechanisms.values())
     assert len(drawn) == figures > 0 and 0 < len(boxes) <= BOXES
+    made.report(tmp_path, ("html",))
+    assert len(drawn) == figures, "the same figures are drawn again for the next report"

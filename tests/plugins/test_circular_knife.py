@@ -22,7 +22,7 @@ from diecut_report.errors import UserError
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
-from diecut_report.plugins.circular_knife import MECHANISM
+from diecut_report.plugins.circular_knife import MECHANISM, steps
 from diecut_report.press import Press
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import EXAMPLES, HEAD
@@ -43,7 +43,7 @@ def sizes(calc: Calculation) -> tuple[float, ...]:
 
 def test_a_distance_is_below_another_by_more_than_a_millionth_of_the_radius_or_where_there_is_no_other() -> None:
     others = np.array([1 + 2e-6, 1 + 5e-7, 0.5, 0.01, np.nan])
-    assert f.is_clear_of(1.0, others, 1.0).tolist() == [True, False, False, False, True]
+    assert steps.is_clear_of(1.0, others, 1.0).tolist() == [True, False, False, False, True]
 
 
 # --- geometry and motion ---------------------------------------------------------------------------------------------

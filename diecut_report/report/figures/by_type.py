@@ -14,9 +14,11 @@ from diecut_report.report.chapters.drive_line import DriveLineFigure
 from diecut_report.report.figures.charts import bars, chart, polar, tornado
 from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.drive_line import linked, view
+from diecut_report.report.figures.kept import kept
 from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, plain, styled, text_size
 from diecut_report.report.model import Drawn
 from diecut_report.report.text import Catalogue
+from diecut_report.results.figure_record import FigureRecord, PlotPanelRecord
 from diecut_report.results.mechanism_record import CurveRecord
 
 DRAW: dict[str, Callable[..., Figure]] = {
@@ -35,8 +37,21 @@ def render(
     size: SizesSize = SizesSize.LARGE,
 ) -> Svg:
     """A figure of the results, so large as its place lets it be; ``key`` keeps its ids apart from those of the report's others."""
-    made = drawn(partial(DRAW[figure.type], figure, curves, words, size), figure.title, key)
-    return linked(made, figure) if isinstance(figure, DriveLineFigure) else made
+    shown = {name: curves[name] for name in _shown_curves(figure)}
+
+    def draw() -> Svg:
+        made = drawn(partial(DRAW[figure.type], figure, shown, words, size), figure.title, key)
+        return linked(made, figure) if isinstance(figure, DriveLineFigure) else made
+
+    return kept((figure, shown, words.language, key, size), draw)
+
+
+def _shown_curves(figure: Drawn | DriveLineFigure) -> list[str]:
+    """The curves that a figure shows, with their abscissa."""
+    if not isinstance(figure, FigureRecord) or not figure.abscissa:
+        return []
+    panels = (panel.series for panel in figure.panels if isinstance(panel, PlotPanelRecord))
+    return [figure.abscissa, *(each.curve for series in (*panels, figure.series) for each in series)]
 
 
 class Raster(NamedTuple):

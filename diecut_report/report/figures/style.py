@@ -152,6 +152,9 @@ SHORTEST = 3.0  # em of a last line of several that may stand alone
 Box = tuple[float, float, float, float]  # left, bottom, right, top
 
 
+FONTS = ("report-sans-regular", "report-symbols")
+
+
 class Svg(NamedTuple):
     """A figure: SVG text without a prologue, and its natural size in points."""
 
@@ -169,7 +172,7 @@ def drawn(build: Callable[[], Figure], title: str, key: str) -> Svg:
 def styled(key: str) -> AbstractContextManager[None]:
     """Draw within with the settings of all figures, and with the report's fonts, by which matplotlib measures texts."""
     if not any(entry.name == "Report Sans" for entry in fontManager.ttflist):
-        for name in ("report-sans-regular", "report-symbols"):
+        for name in FONTS:
             fontManager.addfont(font_file(name))
     settings: dict[Any, Any] = {
         "svg.fonttype": "none", "svg.hashsalt": key, "font.family": "Report Sans", "font.size": FONT_SIZE,
