@@ -162,7 +162,7 @@ def test_imports_make_no_loop() -> None:
 
 
 def test_a_report_is_made_of_results_alone() -> None:
-    allowed = {"report", "results", "text", "quantities", "errors", "pictures", "time_limit", ""}
+    allowed = {"report", "results", "text", "quantities", "errors", "files", "pictures", "time_limit", ""}
     parts = {(name, [*m.split("."), ""][1]) for name in PROGRAM if layer(name) == REPORT for m in own_imports(name)}
     assert {(name, part) for name, part in parts if part not in allowed} == set()
 

@@ -261,6 +261,9 @@ def with_units(made: Formula) -> Any:
     def carried(part: Any) -> Any:
         if isinstance(part, Constant):
             return REGISTRY.Quantity(float(part), part.unit)
+        if isinstance(part, types.ModuleType) and part.__name__.startswith("diecut_report."):
+            own = {name: carried(each) for name, each in vars(part).items() if isinstance(each, Constant | Formula)}
+            return types.SimpleNamespace(**{**vars(part), **own})
         return with_units(part) if isinstance(part, Formula) else part
 
     function = made.function

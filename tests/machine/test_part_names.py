@@ -14,6 +14,7 @@ from diecut_report.declaration import faults
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.printing.substitution import filled
+from diecut_report.machine.steps import run
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import ItemRecord, ShownRecord
@@ -92,7 +93,7 @@ MECHANISM = Mechanism(kind="wave", version="1", title="Wave", summary="Wave.", i
 
 
 def made() -> Calculation:
-    return calculate(MECHANISM, {"height": 0.002, "n_points": 36})
+    return run.calculate(MECHANISM, {"height": 0.002, "n_points": 36})
 
 
 def test_how_many_crossings_there_are_is_a_number_with_symbol_and_unit() -> None:
@@ -139,7 +140,7 @@ TRAIN = Mechanism(kind="train", version="1", title="Train", summary="Train.", in
 
 def test_formulas_of_several_parts_are_printed_with_the_number_of_each() -> None:
     assert not faults(TRAIN)
-    calc = calculate(TRAIN, {"shafts.ratio": (5.0, 0.4)})
+    calc = run.calculate(TRAIN, {"shafts.ratio": (5.0, 0.4)})
     items: dict[str, ItemRecord] = {item.id: item for item in mechanism_results(calc, {}).sections[0].items}
     assert items["slip"].equation == Node("-", (Node("sym", ("ω_3",)), Node("sym", ("ω_4",)))).to_json()
     assert items["more"].equation == Node("/", (Node("sym", ("F_t,2",)), Node("sym", ("F_t,1",)))).to_json()
