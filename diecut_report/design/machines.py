@@ -14,7 +14,7 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.references import as_file, reached, upstream
-from diecut_report.config.yaml import Tree, dotted
+from diecut_report.config.yaml import Tree, dotted, key_of
 from diecut_report.design.inputs import DesignInput
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import write_all
@@ -116,8 +116,7 @@ def varied(
 
 def impossible(config: Config, reason: str, told: str = "") -> UserError:
     """Return the error of a machine that cannot be calculated, with the line of the key that the reason begins with."""
-    key = reason.partition(": ")[0].split(".")
-    line, column = config.tree.position(tuple(int(part) if part.isdigit() else part for part in key))
+    line, column = config.tree.position(key_of(reason.partition(": ")[0]))
     return UserError(Problem(told or reason, config.tree.file, line, column))
 
 

@@ -17,7 +17,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.parts.expansion import refused
 from diecut_report.config.parts.model import SAME_PLACE, MachineParts, ShaftPart
 from diecut_report.config.references import upstream
-from diecut_report.config.yaml import KeyPath, Scalar, dotted, resolved
+from diecut_report.config.yaml import KeyPath, Scalar, dotted, key_of, resolved
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.mechanism import intervals, phases_of
 from diecut_report.machine.steps.run import recalculated
@@ -79,7 +79,7 @@ class _WholeMachine:
         made = check.with_(**AdvisedCheck(known.finding, ways).fields) if ways != known.ways else check
         changes = [change for way in ways for change in way.changes]
         founded = next(each.founded for each in checks_of(calc) if each.id == check.id)
-        own = (each.key for each in changes if not each.mechanism and dotted(_path(each.key)) in founded)
+        own = (each.key for each in changes if not each.mechanism and dotted(key_of(each.key)) in founded)
         words = dict.fromkeys(self._origins(name, changes)) | dict.fromkeys(Phrase(FOUNDED, key=key) for key in own)
         words |= dict.fromkeys(self._of_bearings(name, changes))
         return made.with_(message=joined([made.message, *words], " ")) if words else made
@@ -173,7 +173,7 @@ class _WholeMachine:
 
     def _present(self, name: str, change: KeyChangeRecord) -> float | None:
         """The value that a key has today, in the unit of its change."""
-        path = _path(change.key)
+        path = key_of(change.key)
         values = parts_of(self.run.calculations[name].inputs.get(dotted(path)))
         index = next((part for part in path if isinstance(part, int)), 0)
         known = values[index] if index < len(values) else None
@@ -430,12 +430,7 @@ def _given(name: str, changes: Iterable[KeyChangeRecord]) -> Typed:
 
 def _node(name: str, change: KeyChangeRecord) -> Node:
     """The input that an advice of a mechanism changes."""
-    return (change.mechanism or name, *_path(change.key))
-
-
-def _path(key: str) -> KeyPath:
-    """The path of a key: ``sections.0.diameter``."""
-    return tuple(int(part) if part.isdigit() else part for part in key.split("."))
+    return (change.mechanism or name, *key_of(change.key))
 
 
 def _put(inputs: dict[str, Any], calc: Calculation, key: KeyPath, value: Value) -> None:

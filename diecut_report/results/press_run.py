@@ -18,6 +18,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import said
 from diecut_report.config.validation import declared, validate
+from diecut_report.config.yaml import key_of
 from diecut_report.errors import MAX_COMPARISONS, PluginError, Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.formulas.conditions import ConditionError
@@ -346,7 +347,7 @@ class Run:
                 self._printed(instance, self.calculations[name])
         except Impossible as fault:
             for path, message in fault.reasons:
-                key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
+                key = key_of(path) if path else ()
                 ways = possible_ways(instance.mechanism, flatten(block), path, holds)
                 problem = instance.place.problem(key, message)
                 problem = replace(problem, advice=advice_text(ways)) if ways else problem

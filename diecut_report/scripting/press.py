@@ -22,7 +22,7 @@ from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import as_file
 from diecut_report.config.validation import GIVEN, Basis
-from diecut_report.config.yaml import KeyPath, Tree, parse, read_text
+from diecut_report.config.yaml import KeyPath, Tree, key_of, parse, read_text
 from diecut_report.design.findings import decided
 from diecut_report.design.inputs import allowed_texts
 from diecut_report.errors import ConfigError, Problem, UserError
@@ -505,7 +505,7 @@ def placed(config: Config, name: str, value: Any) -> tuple[KeyPath, str]:
     ConfigError in words for an unknown path.
     """
     first, *rest = name.removeprefix(f"{MECHANISMS}.").split(".")
-    key: KeyPath = tuple(int(part) if part.isdigit() else part for part in rest)
+    key = key_of(".".join(rest)) if rest else ()
     if first in ("project", "report"):
         return (first, *key), typed(value, name)
     is_of_parts = first in WORDS and config.parts is not None

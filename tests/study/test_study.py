@@ -241,6 +241,7 @@ def test_wrong_values_are_told_as_in_a_config(tmp_path: Path, values: str, messa
 
 PATHS = [  # a path that cannot be varied, and what is told
     ("mechanisms.a.forc", "'forc' is not an input of a (did you mean 'force'?). Known: force, arm, grade"),
+    ("mechanisms.a.parts.².length", "'parts.².length' is not an input of a"),
     ("mechanisms.a.parts.1.lenght", "'parts.1.lenght' is not an input of a (did you mean 'parts.1.length'?)"),
     ("mechanisms.c.force", "there is no mechanism 'c'. Known: a, b."),
     ("mechanisms.a", "names no input; known of a: force, arm"),

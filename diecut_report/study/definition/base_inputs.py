@@ -16,7 +16,7 @@ from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.parts.reading import COORDINATE, MODELS, place_of, typed_value
 from diecut_report.config.references import Linker, ordered
 from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, declared, keys_of, validate, value_at
-from diecut_report.config.yaml import KeyPath, Scalar, resolved
+from diecut_report.config.yaml import KeyPath, Scalar, key_of, resolved
 from diecut_report.errors import Problem, nearest
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
@@ -71,7 +71,7 @@ class Input:
 def find_input(base: Config, path: str) -> Input:
     """Return the input that a path names; UnknownPath, with the nearest known one, where it names none."""
     instance, keys = _instance(base, path)
-    key: KeyPath = tuple(int(part) if part.isdigit() else part for part in keys)
+    key = key_of(".".join(keys)) if keys else ()
     meta = declared(instance.model, key) if key else None
     if isinstance(meta, type):
         is_list = ".".join(keys) in list_inputs(instance.model).values()

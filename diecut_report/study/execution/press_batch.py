@@ -14,7 +14,7 @@ from diecut_report.config.instances import Instance, Node, Target
 from diecut_report.config.loader import Config
 from diecut_report.config.plugins import said
 from diecut_report.config.validation import declared, validate
-from diecut_report.config.yaml import KeyPath
+from diecut_report.config.yaml import KeyPath, key_of
 from diecut_report.errors import PluginError, Problem
 from diecut_report.formulas import Array
 from diecut_report.formulas.condition_parts import WITHOUT_VALUE
@@ -305,7 +305,7 @@ class _Rows(Run):
 
 
 def _flaw_text(instance: Instance, path: str, message: str) -> str:
-    key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
+    key = key_of(path) if path else ()
     return _reason_text(instance.place.problem(key, message))
 
 
