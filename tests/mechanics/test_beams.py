@@ -64,6 +64,12 @@ def test_deflections_are_those_of_textbooks(x: Any, load: Any, supports: Any, pl
     assert line.deflection[place, 0, 0] == pytest.approx(deflection, rel=1e-12)
 
 
+def test_a_couple_at_a_support_turns_both_ends() -> None:
+    line, *_ = bent((0, 0.4), INERTIA, [(0, 0, 100)], 0, 0.4)
+    turned = 100 * 0.4 / (E * INERTIA)
+    assert_allclose(line.slope[:, 0, 0], [turned / 3, -turned / 6], rtol=1e-12)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_stepped_beams_bend_as_finite_elements_do(seed: int) -> None:
     draw = np.random.default_rng(seed)
@@ -94,6 +100,14 @@ def test_loads_on_the_supports_store_no_energy_but_for_rounding(seed: int) -> No
     difference = beams.bending_energy(column(*x), stiffness, loading) - beams.work(line, loading)
     bound = beams.energy_rounding(column(*x), stiffness, loading, Supports(np.array([first]), np.array([second])))
     assert (abs(difference) <= bound).all()
+
+
+def test_the_stepped_shaft_of_the_method_bends_by_virtual_work_as_by_integration() -> None:
+    x = (0.0, 0.03, 0.06, 0.15, 0.28, 0.32, 0.36, 0.4, 0.44)
+    diameters, bores = (45, 45, 55, 55, 60, 60, 50, 50), (0, 0, 0, 0, 20, 20, 0, 0)
+    inertia = [np.pi * ((d / 1e3) ** 4 - (b / 1e3) ** 4) / 64 for d, b in zip(diameters, bores, strict=True)]
+    line, *_ = bent(x, inertia, [(0.15, 4117, 0), (0.4, -9994, 0)], 0.03, 0.32)
+    assert abs(line.deflection[7, 0, 0]) == pytest.approx(9.185418e-5, rel=1e-6)
 
 
 def test_moments_have_both_limits_where_a_couple_acts() -> None:
@@ -136,6 +150,11 @@ def test_pieces_without_length_change_no_critical_speed() -> None:
         column(0.3), column(2),
     )  # fmt: skip
     assert twice.speed == pytest.approx(once.speed, rel=1e-12)
+
+
+def test_a_hollow_circle_is_the_disc_without_its_hole() -> None:
+    disc, hole = np.pi * 0.03**2, np.pi * 0.01**2
+    assert float(beams.circle_area(0.06, 0.02)) == pytest.approx(disc - hole, rel=1e-12)
 
 
 def test_area_and_second_moment_of_a_hollow_circle_are_those_of_its_rings() -> None:

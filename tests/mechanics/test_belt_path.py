@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import atan2, hypot, pi
+from math import atan2, degrees, hypot, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -183,6 +183,16 @@ def scattered(draw: st.DrawFn) -> Layout:
 
 
 # --- length and wraps ------------------------------------------------------------------------------------------------
+
+
+def test_the_length_and_wraps_of_two_pulleys() -> None:
+    assert total(TWO) == pytest.approx(1.962545, abs=5e-7)
+    assert [degrees(a) for a in belt_path.path(*TWO).wraps] == pytest.approx([156.926, 203.074], abs=5e-4)
+
+
+def test_the_length_and_wraps_with_an_idler_outside() -> None:
+    assert total(SHEET) == pytest.approx(1.850262, abs=5e-7)
+    assert [degrees(a) for a in belt_path.path(*SHEET).wraps] == pytest.approx([196.0044, 196.0044, 32.0087], abs=5e-5)
 
 
 @pytest.mark.parametrize("belt", [TWO, SHEET, SERPENTINE], ids=["two", "idler", "serpentine"])
@@ -365,6 +375,10 @@ def test_the_open_belt_in_both_forms_is_the_path_of_two_pulleys(distance: float,
     run = np.sqrt(distance**2 - (large - small) ** 2)
     assert 2 * np.arctan2(run, large - small) == pytest.approx(wrap, abs=1e-9)
     assert [wrap, belt_path.wrap_large(wrap)] == pytest.approx(belt_path.path(*belt).wraps, abs=1e-9)
+
+
+def test_the_open_belt_is_the_drawn_path() -> None:
+    assert belt_path.open_belt_length(0.5, 0.1, 0.2) == pytest.approx(drawn_length(TWO), rel=1e-9)
 
 
 def test_what_lies_outside_the_loop_counts_negative() -> None:

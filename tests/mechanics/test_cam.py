@@ -11,6 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
+from diecut_report.formulas import Array
 from diecut_report.mechanics import cam
 
 TURN = np.linspace(0, 2 * np.pi, 1441)[:-1]
@@ -189,3 +190,18 @@ def test_least_radii() -> None:
     assert cam.least_radius(5.0) == 0.2
     assert cam.profile_radius(0.2, 0.25) == pytest.approx(-0.05)
     assert not bool(cam.is_hollow(0.1))
+
+
+def test_arrays_of_variants_give_what_single_machines_give() -> None:
+    arms = np.array([[0.05], [0.09], [0.2]])
+    one = Follower()
+    psi, w, part = (
+        one.direction(TURN),
+        one.turn(TURN),
+        cam.swing_part(one.direction(TURN), one.turn(TURN), one.acceleration(TURN)),
+    )
+    paths = cam.roller_path(0.3, arms, psi, w)
+    together: Array = cam.curvature(0.3, arms, w, part, paths)
+    assert together.shape == (3, len(TURN))
+    for row, arm in zip(together, arms[:, 0], strict=True):
+        np.testing.assert_array_equal(row, Follower(arm=float(arm)).curvature(TURN))

@@ -48,3 +48,11 @@ def test_steel_has_the_coefficients_of_the_usual_tables() -> None:
 def test_length_and_force_for_an_allowed_pressure_give_that_pressure(force: float, allowed: float) -> None:
     length = contact.required_length(force, STEEL, 0.012, allowed)
     assert contact.contact_pressure(force, STEEL, 0.012, length) == pytest.approx(allowed, rel=1e-12)
+
+
+def test_arrays_are_single_numbers_together() -> None:
+    forces = np.array([-2000.0, 0.0, 500.0])
+    together = contact.contact_pressure(forces, STEEL, 0.01, 0.02)
+    assert together == pytest.approx(
+        [contact.contact_pressure(force, STEEL, 0.01, 0.02) for force in forces], rel=1e-15
+    )

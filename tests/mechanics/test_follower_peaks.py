@@ -21,7 +21,23 @@ from tests.examples import examples, few
 from tests.mechanics.closed_follower import WAVES, Wave, after, response, undamped_cycloidal
 
 HARD = ("modified_trapezoidal", "harmonic", "polynomial_4567")  # most joints, a jump, a long polynomial
+BY_LAW = pytest.mark.parametrize("law", LAWS.values(), ids=lambda law: law.name)
 JUMPING = ("harmonic", "parabolic")  # in acceleration
+TABLE = [  # law, λ, damping ratio, peak during the rise, peak after it
+    ("cycloidal", 1.5, 0, 2.8532, 2.4000), ("cycloidal", 1.5, 0.05, 2.4833, 1.7858), ("cycloidal", 1.5, 0.2, 1.8443, 0.8823),
+    ("cycloidal", 2.5, 0, 1.6249, 0.9524), ("cycloidal", 2.5, 0.05, 1.5317, 0.6409), ("cycloidal", 2.5, 0.2, 1.3460, 0.3618),
+    ("cycloidal", 5, 0, 1.0825, 0.0000), ("cycloidal", 5, 0.05, 1.0426, 0.1530), ("cycloidal", 5, 0.2, 1.0397, 0.1563),
+    ("harmonic", 5, 0, 2.0202, 2.0202), ("harmonic", 5, 0.05, 1.8315, 1.2203), ("harmonic", 5, 0.2, 1.5481, 1.0118),
+    ("polynomial_345", 2.5, 0, 1.7407, 1.2588), ("polynomial_345", 2.5, 0.05, 1.6306, 0.8484),
+    ("polynomial_345", 2.5, 0.2, 1.4120, 0.4605),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("name, ratio, damping, rise, residual", TABLE)
+def test_the_published_table(name: str, ratio: float, damping: float, rise: float, residual: float) -> None:
+    found = peaks(LAWS[name], ratio, damping)
+    assert found.rise == pytest.approx(rise, abs=5.0001e-5)
+    assert found.residual == pytest.approx(residual, abs=5.0001e-5)
 
 
 @pytest.mark.parametrize("ratio", [0.1, 0.37, 0.5, 0.9, 1, 1.0001, 1.5, 2, 2.5, 3, 4.8, 5, 10, 33.3, 100])
@@ -109,6 +125,15 @@ def test_no_place_exceeds_the_peak_and_the_best_of_many_comes_near(name: str, ra
         best = float(np.abs(values).max()) / law.A
         assert best <= peak + 1e-10
         assert peak <= best + (2 * np.pi * max(ratio, 1) * step) ** 2 * max(1, peak)
+
+
+def test_arrays_give_what_single_numbers_give() -> None:
+    ratios, dampings = np.geomspace(0.1, 100, 7)[:, None], np.array([0, 0.05, 0.9])
+    for law in LAWS.values():
+        together = peaks(law, ratios, dampings)
+        single = np.array([[peaks(law, ratio, damping) for damping in dampings] for ratio in ratios[:, 0]])
+        assert together.rise.shape == together.residual.shape == (7, 3)
+        np.testing.assert_allclose(np.moveaxis(together, 0, -1), single, rtol=1e-11, atol=1e-12)
 
 
 def test_many_drives_are_taken_in_blocks() -> None:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from scipy.optimize import minimize_scalar
 
 from diecut_report.formulas import Array
+from diecut_report.formulas.formula import Formula
 from diecut_report.mechanics import four_bar
 from tests.examples import examples
 
 PHI = np.linspace(0.0, 2 * np.pi, 721)[None, :]
+SHEET = (5.0, 5.0, 2.05)
 
 
 @st.composite
@@ -68,6 +73,18 @@ def test_speeds_and_acceleration_are_the_derivatives(
         assert derivative == pytest.approx(speed[2], abs=2e-8 * scale**3)
 
 
+@pytest.mark.parametrize("sign, closed_form", [(1, four_bar.inner_dead_center), (-1, four_bar.outer_dead_center)])
+def test_dead_centres_in_closed_form_are_the_extremes_of_the_rocker(sign: int, closed_form: Formula) -> None:
+    guess = closed_form(*SHEET)
+    found: Any = minimize_scalar(
+        lambda phi: -sign * float(four_bar.motion(phi, *SHEET).rocker_direction),
+        bounds=(guess - 0.5, guess + 0.5),
+        method="bounded",
+        options={"xatol": 1e-10},
+    )
+    assert found.x == pytest.approx(guess, abs=1e-6)
+
+
 @given(ratios=crank_rockers())
 @examples(80)
 def test_the_rocker_stands_still_at_its_dead_centres(ratios: tuple[float, float, float]) -> None:
@@ -94,6 +111,14 @@ def test_extremes_of_the_transmission_angle_bound_it(ratios: tuple[float, float,
     mu = four_bar.motion(PHI, *ratios).transmission_angle
     assert np.min(mu) == pytest.approx(four_bar.least_transmission_angle(*ratios), abs=1e-7)
     assert np.max(mu) == pytest.approx(four_bar.greatest_transmission_angle(*ratios), abs=1e-4)
+
+
+def test_variants_and_crank_angles_broadcast() -> None:
+    frame, coupler, rocker = np.array([[5.0, 5.0, 2.05], [6.0, 5.5, 3.0]]).T[:, :, None]
+    motion = four_bar.motion(PHI, frame, coupler, rocker)
+    assert motion.rocker_direction.shape == (2, 721)
+    alone = four_bar.motion(PHI, 6.0, 5.5, 3.0)
+    np.testing.assert_array_equal(motion.rocker_direction[1], alone.rocker_direction[0])
 
 
 @pytest.mark.parametrize("ratios", [(5, 5, 0.9), (2, 5, 2.05), (8, 5, 2.05), (0.9, 5, 5), (6, 5, 2)])

@@ -124,6 +124,16 @@ def test_the_modified_laws_have_the_published_waves(name: str, published: Any) -
 
 
 @BY_LAW
+def test_arrays_of_any_shape_give_what_single_numbers_give(law: MotionLaw) -> None:
+    k = np.linspace(0, 1, 60).reshape(3, 20)
+    for which in (*CURVES, "joint"):
+        curve = getattr(law, which)
+        together = curve(k)
+        assert together.shape == k.shape
+        np.testing.assert_allclose(together, [[curve(float(x)) for x in row] for row in k], rtol=1e-13, atol=1e-14)
+
+
+@BY_LAW
 @given(k=SHARES)
 def test_what_is_printed_is_what_is_computed(law: MotionLaw, k: float) -> None:
     for which in (*CURVES, "joint"):

@@ -44,6 +44,42 @@ CLUTCH = clutch_of(741.166, 0.0, 5.16475)
 INERTIAS = {"unbalanced": crank_inertia, "balanced": partial(crank_inertia, balanced=True)}
 
 
+@pytest.mark.parametrize(
+    "name, mean, largest, at, energy",
+    [("unbalanced", 7.18859, 15.34397, 328.928, 210.332), ("balanced", 7.54153, 17.08504, 314.772, 234.198)],
+)
+def test_the_inertia_at_the_crank_is_the_printed_one(
+    name: str, mean: float, largest: float, at: float, energy: float
+) -> None:
+    angle = np.linspace(0, 2 * np.pi, 72_001)[:-1]
+    found = INERTIAS[name](angle)
+    assert found.mean() == pytest.approx(mean, abs=1e-5)
+    assert found.max() == pytest.approx(largest, abs=1e-5)
+    assert np.degrees(angle[found.argmax()]) == pytest.approx(at, abs=6e-3)
+    assert found.max() * (6000 / 3600 * np.pi) ** 2 / 2 == pytest.approx(energy, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    "name, at, time, driven, lag, heat, inertia",
+    [
+        ("unbalanced", 323.60, 0.101808, 14.5751, 15.5516, 201.173, 15.0834),
+        ("balanced", 308.83, 0.115195, None, None, 225.298, 16.8923),
+    ],
+)
+def test_the_worst_engagement_is_the_printed_one(
+    name: str, at: float, time: float, driven: float | None, lag: float | None, heat: float, inertia: float
+) -> None:
+    """The angle is printed from a grid; the heat is flat there, so that the time changes more than it."""
+    found = One(INERTIAS[name], CLUTCH)
+    assert np.degrees(found.engagement_angle) == pytest.approx(at, abs=0.03)
+    assert found.time == pytest.approx(time, abs=2e-5)
+    assert found.heat == pytest.approx(heat, abs=6e-4)
+    assert found.equal_inertia == pytest.approx(inertia, abs=6e-5)
+    if driven and lag:
+        assert np.degrees(found.driven_angle) == pytest.approx(driven, abs=6e-3)
+        assert np.degrees(found.lag) == pytest.approx(lag, abs=6e-5)
+
+
 @pytest.mark.parametrize("name", INERTIAS)
 @pytest.mark.parametrize("load", [0.0, 300.0])
 def test_no_other_engagement_is_hotter(name: str, load: float) -> None:

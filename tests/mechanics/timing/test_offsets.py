@@ -19,7 +19,7 @@ from diecut_report.mechanics.timing.productivity import (
     tents_of,
 )
 from tests.examples import examples
-from tests.mechanics.timing.example_press import COMMON, PERIOD, TURN, dwell, phase
+from tests.mechanics.timing.example_press import COMMON, PERIOD, TURN, dwell, in_degrees, phase
 
 MS = 1e-3
 
@@ -73,6 +73,24 @@ def least(inner: Intervals, outer: Intervals, period: float) -> float:
     """The least margin of all."""
     pair = intervals.worst(intervals.margins_within(inner, outer, period))
     return inf if pair is None else pair.least
+
+
+PAIRS = [
+    ("cam", 141.0056, "cutting", [(-23.8309, -6.8923), (7.0202, -23.8309)]),
+    ("cam", 141.0056, "passing", [(13.7269, 24.7424), (12.6172, 6.8388)]),
+    ("geneva", 38.1164, "cutting", [(19.0583, 30.2185), (49.9093, 13.2799)]),
+    ("geneva", 38.1164, "passing", [(12.4370, 29.2308), (11.3273, 11.3273)]),
+]
+
+
+@pytest.mark.parametrize("transport, offset, name, expected", PAIRS)
+def test_the_margins_of_each_interval_are_the_printed_ones(
+    transport: str, offset: float, name: str, expected: list[tuple[float, float]]
+) -> None:
+    (lock,) = interlocks(transport, name, offset)
+    found = intervals.margins_within(lock.inner, lock.outer, PERIOD)
+    degrees = sorted((float(np.degrees(pair.start)), float(np.degrees(pair.end))) for pair in found)
+    assert degrees == [pytest.approx(pair, abs=3e-4) for pair in sorted(expected)]
 
 
 @pytest.mark.parametrize("name, expected", [("cutting", 207.6618), ("contact", 217.8062)])
@@ -259,6 +277,19 @@ def test_the_common_period_is_the_first_at_which_all_lines_are_whole(turns: list
     found = common_period([1 / each for each in turns])
     wholes = (k / turns[0] for k in range(1, 10**6))  # turns of the main shaft after which the first line is whole
     assert next(whole for whole in wholes if all((whole * each).denominator == 1 for each in turns)) == found
+
+
+@pytest.mark.parametrize(
+    "name, expected",
+    [
+        ("forward", [(37.6086, 406.1661)]),
+        ("cutting", [(117.1747, 307.8979), (508.0258, 684.8365)]),
+        ("contact", [(111.7238, 314.1021), (501.5482, 689.5301)]),
+        ("carriage_window", [(10.6152, 65.6176), (369.5054, 443.5212)]),
+    ],
+)
+def test_the_phases_of_the_cylinder_stand_on_the_main_shaft(name: str, expected: list[tuple[float, float]]) -> None:
+    assert in_degrees(phase(name)) == [pytest.approx(pair, abs=2e-4) for pair in expected]
 
 
 def test_an_offset_and_every_second_turn_are_counted_on_the_main_shaft() -> None:
