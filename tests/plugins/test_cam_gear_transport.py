@@ -418,3 +418,22 @@ def test_jumping_laws_print_at_all_dwells() -> None:
 def test_teeth_are_counted_in_whole_numbers() -> None:
     outputs = mechanism_results(stepper(module="2 mm"), {}).outputs
     assert isinstance(outputs["gear_teeth"].value, int)
+
+
+@pytest.mark.parametrize("law", ["cycloidal", "modified_trapezoidal"])
+def test_the_discs_power_is_the_rate_of_the_energy_of_conveyor_and_sector(law: str) -> None:
+    calc = stepper(**LOADED, motion_law=law)
+    phi, omega = smooth_places(calc, clear=4e-3), 2 * np.pi * RATE
+
+    def energy(place: Any) -> Any:
+        sector = omega * (1 + at(calc, "sector_speed", place) / (2 * np.pi))
+        return 20 * at(calc, "sheet_velocity", place) ** 2 / 2 + 0.3 * sector**2 / 2
+
+    step = 4e-4
+    rate = (8 * (energy(phi + step) - energy(phi - step)) - energy(phi + 2 * step) + energy(phi - 2 * step)) / (
+        12 * step
+    )
+    torque = at(calc, "drive_torque", phi)
+    np.testing.assert_allclose(torque, rate, atol=1e-6 * np.abs(torque).max())
+    assert number(calc, "energy_residual") < 1e-9
+    assert checks(calc)["energy_balance"].status == "pass"

@@ -31,6 +31,33 @@ from tests.machines import advised, at, checks, inputs, number, statuses
 from tests.plugins.knives import SHAPES, crossing, edge_points, in_cut, knife
 from tests.validation.rows_circular_knife import KEYS
 
+
+def energy(calc: Calculation, angle: float, right: float = 0.0, down: float = 0.0) -> float:
+    """Energy put into the board before the cutting point: each mm of it takes σ(h·p − p²/2) where the edge is p deep in it.
+
+    That is a resistance of σ times the thickness left. The polygon is moved by ``right`` and ``down``.
+    """
+    depth, face, stress = sizes(calc)
+    levels = np.linspace(face, depth, 100_001)
+    x = crossing(calc, angle, levels - down) + right
+    return float(stress * np.trapezoid((depth - levels) * x, levels))
+
+
+def entering(calc: Calculation) -> Array:
+    """While the edge enters the board: force with the thickness passed, force and torque with the thickness left."""
+    depth, face, stress = sizes(calc)
+    front, found = number(calc, "front_distance"), []
+    levels = np.linspace(face, depth, 20_001)
+    for angle in np.linspace(number(calc, "angle_entry"), number(calc, "angle_start"), 16):
+        x = crossing(calc, angle, levels, 40_001)
+        within = np.maximum(x, front)
+        rate = (crossing(calc, angle + 1e-6, levels, 40_001) - crossing(calc, angle - 1e-6, levels, 40_001)) / 2e-6
+        left = np.sum((depth - (levels[1:] + levels[:-1]) / 2) * -np.diff(within))
+        torque = np.trapezoid(np.where(x > front, (depth - levels) * rate, 0.0), levels)
+        found.append((np.trapezoid(within - front, levels), left, torque))
+    return stress * np.array(found)
+
+
 shapes = pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
 HARD = [SHAPES["through zero"], SHAPES["large"]]
 hard_shapes = pytest.mark.parametrize("shape", few(SHAPES.values(), keep=lambda shape: shape in HARD), ids=SHAPES)
@@ -414,3 +441,78 @@ def test_a_resistance_too_small_for_the_force_of_a_rule_is_told() -> None:
     for factor, status in ((1, "pass"), (0.999, "warn")):
         again = board | {"shear_resistance": f"{float(told[1]) * factor} N/mm**2"}
         assert statuses(knife(**again))["shear_resistance"] == status
+
+
+@hard_shapes
+def test_by_virtual_work_the_forces_are_those_of_the_thickness_left_and_the_torque_is_theirs(
+    shape: dict[str, Any],
+) -> None:
+    """M_u, F_w and F_h are the derivatives of the energy; F_v, which counts the thickness passed, is not."""
+    calc = knife(**shape)
+    step = 1e-3 * number(calc, "thickness")
+    for angle in map(float, in_cut(calc, 5, inside=0.05)):
+        sinking, pushing = (
+            (energy(calc, angle, **{way: step}) - energy(calc, angle, **{way: -step})) / (2 * step)
+            for way in ("down", "right")
+        )
+        turning = (energy(calc, angle + 1e-5) - energy(calc, angle - 1e-5)) / 2e-5
+        assert at(calc, "working_force", angle)[0] == pytest.approx(sinking, rel=1e-4)
+        assert number(calc, "thrust") == pytest.approx(pushing, rel=1e-6)
+        assert at(calc, "useful_torque", angle)[0] == pytest.approx(turning, rel=1e-4, abs=1e-6)
+        bow = number(calc, "shear_resistance") * at(calc, "bow_area", angle)[0]
+        assert at(calc, "force", angle)[0] - sinking == pytest.approx(2 * bow, rel=1e-2)
+
+
+@hard_shapes
+def test_while_the_edge_enters_the_force_rises_but_not_the_torque_of_cutting(shape: dict[str, Any]) -> None:
+    """As the assumptions say: F_v is greatest at φ_1, F_w and M_u before it; with friction above 0.1 the whole torque at φ_1."""
+    calc = knife(**shape)
+    passed, left, torque = entering(calc).T
+    start = in_cut(calc, 1, inside=0.0)[0] + 1e-9
+    assert (np.diff(passed) > 0).all() and passed[-1] == pytest.approx(at(calc, "force", start)[0], rel=1e-4)
+    assert left[-1] == pytest.approx(at(calc, "working_force", start)[0], rel=1e-3)
+    assert torque[-1] == pytest.approx(at(calc, "useful_torque", start)[0], rel=1e-3)
+    assert torque.max() > 1.001 * torque[-1]
+    assert left.max() < passed[-1]
+    rubbed = at(calc, "friction_torque", start)[0] * passed / passed[-1] * 0.1 / number(calc, "friction")
+    assert (torque + rubbed).max() == pytest.approx((torque + rubbed)[-1], rel=5e-3)
+
+
+@shapes
+def test_the_work_of_cutting_is_the_stress_over_the_area_that_the_edge_sweeps(shape: dict[str, Any]) -> None:
+    """Each place (x, y) of the board that the edge passes takes σ(H − y): the energy between the edge's first and last position."""
+    calc = knife(**shape)
+    depth, face, stress = sizes(calc)
+    levels = np.linspace(face, depth, 20_001)
+    first, last = (crossing(calc, number(calc, name), levels) for name in ("angle_start", "angle_end"))
+    swept = np.trapezoid((depth - levels) * (last - first), levels)
+    assert number(calc, "useful_work") == pytest.approx(stress * float(swept), rel=1e-6)
+
+
+@pytest.mark.parametrize("tau", [2.3, 12, 20])
+def test_the_triangle_under_a_straight_edge_is_high_where_the_shear_angle_is_small(tau: float) -> None:
+    """σh²/(2·tan τ) leaves out that the edge rises ever steeper: by the share h/(3R·sin²τ·cos τ) at first, by 60 % at 2.3°."""
+    slope = np.radians(tau)
+    face = np.arccos(np.cos(slope) - 0.5 / 100)
+    area = integrate.quad(lambda t: 100 * (np.sin(t) - np.sin(slope)) * 100 * np.sin(t), slope, face)[0]
+    excess = 0.60 if tau < 3 else 0.5 / (300 * np.sin(slope) ** 2 * np.cos(slope))
+    assert 0.5**2 / (2 * np.tan(slope)) / area - 1 == pytest.approx(excess, rel=0.05)
+    length = steps.front_length(0.1, face, slope)
+    half = (face - slope) / 2
+    bow = 0.1**2 * (half - np.sin(half) * np.cos(half))
+    assert steps.force(1e7, 5e-4, length, bow) == pytest.approx(1e7 * area * 1e-6, rel=1e-10)
+
+
+@given(ecc=SHARE, low=SHARE, board=SHARE, cut=SHARE, thin=SHARE, scale=st.floats(0.1, 10))
+def test_a_knife_of_another_size_has_the_same_angles_and_its_force_grows_with_the_square(
+    ecc: float, low: float, board: float, cut: float, thin: float, scale: float
+) -> None:
+    one, other = (calculate(MECHANISM, any_knife(0.1 * size, ecc, low, board, cut, thin)) for size in (1.0, scale))
+    for name, power in (
+        ("angle_start", 0),
+        ("shear_angle_max", 0),
+        ("cut_speed_max", 1),
+        ("force_max", 2),
+        ("work", 3),
+    ):
+        assert number(other, name) == pytest.approx(number(one, name) * scale**power, rel=1e-7, abs=1e-12), name

@@ -558,3 +558,39 @@ def test_a_line_without_a_torque_makes_the_sum_too_small_and_is_named() -> None:
 def listed(calc: Calculation, name: str) -> list[list[Any]]:
     """The rows of a table."""
     return MechanismHandle(calc, "timing").listing(name)
+
+
+def test_torques_add_up_to_those_of_a_fine_grid() -> None:
+    calc, drive, cross = (
+        example("cross", "cutting passing"),
+        *(base().calculations[name] for name in ("drive", "cross")),
+    )
+    main = (np.arange(200_000) + 0.5) / 200_000 * 4 * pi
+    total = np.zeros_like(main)
+    for line, turns, offset, curve, efficiency in (
+        (drive, 0.5, 0.0, "crank_torque", 0.97),
+        (cross, 1.0, float(calc["line_offset"][0, 1]), "torque", 0.95),
+    ):
+        own = ((main - offset) * turns % (2 * pi))[None, :]
+        torque = line.sample(curve, own, line.domains["crank_angle"].middle_of(own))[0]
+        total += turns * np.where(torque > 0, torque / efficiency, torque * efficiency)
+    assert number(calc, "torque_mean") == pytest.approx(total.mean(), rel=1e-5)
+    assert number(calc, "torque_rms") == pytest.approx(np.sqrt((total**2).mean()), rel=1e-5)
+    excess = np.cumsum(total - total.mean()) * 4 * pi / len(main)
+    assert number(calc, "energy_fluctuation") == pytest.approx(np.ptp(excess), rel=1e-4)
+
+
+def test_the_mean_energy_is_that_of_a_fine_grid() -> None:
+    drive, cross = (base().calculations[name] for name in ("drive", "cross"))
+    own = (np.arange(100_000)[None, :] + 0.5) / 100_000 * 2 * pi
+
+    def curve(calc: Calculation, name: str) -> Any:
+        return calc.sample(name, own, calc.domains["crank_angle"].middle_of(own))[0]
+
+    turned, speed = curve(drive, "cylinder_rotation"), curve(drive, "cylinder_speed")
+    unbalance = 2 * number(drive, "cylinder_radius") * number(drive, "static_unbalance") * np.cos(turned)
+    energy = (number(drive, "reduced_inertia") + unbalance) * speed**2 / 2
+    wheel = 3.57 * curve(cross, "wheel_speed") ** 2 / 2
+    assert number(example("cross", "cutting"), "kinetic_energy_mean") == pytest.approx(
+        energy.mean() + wheel.mean(), rel=1e-5
+    )

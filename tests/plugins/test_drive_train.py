@@ -464,3 +464,11 @@ def test_the_cones_of_a_bevel_pair_touch_and_taper_and_its_label_says_so() -> No
     spur = _pair(10.0, 40.0, 0.0, (20, 40), "spur")
     assert str(spur[-1]["text"]) == "z = 20 : 40"
     assert len({y for _, y in spur[0]["points"]}) == 2
+
+
+def test_without_backflow_each_shaft_passes_on_what_its_efficiency_leaves() -> None:
+    calc = train(gears=PAIRS)
+    powers = [number(calc, "shaft_1_power"), number(calc, "shaft_2_power"), *calc["gear_shaft_power"][0]]
+    shares = [after / before for before, after in pairwise(powers)]
+    assert shares == pytest.approx([0.95, 0.96, 0.98], rel=1e-12)
+    assert number(calc, "efficiency_total") == pytest.approx(0.95 * 0.96 * 0.98, rel=1e-12)

@@ -6,12 +6,15 @@ from math import pi, sin
 
 import numpy as np
 import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from diecut_report.formulas import Array
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from tests.examples import examples
 from tests.machines import inputs, number
 from tests.plugins.drive_trains import (
     EXAMPLE,
@@ -163,3 +166,15 @@ def test_a_torque_that_varies_by_rounding_alone_needs_hardly_a_flywheel(values: 
     calc = train(torque_curve=values, torque_mean=100, torque_peak=100)
     assert 0 <= number(calc, "energy_fluctuation") < 1e-6
     assert mechanism_results(calc, {}).status != "error"
+
+
+@examples(40)
+@given(values=st.lists(st.integers(-500, 1500), min_size=4, max_size=24))
+def test_energy_fluctuation_of_any_list_is_that_of_brute_force(values: list[int]) -> None:
+    phi, torque = over_a_turn(values, 40_001)
+    torque = at_flywheel(torque, 5, 0.97)
+    mean = float((torque[1:] + torque[:-1]).mean() / 2)
+    assume(mean > 0)
+    found = number(train(torque_curve=values), "energy_fluctuation")
+    energy = cumulative_trapezoid((torque - mean) * 5, phi, initial=0)
+    assert found == pytest.approx(np.ptp(energy), rel=1e-4, abs=1e-3)

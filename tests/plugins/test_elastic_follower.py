@@ -8,23 +8,25 @@ are enough for the rest. A curve drives it once with each law and once with each
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 from typing import Annotated, Any
 
 import numpy as np
 import pytest
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
 
 from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible
 from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanics import motion_laws
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import CurveRecord
 from tests.examples import few
 from tests.machines import checks, inputs, number
-from tests.mechanics.closed_follower import undamped_cycloidal
+from tests.mechanics.closed_follower import WAVES, after, response, undamped_cycloidal
 from tests.plugins.followers import (
     LAWS,
     SHAFT,
@@ -42,6 +44,12 @@ from tests.plugins.followers import (
     verdicts,
 )
 from tests.plugins.steppers import CONVEYOR, stepper
+
+
+def spline(calc: Calculation, curve: str, time: Any) -> BSpline:
+    """A curve's spline of fifth order within a smooth piece."""
+    return make_interp_spline(time, at(calc, curve, time), 5)
+
 
 EACH_LAW = pytest.mark.parametrize("law", LAWS)
 HARD_LAWS = pytest.mark.parametrize("law", few(LAWS, keep=lambda law: law in ("modified_trapezoidal", "harmonic")))
@@ -435,3 +443,56 @@ def test_a_rate_that_is_not_that_of_the_curve_is_refused() -> None:
     with pytest.raises(Impossible, match="comes again at"):
         driven(source, "gear_angle", cycles_per_hour=3000)
     assert number(driven(source, "gear_angle", cycles_per_hour=6000), "cycle_time") == pytest.approx(0.6)
+
+
+@pytest.mark.parametrize("law", WAVES)
+@pytest.mark.parametrize("ratio, damping", [(0.7, 0.05), (2.5, 0), (6.3, 0.4), (40, 0.02)])
+def test_the_acceleration_is_the_closed_one(law: str, ratio: float, damping: float) -> None:
+    calc = follower(motion_law=law, stiffness=stiffness(ratio), damping_ratio=damping)
+    k = np.linspace(1e-9, 1 - 1e-9, 1001)
+    scale = 1.2 / 0.2**2
+    moving, rate = response(WAVES[law], ratio, damping, k)
+    end, slope = response(WAVES[law], ratio, damping, np.array([1.0]))
+    swinging = after(motion_laws.LAWS[law], end[0], slope[0], ratio, damping, k * 3 / ratio)
+    tolerance = 1e-9 * scale * max(np.abs(moving).max(), np.abs(rate).max() / (2 * np.pi * ratio))
+    np.testing.assert_allclose(at(calc, "acceleration", 0.2 * k), scale * moving, atol=tolerance)
+    np.testing.assert_allclose(at(calc, "acceleration", 0.2 * (1 + k * 3 / ratio)), scale * swinging, atol=tolerance)
+
+
+def test_a_stiff_drive_carries_the_link_with_the_input() -> None:
+    calc = follower(stiffness=stiffness(49), damping_ratio=0.5)
+    assert number(calc, "peak_ratio") == pytest.approx(1, abs=1e-3)
+    assert number(calc, "overshoot") == pytest.approx(0, abs=1e-5)
+
+
+@pytest.mark.parametrize("law", ["cycloidal", "polynomial_345", "polynomial_4567"])
+@pytest.mark.parametrize("damping", [0, 0.05, 0.6])
+def test_the_work_of_the_input_is_in_motion_strain_and_heat(law: str, damping: float) -> None:
+    """At the end of the rise and of the rest: ∫Mẏ dt = Iẋ²/2 + Kz²/2 + ∫Cż² dt."""
+    calc = follower(motion_law=law, damping_ratio=damping)
+    constant = 2 * damping * np.sqrt(5200 * 0.8)
+    work = heat = np.zeros(())
+    for low, high in pairwise((0.0, 0.2, 0.2 + 3 * number(calc, "natural_period"))):
+        time = np.linspace(low, high - 1e-12, 4001)
+        y, x, torque = (spline(calc, name, time) for name in ("input", "response", "torque"))
+        z, speed = at(calc, "response", time) - at(calc, "input", time), (x.derivative()(time) - y.derivative()(time))
+        work = work + make_interp_spline(time, torque(time) * y.derivative()(time), 5).integrate(low, high - 1e-12)
+        heat = heat + make_interp_spline(time, constant * speed**2, 5).integrate(low, high - 1e-12)
+        held = 0.8 * x.derivative()(time[-1]) ** 2 / 2 + 5200 * z[-1] ** 2 / 2
+        assert float(work) == pytest.approx(float(held + heat), abs=1e-8 * number(calc, "torque_peak") * 1.2)
+    assert (float(heat) > 0.01) is (damping > 0)
+
+
+def test_equal_tuning_and_damping_are_dynamically_similar() -> None:
+    """Ten times the inertia, half the time, another rise: 40 times the stiffness."""
+    one, other = follower(), follower(inertia=8, stiffness=5200 * 40, rise_time="0.1 s", rise=0.03)
+    for name in ("peak_ratio", "residual_ratio", "overshoot", "tuning_ratio"):
+        assert number(one, name) == pytest.approx(number(other, name), rel=1e-11), name
+    assert one["recommended_law"][0, 0] == other["recommended_law"][0, 0]
+
+
+@HARD_LAWS
+def test_more_damping_lowers_the_peaks_at_this_tuning(law: str) -> None:
+    """λ = 2.57; not everywhere: near 0.7 the peak in the rise grows with a little damping."""
+    found = [number(follower(motion_law=law, damping_ratio=zeta), "peak_ratio") for zeta in (0, 0.02, 0.05, 0.1, 0.2)]
+    assert found == sorted(found, reverse=True)

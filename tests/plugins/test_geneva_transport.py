@@ -433,3 +433,20 @@ def test_the_default_locking_arc_lies_between_rim_and_slots_wherever_there_is_ro
 
 def test_a_given_locking_radius_is_taken() -> None:
     assert number(geneva(locking_radius="80 mm"), "arm_tip") == pytest.approx(0.01, rel=1e-12)
+
+
+@pytest.mark.parametrize("slots", SLOTS)
+def test_the_roller_enters_along_the_slot(slots: int) -> None:
+    """In the resting wheel's frame the roller has no velocity across the slot at entry; its path touches the slot there."""
+    half = np.pi / 2 - np.pi / slots
+    radius = 0.2 * np.sin(np.pi / slots)
+    slot = np.exp(1j * (np.pi + np.pi / slots))  # direction of the slot that waits for the roller
+    alpha = -half + np.array([-1e-4, 0.0, 1e-4])
+    across = np.imag((radius * np.exp(1j * alpha) - 0.2) / slot)
+    assert across[1] == pytest.approx(0, abs=1e-15)
+    assert (across[2] - across[0]) / 2e-4 == pytest.approx(0, abs=1e-8)
+    calc = with_slots(slots)
+    assert at(calc, "wheel_speed", engaged(calc)[:1])[0] == pytest.approx(0, abs=1e-7)
+    assert at(calc, "wheel_acceleration", engaged(calc)[:1])[0] == pytest.approx(
+        np.tan(np.pi / slots) * OMEGA**2, rel=1e-7
+    )

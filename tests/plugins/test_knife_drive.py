@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanics import four_bar
 from diecut_report.plugins.knife_drive import MECHANISM
 from diecut_report.results.checks import check_results, verdicts
 from diecut_report.results.figure_record import FigureRecord
@@ -493,3 +494,28 @@ def test_a_knife_without_a_drive_says_so_once() -> None:
     with pytest.raises(Impossible) as refused:
         calculate(MECHANISM, inputs(MECHANISM, {"working_depth": 40}))
     assert len(refused.value.reasons) == 1
+
+
+@pytest.mark.parametrize("keys, sign", [(OUTER, 1), (INNER, -1)])
+def test_the_rocker_moves_as_the_four_bar(keys: dict[str, Any], sign: int) -> None:
+    phi = np.linspace(0, 2 * np.pi, 361)
+    calc, linkage = knife(**keys), four_bar.motion(phi, 6.0, 5.5, 4.0)
+    np.testing.assert_allclose(
+        at(calc, "crank_rocker_velocity", phi), sign * linkage.rocker_speed_ratio * OMEGA * 0.107, atol=1e-12
+    )
+    np.testing.assert_allclose(
+        at(calc, "crank_rocker_acceleration", phi),
+        sign * linkage.rocker_acceleration_ratio * OMEGA**2 * 0.107,
+        atol=1e-9,
+    )
+
+
+@each_drive
+def test_what_brakes_the_edge_is_its_speed_at_contact_and_its_way_the_depth(drive: str, keys: dict[str, Any]) -> None:
+    calc = knife(**keys)
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    lowest, angle = number(calc, f"{drive}_lowest_angle"), number(calc, f"{drive}_working_angle")
+    phi, time = lowest - angle / 2 + angle / 2 * nodes, angle / 2 * weights / OMEGA
+    braked, way = (np.sum(at(calc, f"{drive}_{name}", phi) * time) for name in ("acceleration", "velocity"))
+    assert braked == pytest.approx(number(calc, f"{drive}_contact_velocity"), rel=1e-12)
+    assert way == pytest.approx(-0.04, rel=1e-12)

@@ -323,3 +323,9 @@ def test_a_link_that_still_swings_when_the_next_motion_begins_tells_no_rest(neve
     link = {"cycles_per_hour": "1800 1/h", "rise_time": "0.1", "rest_tolerance": "0.001 deg", "dwell_cycles": 2}
     assert set(mechanism_results(follower(**link | never), {}).phases) == {"moving"}
     assert mechanism_results(follower(), {}).phases_absent["moving"].missing == ["cycles_per_hour"]
+
+
+@pytest.mark.parametrize(("machine", "length"), [(stepper, 172.0596), (cross, 242.8662)])
+def test_the_sheet_rests_within_a_tenth_of_a_millimetre(machine: Callable[[], Calculation], length: float) -> None:
+    ((start, end),) = in_degrees(machine(), "rest")
+    assert end - start == pytest.approx(length, abs=6e-5)

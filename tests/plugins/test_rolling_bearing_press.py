@@ -13,7 +13,9 @@ from diecut_report.machine.calculation import Impossible
 from diecut_report.press import Press
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.results.mechanism import mechanism_results
-from tests.configs import DISCOVERY, HEAD, problems, saved
+from diecut_report.study.definition.base_inputs import find_input
+from diecut_report.study.execution.variant_rows import calculate_rows, columns_of
+from tests.configs import DISCOVERY, HEAD, loaded, problems, saved
 from tests.machines import checks, statuses
 from tests.plugins.bearings import ANGULAR, BALL, ROLLER, SOUGHT, SOUGHT_ROLLER, SWINGING, Over, bearings, one, value
 from tests.plugins.test_shaft_of_a_press import DRIVE, SHAFT
@@ -235,3 +237,18 @@ def test_of_rollers_those_are_allowed_the_tilt_of_cylindrical_ones_that_are_know
     found = checks(one(ROLLER | ({"designation": designation} if designation else {}), tilt=0.28))["roller_tilt"]
     assert found.limit * 1e3 == pytest.approx(permitted) and found.status == "pass"
     assert statuses(one(ROLLER, tilt=0.59))["roller_tilt"] == "fail"  # beyond twice what is permitted
+
+
+def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
+    base = loaded(tmp_path, PRESS)
+    varied = {"mechanisms.drive.cutting_force_per_length": np.array([1e4, 2.5e4, 4e4, 6e4]),
+              "mechanisms.bearings.bearings.1.dynamic_rating": np.array([3e4, 5e4, 6e4, 7e4])}  # fmt: skip
+    rows = calculate_rows(base, {find_input(base, path): values for path, values in varied.items()}, 4)
+    assert not rows.slow
+    assert set(rows.columns) <= {column.name for column in columns_of(base)}
+    text = PRESS.replace("cutting_force_per_length: 25 N/mm", "cutting_force_per_length: 40 N/mm").replace(
+        "55.3 kN", "60 kN"
+    )
+    alone = Press.read(saved(tmp_path, text), DISCOVERY).calculate().results.mechanisms["bearings"].outputs
+    for name in ("main_b_life", "crank_pin_equivalent_load", "rocker_pin_turns_per_cycle", "life_min", "system_life"):
+        assert rows.columns[f"bearings.{name}"][2] == pytest.approx(alone[name].value, rel=1e-9)

@@ -12,8 +12,31 @@ from numpy.testing import assert_allclose
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.plugins.shaft import MECHANISM
 from diecut_report.results.checks import check_results
+from tests.examples import few
 from tests.machines import inputs, number, statuses
 from tests.plugins.shafts import CRANK, CRANKSHAFT, GEAR, LAYSHAFT, SECTIONS, STANDING, crankshaft, row, shaft
+
+GROWING: list[tuple[str, dict[str, Any]]] = [
+    ("fatigue", CRANKSHAFT | {"required_fatigue_safety": 2.6}),
+    ("fatigue", LAYSHAFT | {"required_fatigue_safety": 30}),
+    ("yield", CRANKSHAFT | {"required_yield_safety": 15}),
+    ("yield", LAYSHAFT | {"required_yield_safety": 100}),
+    ("bearing_slope", CRANKSHAFT | {"allowable_bearing_slope": 0.5}),
+    ("deflection", CRANKSHAFT | {"allowable_deflection": 0.05}),
+    ("twist", CRANKSHAFT | {"allowable_twist": 0.1}),
+]
+
+
+@pytest.mark.parametrize(
+    ("check", "keys"),
+    few(GROWING, keep=lambda one: one not in GROWING[1:3]),  # each check, and each of the two shafts
+)
+def test_a_failed_check_advises_larger_sections(check: str, keys: dict[str, Any]) -> None:
+    failed = next(each for each in check_results(shaft(keys)) if each.id == check)
+    assert failed.status in ("fail", "warn")
+    (way,) = failed.advice
+    assert {change.key.split(".")[0] for change in way} == {"sections"}
+
 
 SHOULDER_1, SHOULDER_2, SHOULDER_3 = "shoulder 1", "shoulder 2", "shoulder 3"
 GEAR_KEY, CRANK_KEY = "notch 1 (keyseat end mill)", "notch 2 (keyseat end mill)"
@@ -579,3 +602,9 @@ def test_a_steel_beyond_its_sizes_is_refused() -> None:
 def test_a_shaft_that_stands_has_no_speed() -> None:
     """A word makes neither the fatigue milder nor the critical speed go away: what has a speed turns."""
     assert statuses(shaft(STANDING, speed=1500))["at_rest"] == "fail"
+
+
+def test_the_growth_counts_on_the_strengths_of_a_thicker_bar() -> None:
+    keys = {key: value for key, value in STANDING.items() if key not in ("tensile_strength", "yield_strength")}
+    keys |= {"material": "42CrMo4+QT", "sections": [{"length": 340, "diameter": 15.9}], "required_yield_safety": 3.4}
+    test_a_failed_check_advises_larger_sections("yield", keys)

@@ -6,7 +6,8 @@ from math import degrees
 
 import pytest
 
-from tests.machines import number
+from diecut_report.machine.numerics.extremes import extreme
+from tests.machines import UNBALANCED, drive, number
 from tests.validation.source_000 import published_cylinder, published_drive, unsigned_braking_peak
 
 SHEET_CYLINDER = {
@@ -60,3 +61,26 @@ def test_the_angles_of_the_method_sheet() -> None:
 
 def test_the_sources_unsigned_torque() -> None:
     assert unsigned_braking_peak() == pytest.approx(-1850.2, abs=0.05)
+
+
+def test_extremes_of_the_transfer_functions() -> None:
+    calc = published_drive()
+    for curve, least, greatest in (
+        ("rocker_speed_ratio", -0.552227, 0.488739),
+        ("rocker_acceleration_ratio", -0.416592, 0.773399),
+    ):
+        found = [float(extreme(calc, curve, sign)[0][0, 0]) for sign in (-1.0, 1.0)]
+        assert found == pytest.approx([least, greatest], abs=5e-7)
+
+
+def test_the_unbalance_raises_the_braking_peak() -> None:
+    exact = {"cylinder_mass": "80.908 kg", "cylinder_inertia": "0.63623 kg*m**2"}
+    lossless = {f"efficiency_{n}": 1 for n in ("sector", "gear", "four_bar", "bearings", "chain")}
+    level, heavy = (
+        drive(**exact, **lossless),
+        drive(**exact, **lossless, static_unbalance=UNBALANCED["static_unbalance"]),
+    )
+    assert number(level, "crank_torque_min") == pytest.approx(-1232, abs=1)
+    assert number(heavy, "crank_torque_min") == pytest.approx(-1436, abs=1)
+    assert number(level, "inertia_moment_max") == pytest.approx(785, abs=1)
+    assert number(heavy, "inertia_moment_max") == pytest.approx(996, abs=1)
