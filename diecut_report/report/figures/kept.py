@@ -14,7 +14,8 @@ from pydantic import TypeAdapter
 
 from diecut_report.errors import UserError
 from diecut_report.files import cache_folder, code_below, write
-from diecut_report.report.figures.style import FONTS, Svg, font_file
+from diecut_report.report.figures.style import FONTS, Svg
+from diecut_report.report.symbols import font_file
 
 PACKAGE = Path(__file__).parents[2]
 MAX_KEPT = 2000  # figures, some 100 MB; of more the half that was written first is removed
@@ -63,7 +64,7 @@ def make_room() -> None:
 def _code() -> str:
     """The hash of the program's code and of the fonts, by which figures are drawn."""
     found = sha256(mpl.__version__.encode())
-    files = [path for _, path in code_below(str(PACKAGE))]
-    for path in (*sorted(files), *map(font_file, FONTS)):
-        found.update(Path(path).read_bytes())
+    files = sorted(Path(path) for _, path in code_below(str(PACKAGE)))
+    for file in (*files, *map(font_file, FONTS)):
+        found.update(file.read_bytes())
     return found.hexdigest()
