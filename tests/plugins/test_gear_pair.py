@@ -349,7 +349,8 @@ def by_hand(calc: Calculation, keys: dict[str, Any]) -> tuple[float, float, floa
     st.fixed_dictionaries(
         {
             "grade": st.integers(3, 11), "speed": st.floats(1, 2000), "slope": st.floats(0, 2), "torque": st.floats(20, 5000),
-            "helix_angle": st.sampled_from([0, 6, 14, 25]), "crowned": st.booleans(), "face_width": st.floats(15, 90), "shift_1": st.floats(0, 0.5),
+            "helix_angle": st.sampled_from([0, 6, 14, 25]), "pressure_angle": st.sampled_from([20, 21, 22]),
+            "crowned": st.booleans(), "face_width": st.floats(15, 90), "shift_1": st.floats(0, 0.5),
             "flanks_1": st.sampled_from(["through_hardened", "case_hardened", "grey_iron"]), "sigma_h_lim_1": st.floats(300, 1500),
             "flanks_2": st.sampled_from(["through_hardened", "case_hardened", "grey_iron"]), "sigma_h_lim_2": st.floats(300, 1500),
         }
