@@ -44,7 +44,7 @@ def test_the_pool_of_processes_has_a_pipe_of_results_that_can_be_closed() -> Non
         queue = getattr(executor, "_result_queue", None)
         assert isinstance(getattr(queue, "_writer", None), Connection), (
             "This Python's ProcessPoolExecutor has no _result_queue._writer any more, which study runs close to end a pool whose process died "
-            f"in the middle of a result (study/execution/pending.py): {ADVICE}."
+            f"in the middle of a result (study/execution/engines.py): {ADVICE}."
         )
 
 
