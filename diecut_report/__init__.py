@@ -24,11 +24,33 @@ if TYPE_CHECKING:
     from diecut_report.scripting.values import InputValue, QuantityValue, linspace
 
 __all__ = [
-    "CheckList", "CheckResult", "ConfigError", "CurveResult", "FigureResult", "InfluenceTable", "InputValue",
-    "LoadedPress", "MechanismResults", "MendedPress", "PhaseResult", "PluginError", "PressInput", "Problem",
-    "QuantityValue", "Results", "Solution", "SweepTable", "UnknownName", "Unwritable", "UserError", "__version__",
-    "linspace", "load", "load_results", "loads",
-]  # fmt: skip
+    "CheckList",
+    "CheckResult",
+    "ConfigError",
+    "CurveResult",
+    "FigureResult",
+    "InfluenceTable",
+    "InputValue",
+    "LoadedPress",
+    "MechanismResults",
+    "MendedPress",
+    "PhaseResult",
+    "PluginError",
+    "PressInput",
+    "Problem",
+    "QuantityValue",
+    "Results",
+    "Solution",
+    "SweepTable",
+    "UnknownName",
+    "Unwritable",
+    "UserError",
+    "__version__",
+    "linspace",
+    "load",
+    "load_results",
+    "loads",
+]
 _HOMES = {
     "errors": ("ConfigError", "PluginError", "Problem", "UnknownName", "Unwritable", "UserError"),
     "scripting.parts": ("CheckList", "CheckResult", "CurveResult", "FigureResult", "PhaseResult"),

@@ -15,9 +15,16 @@ from diecut_report.quantities.units import pretty, unit
 
 EASY_FROM, EASY_BELOW = 0.1, 1e4  # a number is easy to read from the one to below the other
 FAMILIES = (
-    ("um", "mm", "m"), ("N", "kN", "MN"), ("Pa", "kPa", "MPa", "GPa"), ("W", "kW", "MW"), ("J", "kJ", "MJ"), ("us", "ms", "s"),
-    ("N*m", "kN*m", "MN*m"), ("g", "kg", "t"), ("mm/s", "m/s"),
-)  # fmt: skip
+    ("um", "mm", "m"),
+    ("N", "kN", "MN"),
+    ("Pa", "kPa", "MPa", "GPa"),
+    ("W", "kW", "MW"),
+    ("J", "kJ", "MJ"),
+    ("us", "ms", "s"),
+    ("N*m", "kN*m", "MN*m"),
+    ("g", "kg", "t"),
+    ("mm/s", "m/s"),
+)
 FORCES = (("N", 1e3), ("kN", 1e7), ("MN", math.inf))  # the least, N, that is told in a greater unit
 """Forces go from one mechanism to the next: each is told in the unit of its size, whatever a chapter declares, so that all tell it alike."""
 # The finest step of a machine's quantity that can be made or measured, SI.

@@ -164,12 +164,14 @@ class _WholeMachine:
         if not parts or not place:
             return None
         part = next((each for shaft in parts.shafts.values() for each in shaft.parts if each.path == place[:-1]), None)
-        tried = [*(_stronger(parts, name, part) if part else _in_place(parts, name, place))]
-        strongest = next((each for each in reversed(tried) if self._allows(name, each)), None)
-        # what the strongest one does not mend, such as a speed or a swing, none does
-        if strongest is None or not self._suits(name, check, strongest):
-            return None
-        return next((Way(changes, 0) for changes in tried if self._suits(name, check, changes, is_sound=True)), None)
+        for tried in _stronger(parts, name, part) if part else _in_place(parts, name, place):
+            strongest = next((each for each in reversed(tried) if self._allows(name, each)), None)
+            # what the strongest one does not mend, such as a speed or a swing, none beside it does
+            if strongest is not None and self._suits(name, check, strongest):
+                sound = (each for each in tried if self._suits(name, check, each, is_sound=True))
+                if (changes := next(sound, None)) is not None:
+                    return Way(changes, 0)
+        return None
 
     def _present(self, name: str, change: KeyChangeRecord) -> float | None:
         """The value that a key has today, in the unit of its change."""
@@ -366,22 +368,27 @@ def _of_bore(part: ShaftPart, bore: float) -> Iterator[str]:
     return (name for name, own in bearing_series(part.keys.designation or "").items() if own >= bore - SAME_PLACE)
 
 
-def _stronger(parts: MachineParts, name: str, part: ShaftPart) -> Iterator[list[KeyChangeRecord]]:
-    """Yield the changes to stronger bearings on a shaft: of the same bore, then larger ones of its series, whose seat grows with them."""
-    yield from (_another_bearing(parts, name, part, text) for text in stronger_bearings(part.keys.designation or ""))
-    larger = _of_bore(part, part.seat + 2 * SAME_PLACE) if part.section else iter(())
-    for text in islice(larger, LARGER):
-        place = (*part.shaft.path, "sections", part.section.index if part.section else 0, "diameter")
-        seat = _typed_there(parts, name, place, _shown(catalogue_size(text, "d") or 0.0, "mm"), "mm")
-        yield [*_another_bearing(parts, name, part, text), seat]
+def _stronger(parts: MachineParts, name: str, part: ShaftPart) -> Iterator[list[list[KeyChangeRecord]]]:
+    """Yield the changes to stronger bearings on a shaft, the weakest first: to those of the same bore; to larger ones, each with its seat."""
+    same = stronger_bearings(part.keys.designation or "")
+    yield [_another_bearing(parts, name, part, text) for text in same]
+    if part.section:
+        place = (*part.shaft.path, "sections", part.section.index, "diameter")
+        yield [
+            [*_another_bearing(parts, name, part, text), _typed_there(parts, name, place, _bore_of(text), "mm")]
+            for text in islice(_of_bore(part, part.seat + 2 * SAME_PLACE), LARGER)
+        ]
 
 
-def _in_place(parts: MachineParts, name: str, place: KeyPath) -> Iterator[list[KeyChangeRecord]]:
-    """Yield the changes to stronger bearings of the same bore at a place of the file, as on a pin."""
-    return (
-        [_typed_there(parts, name, place, text)]
-        for text in stronger_bearings(str(parts.reader.tree.typed(place) or ""))
-    )
+def _in_place(parts: MachineParts, name: str, place: KeyPath) -> Iterator[list[list[KeyChangeRecord]]]:
+    """Yield the changes to stronger bearings of the same bore at a place of the file, as on a pin, the weakest first."""
+    same = stronger_bearings(str(parts.reader.tree.typed(place) or ""))
+    yield [[_typed_there(parts, name, place, text)] for text in same]
+
+
+def _bore_of(designation: str) -> float:
+    """The bore of a bearing of the catalogue, mm."""
+    return _shown(catalogue_size(designation, "d") or 0.0, "mm")
 
 
 def _another_bearing(parts: MachineParts, name: str, part: ShaftPart, designation: str) -> list[KeyChangeRecord]:

@@ -6,6 +6,7 @@ import re
 from functools import cache
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -18,11 +19,13 @@ from diecut_report.config.yaml import KeyPath, parse
 from diecut_report.design.advice import mended
 from diecut_report.errors import UserError
 from diecut_report.press import Press
+from diecut_report.results import machine_advice
 from diecut_report.results.advice import printed
 from diecut_report.results.checks import checks_of, verdicts
 from diecut_report.results.machine_advice import advised
 from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
 from diecut_report.results.press_run import Run, compute
+from diecut_report.results.record import Value
 from diecut_report.results.warm_press import WarmPress
 from diecut_report.standards import bearing_series, catalogue_size, stronger_bearings
 from tests.config.parts.machines import FILE
@@ -320,6 +323,31 @@ def test_a_bearing_that_dents_is_a_stronger_one_of_its_bore(folder: Path) -> Non
     assert (change.key, change.value, change.mechanism) == ("bearings.0.designation", "6306", "")
     assert "Give limiting_speed of 6306, too" in str(found.message)
     assert status(retyped(run, "shafts_pinion_bearings", [change]), "shafts_pinion_bearings", "a_static") == "pass"
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize(
+    ("enough", "tried"),
+    [
+        (("6306",), ["6306", "6306"]),
+        (("6209", "6210"), ["6306", "6210", "6207", "6208", "6209"]),
+        ((), ["6306", "6210"]),
+    ],
+    ids=["heavier", "larger", "none"],
+)
+def test_a_heavier_bearing_of_the_bore_is_sought_then_a_larger_one_and_none_where_the_strongest_is_not_enough(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, enough: tuple[str, ...], tried: list[str]
+) -> None:
+    asked = list[Value]()
+
+    def suits(*given: Any, **_: Any) -> bool:
+        asked.append(given[-1][0].value)
+        return asked[-1] in enough
+
+    run = machine(folder, THIN_SEATS)
+    monkeypatch.setattr(machine_advice._WholeMachine, "_suits", suits)
+    found = advice(run, "shafts_pinion_bearings", "a_life").advice
+    assert asked == tried and [way[0].value for way in found] == tried[-1:] * bool(enough)
 
 
 @pytest.mark.nightly

@@ -12,8 +12,7 @@ from pathlib import Path
 import matplotlib as mpl
 from pydantic import TypeAdapter
 
-from diecut_report.errors import UserError
-from diecut_report.files import cache_folder, code_below, write
+from diecut_report.files import cache_folder, code_below
 from diecut_report.report.figures.style import FONTS, Svg
 from diecut_report.report.symbols import font_file
 
@@ -31,11 +30,11 @@ def kept(drawn_of: object, draw: Callable[[], Svg]) -> Svg:
     if folder is None:
         return draw()
     file = folder / f"{sha256(f'{_code()} {drawn_of!r}'.encode()).hexdigest()}.json"
-    with suppress(OSError, ValueError):  # not there, or damaged
+    with suppress(OSError, ValueError):  # not there, or not whole
         return FORM.validate_json(file.read_bytes(), strict=True)
     made = draw()
-    with suppress(OSError, UserError):
-        write(file, FORM.dump_json(made))
+    with suppress(OSError):
+        file.write_bytes(FORM.dump_json(made))
     return made
 
 
