@@ -239,6 +239,7 @@ def kinds(*columns: list[str], symbol: str = "", unit: str = "") -> list[str]:
         (["A", "–"], "named"),
         (["12,5", "–", "−3"], ""),
         (["1,2\u2009×\u200910⁻⁵", "3"], ""),
+        (["10,34", "> 100"], ""),
     ],
 )
 def test_a_first_column_is_what_its_texts_are(texts: list[str], kind: str) -> None:

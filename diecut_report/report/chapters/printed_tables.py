@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
+from diecut_report.quantities.formatting import ABOVE
 from diecut_report.report.text import decimals, is_power, rooms
 
 LONG = 10  # rows of a table
@@ -33,7 +34,8 @@ class PrintedTable:
         texts = [row[index] for row in self.rows]
         if set(texts) <= MARKS:
             return "nth"
-        if any(decimals(text) is None and not is_power(text) and text not in (DASH, "") for text in texts):
+        numbers = (text.removeprefix(ABOVE) for text in texts)  # a bound is a number among others
+        if any(decimals(text) is None and not is_power(text) and text not in (DASH, "") for text in numbers):
             return "named" if index in self._first else "words"
         _, letter, unit = self.columns[index]
         is_counted = texts == [str(nth) for nth in range(1, len(texts) + 1)] and not (letter or unit)
