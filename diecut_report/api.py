@@ -2,8 +2,8 @@
 
 from typing import Annotated
 
+from diecut_report.formulas.expression import GRAVITY, Constant, Expression, arccos, as_angle, as_number, m, number, pi
 from diecut_report.formulas.formula import Formula, formula
-from diecut_report.formulas.tree import GRAVITY, Constant, arccos, as_angle, as_number
 from diecut_report.mechanism.chapters import Chapter, Steps, prefixed
 from diecut_report.mechanism.checks import AdviceWay, Check, Refusal, Vary
 from diecut_report.mechanism.curve_inputs import (

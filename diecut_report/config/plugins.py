@@ -31,7 +31,7 @@ from diecut_report import __version__
 from diecut_report.config import yaml
 from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin, noting_what_is_read
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
-from diecut_report.formulas.formula import FormulaError
+from diecut_report.formulas.expression import FormulaError
 from diecut_report.mechanism.mechanism import CONTRACT, Mechanism
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, UnknownLanguage, built_in

@@ -16,7 +16,7 @@ from diecut_report.declaration.inputs import allowed_wrong, fault_of
 from diecut_report.declaration.names import DeclaredNames, Fault, Giver, fault, short, unknown, where
 from diecut_report.declaration.texts import SAID, files_around, not_an_input, own_files, parsed
 from diecut_report.errors import nearest
-from diecut_report.formulas.formula import FormulaError
+from diecut_report.formulas.expression import FormulaError
 from diecut_report.formulas.tree import Node, substitute, symbols
 from diecut_report.mechanism.chapters import MISSING, taken
 from diecut_report.mechanism.checks import Check, Vary

@@ -11,7 +11,7 @@ import numpy as np
 from diecut_report.declaration.formulas import kind_of, lacking
 from diecut_report.declaration.names import KINDS, DeclaredNames, Fault, fault, kinds_told, told
 from diecut_report.errors import nearest
-from diecut_report.formulas.tree import Constant
+from diecut_report.formulas.expression import Constant
 from diecut_report.mechanism.figures import Bars, Figure, Panel, Plot, Polar
 from diecut_report.mechanism.names import When
 from diecut_report.mechanism.steps import PREFIX, ROLES, Abscissa, Phase

@@ -26,8 +26,9 @@ from diecut_report.declaration.inputs import of_input
 from diecut_report.declaration.names import declared_in, short, subject
 from diecut_report.declaration.texts import PAPER, own_files, parsed, unlisted
 from diecut_report.formulas.conditions import alike as kinds_alike
+from diecut_report.formulas.expression import GRAVITY
 from diecut_report.formulas.formula import Formula, evaluate
-from diecut_report.formulas.tree import APPLY, AS_ANGLE, AS_NUMBER, GRAVITY, PI, Node, symbols, walk, written
+from diecut_report.formulas.tree import APPLY, AS_ANGLE, AS_NUMBER, PI, Node, symbols, walk, written
 from diecut_report.mechanism.chapters import Chapter, form_keys, in_form, in_unit, taken
 from diecut_report.mechanism.inputs import Block, Inputs, fields, keys
 from diecut_report.mechanism.mechanism import Mechanism, axes

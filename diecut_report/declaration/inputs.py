@@ -19,7 +19,7 @@ from pydantic.fields import FieldInfo
 from diecut_report.declaration.formulas import kind_of
 from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, fault
 from diecut_report.errors import nearest
-from diecut_report.formulas.formula import FormulaError
+from diecut_report.formulas.expression import FormulaError
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import BOUNDS, Block, Key, Meta, Quantity, Referred, allowed, meta_of, nested

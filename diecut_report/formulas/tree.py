@@ -9,9 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.quantities.units import unit as known
-from diecut_report.text.phrases import Phrase
-
 LEAVES = ("sym", "num", "qty")
 
 
@@ -44,6 +41,19 @@ def _inner(part: Any, leaf: Callable[[Node], Node]) -> Any:
     if type(part) is Node:
         return transform(part, leaf)
     return tuple([transform(each, leaf) for each in part]) if isinstance(part, tuple) else part
+
+
+def unsaid(node: Node) -> Node:
+    """The tree without what is said to the check of dimensions alone."""
+
+    def without(part: Any) -> Any:
+        if type(part) is Node:
+            return unsaid(part)
+        return tuple(map(without, part)) if isinstance(part, tuple) else part
+
+    if node.op == "call" and node.args[0] in SAID:
+        return unsaid(node.args[1])
+    return node if node.op in LEAVES else Node(node.op, tuple(map(without, node.args)))
 
 
 def substitute(node: Node, values: Mapping[str, Node]) -> Node:
@@ -104,27 +114,7 @@ def written(node: Node) -> str:
 ROUNDING = 1e-9  # of a factor of 1; how far beyond ±1 rounding may carry the cosine of an angle that exists
 
 
-class Constant(float):
-    """Hold a physical constant of a formula: an SI value with symbol and unit (pint-readable, coherent SI)."""
-
-    symbol: str
-    unit: str
-
-    def __new__(cls, value: float, symbol: str, unit: str) -> Constant:
-        given = known(unit)
-        if abs(given.factor - 1) > ROUNDING:
-            template = "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}"
-            given_text, in_si = format(given.factor, "g"), format(value * given.factor, "g")
-            raise TypeError(Phrase(template, symbol=symbol, unit=unit, factor=given_text, si=given.si, value=in_si))
-        self = super().__new__(cls, value)
-        self.symbol, self.unit = symbol, unit
-        return self
-
-
-GRAVITY = Constant(9.80665, "g", "m/s**2")
-
-
-def arccos(cosine: Any) -> Any:
+def arccos_of(cosine: Any) -> Any:
     """Return the angle of a cosine, in [0, π] rad; a cosine beyond ±1 by rounding alone counts as ±1, beyond that is NaN."""
     size = abs(cosine)
     if not np.any(size > 1):  # as nearly always
@@ -133,25 +123,9 @@ def arccos(cosine: Any) -> Any:
     return np.arccos(np.where(beyond, np.sign(cosine), cosine))
 
 
-def as_number(angle: Any) -> Any:
-    """Say to the check of dimensions that the radian drops: the number of radians stands as a plain number.
-
-    It gives back what it takes and is not printed.
-    """
-    return angle
-
-
-def as_angle(number: Any) -> Any:
-    """Say to the check of dimensions that what it takes stands as an angle in radians (1/s as rad/s, rad²/s² as rad/s²).
-
-    It gives back what it takes and is not printed.
-    """
-    return number
-
-
 FUNCTIONS: dict[Any, str] = {
     np.sqrt: "sqrt", np.sin: "sin", np.cos: "cos", np.tan: "tan", np.arcsin: "arcsin", np.arccos: "arccos",
-    arccos: "arccos", np.arctan: "arctan", np.arctan2: "arctan2", np.exp: "exp", np.log: "log", np.abs: "abs", abs: "abs",
+    arccos_of: "arccos", np.arctan: "arctan", np.arctan2: "arctan2", np.exp: "exp", np.log: "log", np.abs: "abs", abs: "abs",
     np.sign: "sign", np.minimum: "minimum", np.maximum: "maximum", np.ceil: "ceil", np.floor: "floor", np.round: "round",
     np.sinh: "sinh", np.cosh: "cosh", np.tanh: "tanh", np.arcsinh: "arcsinh", np.arccosh: "arccosh", np.arctanh: "arctanh",
     np.log10: "log10",
@@ -159,7 +133,7 @@ FUNCTIONS: dict[Any, str] = {
 OF_TWO = ("arctan2", "minimum", "maximum")  # what takes two numbers; all others take one
 NUMERIC: dict[str, Callable[..., Any]] = {name: function for function, name in FUNCTIONS.items()}
 AS_NUMBER, AS_ANGLE = "as_number", "as_angle"
-SAID: dict[Any, str] = {as_number: AS_NUMBER, as_angle: AS_ANGLE}
+SAID = (AS_NUMBER, AS_ANGLE)  # what the check of dimensions is told, and nobody else
 BINARY: dict[type[ast.operator], str] = {
     ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "^", ast.BitAnd: "and", ast.BitOr: "or",
 }  # fmt: skip

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from diecut_report.formulas import Array
+from diecut_report.formulas.expression import arccos, number, pi
 from diecut_report.formulas.formula import formula
-from diecut_report.formulas.tree import arccos
 
 TOUCHING = 1e-9  # share of the layout's size below which pulleys and runs touch only
 
@@ -34,7 +34,7 @@ def center_distance(x: Any, y: Any, next_x: Any, next_y: Any) -> Any:
 @formula
 def has_tangent(center_distance: Any, radius: Any, next_radius: Any) -> Any:
     """Whether two pulleys have the common tangent on which the belt runs (signed radii)."""
-    return center_distance > abs(next_radius - radius) * (1 + 1e-9)
+    return center_distance > abs(next_radius - radius) * (number(1) + 1e-9)
 
 
 @formula
@@ -56,20 +56,20 @@ def wrap(side: Any, direction_before: Any, direction: Any) -> Any:
     1e-9 of a turn below nothing is rounding, no full turn.
     """
     turn = side * (direction - direction_before)
-    return turn - 2 * np.pi * np.floor(turn / (2 * np.pi) + 1e-9)
+    return turn - 2 * pi * np.floor(turn / (2 * pi) + 1e-9)
 
 
 @formula
 def turns(sum_of_wraps: Any) -> Any:
     """Turns of the belt's direction along its path, from the wraps, those outside counted negative: 1 where it is a loop."""
-    return np.round(sum_of_wraps / (2 * np.pi))
+    return np.round(sum_of_wraps / (2 * pi))
 
 
 @formula
 def open_belt_length(center_distance: Any, small: Any, large: Any) -> Any:
     """Length of an open belt over two pulleys: runs, half turns, and the angle of the runs to the line of centres."""
     runs = 2 * np.sqrt(center_distance**2 - (large - small) ** 2)
-    return runs + np.pi * (large + small) + 2 * (large - small) * np.arcsin((large - small) / center_distance)
+    return runs + pi * (large + small) + 2 * (large - small) * np.arcsin((large - small) / center_distance)
 
 
 @formula
@@ -81,7 +81,7 @@ def wrap_small(center_distance: Any, small: Any, large: Any) -> Any:
 @formula
 def wrap_large(wrap_small: Any) -> Any:
     """Wrap of the large pulley of an open belt."""
-    return 2 * np.pi - wrap_small
+    return 2 * pi - wrap_small
 
 
 class Path(NamedTuple):

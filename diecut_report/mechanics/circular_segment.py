@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.formulas.expression import arccos, as_number
 from diecut_report.formulas.formula import formula
-from diecut_report.formulas.tree import arccos, as_number
 
 
 @formula

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.formulas.expression import arccos
 from diecut_report.formulas.formula import formula
-from diecut_report.formulas.tree import arccos
 
 
 @formula

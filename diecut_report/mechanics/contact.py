@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.formulas.expression import pi
 from diecut_report.formulas.formula import formula
 
 
@@ -22,19 +23,19 @@ def effective_modulus_alike(elastic_modulus: Any, poisson_ratio: Any) -> Any:
 @formula
 def contact_pressure(force: Any, effective_modulus: Any, effective_radius: Any, length: Any) -> Any:
     """Greatest pressure in the middle of the contact, for a force in either direction."""
-    return np.sqrt(abs(force) * effective_modulus / (np.pi * effective_radius * length))
+    return np.sqrt(abs(force) * effective_modulus / (pi * effective_radius * length))
 
 
 @formula
 def contact_half_width(force: Any, effective_modulus: Any, effective_radius: Any, length: Any) -> Any:
     """Half the width of the contact, along the motion."""
-    return 2 * np.sqrt(abs(force) * effective_radius / (np.pi * effective_modulus * length))
+    return 2 * np.sqrt(abs(force) * effective_radius / (pi * effective_modulus * length))
 
 
 @formula
 def required_length(force: Any, effective_modulus: Any, effective_radius: Any, allowable_pressure: Any) -> Any:
     """Length of contact with which a force presses with the allowed pressure."""
-    return abs(force) * effective_modulus / (np.pi * effective_radius * allowable_pressure**2)
+    return abs(force) * effective_modulus / (pi * effective_radius * allowable_pressure**2)
 
 
 # What the grippers of a conveyor have to hold: the sheet's own inertia.

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.formulas.expression import as_number, pi
 from diecut_report.formulas.formula import formula
-from diecut_report.formulas.tree import as_number
 
 
 @formula
@@ -37,13 +37,13 @@ def center_distance(radius_1: Any, radius_2: Any) -> Any:
 @formula
 def sprocket_diameter(pitch: Any, teeth: Any) -> Any:
     """Pitch diameter of a sprocket: the circle through the joints of the chain on it."""
-    return pitch / np.sin(np.pi / teeth)
+    return pitch / np.sin(pi / teeth)
 
 
 @formula
 def chain_travel(teeth: Any, pitch: Any) -> Any:
     """Travel of a chain per radian of its sprocket."""
-    return teeth * pitch / (2 * as_number(np.pi))
+    return teeth * pitch / (2 * as_number(pi))
 
 
 @formula
@@ -55,7 +55,7 @@ def free_links(links: Any, teeth_1: Any, teeth_2: Any) -> Any:
 @formula
 def links_discriminant(free: Any, teeth_1: Any, teeth_2: Any) -> Any:
     """What must be above zero for the chain to go round both sprockets."""
-    return free**2 - 8 * ((teeth_2 - teeth_1) / (2 * as_number(np.pi))) ** 2
+    return free**2 - 8 * ((teeth_2 - teeth_1) / (2 * as_number(pi))) ** 2
 
 
 @formula

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from diecut_report.formulas import Array
+from diecut_report.formulas.expression import as_angle, as_number, pi
 from diecut_report.formulas.formula import formula
-from diecut_report.formulas.tree import as_angle, as_number
 from diecut_report.mechanics.motion_laws import MotionLaw
 
 
@@ -43,7 +43,7 @@ def damping_constant(damping_ratio: Any, inertia: Any, angular_frequency: Any) -
 @formula
 def tuning_ratio(angular_frequency: Any, rise_time: Any) -> Any:
     """λ, number of natural periods within the rise."""
-    return angular_frequency * rise_time / (2 * np.pi)
+    return angular_frequency * rise_time / (2 * pi)
 
 
 @formula

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from diecut_report.formulas import Array
+from diecut_report.formulas.expression import arccos, number, pi
 from diecut_report.formulas.formula import formula
-from diecut_report.formulas.tree import arccos
 from diecut_report.mechanics.common import enclosed_angle
 
 
@@ -28,7 +28,7 @@ def diagonal(crank_angle: Any, frame_ratio: Any) -> Any:
 @formula
 def diagonal_direction(crank_angle: Any, frame_ratio: Any) -> Any:
     """γ₁, direction from the rocker's pivot to the crank pin, continuous over the turn (frame longer than the crank)."""
-    return np.pi - np.arctan2(np.sin(crank_angle), frame_ratio - np.cos(crank_angle))
+    return pi - np.arctan2(np.sin(crank_angle), frame_ratio - np.cos(crank_angle))
 
 
 @formula
@@ -46,7 +46,7 @@ def transmission_angle(diagonal: Any, coupler_ratio: Any, rocker_ratio: Any) -> 
 @formula
 def coupler_direction(diagonal_direction: Any, pin_angle: Any) -> Any:
     """γ, direction of the coupler from the crank pin."""
-    return diagonal_direction + pin_angle - np.pi
+    return diagonal_direction + pin_angle - pi
 
 
 @formula
@@ -58,7 +58,7 @@ def rocker_direction(coupler_direction: Any, transmission_angle: Any) -> Any:
 @formula
 def outer_rocker_direction(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """γ₃, direction of the rocker at its outer dead centre, crank and coupler in line and extended."""
-    return np.pi - enclosed_angle(frame_ratio, rocker_ratio, 1 + coupler_ratio)
+    return pi - enclosed_angle(frame_ratio, rocker_ratio, 1 + coupler_ratio)
 
 
 @formula
@@ -78,7 +78,7 @@ def outer_dead_center(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -
 @formula
 def inner_dead_center(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Crank angle of the inner dead centre."""
-    return np.pi + enclosed_angle(frame_ratio, coupler_ratio - 1, rocker_ratio)
+    return pi + enclosed_angle(frame_ratio, coupler_ratio - 1, rocker_ratio)
 
 
 @formula
@@ -144,7 +144,7 @@ def crank_angle_return(
 ) -> Any:
     """The same while it swings back: between the inner dead centre and a turn after the outer one."""
     joint = np.arctan2(rocker_ratio * np.sin(rocker_direction), frame_ratio + rocker_ratio * np.cos(rocker_direction))
-    return 2 * np.pi + joint - arccos((1 + joint_distance**2 - coupler_ratio**2) / (2 * joint_distance))
+    return 2 * pi + joint - arccos((1 + joint_distance**2 - coupler_ratio**2) / (2 * joint_distance))
 
 
 @formula
@@ -155,7 +155,7 @@ def is_crank_rocker(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> 
     # which are alike there. That is 7 ε of one side, with ε = 2.2e-16.
     longest = np.maximum(frame_ratio, np.maximum(coupler_ratio, rocker_ratio))
     shortest = np.minimum(frame_ratio, np.minimum(coupler_ratio, rocker_ratio))
-    return (shortest > 1) & (1 + 2 * longest < (frame_ratio + coupler_ratio + rocker_ratio) * (1 - 1.6e-15))
+    return (shortest > 1) & (1 + 2 * longest < (frame_ratio + coupler_ratio + rocker_ratio) * (number(1) - 1.6e-15))
 
 
 class LinkageMotion(NamedTuple):

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from diecut_report.formulas import Array
+from diecut_report.formulas.expression import as_angle, as_number, pi
 from diecut_report.formulas.formula import formula
-from diecut_report.formulas.tree import as_angle, as_number
 
 ROUNDING = 160  # points of a rack's rounded tip
 
@@ -49,7 +49,7 @@ def contact_ratio(teeth_1: Any, teeth_2: Any, tip_angle_1: Any, tip_angle_2: Any
     """Transverse contact ratio: length of the path of contact in base pitches."""
     approach = teeth_2 * (np.tan(tip_angle_2) - np.tan(working_angle))
     recess = teeth_1 * (np.tan(tip_angle_1) - np.tan(working_angle))
-    return (recess + approach) / (2 * as_number(np.pi))
+    return (recess + approach) / (2 * as_number(pi))
 
 
 @formula
@@ -62,7 +62,7 @@ def least_shift(teeth: Any, alpha: Any, helix_angle: Any, pressure_angle: Any, d
 @formula
 def half_thickness(teeth: Any, shift: Any, pressure_angle: Any, alpha: Any, alpha_there: Any) -> Any:
     """Half the thickness of the involute tooth as an angle at the axis, where its pressure angle is ``alpha_there``."""
-    at_reference = (as_number(np.pi) / 2 + 2 * shift * np.tan(pressure_angle)) / teeth
+    at_reference = (as_number(pi) / 2 + 2 * shift * np.tan(pressure_angle)) / teeth
     return as_angle(at_reference + involute(alpha) - involute(alpha_there))
 
 

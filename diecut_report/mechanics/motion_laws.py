@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from diecut_report.formulas.formula import Formula, formula
-from diecut_report.formulas.tree import as_number
+from diecut_report.formulas.expression import as_number, number, pi
 
 # The modified laws join sine waves and straight lines.
 
@@ -25,90 +25,90 @@ from diecut_report.formulas.tree import as_number
 @formula
 def quick_wave(k: Any) -> Any:
     """Position that a sine wave of the acceleration, four half waves over the rise, gives from rest."""
-    return k - np.sin(4 * np.pi * k) / as_number(4 * np.pi)
+    return k - np.sin(4 * pi * k) / as_number(4 * pi)
 
 
 @formula
 def quick_rate(k: Any) -> Any:
     """Velocity of the same wave."""
-    return 1 - np.cos(4 * np.pi * k)
+    return 1 - np.cos(4 * pi * k)
 
 
 @formula
 def slow_angle(k: Any) -> Any:
     """Phase of the modified sine's slow wave."""
-    return np.pi / 3 + 4 * np.pi * k / 3
+    return pi / 3 + 4 * pi * k / 3
 
 
 def sine_position(k: Any) -> Any:
     """Position of the modified sine."""
-    pi = as_number(np.pi)
-    factor = pi / (4 + pi)
-    middle = factor * (2 / pi + k - 9 / (4 * pi) * np.sin(slow_angle(k)))
-    end = factor * (4 / pi + quick_wave(k))
-    return np.where(k < 1 / 8, factor * quick_wave(k), np.where(k <= 7 / 8, middle, end))
+    plain_pi = as_number(pi)
+    factor = plain_pi / (4 + plain_pi)
+    middle = factor * (2 / plain_pi + k - 9 / (4 * plain_pi) * np.sin(slow_angle(k)))
+    end = factor * (4 / plain_pi + quick_wave(k))
+    return np.where(k < number(1) / 8, factor * quick_wave(k), np.where(k <= number(7) / 8, middle, end))
 
 
 def sine_velocity(k: Any) -> Any:
     """Velocity of the modified sine."""
-    pi = as_number(np.pi)
-    factor = pi / (4 + pi)
+    plain_pi = as_number(pi)
+    factor = plain_pi / (4 + plain_pi)
     middle = factor * (1 - 3 * np.cos(slow_angle(k)))
-    return np.where((k < 1 / 8) | (k > 7 / 8), factor * quick_rate(k), middle)
+    return np.where((k < number(1) / 8) | (k > number(7) / 8), factor * quick_rate(k), middle)
 
 
 def sine_acceleration(k: Any) -> Any:
     """Acceleration of the modified sine: a quick quarter wave, a slow half wave, a quick quarter wave."""
-    pi = as_number(np.pi)
-    peak = 4 * pi**2 / (4 + pi)
-    return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.sin(4 * np.pi * k), peak * np.sin(slow_angle(k)))
+    plain_pi = as_number(pi)
+    peak = 4 * plain_pi**2 / (4 + plain_pi)
+    return np.where((k < number(1) / 8) | (k > number(7) / 8), peak * np.sin(4 * pi * k), peak * np.sin(slow_angle(k)))
 
 
 def sine_jerk(k: Any) -> Any:
     """Jerk of the modified sine."""
-    pi = as_number(np.pi)
-    peak = 16 * pi**3 / (4 + pi)
-    return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.cos(4 * np.pi * k), peak / 3 * np.cos(slow_angle(k)))
+    plain_pi = as_number(pi)
+    peak = 16 * plain_pi**3 / (4 + plain_pi)
+    return np.where((k < number(1) / 8) | (k > number(7) / 8), peak * np.cos(4 * pi * k), peak / 3 * np.cos(slow_angle(k)))
 
 
 def trapezoidal_position(k: Any) -> Any:
     """Position of the modified trapezoidal law."""
-    pi = as_number(np.pi)
-    factor = 2 / (2 + pi)
-    rising = factor * (k - 1 / (4 * pi) + 2 * pi * (k - 1 / 8) ** 2)
-    middle = 1 / 2 + factor * ((1 + pi) * (k - 1 / 2) + np.sin(4 * np.pi * k) / (4 * pi))
-    falling = 1 - factor * (1 - k - 1 / (4 * pi) + 2 * pi * (7 / 8 - k) ** 2)
-    later = np.where(k <= 7 / 8, falling, 1 - factor * quick_wave(1 - k))
-    half = np.where(k <= 5 / 8, middle, later)
-    return np.where(k < 1 / 8, factor * quick_wave(k), np.where(k < 3 / 8, rising, half))
+    plain_pi = as_number(pi)
+    factor = 2 / (2 + plain_pi)
+    rising = factor * (k - 1 / (4 * plain_pi) + 2 * plain_pi * (k - number(1) / 8) ** 2)
+    middle = number(1) / 2 + factor * ((1 + plain_pi) * (k - number(1) / 2) + np.sin(4 * pi * k) / (4 * plain_pi))
+    falling = 1 - factor * (1 - k - 1 / (4 * plain_pi) + 2 * plain_pi * (number(7) / 8 - k) ** 2)
+    later = np.where(k <= number(7) / 8, falling, 1 - factor * quick_wave(1 - k))
+    half = np.where(k <= number(5) / 8, middle, later)
+    return np.where(k < number(1) / 8, factor * quick_wave(k), np.where(k < number(3) / 8, rising, half))
 
 
 def trapezoidal_velocity(k: Any) -> Any:
     """Velocity of the modified trapezoidal law."""
-    pi = as_number(np.pi)
-    factor = 2 / (2 + pi)
-    rising = factor * (1 + 4 * pi * (k - 1 / 8))
-    middle = factor * (1 + pi + np.cos(4 * np.pi * k))
-    falling = factor * (1 + 4 * pi * (7 / 8 - k))
-    inside = np.where(k < 3 / 8, rising, np.where(k <= 5 / 8, middle, falling))
-    return np.where((k < 1 / 8) | (k > 7 / 8), factor * quick_rate(k), inside)
+    plain_pi = as_number(pi)
+    factor = 2 / (2 + plain_pi)
+    rising = factor * (1 + 4 * plain_pi * (k - number(1) / 8))
+    middle = factor * (1 + plain_pi + np.cos(4 * pi * k))
+    falling = factor * (1 + 4 * plain_pi * (number(7) / 8 - k))
+    inside = np.where(k < number(3) / 8, rising, np.where(k <= number(5) / 8, middle, falling))
+    return np.where((k < number(1) / 8) | (k > number(7) / 8), factor * quick_rate(k), inside)
 
 
 def trapezoidal_acceleration(k: Any) -> Any:
     """Acceleration of the modified trapezoidal law: quarter waves between stretches of constant acceleration."""
-    pi = as_number(np.pi)
-    peak = 8 * pi / (2 + pi)
-    middle = np.where(k <= 5 / 8, -peak * np.sin(4 * np.pi * k), -peak)
-    inside = np.where(k < 3 / 8, peak, middle)
-    return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.sin(4 * np.pi * k), inside)
+    plain_pi = as_number(pi)
+    peak = 8 * plain_pi / (2 + plain_pi)
+    middle = np.where(k <= number(5) / 8, -peak * np.sin(4 * pi * k), -peak)
+    inside = np.where(k < number(3) / 8, peak, middle)
+    return np.where((k < number(1) / 8) | (k > number(7) / 8), peak * np.sin(4 * pi * k), inside)
 
 
 def trapezoidal_jerk(k: Any) -> Any:
     """Jerk of the modified trapezoidal law."""
-    pi = as_number(np.pi)
-    peak = 32 * pi**2 / (2 + pi)
-    middle = np.where((k < 3 / 8) | (k > 5 / 8), 0, -peak * np.cos(4 * np.pi * k))
-    return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.cos(4 * np.pi * k), middle)
+    plain_pi = as_number(pi)
+    peak = 32 * plain_pi**2 / (2 + plain_pi)
+    middle = np.where((k < number(3) / 8) | (k > number(5) / 8), 0, -peak * np.cos(4 * pi * k))
+    return np.where((k < number(1) / 8) | (k > number(7) / 8), peak * np.cos(4 * pi * k), middle)
 
 
 ROUNDING = 1e-9  # by which a law may miss its ends
@@ -219,30 +219,30 @@ def _add(name: str, title: str, *breakpoints: float, **curves: Callable[..., Any
 # fmt: off
 
 _add("cycloidal", "Cycloidal (sinusoidal acceleration)",
-    position=lambda k: k - np.sin(2 * np.pi * k) / as_number(2 * np.pi), velocity=lambda k: 1 - np.cos(2 * np.pi * k),
-    acceleration=lambda k: as_number(2 * np.pi) * np.sin(2 * np.pi * k), jerk=lambda k: as_number(4 * np.pi**2) * np.cos(2 * np.pi * k),
-    peak_velocity=lambda: 2, peak_acceleration=lambda: as_number(2 * np.pi))
+    position=lambda k: k - np.sin(2 * pi * k) / as_number(2 * pi), velocity=lambda k: 1 - np.cos(2 * pi * k),
+    acceleration=lambda k: as_number(2 * pi) * np.sin(2 * pi * k), jerk=lambda k: as_number(4 * pi**2) * np.cos(2 * pi * k),
+    peak_velocity=lambda: 2, peak_acceleration=lambda: as_number(2 * pi))
 _add("harmonic", "Harmonic (cosine acceleration)",
-    position=lambda k: (1 - np.cos(np.pi * k)) / 2, velocity=lambda k: as_number(np.pi / 2) * np.sin(np.pi * k),
-    acceleration=lambda k: as_number(np.pi**2 / 2) * np.cos(np.pi * k), jerk=lambda k: as_number(-(np.pi**3) / 2) * np.sin(np.pi * k),
-    peak_velocity=lambda: as_number(np.pi / 2), peak_acceleration=lambda: as_number(np.pi**2 / 2))
+    position=lambda k: (1 - np.cos(pi * k)) / 2, velocity=lambda k: as_number(pi / 2) * np.sin(pi * k),
+    acceleration=lambda k: as_number(pi**2 / 2) * np.cos(pi * k), jerk=lambda k: as_number(-(pi**3) / 2) * np.sin(pi * k),
+    peak_velocity=lambda: as_number(pi / 2), peak_acceleration=lambda: as_number(pi**2 / 2))
 _add("parabolic", "Parabolic (constant acceleration)", 1 / 2,
-    position=lambda k: np.where(k < 1 / 2, 2 * k**2, 1 - 2 * (1 - k) ** 2), velocity=lambda k: np.where(k < 1 / 2, 4 * k, 4 * (1 - k)),
-    acceleration=lambda k: np.where(k < 1 / 2, 4, -4), jerk=lambda k: 0 * k,
-    peak_velocity=lambda: 2, peak_acceleration=lambda: 4, joint=lambda k: k - 1 / 2)
+    position=lambda k: np.where(k < number(1) / 2, 2 * k**2, 1 - 2 * (1 - k) ** 2), velocity=lambda k: np.where(k < number(1) / 2, 4 * k, 4 * (1 - k)),
+    acceleration=lambda k: np.where(k < number(1) / 2, 4, -4), jerk=lambda k: 0 * k,
+    peak_velocity=lambda: 2, peak_acceleration=lambda: 4, joint=lambda k: k - number(1) / 2)
 _add("modified_trapezoidal", "Modified trapezoidal acceleration", 1 / 8, 3 / 8, 5 / 8, 7 / 8,
     position=trapezoidal_position, velocity=trapezoidal_velocity, acceleration=trapezoidal_acceleration, jerk=trapezoidal_jerk,
-    peak_velocity=lambda: 2, peak_acceleration=lambda: 8 * as_number(np.pi) / (2 + as_number(np.pi)),
-    joint=lambda k: (k - 1 / 8) * (k - 3 / 8) * (k - 5 / 8) * (k - 7 / 8))
+    peak_velocity=lambda: 2, peak_acceleration=lambda: 8 * as_number(pi) / (2 + as_number(pi)),
+    joint=lambda k: (k - number(1) / 8) * (k - number(3) / 8) * (k - number(5) / 8) * (k - number(7) / 8))
 _add("modified_sine", "Modified sine acceleration", 1 / 8, 7 / 8,
     position=sine_position, velocity=sine_velocity, acceleration=sine_acceleration, jerk=sine_jerk,
-    peak_velocity=lambda: 4 * as_number(np.pi) / (4 + as_number(np.pi)),
-    peak_acceleration=lambda: 4 * as_number(np.pi) ** 2 / (4 + as_number(np.pi)), joint=lambda k: (k - 1 / 8) * (k - 7 / 8))
+    peak_velocity=lambda: 4 * as_number(pi) / (4 + as_number(pi)),
+    peak_acceleration=lambda: 4 * as_number(pi) ** 2 / (4 + as_number(pi)), joint=lambda k: (k - number(1) / 8) * (k - number(7) / 8))
 _add("polynomial_345", "Polynomial 3-4-5",
     position=lambda k: 10 * k**3 - 15 * k**4 + 6 * k**5, velocity=lambda k: 30 * k**2 * (1 - k) ** 2,
     acceleration=lambda k: 60 * k * (1 - k) * (1 - 2 * k), jerk=lambda k: 60 * (1 - 6 * k + 6 * k**2),
-    peak_velocity=lambda: 15 / 8, peak_acceleration=lambda: 10 / np.sqrt(3))
+    peak_velocity=lambda: number(15) / 8, peak_acceleration=lambda: 10 / np.sqrt(number(3)))
 _add("polynomial_4567", "Polynomial 4-5-6-7",
     position=lambda k: 35 * k**4 - 84 * k**5 + 70 * k**6 - 20 * k**7, velocity=lambda k: 140 * k**3 * (1 - k) ** 3,
     acceleration=lambda k: 420 * k**2 * (1 - k) ** 2 * (1 - 2 * k), jerk=lambda k: 840 * k * (1 - k) * (1 - 5 * k + 5 * k**2),
-    peak_velocity=lambda: 35 / 16, peak_acceleration=lambda: 84 / (5 * np.sqrt(5)))
+    peak_velocity=lambda: number(35) / 16, peak_acceleration=lambda: 84 / (5 * np.sqrt(number(5))))

@@ -15,7 +15,8 @@ from pydantic_core import CoreSchema, core_schema
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.formulas.formula import LAMBDA, Formula
+from diecut_report.formulas.expression import Expression
+from diecut_report.formulas.formula import LAMBDA, Formula, WrittenFormula
 from diecut_report.text.phrases import Phrase
 
 OWN = "diecut_report.mechanism"
@@ -261,12 +262,14 @@ class ByText:
 
 
 Binding = Bound | Formula | ByText
-Written = Binding | Callable[..., Any]
-"""A formula as an author writes it: a lambda, a ``@formula``, one that is bound, one chosen by a text."""
+Written = Binding | Expression | float | Callable[..., Any]
+"""A formula as an author writes it: an expression of quantities, a number, a function whose parameters are quantities, one chosen by a text."""
 
 
 def as_binding(part: Written, name: str) -> Binding:
-    """Return what an author wrote as a formula of the engine; a lambda is called ``name`` in messages."""
+    """Return what an author wrote as a formula of the engine, called ``name`` in messages where it has no name of its own."""
+    if isinstance(part, Expression | int | float):
+        return bind(WrittenFormula(part, name, here()))
     if isinstance(part, Bound) and part.formula.__name__ == LAMBDA:
         part.formula.__name__ = name
     return part if isinstance(part, Binding) else _formula(part, name)
@@ -293,7 +296,7 @@ def bound(part: Written) -> Bound:
     """
     if isinstance(part, ByText):
         return part.options()[0]
-    return part if isinstance(part, Bound) else _by_names(part)
+    return part if isinstance(part, Bound) else _by_names(part)  # type: ignore[arg-type]
 
 
 _by_names: Callable[[Formula | Callable[..., Any]], Bound] = cache(bind)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, Formula, Steps, as_number, bind
+from diecut_report.api import Chapter, Formula, Steps, as_number, bind, pi
 from diecut_report.mechanics import cam, common, contact
 from diecut_report.plugins.cam_gear_transport import arms, formulas
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, TORQUE
@@ -25,14 +25,14 @@ rocker = Chapter("Rocker on the cams",
         "the direction of an arm from the outward line O₁O₃, w the ratio of the rocker's speed to the disc's, γ″ the second derivative of the "
         "sector's angle with respect to the disc's.", needs=CAMS, absent=NO_CAMS)
 rocker.value("sector_rate_change", "γ″", "1", "Ratio of the sector's acceleration to the square of the disc's speed",
-    lambda sector_acceleration, cycles_per_hour: as_number(sector_acceleration / (2 * np.pi * cycles_per_hour) ** 2), source="kinematics",
+    lambda sector_acceleration, cycles_per_hour: as_number(sector_acceleration / (2 * pi * cycles_per_hour) ** 2), source="kinematics",
     output=False)
-rocker.require("sweep_leaves_arms", lambda sector_sweep: sector_sweep < np.pi, key="sector_dwell_sweep",
+rocker.require("sweep_leaves_arms", lambda sector_sweep: sector_sweep < pi, key="sector_dwell_sweep",
     message="makes the whole sweep of the sector {sector_sweep}; it must be less than 180°, or no arm can stay on one side of the line O₁O₃")
 rocker.value("least_arm_angle", "χ_min", "deg", "Minimum angle of an arm to the left of O₁O₃", lambda sector_stop_sweep: sector_stop_sweep / 2,
     source="geometry", output=False)
 rocker.value("greatest_arm_angle", "χ_max", "deg", "Maximum angle of an arm to the left of O₁O₃",
-    lambda sector_sweep, sector_stop_sweep: np.pi - sector_sweep + sector_stop_sweep / 2, source="geometry", output=False)
+    lambda sector_sweep, sector_stop_sweep: pi - sector_sweep + sector_stop_sweep / 2, source="geometry", output=False)
 rocker.words("arm_angles_best", arms.angles_at_the_ends, ("center_distance", "arm_length", "sector_dwell_sweep", "sector_sweep"))
 for number in "12":
     rocker.value(f"arm_{number}_lowest", f"ψ_min,{number}", "deg", f"Direction of arm {number} at the start of phase I",

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import formula
+from diecut_report.api import formula, number, pi
 
 
 @formula
@@ -42,7 +42,7 @@ def radius_ratio(sweep: Any, dwell_angle: Any) -> Any:
 @formula
 def share_of_turn(angle: Any) -> Any:
     """Share of a turn."""
-    return angle / (2 * np.pi)
+    return angle / (2 * pi)
 
 
 @formula
@@ -66,7 +66,7 @@ def time_return(time_dwell: Any, time_stop: Any) -> Any:
 @formula
 def is_symmetric(middle_position: Any, middle_velocity: Any, peak_velocity: Any) -> Any:
     """Whether a law is half way, and fastest, in the middle of its time."""
-    return (abs(middle_position - 1 / 2) <= 1e-9) & (abs(middle_velocity - peak_velocity) <= 1e-9 * peak_velocity)
+    return (abs(middle_position - number(1) / 2) <= 1e-9) & (abs(middle_velocity - peak_velocity) <= 1e-9 * peak_velocity)
 
 
 @formula
@@ -78,7 +78,7 @@ def return_peak(peak_velocity: Any, sector_sweep: Any, time_return: Any) -> Any:
 @formula
 def starting_angle(sector_stop_sweep: Any, law_position: Any) -> Any:
     """Sector angle in phase I."""
-    return sector_stop_sweep * (law_position - 1 / 2)
+    return sector_stop_sweep * (law_position - number(1) / 2)
 
 
 @formula
@@ -102,7 +102,7 @@ def rise_acceleration(sweep: Any, time: Any, law_acceleration: Any, cycles_per_h
 @formula
 def gear_speed(sector_speed: Any, sector_radius: Any, gear_radius: Any) -> Any:
     """Speed of the gear in rad for each turn of the disc."""
-    return 2 * np.pi - sector_radius / gear_radius * sector_speed
+    return 2 * pi - sector_radius / gear_radius * sector_speed
 
 
 @formula

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Binding, ByText, Case, Chapter, Vary, as_number, bind, case
+from diecut_report.api import Binding, ByText, Case, Chapter, Vary, as_number, bind, case, number, pi
 from diecut_report.mechanics import common, contact
 from diecut_report.mechanics.motion_laws import (
     ACCELERATION,
@@ -66,7 +66,7 @@ rolling.value("sector_radius", "R_3", "mm", "Pitch radius of the sector",
 rolling.value("sector_sweep", "γ_Σ", "deg", "Total sweep of the sector",
     lambda sector_dwell_sweep, sector_stop_sweep: sector_dwell_sweep + sector_stop_sweep, source="003, Fig. 4")
 rolling.value("sector_teeth", "z_3′", "1", "Number of teeth of the sector: those of the swept arc, and one on each side",
-    lambda sector_wheel_teeth, sector_sweep: np.ceil(sector_wheel_teeth * sector_sweep / (2 * np.pi)) + 2, whole=True, source="this method",
+    lambda sector_wheel_teeth, sector_sweep: np.ceil(sector_wheel_teeth * sector_sweep / (2 * pi)) + 2, whole=True, source="this method",
     needs=("module",))
 
 phases = Chapter("Phases of the cycle",
@@ -93,13 +93,13 @@ phases.value("time_stop", "T_(3+1)", "1", "Fraction of the cycle for phases III 
 phases.value("time_return", "T_4", "1", "Fraction of the cycle for the return, phase IV", formulas.time_return, source="003 eq. 4")
 phases.value("dwell_angle_limit", "φ_22,lim", "deg", "Dwell that leaves no time for the return, with these sweeps",
     lambda sector_dwell_sweep, sector_stop_sweep, law_peak_velocity:
-        2 * np.pi * sector_dwell_sweep / (sector_dwell_sweep + law_peak_velocity * sector_stop_sweep), source="003 eq. 4, solved", lacks=("module",))
+        2 * pi * sector_dwell_sweep / (sector_dwell_sweep + law_peak_velocity * sector_stop_sweep), source="003 eq. 4, solved", lacks=("module",))
 phases.value("dwell_angle_limit", "φ_22,lim", "deg", "Dwell that leaves no time for the return, with these teeth",
-    lambda time_stop: 2 * np.pi * (1 - time_stop), source="003 eq. 4, solved", needs=("module",))
+    lambda time_stop: 2 * pi * (1 - time_stop), source="003 eq. 4, solved", needs=("module",))
 phases.value("dwell_angle_recommended", "φ_22,rec", "deg", "Dwell that leaves the required time for the return",
     lambda dwell_angle_limit, min_return_time: (1 - min_return_time) * dwell_angle_limit, source="003 eq. 4, solved", lacks=("module",))
 phases.value("dwell_angle_recommended", "φ_22,rec", "deg", "Dwell that leaves the required time for the return",
-    lambda dwell_angle_limit, min_return_time: dwell_angle_limit - 2 * np.pi * min_return_time, source="003 eq. 4, solved", needs=("module",))
+    lambda dwell_angle_limit, min_return_time: dwell_angle_limit - 2 * pi * min_return_time, source="003 eq. 4, solved", needs=("module",))
 phases.value("stop_sweep_limit", "γ_lim", "deg", "Sweep of stop and start that leaves no time for the return, with this dwell",
     lambda time_dwell, sector_speed_dwell, law_peak_velocity: (1 - time_dwell) * sector_speed_dwell / law_peak_velocity, source="003 eq. 4, solved")
 phases.value("stop_sweep_recommended", "γ_rec", "deg", "Sweep of stop and start that leaves the required time for the return, with this dwell",
@@ -110,12 +110,12 @@ phases.require("return_exists", bind(common.is_below, smaller=LEAST_RETURN, grea
         "T₍₃₊₁₎ = {time_return} for the sector's return", advise=("dwell_angle", "sector_stop_sweep"))
 phases.value("angle_dwell", "φ_II", "deg", "Disc angle where the dwell begins, phase II", lambda: 0, source="this method", output=False)
 phases.value("angle_stop", "φ_IV", "deg", "Disc angle where the sector stops: end of phase III",
-    lambda dwell_angle, time_stop: dwell_angle + np.pi * time_stop, source="003, after eq. 3", digits=6)
+    lambda dwell_angle, time_stop: dwell_angle + pi * time_stop, source="003, after eq. 3", digits=6)
 phases.value("angle_start", "φ_I", "deg", "Disc angle where the sector starts again: beginning of phase I",
-    lambda time_stop: 2 * np.pi - np.pi * time_stop, source="003, after eq. 4", digits=6)
+    lambda time_stop: 2 * pi - pi * time_stop, source="003, after eq. 4", digits=6)
 phases.value("sector_speed_return_peak", "ω_3,4", "rad", "Maximum speed of the sector's return, per revolution of the disc",
     bind(formulas.return_peak, peak_velocity="law_peak_velocity"), source="003, after eq. 4, corrected", digits=5)
-phases.value("disc_speed", "ω_2", "rad/s", "Angular speed of the disc", lambda cycles_per_hour: 2 * np.pi * cycles_per_hour, source="kinematics",
+phases.value("disc_speed", "ω_2", "rad/s", "Angular speed of the disc", lambda cycles_per_hour: 2 * pi * cycles_per_hour, source="kinematics",
     output=False)
 
 
@@ -153,9 +153,9 @@ sector.value("piece_middle", "φ_m", "deg", "Disc angle in the middle of the pre
     source="this method", output=False, per_piece=True)
 sector.choice("law_share", "k", "1", "Elapsed fraction of the rise or return",
     *by_phase(bind(common.same, quantity=0.5),
-        bind(lambda disc_angle, dwell_angle, time_stop: 1 / 2 + (disc_angle - dwell_angle) / (2 * np.pi * time_stop)),
-        bind(lambda disc_angle, start, time: (disc_angle - start) / (2 * np.pi * time), start="angle_stop", time="time_return"),
-        bind(lambda disc_angle, start, time: (disc_angle - start) / (2 * np.pi * time), start="angle_start", time="time_stop")), source="003 eq. 2",
+        bind(lambda disc_angle, dwell_angle, time_stop: number(1) / 2 + (disc_angle - dwell_angle) / (2 * pi * time_stop)),
+        bind(lambda disc_angle, start, time: (disc_angle - start) / (2 * pi * time), start="angle_stop", time="time_return"),
+        bind(lambda disc_angle, start, time: (disc_angle - start) / (2 * pi * time), start="angle_start", time="time_stop")), source="003 eq. 2",
     output=False)
 sector.value("law_joint", "j", "1", "Junction of the law: changes its sign where the law's formula changes",
     ByText("motion_law", JOINT, k="law_share"), output=False, source="motion laws", printed=False)
@@ -186,7 +186,7 @@ sector.choice("sector_acceleration", "ε_3", "rad/s**2", "Angular acceleration o
         bind(lambda sweep, time, law_acceleration, cycles_per_hour: -sweep * (cycles_per_hour / time) ** 2 * law_acceleration, **FALL),
         bind(formulas.rise_acceleration, **RISE)), source="kinematics")
 sector.value("rocker_turn", "w", "1", "Ratio of the angular speed of sector and rocker to that of the disc",
-    lambda sector_speed: 1 + sector_speed / (2 * np.pi), source="kinematics", output=False)
+    lambda sector_speed: 1 + sector_speed / (2 * pi), source="kinematics", output=False)
 
 gear = Chapter("Motion of the gear",
     text="The disc carries the gear along; the arc that the sector rolls off is subtracted. The gear's angle is counted from its dwell position. "
@@ -213,7 +213,7 @@ gear.value("gear_speed_peak_sector_referred", "ω_31", "rad",
 gear.reduction("gear_rotation_per_cycle", "φ_1,Σ", "deg", "Rotation of the gear per cycle (mean of its speed)", "mean", of="gear_speed",
     source="kinematics")
 gear.value("gear_rotation_error", "Δφ_1", "deg", "Deviation from one revolution",
-    lambda gear_rotation_per_cycle: abs(gear_rotation_per_cycle - 2 * np.pi), source="kinematics", output=False)
+    lambda gear_rotation_per_cycle: abs(gear_rotation_per_cycle - 2 * pi), source="kinematics", output=False)
 
 
 conveyor = Chapter("Motion of the sheet", text="The gear drives the conveyor's sprocket; one cycle makes one step.", needs=SHEET,
@@ -221,11 +221,11 @@ conveyor = Chapter("Motion of the sheet", text="The gear drives the conveyor's s
 conveyor.value("sheet_step", "S", "mm", "Step of the conveyor per cycle",
     lambda sprocket_teeth, chain_pitch, sprocket_ratio: sprocket_teeth * chain_pitch * sprocket_ratio, source="this method")
 conveyor.value("sheet_position", "x", "mm", "Position of the sheet from its dwell position",
-    lambda gear_angle, sheet_step: sheet_step * gear_angle / (2 * np.pi), source="kinematics")
+    lambda gear_angle, sheet_step: sheet_step * gear_angle / (2 * pi), source="kinematics")
 conveyor.value("sheet_velocity", "V", "m/s", "Velocity of the sheet",
-    lambda gear_speed, sheet_step, cycles_per_hour: sheet_step * cycles_per_hour * gear_speed / (2 * np.pi), source="kinematics")
+    lambda gear_speed, sheet_step, cycles_per_hour: sheet_step * cycles_per_hour * gear_speed / (2 * pi), source="kinematics")
 conveyor.value("sheet_acceleration", "a_s", "m/s**2", "Acceleration of the sheet",
-    lambda gear_acceleration, sheet_step: sheet_step * gear_acceleration / (2 * np.pi), source="kinematics")
+    lambda gear_acceleration, sheet_step: sheet_step * gear_acceleration / (2 * pi), source="kinematics")
 conveyor.reduction("sheet_velocity_max", "V_max", "m/s", "Maximum velocity of the sheet", "abs_max", of="sheet_velocity", source="kinematics")
 conveyor.reduction("sheet_acceleration_max", "a_s,max", "m/s**2", "Maximum acceleration of the sheet", "abs_max", of="sheet_acceleration",
     source="kinematics")
@@ -251,12 +251,12 @@ torques = Chapter("Torque",
         "no work, since the rollers move along them; the disc therefore supplies the power of gear and sector.", needs=TORQUE,
     absent="not calculated: {missing} not given")
 torques.value("gear_torque", "M_1", "N*m", "Torque at the gear's shaft",
-    lambda conveyor_mass, sheet_acceleration, sheet_step: conveyor_mass * sheet_acceleration * sheet_step / (2 * np.pi), source="statics")
+    lambda conveyor_mass, sheet_acceleration, sheet_step: conveyor_mass * sheet_acceleration * sheet_step / (2 * pi), source="statics")
 torques.value("tooth_force", "F_t", "N", "Tangential force between the teeth of sector and gear",
     lambda gear_torque, gear_radius: gear_torque / gear_radius, source="statics")
 torques.value("drive_torque", "M_2", "N*m", "Torque at the disc's shaft",
     lambda gear_torque, gear_speed, sector_inertia, sector_acceleration, rocker_turn:
-        gear_torque * gear_speed / (2 * np.pi) + sector_inertia * sector_acceleration * rocker_turn, source="energy")
+        gear_torque * gear_speed / (2 * pi) + sector_inertia * sector_acceleration * rocker_turn, source="energy")
 torques.reduction("gear_torque_peak", "M_1,max", "N*m", "Maximum torque at the gear's shaft", "abs_max", of="gear_torque", source="statics")
 torques.reduction("tooth_force_peak", "F_t,max", "N", "Maximum tangential force between the teeth", "abs_max", of="tooth_force", source="statics")
 torques.reduction("torque_peak", "M_peak", "N*m", "Maximum torque at the disc's shaft, driving or driven", "abs_max", of="drive_torque",

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Binding, Chapter, Inputs, Quantity, Steps, bind, case, formula
+from diecut_report.api import POINTS, Annotated, Binding, Chapter, Inputs, Quantity, Steps, bind, case, formula, pi
 from diecut_report.mechanics import circular_segment, common
 
 # fmt: off
@@ -184,8 +184,8 @@ shear_range.value("cut_time", "t", "ms", "Time of the cut", lambda cut_angle, sp
 shear_range.value("shear_angle_min", "τ_min", "deg", "Minimum shear angle: at the start of the cut", bind(edge_slope, angle="angle_start"),
     source=OWN)
 shear_range.value("shear_angle_max", "τ_max", "deg", "Maximum shear angle: at the end of the cut", bind(edge_slope, angle="angle_end"), source=OWN)
-shear_range.value("shear_angle_lower", "τ_a", "deg", "Minimum usual shear angle", lambda: 2 * np.pi / 180, source="practice", output=False)
-shear_range.value("shear_angle_upper", "τ_b", "deg", "Maximum usual shear angle", lambda: 20 * np.pi / 180, source="practice", output=False)
+shear_range.value("shear_angle_lower", "τ_a", "deg", "Minimum usual shear angle", lambda: 2 * pi / 180, source="practice", output=False)
+shear_range.value("shear_angle_upper", "τ_b", "deg", "Maximum usual shear angle", lambda: 20 * pi / 180, source="practice", output=False)
 for name, symbol, description, above, below in (
     ("shear_demand", "τ_d", "Governing side of the shear angle: the actual angle, or the required minimum", "shear_angle_max", "shear_angle_lower"),
     ("shear_limit", "τ_l", "Its limit: the allowed maximum, or the actual minimum", "shear_angle_upper", "shear_angle_min"),
@@ -211,7 +211,7 @@ edge.value("edge_angle_first", "ψ_1", "deg", "Position on the edge of the point
 edge.value("face_angle_end", "τ_h2", "deg", "Slope of the edge in the board's upper face at the end of the cut",
     bind(edge_slope, angle="angle_end", depth="face_depth"), source=OWN, output=False)
 edge.value("edge_angle_last", "ψ_2", "deg", "Position on the edge of the point that cuts last",
-    lambda angle_end, face_angle_end: np.pi / 2 - angle_end - face_angle_end, source=OWN)
+    lambda angle_end, face_angle_end: pi / 2 - angle_end - face_angle_end, source=OWN)
 edge.value("edge_length", "s", "mm", "Length of the edge that cuts",
     lambda edge_radius, edge_angle_first, edge_angle_last: edge_radius * (edge_angle_first - edge_angle_last), source=OWN)
 edge.value("face_return_angle", "φ_rh", "deg", "Knife angle at which the point of the edge in the board's upper face reverses",
@@ -298,7 +298,7 @@ forces.reduction("working_force_max", "F_w,max", "N", "Maximum downward force by
 forces.reduction("torque_max", "M_max", "N*m", "Maximum torque at the knife's shaft", "max", of="torque", source="statics")
 forces.reduction("useful_work", "W_u", "J", "Work of cutting, from φ_1 to φ_2", "integral", of="useful_torque", source="energy")
 forces.reduction("work", "W", "J", "Work of a cut, with friction", "integral", of="torque", source="energy")
-forces.value("power_mean", "P_mean", "W", "Mean power over a revolution with one cut", lambda work, speed: work * speed / (2 * np.pi),
+forces.value("power_mean", "P_mean", "W", "Mean power over a revolution with one cut", lambda work, speed: work * speed / (2 * pi),
     source="energy")
 forces.value("power_peak", "P_max", "W", "Maximum power", lambda torque_max, speed: torque_max * speed, source="energy")
 

@@ -18,6 +18,8 @@ from diecut_report.api import (
     as_number,
     bind,
     case,
+    number,
+    pi,
 )
 
 # fmt: off
@@ -93,7 +95,7 @@ wedge.value("radial_share", "c_α", "1", "Fraction of N_2 that presses the shoes
 wedge.value("held_share", "c_f", "1", "Fraction of N_2 that friction withholds from them",
     lambda wedge_friction, wedge_angle: wedge_friction * np.sin(wedge_angle), source="002 eq. 13", output=False)
 wedge.value("wedge_angle_limit", "α_lim", "deg", "Wedge angle from which friction withholds all of it",
-    lambda wedge_friction: np.pi / 2 - np.arctan(wedge_friction), source="002 eq. 13", output=False)
+    lambda wedge_friction: pi / 2 - np.arctan(wedge_friction), source="002 eq. 13", output=False)
 wedge.value("wedge_friction_limit", "f_lim", "1", "Friction that does so at the given angle", lambda wedge_angle: 1 / np.tan(wedge_angle),
     source="002 eq. 13", output=False)
 wedge.require("wedge_lifts", lambda held_share, radial_share: held_share < radial_share, key="wedge_angle",
@@ -136,12 +138,12 @@ release.value("self_locking", "L_s", "1", "Self-locking of the wedge", lambda we
 lining = Chapter("Lining", text="The shoes are cylindrical and press evenly on their part of the circumference.")
 lining.value("shoe_width", "b", "mm", "Shoe width required by the allowed pressure",
     lambda pressing_force, shoe_radius, shoe_coverage, allowable_pressure:
-        pressing_force / (2 * np.pi * shoe_radius * shoe_coverage * allowable_pressure), source="002 eq. 17")
+        pressing_force / (2 * pi * shoe_radius * shoe_coverage * allowable_pressure), source="002 eq. 17")
 lining.value("lining_width", "b_L", "mm", "Width of the lining: as given", bind(lambda shoe_width: shoe_width, shoe_width="inputs.shoe_width"),
     source="input", needs=("shoe_width",))
 lining.value("lining_width", "b_L", "mm", "Width of the lining: as sized", lambda shoe_width: shoe_width, lacks=("shoe_width",))
 lining.value("lining_area", "A", "cm**2", "Area of the lining",
-    lambda shoe_radius, lining_width, shoe_coverage: 2 * np.pi * shoe_radius * lining_width * shoe_coverage, source="geometry")
+    lambda shoe_radius, lining_width, shoe_coverage: 2 * pi * shoe_radius * lining_width * shoe_coverage, source="geometry")
 lining.value("pressure", "q", "MPa", "Pressure on the lining", lambda pressing_force, lining_area: pressing_force / lining_area, source="002 eq. 17")
 lining.value("width_ratio", "k_b", "1", "Ratio of lining width to drum diameter", lambda lining_width, shoe_radius: lining_width / (2 * shoe_radius),
     source="this method")
@@ -187,13 +189,13 @@ temperature = Chapter("Temperature of the lining",
         "the slip time. A drum thinner than the penetration depth gets hotter; with drum_mass its own rise is used where it is greater. Over many "
         "engagements the drum warms up until its cooled surface dissipates the mean friction power.", needs=("driven_inertia", "speed"))
 temperature.value("heat_flux", "p_0", "W/cm**2", "Heat flux into the drum at the start of slip",
-    lambda design_torque, speed, shoe_radius, lining_width: design_torque * speed / (2 * np.pi * shoe_radius * lining_width), source="energy")
+    lambda design_torque, speed, shoe_radius, lining_width: design_torque * speed / (2 * pi * shoe_radius * lining_width), source="energy")
 temperature.value("heat_depth", "x_h", "mm", "Depth of drum that absorbs the heat during slip",
     bind(lambda slip_time, conductivity, density, specific_heat: 2 * np.sqrt(conductivity * slip_time / (density * specific_heat)), **DRUM),
     source="heat conduction")
 temperature.value("surface_temperature_rise", "ΔT_s", "K", "Temperature rise of the friction surface in one engagement",
     bind(lambda heat_flux, slip_time, conductivity, density, specific_heat:
-            4 / 3 * heat_flux * np.sqrt(slip_time / (2 * as_number(np.pi) * conductivity * density * specific_heat)),
+            number(4) / 3 * heat_flux * np.sqrt(slip_time / (2 * as_number(pi) * conductivity * density * specific_heat)),
     **DRUM),
     source="heat conduction")
 temperature.value("drum_temperature_rise", "ΔT_d", "K", "Mean temperature rise of the drum in one engagement",

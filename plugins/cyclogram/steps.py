@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, GivenMechanism, Phrase, Refusal, bind
+from diecut_report.api import Chapter, GivenMechanism, Phrase, Refusal, bind, pi
 from diecut_report.mechanics import common
 from diecut_report.plugins.cyclogram import listings
 from diecut_report.plugins.cyclogram.clearances import clearance_of
@@ -29,10 +29,10 @@ shaft = Chapter("Main shaft", text="One revolution of the main shaft is one shee
 shaft.prepared("stretches", stretches, ("lines.mechanism", "lines.passing"), for_many=True)
 shaft.prepared("timing", timing_of, ("productivity", "stretches", *(f"lines.{key}" for key in LINES), *(f"interlocks.{key}" for key in INTERLOCKS)))
 shaft.value("sheet_time", "T_s", "ms", "Time per sheet, one revolution of the main shaft", lambda productivity: 1 / productivity, source="kinematics")
-shaft.value("main_shaft_speed", "ω_m", "rpm", "Speed of the main shaft", lambda productivity: 2 * np.pi * productivity, source="kinematics")
+shaft.value("main_shaft_speed", "ω_m", "rpm", "Speed of the main shaft", lambda productivity: 2 * pi * productivity, source="kinematics")
 shaft.computed("sheets_per_period", "N_s", "1", "Sheets in the common period", lambda timing: float(timing.common), TIMING,
     "least common multiple of the periods of all phases", digits=6)
-shaft.value("main_period", "P", "deg", "Common period of the main shaft", lambda sheets_per_period: 2 * np.pi * sheets_per_period)
+shaft.value("main_period", "P", "deg", "Common period of the main shaft", lambda sheets_per_period: 2 * pi * sheets_per_period)
 shaft.value("period_time", "T_P", "ms", "Time of the common period", lambda sheets_per_period, sheet_time: sheets_per_period * sheet_time)
 shaft.computed("line_turns", "i_k", "1", "Revolutions of each line per sheet",
     lambda timing: np.array([[float(each.line.turns) for each in timing.lines]]), TIMING, "as given", over="lines", output=False)

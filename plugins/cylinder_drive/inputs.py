@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, FromPress, Inputs, OneOf, Quantity, formula
+from diecut_report.api import POINTS, Annotated, FromPress, Inputs, OneOf, Quantity, formula, pi
 
 # fmt: off
 
@@ -25,7 +25,7 @@ class CylinderDrive(Inputs):
     rocker_ratio: Annotated[float, Quantity("λ_3", "1", "Rocker-to-crank ratio, c/a", gt=0)] = 2.05
     crank_speed: Annotated[float | None,
         Quantity("ω_1", "rpm", "Speed of the crank; two sheets per revolution", gt=0,
-            press=FromPress("press.productivity", formula(lambda productivity: 2 * np.pi * productivity / 2)))] = None
+            press=FromPress("press.productivity", formula(lambda productivity: 2 * pi * productivity / 2)))] = None
     sector_ratio: Annotated[float | None,
         Quantity("u", "1", "Ratio of sector to pinion; default: the full swing turns the cylinder by one revolution", gt=0,
             plausible=("0.01", "500"))] = None

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import GRAVITY, Bound, Chapter, Formula, Steps, arccos, as_angle, bind, case, formula
+from diecut_report.api import GRAVITY, Bound, Chapter, Formula, Steps, arccos, as_angle, bind, case, formula, pi
 from diecut_report.mechanics import circular_segment, common, four_bar
 
 # fmt: off
@@ -51,7 +51,7 @@ def length_of(ratio: Any, crank_length: Any) -> Any:
 @formula
 def flat_arrives(sector_ratio: Any, swing_angle: Any, clear_rotation: Any) -> Any:
     """Whether the flat comes within the clear rotation of its lowest position at the inner dead centre."""
-    return abs(sector_ratio * swing_angle - 2 * np.pi) <= clear_rotation
+    return abs(sector_ratio * swing_angle - 2 * pi) <= clear_rotation
 
 
 @formula
@@ -63,7 +63,7 @@ def flat_leaves(sector_ratio: Any, swing_angle: Any, clear_rotation: Any) -> Any
 @formula
 def far_swing(contact_rotation: Any, sector_ratio: Any, swing_angle: Any) -> Any:
     """Rocker angle at which the flat's other corner leaves the board, no more than the whole swing."""
-    return np.minimum((2 * np.pi - contact_rotation) / sector_ratio, swing_angle)
+    return np.minimum((2 * pi - contact_rotation) / sector_ratio, swing_angle)
 
 
 @formula
@@ -105,22 +105,22 @@ linkage.value("swing_angle", "δ_max", "deg", "Swing of the rocker", four_bar.sw
 linkage.value("dead_center_outer", "φ_out", "deg", "Crank angle of the outer dead centre", four_bar.outer_dead_center, source="closed form", digits=6)
 linkage.value("dead_center_inner", "φ_in", "deg", "Crank angle of the inner dead centre", four_bar.inner_dead_center, source="closed form", digits=6)
 linkage.value("time_ratio", "k_t", "1", "Time ratio of the forward to the return stroke",
-    lambda dead_center_outer, dead_center_inner: (dead_center_inner - dead_center_outer) / (2 * np.pi - (dead_center_inner - dead_center_outer)))
+    lambda dead_center_outer, dead_center_inner: (dead_center_inner - dead_center_outer) / (2 * pi - (dead_center_inner - dead_center_outer)))
 linkage.value("transmission_angle_min", "μ_1", "deg", "Minimum transmission angle, at φ = 0", four_bar.least_transmission_angle, source="000 eq. 4")
 linkage.value("transmission_angle_max", "μ_2", "deg", "Maximum transmission angle, at φ = 180°", four_bar.greatest_transmission_angle,
     source="000 eq. 4")
 linkage.value("transmission_angle_worst", "μ_w", "deg", "Worst transmission angle; for an obtuse angle its supplement",
-    lambda transmission_angle_min, transmission_angle_max: np.minimum(transmission_angle_min, np.pi - transmission_angle_max), output=False)
+    lambda transmission_angle_min, transmission_angle_max: np.minimum(transmission_angle_min, pi - transmission_angle_max), output=False)
 
 stroke = Chapter("Sector ratio and stroke")
 stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: as given",
     bind(lambda sector_ratio: sector_ratio, sector_ratio="inputs.sector_ratio"), source="input", needs=("sector_ratio",), digits=6)
 stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: the full swing turns the cylinder by one revolution",
-    lambda swing_angle: 2 * np.pi / swing_angle, lacks=("sector_ratio",), digits=6)
+    lambda swing_angle: 2 * pi / swing_angle, lacks=("sector_ratio",), digits=6)
 stroke.value("stroke", "S_max", "mm", "Stroke of the cylinder's axis",
     lambda swing_angle, sector_ratio, cylinder_radius: swing_angle * sector_ratio * cylinder_radius, source="000 eq. 8")
 stroke.value("stroke_error", "Δθ", "deg", "Deviation of the rotation over the stroke from one revolution",
-    lambda sector_ratio, swing_angle: abs(sector_ratio * swing_angle - 2 * np.pi), output=False)
+    lambda sector_ratio, swing_angle: abs(sector_ratio * swing_angle - 2 * pi), output=False)
 
 cutting = Chapter("Cutting")
 cutting.require("board_below_radius", lambda material_thickness, cylinder_radius: material_thickness < cylinder_radius, key="material_thickness",
@@ -154,7 +154,7 @@ _cutting_edge(cutting, "cut_end_forward", "φ_2", "Crank angle where cutting end
 _cutting_edge(cutting, "cut_begin_return", "φ_3", "Crank angle where cutting begins, return stroke",
         bind(common.same, quantity="dead_center_inner"), four_bar.crank_angle_return, "end")
 _cutting_edge(cutting, "cut_end_return", "φ_4", "Crank angle where cutting ends, return stroke (counted on)",
-        bind(lambda angle: angle + 2 * np.pi, angle="dead_center_outer"), four_bar.crank_angle_return, "begin")
+        bind(lambda angle: angle + 2 * pi, angle="dead_center_outer"), four_bar.crank_angle_return, "begin")
 
 kinematics = Chapter("Kinematics over a revolution of the crank")
 kinematics.abscissa("crank_angle", "φ", "deg", "Crank angle from the frame line", 2 * np.pi, shown_at="crank_torque_peak_at", intervals=32,
@@ -364,14 +364,14 @@ clearance.value("clear_return_outer", "φ_c0", "deg", "Crank angle there on the 
     bind(four_bar.crank_angle_return, rocker_direction="clear_direction_outer", joint_distance="clear_distance_outer"), output=False,
     exists=flat_leaves)
 clearance.value("clearance_outer_start", "φ_c1", "deg", "Window at the outer dead centre opens (one revolution earlier)",
-    lambda clear_return_outer: clear_return_outer - 2 * np.pi, exists=flat_leaves)
+    lambda clear_return_outer: clear_return_outer - 2 * pi, exists=flat_leaves)
 clearance.value("clearance_outer_end", "φ_c2", "deg", "Window at the outer dead centre closes",
     bind(four_bar.crank_angle_forward, rocker_direction="clear_direction_outer", joint_distance="clear_distance_outer"), exists=flat_leaves)
 clearance.value("clearance_outer_time", "t_c1", "ms", "Time of the window at the outer dead centre",
     lambda clearance_outer_start, clearance_outer_end, crank_speed: (clearance_outer_end - clearance_outer_start) / crank_speed,
     exists=flat_leaves)
 clearance.value("clear_swing_inner", "δ_c′", "deg", "Rocker angle from which the flat is clear again",
-    lambda clear_rotation, sector_ratio: (2 * np.pi - clear_rotation) / sector_ratio, output=False)
+    lambda clear_rotation, sector_ratio: (2 * pi - clear_rotation) / sector_ratio, output=False)
 clearance.value("clear_direction_inner", "β_c′", "deg", "Direction of the rocker there",
     lambda outer_direction, clear_swing_inner: outer_direction + clear_swing_inner, output=False)
 clearance.value("clear_distance_inner", "q_4", "1", "Distance of the rocker's joint from the crank's pivot there, in crank lengths",

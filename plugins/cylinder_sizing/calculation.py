@@ -26,6 +26,7 @@ from diecut_report.api import (
     dimension,
     formula,
     label,
+    pi,
     point,
     polyline,
     radius_dimension,
@@ -63,20 +64,20 @@ size = Chapter("Radius",
 @formula
 def radius_by_huygens(working_length: Any, segment_height: Any) -> Any:
     """Radius with Huygens' arc; the other root of the quadratic gives a negative arc."""
-    root = np.sqrt(12 * segment_height * (3 * segment_height + 3 * np.pi * working_length + np.pi**2 * segment_height))
-    return (6 * segment_height + 3 * np.pi * working_length + root) / (6 * np.pi**2)
+    root = np.sqrt(12 * segment_height * (3 * segment_height + 3 * pi * working_length + pi**2 * segment_height))
+    return (6 * segment_height + 3 * pi * working_length + root) / (6 * pi**2)
 
 
-size.value("segment_height_limit", "h_lim", "mm", "Segment height from which no radius exists", lambda working_length: working_length / np.pi,
+size.value("segment_height_limit", "h_lim", "mm", "Segment height from which no radius exists", lambda working_length: working_length / pi,
     output=False)
 size.require("radius_exists", lambda segment_height, segment_height_limit: segment_height < segment_height_limit, key="segment_height",
     message="is {segment_height}, but no cylinder with a working length of {working_length} has a segment that high: h < l_1/π = "
         "{segment_height_limit} is needed; make the segment lower or the working length greater")
 size.value("radius_closed_form", "R_cf", "mm", "Radius by the closed-form approximation", radius_by_huygens, source="002 eq. 6", digits=6)
 size.root("radius_exact", "R_ex", "mm", "Exact radius", lambda radius_exact, working_length, segment_height:
-        radius_exact * (1 - np.cos(np.pi - as_angle(working_length / (2 * radius_exact)))) - segment_height,
-    low=lambda working_length, segment_height: np.maximum(segment_height, working_length / (2 * np.pi)),
-    high=lambda working_length: working_length / np.pi, left=lambda radius_exact, working_length: 2 * np.pi * radius_exact - working_length,
+        radius_exact * (1 - np.cos(pi - as_angle(working_length / (2 * radius_exact)))) - segment_height,
+    low=lambda working_length, segment_height: np.maximum(segment_height, working_length / (2 * pi)),
+    high=lambda working_length: working_length / pi, left=lambda radius_exact, working_length: 2 * pi * radius_exact - working_length,
     right=lambda radius_exact, segment_height: 2 * radius_exact * arccos((radius_exact - segment_height) / radius_exact), source="002 eq. 1",
     digits=6)
 size.value("radius_closed_form_error", "e_cf", "%", "Error of the closed-form approximation against the exact radius",
@@ -109,7 +110,7 @@ flat.choice("wall_verdict", "w", "1", "Condition of the wall",
     case("the wall is closed, but thinner than required", "the wall is less than the required one",
         lambda wall_at_flat, min_wall: wall_at_flat < min_wall), case("the wall is thick enough", "the wall is at least the required one"),
     output=False)
-flat.value("cutting_arc_fraction", "κ", "1", "Fraction of the circumference that is not flat", lambda half_angle: 1 - half_angle / np.pi)
+flat.value("cutting_arc_fraction", "κ", "1", "Fraction of the circumference that is not flat", lambda half_angle: 1 - half_angle / pi)
 
 overlap = Chapter("Overlap of bore and segment",
     text="Where the bore reaches beyond the flat, bore and segment share a smaller segment of the bore's circle; it is subtracted only once.")
@@ -123,11 +124,11 @@ overlap.value("overlap_area", "A_b", "mm**2", "Area of the overlap", bind(segmen
 
 masses = Chapter("Masses")
 masses.value("solid_mass", "m′", "kg", "Mass of the full cylinder",
-    lambda radius, generatrix_length, density: as_number(np.pi) * radius**2 * generatrix_length * density, source="000 eq. 13, 17")
+    lambda radius, generatrix_length, density: as_number(pi) * radius**2 * generatrix_length * density, source="000 eq. 13, 17")
 masses.value("segment_mass", "m_1", "kg", "Mass of the segment",
     lambda segment_area, generatrix_length, density: segment_area * generatrix_length * density, source="000 eq. 14")
 masses.value("bore_mass", "m_2", "kg", "Mass removed by the bore",
-    lambda bore_radius, generatrix_length, density: as_number(np.pi) * bore_radius**2 * generatrix_length * density, source="000, after eq. 16")
+    lambda bore_radius, generatrix_length, density: as_number(pi) * bore_radius**2 * generatrix_length * density, source="000, after eq. 16")
 masses.value("overlap_mass", "m_12", "kg", "Mass of the overlap",
     lambda overlap_area, generatrix_length, density: overlap_area * generatrix_length * density, source="this method")
 masses.value("mass", "m", "kg", "Mass of the cylinder",
@@ -137,13 +138,13 @@ masses.value("mass", "m", "kg", "Mass of the cylinder",
 inertia = Chapter("Moment of inertia and unbalance",
     text="The moment of inertia about the cylinder's axis is exact; the result of the source's formula is given for comparison.")
 inertia.value("inertia_solid", "I_s", "kg*m**2", "Inertia of the full cylinder",
-    lambda density, generatrix_length, radius: density * generatrix_length * np.pi * radius**4 / 2, output=False)
+    lambda density, generatrix_length, radius: density * generatrix_length * pi * radius**4 / 2, output=False)
 inertia.value("segment_polar", "J_1", "cm**4", "Polar second moment of the segment about the axis",
     bind(segment.polar_second_moment, distance="flat_distance"), output=False)
 inertia.value("inertia_segment", "I_1", "kg*m**2", "Inertia of the segment",
     lambda density, generatrix_length, segment_polar: density * generatrix_length * segment_polar, output=False)
 inertia.value("inertia_bore", "I_2", "kg*m**2", "Inertia removed by the bore",
-    lambda density, generatrix_length, bore_radius: density * generatrix_length * np.pi * bore_radius**4 / 2, output=False)
+    lambda density, generatrix_length, bore_radius: density * generatrix_length * pi * bore_radius**4 / 2, output=False)
 inertia.value("overlap_distance", "d_b", "mm", "Distance of the overlap's chord from the axis",
     lambda bore_radius, overlap_half_angle: bore_radius * np.cos(overlap_half_angle), output=False)
 inertia.value("overlap_polar", "J_12", "cm**4", "Polar second moment of the overlap about the axis",
@@ -165,7 +166,7 @@ inertia.value("center_of_mass_offset", "e", "mm", "Offset of the centre of mass,
 @formula
 def second_moment_about_axis(radius: Any, bore_radius: Any, segment: Any, overlap: Any) -> Any:
     """Second moment of the section about the cylinder's diameter that is parallel to the flat."""
-    return np.pi * radius**4 / 4 - segment - (np.pi * bore_radius**4 / 4 - overlap)
+    return pi * radius**4 / 4 - segment - (pi * bore_radius**4 / 4 - overlap)
 
 
 bending = Chapter("Bending under the line load", needs=("bearing_span",), absent="not calculated: bearing_span is not given",

@@ -20,6 +20,8 @@ from diecut_report.api import (
     bind,
     case,
     formula,
+    number,
+    pi,
 )
 from diecut_report.mechanics import common
 from diecut_report.mechanics.common import rounded_up
@@ -134,7 +136,7 @@ def three_sides(side: Any) -> Any:
 def driven_stop_time(reduced_mass: Any, stiffness: Any, driving_force: Any, velocity: Any) -> Any:
     """Time from contact to rest of a mass on a spring with a constant force behind it."""
     late = np.arctan(driving_force / (velocity * np.sqrt(stiffness * reduced_mass)))
-    return np.sqrt(reduced_mass / stiffness) * as_number(np.pi / 2 + late)
+    return np.sqrt(reduced_mass / stiffness) * as_number(pi / 2 + late)
 
 
 @formula
@@ -214,13 +216,13 @@ loss.value("loss_fraction", "ψ", "1", "Fraction of the energy lost in one impac
 loss.value("loss_fraction", "ψ", "1", "Fraction of the energy lost in one impact: usual for rubber", bind(common.same, quantity=USUAL_LOSS),
     source="this method", lacks=("loss_fraction", "loss_tangent"))
 loss.value("loss_fraction", "ψ", "1", "Fraction of the energy lost in one impact: half a cycle",
-    lambda loss_tangent: 1 - np.exp(-as_number(np.pi) * loss_tangent), source="this method", needs=("loss_tangent",))
+    lambda loss_tangent: 1 - np.exp(-as_number(pi) * loss_tangent), source="this method", needs=("loss_tangent",))
 
 stop = Chapter("Stop and rebound", text="Mass and dampers oscillate as a mass–spring system: the stop is a quarter of the period.",
     needs=("velocity",), absent="not calculated: velocity is not given")
 stop.value("reduced_mass", "m_red", "kg", "Equivalent mass at the speed of contact",
     lambda kinetic_energy, velocity: 2 * kinetic_energy / velocity**2, source="energy")
-stop.value("stop_time", "t_s", "ms", "Time from contact to rest", lambda deflection, velocity: as_number(np.pi) * deflection / (2 * velocity),
+stop.value("stop_time", "t_s", "ms", "Time from contact to rest", lambda deflection, velocity: as_number(pi) * deflection / (2 * velocity),
     source="this method")
 stop.value("peak_deceleration", "a_max", "m/s**2", "Maximum deceleration",
     lambda damper_count, peak_force, reduced_mass: damper_count * peak_force / reduced_mass, source="this method")
@@ -243,7 +245,7 @@ buckling.choice("length_limit", "H_λ", "mm", "Length up to which this pad does 
 buckling.value("least_side", "b_0", "mm", "Minimum side of a square pad at this length", lambda adopted_length: adopted_length / 3, output=False,
     needs=("adopted_length",))
 buckling.value("least_side", "b_0", "mm", "Side of the square pad whose length is three sides",
-    lambda area, free_length: (area * free_length / 3) ** (1 / 3), output=False, lacks=("adopted_length",))
+    lambda area, free_length: (area * free_length / 3) ** (number(1) / 3), output=False, lacks=("adopted_length",))
 buckling.value("steady_pad_side", "b_λ", "mm", "Minimum side of a square pad that does not buckle", bind(whole_steps_above, length="least_side"),
     source="this method")
 buckling.value("steady_damper_count", "n_λ", "1", "Minimum number of dampers of this pad that does not buckle",

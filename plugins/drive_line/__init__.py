@@ -19,6 +19,7 @@ from diecut_report.api import (
     Text,
     bind,
     formula,
+    pi,
 )
 from diecut_report.mechanics import drive_line as formulas
 
@@ -100,7 +101,7 @@ class DriveLine(Inputs):
 
     reference_speed: Annotated[float | None,
         Quantity("ω_m", "rpm", "Speed of the main shaft, which turns once a sheet", gt=0,
-            press=FromPress("press.productivity", formula(lambda productivity: 2 * np.pi * productivity)))] = None
+            press=FromPress("press.productivity", formula(lambda productivity: 2 * pi * productivity)))] = None
     shafts: Annotated[list[ShaftRatio], Text("Shafts that turn steadily")]
     meshes: Annotated[list[Mesh], Text("Pairs of gears")] = []  # noqa: RUF012
     chains: Annotated[list[ChainDrive], Text("Chains")] = []  # noqa: RUF012

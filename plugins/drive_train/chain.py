@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, case, formula
+from diecut_report.api import Chapter, bind, case, formula, number, pi
 from diecut_report.plugins.drive_train import vbelt
 
 # fmt: off
@@ -36,7 +36,7 @@ speeds.value("least_teeth", "z_min", "1", "Smallest number of teeth of a gear",
     lambda fewest_driving_teeth, fewest_driven_teeth: np.minimum(fewest_driving_teeth, fewest_driven_teeth), output=False, needs=("gears",))
 speeds.value("vbelt_ratio", "i_b", "1", "Required ratio of the V-belt", lambda total_ratio, gear_ratio_total: total_ratio / gear_ratio_total,
     source="this method")
-speeds.require("belt_steps_down", lambda vbelt_ratio: vbelt_ratio > 1 - 1e-12, key="output_speed",
+speeds.require("belt_steps_down", lambda vbelt_ratio: vbelt_ratio > number(1) - 1e-12, key="output_speed",
     message="is {inputs.output_speed}; with motor_speed = {motor_speed} and the gears' ratio {gear_ratio_total} that leaves the V-belt a ratio of "
         "{vbelt_ratio}, but it cannot speed up: give the gears a ratio of at most {total_ratio:down}, with fewer driven teeth or fewer pairs, or "
         "take a faster motor")
@@ -66,7 +66,7 @@ turn = Chapter("Torque over the revolutions of the output shaft",
     text="Referred to the flywheel shaft, the efficiency follows the direction of power: the losses add where the motor drives and subtract where "
         "the load drives.", needs=("torque_curve",), absent="not calculated: torque_curve is not given")
 turn.value("output_period", "φ_T", "deg", "Angle of the output shaft after which the torque repeats",
-    lambda torque_curve_turns: 2 * np.pi * torque_curve_turns, source="kinematics", output=False)
+    lambda torque_curve_turns: 2 * pi * torque_curve_turns, source="kinematics", output=False)
 turn.abscissa("output_angle", "φ", "deg", "Angle of the output shaft", "output_period")
 turn.from_curve("output_torque", "M", "N*m", "Torque at the output shaft", given="torque_curve", abscissa="output_angle")
 turn.crossings("power_reversal", "φ_r", "deg", "Angle at which the power changes sign", of="output_torque")
@@ -103,7 +103,7 @@ efficiency.value("efficiency_total", "η", "1", "Efficiency from the motor to th
 powers = Chapter("Torque and power at each shaft",
     text="Means over a revolution. Power that drives the load is divided by the efficiencies behind the shaft, power that flows back is multiplied "
         "by them.")
-powers.require("peak_above_mean", lambda torque_mean, torque_peak: torque_mean <= torque_peak * (1 + 1e-06), key="torque_peak",
+powers.require("peak_above_mean", lambda torque_mean, torque_peak: torque_mean <= torque_peak * (number(1) + 1e-06), key="torque_peak",
     message="is {torque_peak}, but the mean torque is {torque_mean}, and no mean is above the peak; look at torque_mean, or give a torque_peak of "
         "at least {torque_mean:up}")
 powers.value("driving_mean", "M_d", "N*m", "Mean driving torque at the output", lambda torque_mean: torque_mean, output=False,

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind, formula, standard_series, standard_table
+from diecut_report.api import Chapter, as_number, bind, formula, number, pi, standard_series, standard_table
 from diecut_report.mechanics import common
 from diecut_report.mechanics.timing import engagement as motor_slip
 from diecut_report.plugins.drive_train import vbelt
@@ -96,10 +96,10 @@ flywheel.lookup("flywheel_density", "ρ", "kg/m**3", "Density of the flywheel", 
 flywheel.lookup("flywheel_rim_limit", "[v]", "m/s", "Allowable rim speed of the flywheel", RIM_SPEEDS, by="flywheel_material", source="material",
     output=False)
 flywheel.value("flywheel_diameter", "D", "mm", "Diameter of the flywheel as a disc",
-    lambda flywheel_inertia, flywheel_density: (160 * flywheel_inertia / (np.pi * flywheel_density)) ** (1 / 5), source="this method")
+    lambda flywheel_inertia, flywheel_density: (160 * flywheel_inertia / (pi * flywheel_density)) ** (number(1) / 5), source="this method")
 flywheel.value("flywheel_width", "B", "mm", "Width of the disc", lambda flywheel_diameter: flywheel_diameter / 5, source="this method")
 flywheel.value("flywheel_mass", "m_f", "kg", "Mass of the flywheel",
-    lambda flywheel_density, flywheel_diameter, flywheel_width: flywheel_density * as_number(np.pi) * flywheel_diameter ** 2 / 4 * flywheel_width,
+    lambda flywheel_density, flywheel_diameter, flywheel_width: flywheel_density * as_number(pi) * flywheel_diameter ** 2 / 4 * flywheel_width,
     source="geometry")
 flywheel.value("flywheel_rim_speed", "v_f", "m/s", "Rim speed of the flywheel",
     bind(vbelt.rim_speed, speed="shaft_2_speed", diameter="flywheel_diameter"), source="kinematics", lacks=("mounted_inertia",))

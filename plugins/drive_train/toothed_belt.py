@@ -21,6 +21,7 @@ from diecut_report.api import (
     as_number,
     bind,
     formula,
+    pi,
 )
 from diecut_report.mechanics import belt_path, common
 from diecut_report.plugins.drive_train.figures import TOOTHED_BELT_FIGURES
@@ -36,13 +37,13 @@ FEWEST_IN_MESH = 6.0
 @formula
 def whole_radius(radius: Any, pitch: Any) -> Any:
     """Pitch radius of the nearest whole number of teeth, one at least."""
-    return np.maximum(1, np.round(as_number(2 * np.pi) * radius / pitch)) * pitch / (2 * np.pi)
+    return np.maximum(1, np.round(as_number(2 * pi) * radius / pitch)) * pitch / (2 * pi)
 
 
 @formula
 def teeth_apart(radius: Any, other: Any, pitch: Any) -> Any:
     """How far two pitch radii are apart, in teeth."""
-    return as_number(2 * np.pi) * abs(radius - other) / pitch
+    return as_number(2 * pi) * abs(radius - other) / pitch
 
 
 def next_marked(is_cylinder: Any) -> Any:
@@ -79,7 +80,7 @@ listed = Chapter("Toothed belt: pulleys in the list",
         "the die lies below the cylinder: the belt passes over the cylinder's pulley where this engages away from the die, and below it where it "
         "engages on the die side.", needs=("toothed_belt", PULLEYS), absent=f"not calculated: {PULLEYS} is not given")
 listed.value("pulley_teeth", "n_z", "1", "Number of teeth of the circumference",
-    bind(lambda radius, pitch: as_number(2 * np.pi) * radius / pitch, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry", digits=6,
+    bind(lambda radius, pitch: as_number(2 * pi) * radius / pitch, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry", digits=6,
     output=False)
 listed.value("pulley_whole_radius", "r_z", "mm", "Pitch radius of the nearest whole number of teeth",
     bind(whole_radius, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry", digits=6, output=False)
@@ -214,15 +215,15 @@ speed.require("belt_moves", lambda belt_speed: belt_speed > 0, key="toothed_belt
 speed.value("driving_pulley_radius", "r_p", "mm", "Pitch radius of the belt's driving pulley, before rounding",
     bind(lambda belt_speed, shaft_speed: belt_speed / shaft_speed, shaft_speed="toothed_belt.shaft_speed"), source="002 eq. 10", digits=6)
 speed.value("driving_pulley_teeth", "z_p", "1", "Teeth of the belt's driving pulley, the nearest whole number",
-    bind(lambda driving_pulley_radius, pitch: np.round(as_number(2 * np.pi) * driving_pulley_radius / pitch), pitch="toothed_belt.pitch"), whole=True,
+    bind(lambda driving_pulley_radius, pitch: np.round(as_number(2 * pi) * driving_pulley_radius / pitch), pitch="toothed_belt.pitch"), whole=True,
     source="this method")
 speed.value("driving_pulley_pitch_radius", "r_pz", "mm", "Pitch radius of the driving pulley with whole teeth",
-    bind(lambda driving_pulley_teeth, pitch: driving_pulley_teeth * pitch / (2 * np.pi), pitch="toothed_belt.pitch"), source="geometry", digits=6)
+    bind(lambda driving_pulley_teeth, pitch: driving_pulley_teeth * pitch / (2 * pi), pitch="toothed_belt.pitch"), source="geometry", digits=6)
 speed.require("pulley_has_teeth", lambda driving_pulley_teeth: driving_pulley_teeth >= 1, key="toothed_belt.pitch",
     message="is more than twice the circumference of the driving pulley, whose radius is {driving_pulley_radius}; take a smaller pitch or a slower "
         "shaft")
 speed.value("driving_pulley_speed_error", "ε_b", "%", "Error of the belt speed due to whole teeth, at the given shaft_speed",
-    bind(lambda driving_pulley_teeth, pitch, shaft_speed, belt_speed: driving_pulley_teeth * pitch * shaft_speed / (2 * np.pi * belt_speed) - 1,
+    bind(lambda driving_pulley_teeth, pitch, shaft_speed, belt_speed: driving_pulley_teeth * pitch * shaft_speed / (2 * pi * belt_speed) - 1,
         pitch="toothed_belt.pitch", shaft_speed="toothed_belt.shaft_speed"), source="this method")
 
 path = Chapter("Toothed belt: path over the pulleys",

@@ -12,6 +12,7 @@ from diecut_report.api import (
     as_number,
     bind,
     formula,
+    pi,
     standard_series,
     standard_series_by,
     standard_table,
@@ -107,7 +108,7 @@ vbelt.root("center_distance", "a", "mm", "Centre distance, corrected for the sta
         belt="vbelt_standard_length", **PAIR), low=lambda least_center_distance: least_center_distance,
     high=lambda vbelt_standard_length: vbelt_standard_length / 2, left=bind(belt_path.run_length, radius="small_radius", next_radius="large_radius"),
     right=bind(lambda center_distance, small, large, belt:
-            (belt - np.pi * (large + small)) / 2 - (large - small) * np.arcsin((large - small) / center_distance),
+            (belt - pi * (large + small)) / 2 - (large - small) * np.arcsin((large - small) / center_distance),
         belt="vbelt_standard_length", **PAIR), source="geometry")
 vbelt.value("vbelt_wrap", "β_1", "deg", "Wrap on the smaller pulley", bind(belt_path.wrap_small, **PAIR), source="geometry")
 vbelt.value("vbelt_wrap_large", "β_2", "deg", "Wrap on the larger pulley", bind(belt_path.wrap_large, wrap_small="vbelt_wrap"), source="geometry",
@@ -124,7 +125,7 @@ count = Chapter("Number of belts",
 count.value("tension_ratio", "m", "1", "Ratio of tight-side to slack-side tension",
     bind(lambda groove_friction, wrap: np.exp(groove_friction * as_number(wrap)),
         groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
-count.value("wrap_factor", "c_1", "1", "Arc of contact factor", lambda vbelt_wrap: 1.25 * (1 - 5 ** (-vbelt_wrap / np.pi)), source="ISO 5292")
+count.value("wrap_factor", "c_1", "1", "Arc of contact factor", lambda vbelt_wrap: 1.25 * (1 - 5 ** (-vbelt_wrap / pi)), source="ISO 5292")
 count.lookup("reference_length", "L_r", "mm", "Reference length of the section", REFERENCE_LENGTHS, by="vbelt.section", source="Optibelt",
     output=False)
 count.value("length_factor", "c_3", "1", "Belt length factor",

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import ByText, Chapter, Formula, Steps, bind, case, formula
+from diecut_report.api import ByText, Chapter, Formula, Steps, bind, case, formula, pi
 from diecut_report.mechanics import common, followers
 from diecut_report.mechanics.motion_laws import ACCELERATION, JOINT, PEAK_ACCELERATION, POSITION
 from diecut_report.plugins.elastic_follower import rests
@@ -36,7 +36,7 @@ def of_each_body(chapter: Steps, id: str, symbol: str, unit: str, description: s
 
 drive = Chapter("Elastic drive")
 of_each_body(drive, "angular_frequency", "ω", "rad/s", "Natural angular frequency", followers.natural_angular_frequency, source="001, first paper")
-drive.value("natural_frequency", "f_n", "Hz", "Natural frequency", lambda angular_frequency: angular_frequency / (2 * np.pi),
+drive.value("natural_frequency", "f_n", "Hz", "Natural frequency", lambda angular_frequency: angular_frequency / (2 * pi),
     source="001, first paper")
 drive.value("natural_period", "T_n", "ms", "Natural period", lambda natural_frequency: 1 / natural_frequency, source="vibration", output=False)
 drive.value("damped_frequency", "ω_d", "rad/s", "Angular frequency of the damped vibration", followers.damped_angular_frequency, source="vibration",

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Constant, as_number, formula
+from diecut_report.api import Constant, as_number, formula, number, pi
 from diecut_report.mechanics.involute import involute
 
 MILLIMETRE = Constant(1e-3, "1 mm", "m")
@@ -52,8 +52,8 @@ def single_contact(
     working_angle: Any, tip_angle: Any, teeth: Any, tip_angle_mate: Any, teeth_mate: Any, contact_ratio: Any
 ) -> Any:
     """M: flank pressure at the gear's inner point of single contact, to that at the pitch point, for spur teeth."""
-    own = np.tan(tip_angle) - 2 * as_number(np.pi) / teeth
-    mate = np.tan(tip_angle_mate) - (contact_ratio - 1) * 2 * as_number(np.pi) / teeth_mate
+    own = np.tan(tip_angle) - 2 * as_number(pi) / teeth
+    mate = np.tan(tip_angle_mate) - (contact_ratio - 1) * 2 * as_number(pi) / teeth_mate
     return np.tan(working_angle) / np.sqrt(own * mate)
 
 
@@ -100,13 +100,13 @@ def pitting_safety(limit: Any, life: Any, film: Any, stress: Any) -> Any:
 def half_tip_width(dedendum: Any, pressure_angle: Any, root_radius: Any) -> Any:
     """E: distance of the rack's rounding centre from the middle of its tooth."""
     beside = dedendum * np.tan(pressure_angle) + (1 - np.sin(pressure_angle)) * root_radius / np.cos(pressure_angle)
-    return as_number(np.pi) / 4 - beside
+    return as_number(pi) / 4 - beside
 
 
 @formula
 def root_chord(virtual_teeth: Any, theta: Any, center_height: Any, root_radius: Any) -> Any:
     """Chord of the root at the critical section, where tangents at 30° touch it."""
-    return virtual_teeth * np.sin(np.pi / 3 - theta) + np.sqrt(3) * (center_height / np.cos(theta) - root_radius)
+    return virtual_teeth * np.sin(pi / 3 - theta) + np.sqrt(number(3)) * (center_height / np.cos(theta) - root_radius)
 
 
 @formula
@@ -124,7 +124,7 @@ def single_contact_diameter(
     """Diameter of the outer point of single contact, where the whole load acts."""
     base = virtual_teeth * np.cos(pressure_angle)
     at_tip = np.sqrt((virtual_teeth + 2 * tip_height) ** 2 - base**2) / 2
-    there = at_tip - as_number(np.pi) * np.cos(pressure_angle) * (virtual_contact_ratio - 1)
+    there = at_tip - as_number(pi) * np.cos(pressure_angle) * (virtual_contact_ratio - 1)
     return 2 * np.sqrt(there**2 + base**2 / 4)
 
 
@@ -134,7 +134,7 @@ def load_arm(
 ) -> Any:  # fmt: skip
     """Arm of the load about the critical section: from where its line crosses the tooth's centre line."""
     crossing = (np.cos(half_thickness) - np.sin(half_thickness) * np.tan(load_angle)) * diameter
-    section = virtual_teeth * np.cos(np.pi / 3 - theta) + center_height / np.cos(theta) - root_radius
+    section = virtual_teeth * np.cos(pi / 3 - theta) + center_height / np.cos(theta) - root_radius
     return (crossing - section) / 2
 
 
@@ -190,7 +190,7 @@ def tooth_stiffness(
     compliance: Any, dedendum: Any, pressure_angle: Any, helix_angle: Any, elastic_modulus_1: Any, elastic_modulus_2: Any
 ) -> Any:  # fmt: skip
     """Stiffness c′ of a pair of teeth of solid gears under a line load from 100 N/mm on."""
-    rack = (1 + (1.2 - dedendum) / 2) * (1 - 0.02 * as_number(np.pi / 9 - pressure_angle) * 180 / as_number(np.pi))
+    rack = (1 + (1.2 - dedendum) / 2) * (1 - 0.02 * as_number(pi / 9 - pressure_angle) * 180 / as_number(pi))
     modulus = 2 * elastic_modulus_1 * elastic_modulus_2 / (elastic_modulus_1 + elastic_modulus_2)
     return 0.8 / compliance * rack * np.cos(helix_angle) * modulus / STEEL
 

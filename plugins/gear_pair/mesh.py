@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind
+from diecut_report.api import Chapter, as_number, bind, pi
 from diecut_report.mechanics import involute
 from diecut_report.plugins.gear_pair import formulas as f
 
@@ -34,7 +34,7 @@ mesh.require("meshes", lambda working_involute: working_involute > 0, key="shift
     message="is {shift_1}, so far negative with the wheel's shift {shift_2} that the flanks cannot touch; take greater shifts")
 mesh.root("working_pressure_angle", "α_wt", "deg", "Working pressure angle",
     lambda working_pressure_angle, working_involute: involute.involute(working_pressure_angle) - working_involute, low=lambda: 0,
-    high=lambda: 0.48 * np.pi, left=lambda working_pressure_angle: np.tan(working_pressure_angle),
+    high=lambda: 0.48 * pi, left=lambda working_pressure_angle: np.tan(working_pressure_angle),
     right=lambda working_pressure_angle, working_involute: working_involute + as_number(working_pressure_angle), lacks=GIVEN_DISTANCE,
     source=ISO_21771, digits=6, tolerance=1e-12)
 mesh.value("least_distance", "a_min", "mm", "Centre distance at which the base circles touch",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_angle, as_number, bind
+from diecut_report.api import Chapter, as_angle, as_number, bind, number, pi
 from diecut_report.mechanics import drive_line, involute
 from diecut_report.plugins.gear_pair import formulas as f
 from diecut_report.plugins.gear_pair.load import DYNAMIC_KNOWN
@@ -36,17 +36,17 @@ for g, teeth in TEETH.items():
     root_form.value(f"rounding_height_{g}", f"G_{g}", "1", f"Height of the fillet centre on gear {g}",
         bind(lambda root_radius, dedendum, shift: root_radius - dedendum + shift, shift=f"shift_{g}"), source=FORM, output=False)
     root_form.value(f"tangent_offset_{g}", f"H_{g}", "rad", f"Auxiliary angle of gear {g}",
-        bind(lambda virtual_teeth, half_tip_width: as_angle(2 / virtual_teeth * (as_number(np.pi) / 2 - half_tip_width)) - np.pi / 3,
+        bind(lambda virtual_teeth, half_tip_width: as_angle(2 / virtual_teeth * (as_number(pi) / 2 - half_tip_width)) - pi / 3,
             virtual_teeth=f"virtual_teeth_{g}"), source=FORM, output=False, digits=6)
     root_form.require(f"root_exists_{g}",
         bind(lambda offset, virtual_teeth, center_height:
-                (offset < 0) & (virtual_teeth * as_number(np.pi / 3 + offset) > 2 * np.sqrt(3) * center_height), offset=f"tangent_offset_{g}",
+                (offset < 0) & (virtual_teeth * as_number(pi / 3 + offset) > 2 * np.sqrt(number(3)) * center_height), offset=f"tangent_offset_{g}",
             virtual_teeth=f"virtual_teeth_{g}", center_height=f"rounding_height_{g}"), key=f"shift_{g}",
         message=f"is {{shift_{g}}}, with which no tangent at 30° touches the root of the tooth {g}; take less shift or more teeth")
     root_form.root(f"root_angle_{g}", f"θ_{g}", "rad", f"Angle of the tangent's contact on gear {g}",
         bind(lambda theta, offset, virtual_teeth, center_height: theta + offset - as_angle(2 * center_height / virtual_teeth * np.tan(theta)),
             theta=f"root_angle_{g}", offset=f"tangent_offset_{g}", virtual_teeth=f"virtual_teeth_{g}", center_height=f"rounding_height_{g}"),
-        low=lambda: 0, high=lambda: np.pi / 3,
+        low=lambda: 0, high=lambda: pi / 3,
         left=bind(lambda theta, virtual_teeth, offset: virtual_teeth * as_number(theta + offset) * np.cos(theta), theta=f"root_angle_{g}",
             offset=f"tangent_offset_{g}", virtual_teeth=f"virtual_teeth_{g}"),
         right=bind(lambda theta, center_height: 2 * center_height * np.sin(theta), theta=f"root_angle_{g}", center_height=f"rounding_height_{g}"),
@@ -132,10 +132,10 @@ sizes.value("tip_thickness_wanted", "s_w", "mm", "Minimum usual tip thickness", 
 sizes.value("face_width_wanted", "b_w", "mm", "Maximum usual face width", lambda pitch_diameter_1: 1.2 * pitch_diameter_1, source="practice",
     output=False)
 sizes.value("base_pitch", "p_bt", "mm", "Transverse base pitch",
-    lambda pitch_diameter_1, teeth_1, transverse_angle: as_number(np.pi) * pitch_diameter_1 / teeth_1 * np.cos(transverse_angle), source=ISO_21771,
+    lambda pitch_diameter_1, teeth_1, transverse_angle: as_number(pi) * pitch_diameter_1 / teeth_1 * np.cos(transverse_angle), source=ISO_21771,
     digits=6)
 sizes.value("overlap_ratio", "ε_β", "1", "Overlap ratio",
-    lambda face_width, helix_angle, module: face_width * np.sin(helix_angle) / (as_number(np.pi) * module), source=ISO_21771, digits=6)
+    lambda face_width, helix_angle, module: face_width * np.sin(helix_angle) / (as_number(pi) * module), source=ISO_21771, digits=6)
 sizes.value("contact_ratio_total", "ε_γ", "1", "Total contact ratio", lambda contact_ratio, overlap_ratio: contact_ratio + overlap_ratio,
     source=ISO_21771)
 
@@ -166,7 +166,7 @@ pitting.value("zone_factor", "Z_H", "1", "Zone factor", bind(lambda base_helix_a
     source=f"{PITTING}, 6")
 pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E",
     lambda elastic_modulus_1, elastic_modulus_2:
-        1 / (as_number(np.pi) * ((1 - 0.3**2) / elastic_modulus_1 + (1 - 0.3**2) / elastic_modulus_2)),
+        1 / (as_number(pi) * ((1 - number(0.3) ** 2) / elastic_modulus_1 + (1 - number(0.3) ** 2) / elastic_modulus_2)),
     source=f"{PITTING}, 7", output=False)
 pitting.value("contact_ratio_factor", "Z_ε", "1", "Contact ratio factor", f.contact_ratio_factor, source=f"{PITTING}, 8")
 pitting.value("helix_factor", "Z_β", "1", "Helix angle factor", lambda helix_angle: 1 / np.sqrt(np.cos(helix_angle)),
@@ -175,7 +175,7 @@ pitting.value("nominal_contact_stress", "σ_H0", "MPa", "Nominal contact stress 
     bind(f.nominal_contact_stress, force="tangential_force", diameter="pitch_diameter_1"), source=f"{PITTING}, 5")
 for g, teeth in TEETH.items():
     pitting.require(f"single_contact_exists_{g}",
-        bind(lambda tip_angle, teeth: np.tan(tip_angle) > 2 * as_number(np.pi) / teeth, tip_angle=f"tip_angle_{g}", teeth=teeth), key="addendum",
+        bind(lambda tip_angle, teeth: np.tan(tip_angle) > 2 * as_number(pi) / teeth, tip_angle=f"tip_angle_{g}", teeth=teeth), key="addendum",
         message=f"is {{addendum}}, with which the flank {g} ends before its inner point of single contact; take more shift, less dedendum and "
             "addendum, or more teeth")
 for g, teeth in TEETH.items():
@@ -203,7 +203,7 @@ root_stress.value("face_load_root", "K_Fβ", "1", "Face load factor for tooth ro
     lambda face_load_factor, face_to_height: face_load_factor ** (face_to_height**2 / (1 + face_to_height + face_to_height**2)),
     source="ISO 6336-1, 7", needs=RATED)
 root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor for tooth root stress",
-    lambda overlap_ratio, helix_angle: 1 - np.minimum(overlap_ratio, 1) * helix_angle / (2 * np.pi / 3), source=f"{ROOT}, 8")
+    lambda overlap_ratio, helix_angle: 1 - np.minimum(overlap_ratio, 1) * helix_angle / (2 * pi / 3), source=f"{ROOT}, 8")
 for g in TEETH:
     root_stress.value(f"nominal_root_stress_{g}", f"σ_F0{g}", "MPa", f"Nominal tooth root stress of gear {g}",
         bind(lambda force, form_factor, stress_factor, helix_factor, face_width, module:
@@ -229,7 +229,7 @@ over_cycle.value("contact_stress_curve", "σ_H1φ", "MPa", "Contact stress of th
 sector = Chapter("Sector", needs=("sector",), absent="sector is not given: the wheel makes full revolutions",
     text="The maximum torque is assumed to act at any position in the mesh, on every tooth of the sector.")
 sector.value("teeth_swept", "z_γ", "1", "Number of teeth swept by the swing",
-    bind(lambda swing, teeth_2: swing * teeth_2 / (2 * np.pi), swing="sector.swing"), source="kinematics", digits=6)
+    bind(lambda swing, teeth_2: swing * teeth_2 / (2 * pi), swing="sector.swing"), source="kinematics", digits=6)
 sector.value("teeth_needed", "z_n", "1", "Required number of teeth of the sector: those swept, those in mesh at the end, and one to spare",
     lambda teeth_swept, contact_ratio: np.ceil(teeth_swept + contact_ratio) + 1, whole=True, source="this method")
 sector.value("pinion_rotation", "γ_1", "deg", "Rotation of the pinion", bind(lambda ratio, swing: ratio * swing, swing="sector.swing"),

@@ -30,6 +30,7 @@ from diecut_report.api import (
     level,
     line,
     mark,
+    pi,
     vertical,
 )
 from diecut_report.mechanics import common
@@ -208,7 +209,7 @@ basis = Chapter("Basis of comparison",
         "accelerations to S/T²; so they hold for any step and any productivity.")
 basis.value("cycle_time", "T", "ms", "Cycle time of the cam-gear", lambda cycles_per_hour: 1 / cycles_per_hour, source="kinematics")
 basis.value("geneva_cycle_time", "T_g", "ms", "Time of a revolution of the Geneva drive's crank, as given there",
-    lambda crank_speed: 2 * np.pi / crank_speed, source="kinematics")
+    lambda crank_speed: 2 * pi / crank_speed, source="kinematics")
 basis.choice("cycle_basis", "→", "1", "Cycle time of the comparison",
     case("both drives have it", "the cycle times are the same", bind(are_alike, one="cycle_time", other="geneva_cycle_time")),
     case("the cam-gear's, for both drives", "the Geneva drive has another one"))
@@ -233,7 +234,7 @@ motion = Chapter("Motion of the sheet over a cycle",
 motion.value("crank_ratio", "λ", "1", "Geneva: ratio of crank radius to centre distance", formulas.crank_ratio, source="geometry", output=False)
 motion.value("engagement_half_angle", "α_e", "deg", "Geneva: half the angle of the engagement", formulas.engagement_half_angle, source="geometry",
     output=False)
-motion.value("middle", "φ_m", "deg", "Cycle angle in the middle of both motions", lambda dwell_share: np.pi * (1 + dwell_share), source="kinematics",
+motion.value("middle", "φ_m", "deg", "Cycle angle in the middle of both motions", lambda dwell_share: pi * (1 + dwell_share), source="kinematics",
     output=False)
 motion.value("geneva_entry", "φ_g1", "deg", "Cycle angle at the Geneva drive's entry",
     lambda middle, engagement_half_angle: middle - engagement_half_angle, source="kinematics", output=False)
@@ -243,10 +244,10 @@ motion.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution, from t
     shown_at="geneva_acceleration_peak_at")
 motion.breakpoints("engagement", "cycle_angle", "geneva_entry", "geneva_exit")
 motion.choice("turns", "k", "1", "Nearest motion of the Geneva drive",
-    case(lambda: 1, "the end of the previous motion", lambda cycle_angle, middle: cycle_angle < middle - np.pi),
+    case(lambda: 1, "the end of the previous motion", lambda cycle_angle, middle: cycle_angle < middle - pi),
     case(lambda: 0, "the motion of this cycle"), output=False, per_piece=True)
 motion.value("geneva_angle", "α", "deg", "Geneva: crank angle from the middle of the motion",
-    lambda cycle_angle, middle, turns: cycle_angle - middle + 2 * np.pi * turns, source="kinematics", output=False)
+    lambda cycle_angle, middle, turns: cycle_angle - middle + 2 * pi * turns, source="kinematics", output=False)
 motion.choice("engaged", "s", "1", "Geneva drive's roller in a slot (1) or not (0)",
     case(lambda: 1, "the roller is in a slot", lambda geneva_angle, engagement_half_angle: abs(geneva_angle) <= engagement_half_angle),
     case(lambda: 0, "the locking disc holds the wheel"), output=False, per_piece=True)
@@ -255,14 +256,14 @@ motion.from_curve("cam_gear_speed", "ω_1", "rad", "Cam-gear: speed of the gear,
 motion.from_curve("cam_gear_acceleration", "ε_1", "rad/s**2", "Cam-gear: acceleration of the gear", given="gear_acceleration", abscissa="cycle_angle",
     output=False)
 motion.value("cam_velocity", "v_c", "1", "Cam-gear: ratio of the sheet's velocity to the mean velocity S/T",
-    lambda cam_gear_speed: cam_gear_speed / (2 * np.pi), source="kinematics")
+    lambda cam_gear_speed: cam_gear_speed / (2 * pi), source="kinematics")
 motion.value("cam_acceleration", "a_c", "1", "Cam-gear: sheet acceleration in units of S/T²",
-    lambda cam_gear_acceleration, cycle_time: cam_gear_acceleration * cycle_time ** 2 / (2 * np.pi), source="kinematics")
+    lambda cam_gear_acceleration, cycle_time: cam_gear_acceleration * cycle_time ** 2 / (2 * pi), source="kinematics")
 motion.choice("geneva_velocity", "v_g", "1", "Geneva: ratio of the sheet's velocity to the mean velocity S/T",
     case(lambda slots, geneva_angle, crank_ratio: slots * formulas.speed_ratio(geneva_angle, crank_ratio), "the roller is in a slot", IN_SLOT),
     case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
 motion.choice("geneva_acceleration", "a_g", "1", "Geneva: sheet acceleration in units of S/T²",
-    case(lambda slots, geneva_angle, crank_ratio: as_number(2 * np.pi) * slots * formulas.acceleration_ratio(geneva_angle, crank_ratio),
+    case(lambda slots, geneva_angle, crank_ratio: as_number(2 * pi) * slots * formulas.acceleration_ratio(geneva_angle, crank_ratio),
         "the roller is in a slot", IN_SLOT), case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
 motion.value("cam_power", "P_c", "1", "Cam-gear: power in units of m·S²/T³", lambda cam_velocity, cam_acceleration: cam_velocity * cam_acceleration,
     source="energy", output=False)
@@ -274,7 +275,7 @@ for what, letter, told in (("velocity", "v", "velocity in units of S/T"), ("acce
         motion.reduction(f"{drive}_{what}_peak", f"{letter}_{drive[0]},max", "1", f"{name}: maximum {told}", "abs_max", of=f"{drive}_{what}",
             source="kinematics")
 motion.value("geneva_jump", "a_g,e", "1", "Geneva: jump of the acceleration at entry and exit in units of S/T²",
-    lambda slots: as_number(2 * np.pi) * slots * np.tan(np.pi / slots), source="kinematics")
+    lambda slots: as_number(2 * pi) * slots * np.tan(pi / slots), source="kinematics")
 for what, symbol in (("velocity", "q_v"), ("acceleration", "q_a")):
     motion.value(f"{what}_ratio", symbol, "1", f"Maximum {what}, ratio of Geneva to cam-gear",
         bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
@@ -295,7 +296,7 @@ def _in_units(chapter: Steps, step: str, needs: tuple[str, ...], lacks: tuple[st
             source="kinematics", needs=needs, lacks=lacks)
     for drive, name in drives:
         chapter.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: maximum torque for the conveyor's mass alone",
-            bind(lambda relative, mass, step, cycle_time: relative * mass * (step / cycle_time) ** 2 / (2 * np.pi), relative=f"{drive}_power_peak",
+            bind(lambda relative, mass, step, cycle_time: relative * mass * (step / cycle_time) ** 2 / (2 * pi), relative=f"{drive}_power_peak",
                 mass="conveyor_mass", step=step), source="energy", needs=(*needs, "conveyor_mass"), lacks=lacks)
 
 

@@ -6,19 +6,19 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import arccos, as_angle, formula
+from diecut_report.api import arccos, as_angle, formula, pi
 
 
 @formula
 def crank_ratio(slots: Any) -> Any:
     """Crank radius to centre distance: the roller enters along the slot."""
-    return np.sin(np.pi / slots)
+    return np.sin(pi / slots)
 
 
 @formula
 def engagement_half_angle(slots: Any) -> Any:
     """Crank angle from the middle of the motion to its end."""
-    return np.pi / 2 - np.pi / slots
+    return pi / 2 - pi / slots
 
 
 @formula

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, formula
+from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, formula, pi
 
 # fmt: off
 
@@ -17,7 +17,7 @@ class GenevaTransport(Inputs):
     roller_radius: Annotated[float, Quantity("ρ", "mm", "Radius of the crank roller", gt=0)]
     crank_speed: Annotated[float | None,
         Quantity("ω_1", "rpm", "Speed of the crank; one sheet per revolution", gt=0, press=FromPress("press.productivity",
-                formula(lambda productivity: 2 * np.pi * productivity)))] = None
+                formula(lambda productivity: 2 * pi * productivity)))] = None
     gear_ratio: Annotated[float, Quantity("u", "1", "Revolutions of the sprocket per revolution of the wheel", gt=0)] = 1
     sprocket_teeth: Annotated[int | None,
         Quantity("z_s", "1", "Number of teeth of the conveyor's sprocket; required with chain_pitch for the sheet's motion", gt=0,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_angle, bind, case
+from diecut_report.api import Chapter, as_angle, bind, case, pi
 from diecut_report.mechanics import common, contact
 from diecut_report.plugins.geneva_transport import formulas
 from diecut_report.plugins.geneva_transport.inputs import GRIPPED
@@ -19,19 +19,19 @@ CONVEYOR_NEEDS = ("sprocket_teeth", "chain_pitch")
 
 geometry = Chapter("Wheel, crank and slots",
     text="The roller enters and leaves the slots along their direction, hence without impact: crank and slot are then perpendicular to each other.")
-geometry.value("step_angle", "τ", "deg", "Step of the wheel", lambda slots: 2 * np.pi / slots, source="000, Fig. 1", digits=6)
+geometry.value("step_angle", "τ", "deg", "Step of the wheel", lambda slots: 2 * pi / slots, source="000, Fig. 1", digits=6)
 geometry.value("crank_ratio", "λ", "1", "Ratio of crank radius to centre distance", formulas.crank_ratio, source="geometry")
 geometry.value("crank_radius", "r", "mm", "Radius of the crank", lambda crank_ratio, center_distance: crank_ratio * center_distance,
     source="geometry")
 geometry.value("wheel_radius", "R", "mm", "Radius of the wheel: distance of the roller from its axis at entry",
-    lambda slots, center_distance: center_distance * np.cos(np.pi / slots), source="geometry")
+    lambda slots, center_distance: center_distance * np.cos(pi / slots), source="geometry")
 geometry.require("roller_below_crank", lambda roller_radius, crank_radius: roller_radius < crank_radius, key="roller_radius",
     message="is {roller_radius}, but the roller would cover the crank's axis: it must be smaller than the crank radius C·sin(π/z) = "
         "{crank_radius:down}")
 geometry.value("rim_radius", "R_o", "mm", "Radius of the wheel's rim, where both flanks guide the roller from its entry on",
     lambda wheel_radius, roller_radius: np.sqrt(wheel_radius**2 + roller_radius**2), source="geometry")
 geometry.value("slot_length", "l", "mm", "Length of the slots from the radius R",
-    lambda slots, center_distance, crank_ratio, roller_radius: center_distance * (crank_ratio + np.cos(np.pi / slots) - 1) + roller_radius,
+    lambda slots, center_distance, crank_ratio, roller_radius: center_distance * (crank_ratio + np.cos(pi / slots) - 1) + roller_radius,
     source="geometry")
 geometry.value("nearest_distance", "d_0", "mm", "Minimum distance of the roller from the wheel's axis",
     lambda center_distance, crank_ratio: center_distance * (1 - crank_ratio), source="geometry")
@@ -41,7 +41,7 @@ geometry.require("slot_before_axis", lambda roller_radius, nearest_distance: rol
 geometry.value("hub_radius_max", "r_h", "mm", "Radius left for hub and shaft inside the slots",
     lambda nearest_distance, roller_radius: nearest_distance - roller_radius, source="geometry")
 geometry.value("slot_spacing", "e", "mm", "Distance between the centre lines of neighbouring slots at their inner ends",
-    lambda slots, nearest_distance: 2 * nearest_distance * np.sin(np.pi / slots), source="geometry")
+    lambda slots, nearest_distance: 2 * nearest_distance * np.sin(pi / slots), source="geometry")
 geometry.value("slot_width", "b_s", "mm", "Width of the slots", lambda roller_radius: 2 * roller_radius, source="geometry")
 geometry.value("roller_clearance", "w", "mm", "Wall between neighbouring slots at their inner ends",
     lambda slot_spacing, slot_width: slot_spacing - slot_width, source="geometry")
@@ -50,10 +50,10 @@ dwell = Chapter("Motion and dwell")
 dwell.value("engagement_half_angle", "α_e", "deg", "Crank angle from the middle of the motion to the roller's exit", formulas.engagement_half_angle,
     source="geometry", digits=6)
 dwell.value("entry_angle", "α_in", "deg", "Crank angle at which the roller enters the next slot",
-    lambda slots: 2 * np.pi - formulas.engagement_half_angle(slots), source="geometry", digits=6)
+    lambda slots: 2 * pi - formulas.engagement_half_angle(slots), source="geometry", digits=6)
 dwell.value("motion_fraction", "κ_m", "1", "Fraction of a revolution in which the wheel turns", formulas.motion_fraction, source="geometry")
 dwell.value("dwell_fraction", "κ_d", "1", "Fraction of a revolution in which it dwells", formulas.dwell_fraction, source="geometry")
-dwell.value("cycle_time", "T", "ms", "Time of a revolution of the crank", lambda crank_speed: 2 * np.pi / crank_speed, source="kinematics")
+dwell.value("cycle_time", "T", "ms", "Time of a revolution of the crank", lambda crank_speed: 2 * pi / crank_speed, source="kinematics")
 dwell.value("time_motion", "t_m", "ms", "Time of the motion", lambda slots, cycle_time: formulas.motion_fraction(slots) * cycle_time,
     source="kinematics")
 dwell.value("time_dwell", "t_d", "ms", "Time of the dwell", lambda slots, cycle_time: formulas.dwell_fraction(slots) * cycle_time,
@@ -61,7 +61,7 @@ dwell.value("time_dwell", "t_d", "ms", "Time of the dwell", lambda slots, cycle_
 dwell.value("speed_ratio_peak", "ω_21,max", "1", "Maximum ratio of the wheel's speed to the crank's, in the middle of the motion",
     lambda crank_ratio: crank_ratio / (1 - crank_ratio), source="kinematics")
 dwell.value("acceleration_entry", "ε_21,e", "1", "Ratio of the jump of the wheel's acceleration at entry and exit to the square of the crank's speed",
-    lambda slots: np.tan(np.pi / slots), source="kinematics")
+    lambda slots: np.tan(pi / slots), source="kinematics")
 dwell.value("acceleration_peak_angle", "α_ε", "deg", "Crank angle before and after the middle of the motion at which the acceleration is largest",
     formulas.acceleration_peak_angle, source="kinematics", digits=6)
 
@@ -85,7 +85,7 @@ motion.choice("turns", "n", "1", "Number of completed steps of the wheel",
     case(lambda: 1, "the roller has entered the next slot", lambda crank_angle, entry_angle: crank_angle >= entry_angle),
     case(lambda: 0, "the roller has not yet entered the next slot"), output=False, per_piece=True)
 motion.value("middle_angle", "α′", "deg", "Crank angle from the middle of the present engagement",
-    lambda crank_angle, turns: crank_angle - 2 * np.pi * turns, output=False, source="kinematics")
+    lambda crank_angle, turns: crank_angle - 2 * pi * turns, output=False, source="kinematics")
 motion.choice("wheel_angle", "ψ", "deg", "Angle of the wheel from its position in the middle of its motion",
     case(bind(formulas.wheel_angle, angle="middle_angle"), MOVING, IN_SLOT), case(lambda step_angle: step_angle / 2, RESTING), source="kinematics")
 motion.choice("speed_ratio", "ω_21", "1", "Ratio of the wheel's angular speed to the crank's",
@@ -104,7 +104,7 @@ motion.value("wheel_acceleration_max", "ε_2,max", "rad/s**2", "Maximum angular 
 
 conveyor = Chapter("Motion of the sheet", needs=CONVEYOR_NEEDS, absent="not calculated: {missing} not given")
 conveyor.value("travel_radius", "r_c", "mm", "Conveyor displacement per radian of the wheel",
-    lambda sprocket_teeth, chain_pitch, gear_ratio: sprocket_teeth * chain_pitch * gear_ratio / (2 * np.pi), source="000, Fig. 1")
+    lambda sprocket_teeth, chain_pitch, gear_ratio: sprocket_teeth * chain_pitch * gear_ratio / (2 * pi), source="000, Fig. 1")
 conveyor.value("sheet_step", "S", "mm", "Step of the conveyor per revolution of the crank",
     lambda sprocket_teeth, chain_pitch, gear_ratio, slots: sprocket_teeth * chain_pitch * gear_ratio / slots, source="000, Fig. 1")
 conveyor.value("sheet_position", "x", "mm", "Position of the sheet from that in the middle of its motion", bind(formulas.travel, angle="wheel_angle"),
@@ -132,7 +132,7 @@ rest.value("rest_wheel_angle", "ψ_e", "deg", "Angle of the wheel from the middl
     lambda sheet_step, rest_tolerance, travel_radius: as_angle((sheet_step / 2 - rest_tolerance) / travel_radius), source="kinematics")
 rest.value("rest_start", "α_r1", "deg", "Crank angle at which the sheet comes within the tolerance",
     lambda rest_wheel_angle, crank_ratio: np.arcsin(np.sin(rest_wheel_angle) / crank_ratio) - rest_wheel_angle, source="kinematics", digits=6)
-rest.value("rest_end", "α_r2", "deg", "Crank angle at which the sheet leaves it again", lambda rest_start: 2 * np.pi - rest_start, source="symmetry",
+rest.value("rest_end", "α_r2", "deg", "Crank angle at which the sheet leaves it again", lambda rest_start: 2 * pi - rest_start, source="symmetry",
     digits=6)
 rest.phase("rest", "rest", "Rest of the sheet within the tolerance", "crank_angle", ("rest_start", "rest_end"))
 
@@ -212,7 +212,7 @@ locking.require("locking_below_crank", lambda locking_radius, crank_radius: lock
 locking.value("arm_tip", "w_t", "mm", "Thickness of an arm at its tip, between locking arc and slot",
     lambda flank_distance, locking_radius: flank_distance - locking_radius, source="geometry")
 locking.value("arm_neck", "w_n", "mm", "Width of an arm where the locking arc is deepest, from slot to slot",
-    lambda slots, center_distance, locking_radius, roller_radius: 2 * ((center_distance - locking_radius) * np.sin(np.pi / slots) - roller_radius),
+    lambda slots, center_distance, locking_radius, roller_radius: 2 * ((center_distance - locking_radius) * np.sin(pi / slots) - roller_radius),
     source="geometry")
 locking.require("clearance_below_arc", lambda locking_clearance, locking_radius: locking_clearance < locking_radius, key="locking_clearance",
     message="is {locking_clearance}, but the locking disc is smaller than its arc by that much: it must be below the arc's radius "
@@ -221,7 +221,7 @@ locking.value("disc_radius", "r_d", "mm", "Radius of the locking disc", lambda l
     source="geometry")
 locking.value("locking_cutout_angle", "γ_c", "deg", "Angle of the disc's cut-out, with the roller at its middle", formulas.cutout_angle,
     source="geometry", digits=6)
-locking.value("locking_arc_angle", "γ_l", "deg", "Angle of the disc's arc", lambda slots: 2 * np.pi - formulas.cutout_angle(slots), source="geometry",
+locking.value("locking_arc_angle", "γ_l", "deg", "Angle of the disc's arc", lambda slots: 2 * pi - formulas.cutout_angle(slots), source="geometry",
     digits=6)
 locking.value("relief_radius", "R_c", "mm", "Radius of the cut-out's hollow, which ends perpendicular to the disc's arc",
     lambda wheel_radius, disc_radius, crank_radius: wheel_radius * disc_radius / crank_radius, source="practice")
@@ -230,7 +230,7 @@ locking.value("relief_distance", "C_c", "mm", "Distance of the hollow's centre f
 locking.value("tip_half_angle", "δ_l", "deg", "Half the angle of a locking arc at the wheel's axis", formulas.tip_half_angle, source="geometry",
     output=False)
 locking.value("corner_place", "δ", "deg", "Angle of an arm's inner corner, next to its locking arc, from the line of centres",
-    lambda wheel_angle, turns, step_angle, tip_half_angle, slots: wheel_angle - turns * step_angle + tip_half_angle - np.pi / slots,
+    lambda wheel_angle, turns, step_angle, tip_half_angle, slots: wheel_angle - turns * step_angle + tip_half_angle - pi / slots,
     source="geometry", output=False)
 locking.value("corner_distance", "d_δ", "mm", "Distance of this corner from the crank's axis", lambda center_distance, rim_radius, corner_place:
         np.sqrt(center_distance**2 + rim_radius**2 - 2 * center_distance * rim_radius * np.cos(corner_place)), source="geometry", output=False)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Bound, Formula, Steps, Vary, as_angle, bind
+from diecut_report.api import Bound, Formula, Steps, Vary, as_angle, bind, pi
 from diecut_report.mechanics import common, four_bar, slider_crank
 from diecut_report.plugins.knife_drive import working
 
@@ -39,7 +39,7 @@ PLANETARY.value("displacement", "S_", "mm", "Displacement of the edge from the c
 PLANETARY.value("velocity", "V_", "m/s", "Velocity of the edge", bind(working.planetary_velocity, carrier_radius=RADIUS), source="004 eq. 1")
 PLANETARY.value("acceleration", "a_", "m/s**2", "Acceleration of the edge", bind(working.planetary_acceleration, carrier_radius=RADIUS),
     source="004 eq. 1", source_symbol="W_")
-PLANETARY.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point", lambda: 3 * np.pi / 2, source="004 eq. 1")
+PLANETARY.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point", lambda: 3 * pi / 2, source="004 eq. 1")
 PLANETARY.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke",
     bind(lambda working_depth, carrier_radius: 2 * np.arcsin(np.sqrt(working_depth / (4 * carrier_radius))), carrier_radius=RADIUS),
     source="004 eq. 1, solved")
@@ -87,7 +87,7 @@ CRANK_SLIDER.value("velocity", "V_", "m/s", "Velocity of the edge", bind(slider_
     source="004 eq. 2")
 CRANK_SLIDER.value("acceleration", "a_", "m/s**2", "Acceleration of the edge",
     bind(slider_crank.acceleration, coupler_angle="rod_angle", crank_radius=CRANK), source="004 eq. 2", source_symbol="W_")
-CRANK_SLIDER.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point: one revolution after φ = 0", lambda: 2 * np.pi, source="004 eq. 2")
+CRANK_SLIDER.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point: one revolution after φ = 0", lambda: 2 * pi, source="004 eq. 2")
 CRANK_SLIDER.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke",
     bind(slider_crank.crank_angle_at, displacement="working_depth", crank_radius=CRANK, rod_length=ROD), source="004 eq. 2, solved")
 CRANK_SLIDER.add(CONTACT)
@@ -165,7 +165,7 @@ GEOMETRY.add(working.reaches(working.CRANK_ROCKER))
 GEOMETRY.value("dead_center", "φ_d", "deg", "Crank angle of the outer dead centre", four_bar.outer_dead_center, source="law of cosines", output=False,
     needs=OUTER)
 _either(GEOMETRY, "lowest_angle", "φ_0", "deg", "Crank angle of the lowest point (may exceed a full turn)",
-        bind(lambda angle: angle + 2 * np.pi, angle="dead_center"), four_bar.inner_dead_center, source="dead centre")
+        bind(lambda angle: angle + 2 * pi, angle="dead_center"), four_bar.inner_dead_center, source="dead centre")
 
 CURVES = Steps()
 _speed_ratio(CURVES, "crank_angle")

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.api import Chapter, Step, Steps, as_number, bind, case, formula, phrase, prefixed
+from diecut_report.api import Chapter, Step, Steps, as_number, bind, case, formula, phrase, pi, prefixed
 from diecut_report.mechanics import common
 
 # fmt: off
@@ -73,13 +73,13 @@ speeds = Chapter("Knife shaft and folding rollers",
 speeds.require("any_drive", lambda: 0 >= 1, key="planetary",
     message="no drive is given; give at least one of the blocks planetary, crank_slider and crank_rocker", lacks=DRIVES)
 speeds.value("crank_speed", "ω_1", "rad/s", "Angular speed of the knife shaft",
-    lambda cylinder_rate, drive_ratio: 2 * np.pi * cylinder_rate * drive_ratio, source="kinematics")
-speeds.value("cycle_time", "T", "ms", "Time of a revolution of the knife shaft", lambda crank_speed: 2 * np.pi / crank_speed,
+    lambda cylinder_rate, drive_ratio: 2 * pi * cylinder_rate * drive_ratio, source="kinematics")
+speeds.value("cycle_time", "T", "ms", "Time of a revolution of the knife shaft", lambda crank_speed: 2 * pi / crank_speed,
     source="004, after Fig. 3")
 speeds.value("roller_velocity", "V_r", "m/s", "Surface speed of the rollers",
-    lambda roller_diameter, roller_ratio, cycle_time: np.pi * roller_diameter * roller_ratio / cycle_time, source="kinematics")
+    lambda roller_diameter, roller_ratio, cycle_time: pi * roller_diameter * roller_ratio / cycle_time, source="kinematics")
 speeds.value("grip_time", "t_g", "ms", "Time for the rollers to bring the signature to their speed",
-    lambda grip_angle, cycle_time: grip_angle * cycle_time / (2 * np.pi), source="004, after Fig. 3")
+    lambda grip_angle, cycle_time: grip_angle * cycle_time / (2 * pi), source="004, after Fig. 3")
 speeds.value("roller_time", "t_r", "ms", "Time from the knife's lowest point until the trailing edge has left the table",
     lambda signature_length, working_depth, roller_velocity: (signature_length - working_depth) / roller_velocity, needs=("signature_length",),
     source="kinematics")
@@ -93,7 +93,7 @@ speeds.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, speed="cra
 
 WORKING = Steps()
 WORKING.value("working_time", "t_w", "ms", "Duration of the working stroke",
-    lambda working_angle, cycle_time: working_angle * cycle_time / (2 * np.pi), source="kinematics")
+    lambda working_angle, cycle_time: working_angle * cycle_time / (2 * pi), source="kinematics")
 WORKING.value("contact_velocity", "V_t", "m/s", "Speed of the edge as it meets the signature on the table", lambda contact_rate: abs(contact_rate),
     source="kinematics")
 WORKING.breakpoints("working_ends", "crank_angle", "contact_angle", "lowest_angle")

@@ -22,6 +22,8 @@ from diecut_report.api import (
     bind,
     case,
     formula,
+    number,
+    pi,
     si,
     standard_series,
     standard_table,
@@ -212,11 +214,11 @@ load.value("reversing", "R_T", "1", "Reversing torque: a single torque does not 
     source="this method")
 FLANKS = ("changes_of_flank", "N_W", "1", "Number of load direction changes in the life")
 load.value(*FLANKS,
-    bind(lambda reversing, count, speed, life: reversing * count * speed * life / (2 * np.pi), count="flank_change_count", speed="cycle_speed",
+    bind(lambda reversing, count, speed, life: reversing * count * speed * life / (2 * pi), count="flank_change_count", speed="cycle_speed",
         life="required_life"), needs=(*CURVE, *BY_LIFE), source="this method")
 load.value(*FLANKS, lambda: 0, needs=BY_LIFE, lacks=CURVE, source="this method")
 load.value("least_changes", "N_W,min", "1", "Load direction changes of the curve in the least plausible life; in a cycle, if its speed is not known",
-    bind(lambda reversing, count, rate: reversing * count * np.maximum(1, rate * LEAST_LIFE / (2 * np.pi)), count="flank_change_count",
+    bind(lambda reversing, count, rate: reversing * count * np.maximum(1, rate * LEAST_LIFE / (2 * pi)), count="flank_change_count",
         rate="curve_rate"), needs=CURVE, lacks=BY_LIFE, source="this method", output=False)
 load.require("as_many_as_the_curve_has", bind(lambda given, least: given >= least, given="flank_changes", least="least_changes"), key="flank_changes",
     needs=(*CURVE, "flank_changes"),
@@ -268,7 +270,7 @@ for part, peak in PRESSED:
     allowed.value(f"allowed_{part}{peak}", f"p_{PARTS[part]}zul{end}", "MPa", f"Allowable pressure on the {part}, {words} load",
         bind(lambda factor, support, strength: factor * support * strength, factor=factor, support=f"support_{part}", strength=f"yield_{part}"),
         source=METHOD, output=False)
-allowed.value("allowed_shear", "τ_zul", "MPa", "Allowable shear stress of the key", lambda yield_key: yield_key / np.sqrt(3),
+allowed.value("allowed_shear", "τ_zul", "MPa", "Allowable shear stress of the key", lambda yield_key: yield_key / np.sqrt(number(3)),
     source="strength of materials", output=False)
 for part, peak in PRESSED:
     force, _, end, words = LOADS[peak]

@@ -20,6 +20,7 @@ from diecut_report.api import (
     bind,
     case,
     formula,
+    pi,
 )
 from diecut_report.mechanics import common, slider_crank
 from diecut_report.mechanics.slider_crank import inner_arm_first_order
@@ -205,7 +206,7 @@ machine = Chapter("Machine",
 machine.require("rod_longer", lambda rod_length, crank_radius: rod_length > 1.001 * crank_radius, key="rod_length",
     message="is {rod_length}, but the rod must be longer than the crank's radius {crank_radius}, by a thousandth of it at least; else the crank "
         "cannot turn fully")
-machine.value("crank_speed", "ω", "rad/s", "Angular speed of the crank", lambda cycles_per_hour: 2 * np.pi * cycles_per_hour)
+machine.value("crank_speed", "ω", "rad/s", "Angular speed of the crank", lambda cycles_per_hour: 2 * pi * cycles_per_hour)
 machine.value("stroke", "H", "mm", "Stroke of the platen", lambda crank_radius: 2 * crank_radius)
 machine.value("lambda_ratio", "λ", "1", "Ratio of crank radius to rod length", lambda crank_radius, rod_length: crank_radius / rod_length,
     source="001, after eq. 2")
@@ -263,7 +264,7 @@ motion = Chapter("Motion over a revolution of the crank",
     text="The ideal displacement is that of an inextensible drive. The first-order form of the source is given beside the exact speed; the "
         "calculation uses the exact one.")
 motion.abscissa("crank_angle", "φ", "deg", "Crank angle from the inner dead centre", 2 * np.pi, shown_at="torque_max_at", speed="crank_speed")
-motion.value("cutting_begin", "φ_b", "deg", "Crank angle at which cutting begins", lambda cutting_start_angle: 2 * np.pi - cutting_start_angle,
+motion.value("cutting_begin", "φ_b", "deg", "Crank angle at which cutting begins", lambda cutting_start_angle: 2 * pi - cutting_start_angle,
     output=False)
 motion.breakpoints("phases", "crank_angle", "dwell_end_angle", "cutting_begin")
 motion.phase("cutting", "working", "The board is cut and the rods elongate", "crank_angle", ("cutting_begin", 0))
@@ -307,7 +308,7 @@ window.value("clear_travel", "u_w", "mm", "Travel of the platen from the dead ce
     lambda carriage_clearance, drive_deformation: carriage_clearance + drive_deformation, output=False)
 window.value("window_start", "φ_w1", "deg", "Crank angle at which the window opens",
     bind(slider_crank.inner_crank_angle_at, displacement="clear_travel"), source="closed form")
-window.value("window_end", "φ_w2", "deg", "Crank angle at which the press closes", lambda window_start: 2 * np.pi - window_start, source="symmetry")
+window.value("window_end", "φ_w2", "deg", "Crank angle at which the press closes", lambda window_start: 2 * pi - window_start, source="symmetry")
 window.phase("carriage_window", "window", "Clearance for the carriages", "crank_angle", ("window_start", "window_end"))
 
 
@@ -399,7 +400,7 @@ torque.value("torque", "M", "N*m", "Torque at the main shaft", lambda torque_use
     source="001 eq. 1, corrected")
 torque.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="torque")
 torque.value("torque_max_angle", "φ_M", "deg", "Crank angle of the maximum torque, before the dead centre",
-    lambda torque_max_at: np.where(torque_max_at > 0, 2 * np.pi - torque_max_at, 0))
+    lambda torque_max_at: np.where(torque_max_at > 0, 2 * pi - torque_max_at, 0))
 torque.reduction("torque_min", "M_min", "N*m", "Minimum torque (negative: platen or rods drive the crank)", "min", of="torque")
 torque.value("crank_pin_torque", "M_A", "N*m", "Torque of one of the two rods, including friction, on its crank", lambda torque: -torque / 2,
     source="symmetry")
@@ -407,7 +408,7 @@ torque.choice("torque_source", "M_14", "N*m", "Torque by eq. 14 as printed, whil
     case(bind(torque_as_printed), "the board is cut", in_phase(3)), case(lambda: 0, "eq. 14 is for cutting alone"), source="001 eq. 14")
 torque.reduction("torque_max_source", "M_14,max", "N*m", "Maximum torque by eq. 14 as printed", "max", of="torque_source")
 torque.value("torque_max_source_angle", "φ_14", "deg", "Its crank angle before the dead centre",
-    lambda torque_max_source_at: np.where(torque_max_source_at > 0, 2 * np.pi - torque_max_source_at, 0))
+    lambda torque_max_source_at: np.where(torque_max_source_at > 0, 2 * pi - torque_max_source_at, 0))
 
 returning = Chapter("Relaxing rods",
     text="The elongated rods drive the crank over an arm that grows until they have relaxed; friction resists over X.")

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_angle, as_number, bind, case, formula
+from diecut_report.api import Chapter, as_angle, as_number, bind, case, formula, number, pi
 from diecut_report.mechanics import common
 from diecut_report.mechanics.timing import engagement as motor_slip
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
@@ -21,13 +21,13 @@ CONVEYOR = ("conveyor_mass", "travel_radius", "wheel_inertia")
 @formula
 def actual_rate(output_speed: Any, turns_a_sheet: Any) -> Any:
     """Sheets in a time at a speed of the output."""
-    return as_number(output_speed) / (as_number(2 * np.pi) * turns_a_sheet)
+    return as_number(output_speed) / (as_number(2 * pi) * turns_a_sheet)
 
 
 @formula
 def turns_like_main_shaft(output_speed: Any, crank_speed: Any, productivity: Any) -> Any:
     """Whether a speed is nearer to a turn a sheet than to the crank's speed, by their ratios."""
-    to_shaft = output_speed / (2 * np.pi * productivity)
+    to_shaft = output_speed / (2 * pi * productivity)
     to_crank = output_speed / crank_speed
     return np.maximum(to_shaft, 1 / to_shaft) < np.maximum(to_crank, 1 / to_crank)
 
@@ -56,7 +56,7 @@ rate.value("turns_a_sheet", "i_o", "1", "Revolutions of the output per sheet: as
     source="input", needs=("output_turns_per_sheet",))
 rate.choice("turns_a_sheet", "i_o", "1", "Revolutions of the output per sheet",
     case(lambda: 1, "the output is closer in speed to the main shaft than to the crank", turns_like_main_shaft),
-    case(lambda crank_speed, productivity: np.maximum(np.round(as_number(crank_speed) / as_number(np.pi * productivity)), 1) / 2,
+    case(lambda crank_speed, productivity: np.maximum(np.round(as_number(crank_speed) / as_number(pi * productivity)), 1) / 2,
         "the output turns with the crank, whole half turns for a sheet"), source="kinematics",
     needs=("crank_speed",), lacks=("output_turns_per_sheet",))
 rate.value("rate_asked", "n_0", "1/h", "Required sheet rate", lambda required_rate: required_rate, source="input", output=False,
@@ -88,7 +88,7 @@ stopping.value("stopping_angle", "Φ_b", "deg", "Main-shaft rotation to standsti
     lambda energy_running, brake_torque, shaft_torque_mean: as_angle(energy_running / (brake_torque + shaft_torque_mean)), source="energy")
 for needs, lacks in WAYS:
     stopping.value("stopping_time", "t_b", "s", "Time to standstill",
-        lambda stopping_angle, actual_rate: 2 * as_number(stopping_angle) / (as_number(2 * np.pi) * actual_rate), source="kinematics", needs=needs,
+        lambda stopping_angle, actual_rate: 2 * as_number(stopping_angle) / (as_number(2 * pi) * actual_rate), source="kinematics", needs=needs,
         lacks=lacks)
 
 conveyor = Chapter("Inertia of the conveyor", needs=CONVEYOR,
@@ -119,14 +119,14 @@ register.value("play_total", "Δx_Σ", "mm", "Total play of transport and lines"
     needs=("sheet_play",))
 register.value("pitches", "n_p", "1", "Chain pitches per step", lambda sheet_step, chain_pitch: sheet_step / chain_pitch, source="geometry",
     needs=("sheet_step", "chain_pitch"), digits=10)
-register.value("pitch_error", "Δn_p", "1", "Deviation from a whole number", lambda pitches: abs(pitches - np.floor(pitches + 1 / 2)),
+register.value("pitch_error", "Δn_p", "1", "Deviation from a whole number", lambda pitches: abs(pitches - np.floor(pitches + number(1) / 2)),
     source="geometry", needs=("sheet_step", "chain_pitch"))
 register.value("loop_steps", "n_l", "1", "Steps in which the gripper chain goes round once", lambda chain_links, pitches: chain_links / pitches,
     source="geometry", needs=("sheet_step", "chain_pitch", "chain_links"), digits=10)
-register.value("loop_error", "Δn_l", "1", "Deviation from a whole number", lambda loop_steps: abs(loop_steps - np.floor(loop_steps + 1 / 2)),
+register.value("loop_error", "Δn_l", "1", "Deviation from a whole number", lambda loop_steps: abs(loop_steps - np.floor(loop_steps + number(1) / 2)),
     source="geometry", needs=("sheet_step", "chain_pitch", "chain_links"))
 register.value("speed_ripple", "ε_v", "%", "Speed ripple of the chain due to the polygon effect",
-    lambda sprocket_teeth: 1 - np.cos(np.pi / sprocket_teeth), source="geometry", needs=("sprocket_teeth",))
+    lambda sprocket_teeth: 1 - np.cos(pi / sprocket_teeth), source="geometry", needs=("sprocket_teeth",))
 
 
 CYLINDER = ("cylinder_mass", "cylinder_inertia", "cylinder_radius", "cylinder_rotation", "cylinder_speed", "crank_speed")
@@ -173,7 +173,7 @@ ON_CRANK = case(lambda: 1, "it is on the crank's shaft: its driving side is at m
 ELSEWHERE = case(lambda clutch_speed, crank_speed: clutch_speed / crank_speed, "it is on another shaft")
 engagement.choice(*RATIO, "Revolutions of the clutch per revolution of the crank", ON_CRANK,
     case(lambda output_turns_per_sheet, productivity, crank_speed:
-        output_turns_per_sheet * productivity * as_number(2 * np.pi) / as_number(crank_speed), "it is on the drive train's output",
+        output_turns_per_sheet * productivity * as_number(2 * pi) / as_number(crank_speed), "it is on the drive train's output",
         bind(lambda clutch_speed, output_speed, tolerance: abs(clutch_speed - output_speed) <= tolerance * output_speed, tolerance=relations.SAME)),
     ELSEWHERE, source="kinematics", needs=ON_OUTPUT, lacks=("clutch_turns",), output=False)
 for lacking in ON_OUTPUT:
@@ -227,7 +227,7 @@ ends_chapter.value("contact_speed", "v_k", "m/s", "Higher speed at contact",
     needs=("contact_distance",))
 ends_chapter.choice("end_impacts", "z_e", "1/h", "Impacts at one end of the travel",
     case(lambda: 0, "dampers at the ends themselves are not met in any stroke", lambda contact_distance: contact_distance <= 0),
-    case(lambda crank_speed: as_number(crank_speed) / as_number(2 * np.pi), "dampers before the ends are met in every revolution"),
+    case(lambda crank_speed: as_number(crank_speed) / as_number(2 * pi), "dampers before the ends are met in every revolution"),
     source="kinematics", needs=("contact_distance", "crank_speed"))
 ends_chapter.computed("way_inner", "d_in", "mm", "Distance before the inner end at which the speed used in the dampers' calculation occurs",
     function=lambda displacement, velocity, stroke, outer, inner, speed: relations.way_below(displacement, velocity, outer, inner, speed, stroke),
@@ -246,7 +246,7 @@ motor_chapter = Chapter("Motor behind its flywheel",
 motor_chapter.require("motor_slips", lambda motor_speed, synchronous_speed: motor_speed < synchronous_speed, key="motor_speed",
     message="is {motor_speed}, but a motor under load turns slower than its synchronous speed {synchronous_speed}")
 motor_chapter.value("load_period", "T_f", "ms", "Time after which the load repeats",
-    lambda load_turns, output_speed: load_turns * as_number(2 * np.pi) / as_number(output_speed), source="kinematics")
+    lambda load_turns, output_speed: load_turns * as_number(2 * pi) / as_number(output_speed), source="kinematics")
 motor_chapter.value("slip_stiffness", "k", "N*m*s/rad", "Torque of the motor per unit of slip speed",
     bind(motor_slip.slip_stiffness, rated_torque="motor_rated_torque", rated_speed="motor_speed"), source="this method")
 motor_chapter.value("flywheel_stiffness", "k_f", "N*m*s/rad", "The same at the flywheel's shaft",

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import GRAVITY, Chapter, Constant, Curve, as_angle, as_number, bind, case, formula
+from diecut_report.api import GRAVITY, Chapter, Constant, Curve, as_angle, as_number, bind, case, formula, pi
 from diecut_report.mechanics import drive_line
 from diecut_report.plugins.roller_chain.chains import BY_PITCH, CHAINS
 from diecut_report.plugins.roller_chain.inputs import CONVEYOR, CUSTOM, DRIVE
@@ -20,7 +20,7 @@ def exact_links(center: Any, pitch: Any, teeth_1: Any, teeth_2: Any) -> Any:
     return (
         2 * center / pitch
         + (teeth_1 + teeth_2) / 2
-        + ((teeth_2 - teeth_1) / (2 * as_number(np.pi))) ** 2 * pitch / center
+        + ((teeth_2 - teeth_1) / (2 * as_number(pi))) ** 2 * pitch / center
     )
 
 
@@ -34,7 +34,7 @@ def even_links(exact: Any) -> Any:
 def polygon_links(center: Any, pitch: Any, teeth_1: Any, teeth_2: Any, diameter_1: Any, diameter_2: Any) -> Any:
     """Links over two sprockets: two straight runs, and the teeth that each sprocket has in its wrap."""
     slope = np.arcsin((diameter_2 - diameter_1) / (2 * center))
-    wrapped = teeth_1 * (np.pi - 2 * slope) / (2 * np.pi) + teeth_2 * (np.pi + 2 * slope) / (2 * np.pi)
+    wrapped = teeth_1 * (pi - 2 * slope) / (2 * pi) + teeth_2 * (pi + 2 * slope) / (2 * pi)
     return 2 * center * np.cos(slope) / pitch + wrapped
 
 
@@ -47,7 +47,7 @@ def bearing_area(pin_diameter: Any, inner_width: Any, plate_thickness: Any) -> A
 @formula
 def mean_velocity(teeth: Any, pitch: Any, speed: Any) -> Any:
     """Mean velocity of a chain: so many pitches a turn."""
-    return teeth * pitch * speed / (2 * np.pi)
+    return teeth * pitch * speed / (2 * pi)
 
 
 @formula
@@ -211,7 +211,7 @@ loop.value("links_polygon", "X_e", "1", "Number of links at the adjusted distanc
 loop.value("links_residual", "ΔX", "1", "Deviation of the formula from the exact polygon, in links",
     lambda links_polygon, links: abs(links_polygon - links), source="geometry", output=False)
 loop.value("wrap_small", "β_s", "deg", "Wrap of the smaller sprocket",
-    lambda sprocket_diameter_1, sprocket_diameter_2, center: np.pi - 2 * np.arcsin(abs(sprocket_diameter_2 - sprocket_diameter_1) / (2 * center)),
+    lambda sprocket_diameter_1, sprocket_diameter_2, center: pi - 2 * np.arcsin(abs(sprocket_diameter_2 - sprocket_diameter_1) / (2 * center)),
     source="geometry")
 loop.value("center_in_pitches", "a_p", "1", "Centre distance in pitches", lambda center, pitch: center / pitch, source="geometry", output=False)
 loop.value("links_odd", "X_2", "1", "Links in excess of an even number", lambda links: links - 2 * np.floor(links / 2), source="this method",
@@ -289,9 +289,9 @@ motion.value("angular_speed", "ω", "rad/s", "Maximum angular speed of the drivi
     lambda velocity, sprocket_diameter_1: as_angle(velocity / (sprocket_diameter_1 / 2)), source="kinematics", **CONVEYED)
 motion.value("velocity_max", "v_max", "m/s", "Maximum velocity within a tooth",
     lambda angular_speed, sprocket_diameter_1: angular_speed * sprocket_diameter_1 / 2, source="geometry")
-motion.value("velocity_min", "v_min", "m/s", "Minimum velocity within a tooth", lambda velocity_max, teeth_1: velocity_max * np.cos(np.pi / teeth_1),
+motion.value("velocity_min", "v_min", "m/s", "Minimum velocity within a tooth", lambda velocity_max, teeth_1: velocity_max * np.cos(pi / teeth_1),
     source="geometry")
-motion.value("speed_unevenness", "δ", "%", "Relative drop in velocity within a tooth", lambda teeth_1: 1 - np.cos(np.pi / teeth_1), source="geometry")
+motion.value("speed_unevenness", "δ", "%", "Relative drop in velocity within a tooth", lambda teeth_1: 1 - np.cos(pi / teeth_1), source="geometry")
 motion.value("chordal_acceleration", "a_ch", "m/s**2", "Jump in the acceleration where a joint meets the sprocket", chordal_step, source="geometry")
 
 useful = Chapter("Useful tension", text="All tensions are those of one strand.")

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind
+from diecut_report.api import Chapter, bind, number, pi
 from diecut_report.plugins.rolling_bearing import ratings as f
 from diecut_report.plugins.rolling_bearing.bearings import STATIC_SAFETIES, Bearings
 from diecut_report.plugins.rolling_bearing.loads import NAMES, SEARCH, row, value
@@ -26,12 +26,12 @@ row(motion, "travel", "V", "deg", "Travel of the relative angle per cycle (0 whe
     "∮ |dθ/dφ| dφ between the reversals", output=False)
 row(motion, "cycles", "n_z", "rpm", "Cycle rate, as a speed: 1 r/min is one cycle per minute (0 where a speed is given)",
     lambda known: known.row(lambda i: known.cycle_speed[i] * known.is_swinging(i)), "as given", output=False)
-value(motion, "turns_per_cycle", "N_c", "1", "Revolutions of the rings per cycle", lambda travel: travel / (2 * np.pi),
+value(motion, "turns_per_cycle", "N_c", "1", "Revolutions of the rings per cycle", lambda travel: travel / (2 * pi),
     exists=lambda is_angle: is_angle > 0, source="kinematics")
 row(motion, "given_mean", "n_s", "rpm", "Mean absolute value of the given speed (0 where an angle is given)",
     lambda known: known.row(lambda i: np.zeros((known.variants, 1)) if known.is_swinging(i) else known.duties[i].mean_speed),
     "Gauss–Legendre between the breakpoints and reversals", output=False)
-value(motion, "mean_speed", "n_m", "rpm", "Mean speed of the rings", lambda cycles, travel, given_mean: cycles * travel / (2 * np.pi) + given_mean,
+value(motion, "mean_speed", "n_m", "rpm", "Mean speed of the rings", lambda cycles, travel, given_mean: cycles * travel / (2 * pi) + given_mean,
     source="kinematics")
 row(motion, "speed_max", "n_max", "rpm", "Maximum speed of the rings over the cycle", lambda known: known.row(known.greatest_speed), SEARCH,
     output=False)
@@ -42,7 +42,7 @@ row(motion, "swing", "W", "deg", "Range of the swing", lambda known: known.row(k
 row(motion, "elements", "Z", "1", "Number of rolling elements: as given, otherwise 8", lambda known: known.row(known.elements.__getitem__),
     "as given, else 8", output=False)
 value(motion, "critical_swing", "W_crit", "deg", "Minimum oscillation at which neighbouring rolling elements overlap",
-    lambda elements: 4 * np.pi / elements, exists=lambda returns: returns > 0, source="this method")
+    lambda elements: 4 * pi / elements, exists=lambda returns: returns > 0, source="this method")
 
 motion.part_table("motion_table", "Motion of all bearings", "bearings", ("turns_per_cycle", "mean_speed", "speed_max", "swing", "critical_swing"))
 
@@ -77,7 +77,7 @@ life.computed("life_min", "L_min", "h", "Minimum modified rating life", _least, 
 life.computed("governing_bearing", "B_L", "1", "Bearing with the shortest life", _governing, ("all_bearings", "life_modified"),
     "the minimum of all bearings that turn", is_text=True)
 value(life, "life_share", "s_L", "1", "Ratio of the shortest life to this bearing's, to the power of the Weibull slope",
-    lambda lives, life_min, life_modified: np.where(lives > 0, (life_min / life_modified) ** (10 / 9), 0), exists=lambda any_life: any_life > 0,
+    lambda lives, life_min, life_modified: np.where(lives > 0, (life_min / life_modified) ** (number(10) / 9), 0), exists=lambda any_life: any_life > 0,
     source="Lundberg and Palmgren", output=False)
 life.computed("life_sum", "Σ s_L", "1", "Sum of these ratios", lambda share: np.sum(share, axis=1, keepdims=True), ("life_share",), "of all bearings",
     exists=lambda any_life: any_life > 0, output=False, source="Lundberg and Palmgren")

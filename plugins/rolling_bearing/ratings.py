@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Interpolated, Steps, formula, own_table
+from diecut_report.api import Interpolated, Steps, formula, own_table, pi
 
 # fmt: off
 
@@ -47,7 +47,7 @@ def revolutions(rating: Any, load: Any, exponent: Any) -> Any:
 @formula
 def duration(turns: Any, speed: Any) -> Any:
     """Return how long so many revolutions last."""
-    return 2 * np.pi * turns / speed
+    return 2 * pi * turns / speed
 
 
 @formula

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, case
+from diecut_report.api import Chapter, bind, case, number
 from diecut_report.mechanics import beams
 from diecut_report.plugins.shaft import formulas
 from diecut_report.plugins.shaft.body import PRESS_FIT, body
@@ -28,14 +28,14 @@ sections.require("bores_inside", bind(lambda bore, diameter: bore < diameter, bo
     key="sections.{index}.bore", message="is not smaller than the diameter of section {part}; take a smaller bore")
 sections.require("bearings_apart", lambda bearing_a, bearing_b: bearing_a < bearing_b, key="bearing_b",
     message="is {bearing_b}, not beyond bearing_a at {bearing_a}; bearing A is the left one, so exchange or move them")
-sections.require("bearings_on_shaft", lambda bearing_b, length: bearing_b <= length * (1 + 1e-9), key="bearing_b",
+sections.require("bearings_on_shaft", lambda bearing_b, length: bearing_b <= length * (number(1) + 1e-9), key="bearing_b",
     message="is {bearing_b}, but the sections are {length} long in all: the bearing would stand beside the shaft; set bearing_b to at most "
         "{length:down}, or lengthen the sections")
-sections.require("loads_on_shaft", bind(lambda position, length: position <= length * (1 + 1e-9), position="loads.position"),
+sections.require("loads_on_shaft", bind(lambda position, length: position <= length * (number(1) + 1e-9), position="loads.position"),
     key="loads.{index}.position",
     message="is beyond the shaft, whose sections are {length} long in all; move the load to at most {length:down} (a force beyond the end, as on a "
         "crank pin, has its offset), or lengthen the sections")
-sections.require("notches_on_shaft", bind(lambda position, length: position <= length * (1 + 1e-9), position="notches.position"),
+sections.require("notches_on_shaft", bind(lambda position, length: position <= length * (number(1) + 1e-9), position="notches.position"),
     key="notches.{index}.position", needs=("notches",),
     message="is beyond the shaft, whose sections are {length} long in all; move the notch to at most {length:down}")
 sections.value("section_mass", "m_k", "kg", "Mass of the section",
@@ -69,7 +69,7 @@ _row("given_k_f", "K_f0", "1", "Fatigue notch factor in bending where it is give
 _row("given_k_fs", "K_fs0", "1", "Fatigue notch factor in torsion where it is given, else 0", lambda body: body.k_fs)
 places.value("place_step", "t", "mm", "Height of the step", lambda place_greater, place_diameter: (place_greater - place_diameter) / 2,
     source="geometry", output=False)
-places.require("fillets_fit", lambda is_fillet, place_radius, place_step: np.where(is_fillet > 0, place_radius, 0) <= place_step * (1 + 1e-9),
+places.require("fillets_fit", lambda is_fillet, place_radius, place_step: np.where(is_fillet > 0, place_radius, 0) <= place_step * (number(1) + 1e-9),
     key="sections.{index}.fillet_radius",
     message="is greater than the height of the step at the section's right end, so that it does not fit; take a smaller radius")
 places.value("place_area", "A", "mm**2", "Area of the section", bind(beams.circle_area, diameter="place_diameter", bore="place_bore"),
@@ -99,15 +99,15 @@ notches.value("fillet_ratio", "t/r", "1", "Ratio of step to fillet radius", lamb
 notches.value("fillet_root", "w", "1", "Its square root", lambda fillet_ratio: np.sqrt(fillet_ratio), source="Peterson", **AT_FILLETS)
 notches.value("fillet_share", "z", "1", "Ratio of both steps to the larger diameter",
     lambda place_step, place_greater: 2 * place_step / place_greater, source="Peterson", **AT_FILLETS)
-for number, (low, high) in enumerate(formulas.BENDING, 1):
+for index, (low, high) in enumerate(formulas.BENDING, 1):
     names = {f"{term}{end}": value for end, terms in (("", low), ("_above", high)) for term, value in zip("abc", terms, strict=True)}
-    notches.value(f"bending_{number}", f"C_{number}", "1", f"Coefficient {number} of the chart for bending",
+    notches.value(f"bending_{index}", f"C_{index}", "1", f"Coefficient {index} of the chart for bending",
         bind(lambda ratio, root, a, b, c, a_above, b_above, c_above:
                 np.where(ratio <= 2, formulas.quadratic(a, b, c, root), formulas.quadratic(a_above, b_above, c_above, root)), ratio="fillet_ratio",
             root="fillet_root", **names), source="Peterson, chart 3.10", **AT_FILLETS)
-for number, terms in enumerate(formulas.TORSION, 1):
+for index, terms in enumerate(formulas.TORSION, 1):
     names = dict(zip(("constant", "linear", "square"), terms, strict=True))
-    notches.value(f"torsion_{number}", f"C_s{number}", "1", f"Coefficient {number} of the chart for torsion",
+    notches.value(f"torsion_{index}", f"C_s{index}", "1", f"Coefficient {index} of the chart for torsion",
         bind(formulas.quadratic, root="fillet_root", **names), source="Peterson, chart 3.12", **AT_FILLETS)
 for name, symbol, told, chart, chart_name in (("k_t", "K_t", "bending", "bending", "3.10"), ("k_ts", "K_ts", "torsion", "torsion", "3.12")):
     notches.value(f"charted_{name}", f"{symbol}c", "1", f"Stress concentration factor of the fillet in {told}",

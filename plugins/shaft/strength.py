@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Case, Chapter, Refusal, StandardTable, bind, case, standard_table
+from diecut_report.api import Case, Chapter, Refusal, StandardTable, bind, case, number, standard_table
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.load_cases import called
 from diecut_report.plugins.shaft import curves, formulas
@@ -76,7 +76,7 @@ own_steel.computed("sizes_ascend", "k_R", "1", "Diameters of the strengths ascen
     "each is compared with the one before it", output=False)
 own_steel.require("sizes_in_order", lambda sizes_ascend: sizes_ascend > 0, key="strengths",
     message="are not in the order of their diameters; begin with the minimum one, each diameter once")
-own_steel.require("own_size_known", lambda greatest_diameter, greatest_size: greatest_diameter <= greatest_size * (1 + 1e-9), key="strengths",
+own_steel.require("own_size_known", lambda greatest_diameter, greatest_size: greatest_diameter <= greatest_size * (number(1) + 1e-9), key="strengths",
     message="are known up to {greatest_size}, but the shaft has {greatest_diameter}; give the strengths of that size too, or take another steel")
 BY_SIZE = "for the smallest diameter of the list that covers the shaft's maximum one"
 for name, symbol, what in (("tensile", "S_ut", "Tensile strength"), ("yield", "S_y", "Yield strength")):

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import numpy as np
 
-from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, as_number, bind
+from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, as_number, bind, pi
 
 # fmt: off
 
@@ -44,7 +44,7 @@ body = Chapter("Mass and moment of inertia")
 body.require("bored", bind(lambda bore, diameter: bore < diameter, bore="discs.bore", diameter="discs.diameter"), key="discs.{index}.bore",
     message="is not smaller than the diameter of {part}; take a smaller bore")
 body.value("disc_mass", "m_k", "kg", "Mass of the section or part",
-    bind(lambda fill, density, diameter, bore, width: fill * density * as_number(np.pi) / 4 * (diameter ** 2 - bore ** 2) * width, **OF_DISC),
+    bind(lambda fill, density, diameter, bore, width: fill * density * as_number(pi) / 4 * (diameter ** 2 - bore ** 2) * width, **OF_DISC),
     source="geometry", output=False, named_by="discs.name")
 body.value("disc_inertia", "J_k", "kg*m**2", "Moment of inertia of the section or part",
     bind(lambda disc_mass, diameter, bore: disc_mass * (diameter ** 2 + bore ** 2) / 8, diameter="discs.diameter", bore="discs.bore"),

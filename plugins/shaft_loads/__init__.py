@@ -26,6 +26,7 @@ from diecut_report.api import (
     Refusal,
     Text,
     Wired,
+    pi,
 )
 from diecut_report.mechanics.timing.engagement import motor_response
 from diecut_report.mechanics.timing.intervals import exact_turns
@@ -312,7 +313,7 @@ cycle = Chapter("Loads over the cycle",
     text="The cycle is a whole number of revolutions of the main shaft and of this one. A torque passes a mesh or a chain with its efficiency: more "
         "where it drives, less where it is given back. A torque of an inertia is that inertia times the angular acceleration.")
 cycle.prepared(OBJECT, curves_of, KEYS, for_many=True)
-cycle.value("cycle_length", "Φ", "deg", "Length of the cycle, as an angle of the main shaft", lambda main_turns: 2 * np.pi * main_turns, output=False)
+cycle.value("cycle_length", "Φ", "deg", "Length of the cycle, as an angle of the main shaft", lambda main_turns: 2 * pi * main_turns, output=False)
 cycle.abscissa("main_angle", "φ_m", "deg", "Angle of the main shaft", "cycle_length")
 cycle.computed_curve("torque", "T", "N*m", "Torque on the shaft", values("torques"), OBJECT, "main_angle",
     "from the curve of the mechanism, at the angle of the main shaft", joints=lambda curves: curves.joints, named_by="torques.name",

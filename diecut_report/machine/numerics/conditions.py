@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.formula import FormulaError, evaluate
+from diecut_report.formulas.expression import FormulaError
+from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import APPLY, Node, substitute, symbols, walk
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.names import Bound, bound

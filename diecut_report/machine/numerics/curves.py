@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.formula import Formula, FormulaError, FormulaName
+from diecut_report.formulas.expression import FormulaError
+from diecut_report.formulas.formula import Formula, FormulaName
 from diecut_report.formulas.tree import NUMERIC, Node
 from diecut_report.machine.numerics.domain import CalculatedMachines, Inside
 from diecut_report.mechanism.names import Bound, Written, bound

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from diecut_report.formulas import Array
+from diecut_report.formulas.expression import as_number
 from diecut_report.formulas.formula import formula
-from diecut_report.formulas.tree import as_number
 from diecut_report.mechanics import numerics
 from diecut_report.mechanics.timing.shaft_curves import NARROW, NODES, TO_SERIES, WEIGHTS, PieceRows
 

@@ -14,8 +14,9 @@ import numpy as np
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.formulas.formula import Formula, Reading, formula
-from diecut_report.formulas.tree import Constant, Node, substitute
+from diecut_report.formulas.expression import Constant
+from diecut_report.formulas.formula import Formula, formula
+from diecut_report.formulas.tree import Node, substitute
 from diecut_report.mechanics.common import difference
 from diecut_report.mechanism.names import Misdeclared, Written, bind, bound
 from diecut_report.mechanism.steps.protocols import ANY, Item, Kinds, Names, StepEngine, StepPrinter
@@ -94,20 +95,25 @@ class Between(Formula):
         """Return the expression of the line at ``x`` through two rows: x_1, y_1, x_2, y_2."""
         return substitute(self.line.tree, dict(zip(self.line.parameters, (x, *rows), strict=True)))
 
-    def reading(self, above: tuple[Formula, ...] = (), *, full: bool = False) -> Reading:
-        """Return all pieces as cases, with the table's numbers as constants."""
-        constants = {
-            f"{name}_{k}": Constant(float(value), f"{name}_{k}", unit(own.unit).si)
+    @cached_property
+    def function(self) -> Callable[..., Any]:
+        return self._function
+
+    @cached_property
+    def spoken(self) -> Node:
+        """All pieces as cases, with the table's numbers as constants."""
+        sought = Node("sym", ("x",))
+        numbers = {
+            f"{name}_{k}": Constant(float(value), f"{name}_{k}", unit(own.unit).si).node
             for name, own, values in zip("xy", self.columns, (self.x, self.y), strict=True)
             for k, value in enumerate(values)
         }
-        sought, numbers = Node("sym", ("x",)), {name: Node("sym", (name,)) for name in constants}
         pieces = [
             self.through(sought, *(numbers[f"{name}_{row}"] for row in (k, k + 1) for name in "xy"))
             for k in range(len(self.x) - 1)
         ]
         branches = [(piece, Node("cmp", ("<", sought, numbers[f"x_{k}"]))) for k, piece in enumerate(pieces[:-1], 1)]
-        return Reading(Node("cases", (*branches, (pieces[-1],))) if branches else pieces[-1], constants)
+        return Node("cases", (*branches, (pieces[-1],))) if branches else pieces[-1]
 
 
 def _columns(table: object, column: str) -> tuple[Column, Column]:

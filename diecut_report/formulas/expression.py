@@ -1,0 +1,394 @@
+"""Expressions: what an author writes with quantities, in ordinary Python, keeps the tree of what is to be calculated.
+
+``m.radius - m.height`` is an expression: the quantities are taken by their ids, the arithmetic of Python and the functions of NumPy make the tree.
+Nothing is calculated then; the tree is printed, checked for its dimensions and made into the function that computes it.
+"""
+
+from __future__ import annotations
+
+import linecache
+import math
+import operator
+import sys
+from collections.abc import Callable
+from typing import Any, NoReturn, Self
+
+import numpy as np
+
+from diecut_report.formulas.tree import AS_ANGLE, AS_NUMBER, FUNCTIONS, OF_TWO, PI, ROUNDING, Node, arccos_of, written
+from diecut_report.quantities.units import unit as known
+from diecut_report.text.phrases import Phrase, joined
+
+
+class FormulaError(TypeError):
+    """Report what a formula cannot hold: a mistake of the plugin's author."""
+
+
+ARITHMETIC: dict[Any, str] = {
+    np.add: "+", np.subtract: "-", np.multiply: "*", np.true_divide: "/", np.power: "^", np.float_power: "^",
+    np.less: "<", np.less_equal: "<=", np.greater: ">", np.greater_equal: ">=", np.equal: "==", np.not_equal: "!=",
+    np.logical_and: "and", np.logical_or: "or", np.bitwise_and: "and", np.bitwise_or: "or",
+}  # fmt: skip
+COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
+SHOWN = 60  # letters of an expression in a message
+
+
+def _text(node: Node) -> str:
+    text = written(node)
+    return text if len(text) <= SHOWN else f"{text[:SHOWN]}…"
+
+
+def author_line() -> tuple[str, str]:
+    """Return place (``file:line``) and code of the author's line that is being run."""
+    frame = sys._getframe(1)
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in ("numpy", "functools"):
+        frame = frame.f_back
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith("diecut_report.formulas"):
+        frame = frame.f_back
+        while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "numpy":
+            frame = frame.f_back
+    return f"{frame.f_code.co_filename}:{frame.f_lineno}", linecache.getline(frame.f_code.co_filename, frame.f_lineno).strip()
+
+
+def refuse(text: str) -> NoReturn:
+    """Raise FormulaError with the author's line in front of the text."""
+    place, line = author_line()
+    raise FormulaError(joined((place, Phrase("in “{line}”", line=line) if line else "", text), ": ")) from None
+
+
+class Expression:
+    """Hold what is to be calculated of quantities; see the module's text. A quantity's parts are attributes or stand in brackets."""
+
+    __slots__ = ("_node",)
+    __hash__ = object.__hash__
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+
+    # Quantities by their ids.
+
+    def __getattr__(self, name: str) -> Expression:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return self[name]
+
+    def __getitem__(self, name: str | int) -> Expression:
+        if self._node.op != "sym":
+            refuse(Phrase("{expression} is no quantity and has no {name}", expression=_text(self._node), name=str(name)))
+        return Expression(Node("sym", (f"{self._node.args[0]}.{name}",)))
+
+    # Arithmetic.
+
+    def __add__(self, other: Any) -> Expression:
+        return _of("+", self, other)
+
+    def __radd__(self, other: Any) -> Expression:
+        return _of("+", other, self)
+
+    def __sub__(self, other: Any) -> Expression:
+        return _of("-", self, other)
+
+    def __rsub__(self, other: Any) -> Expression:
+        return _of("-", other, self)
+
+    def __mul__(self, other: Any) -> Expression:
+        return _of("*", self, other)
+
+    def __rmul__(self, other: Any) -> Expression:
+        return _of("*", other, self)
+
+    def __truediv__(self, other: Any) -> Expression:
+        return _of("/", self, other)
+
+    def __rtruediv__(self, other: Any) -> Expression:
+        return _of("/", other, self)
+
+    def __pow__(self, other: Any) -> Expression:
+        return _of("^", self, other)
+
+    def __rpow__(self, other: Any) -> Expression:
+        return _of("^", other, self)
+
+    def __neg__(self) -> Expression:
+        return Expression(Node("neg", (self._node,)))
+
+    def __pos__(self) -> Self:
+        return self
+
+    def __abs__(self) -> Expression:
+        return call("abs", self)
+
+    # Conditions.
+
+    def __lt__(self, other: Any) -> Expression:
+        return _of("<", self, other)
+
+    def __le__(self, other: Any) -> Expression:
+        return _of("<=", self, other)
+
+    def __gt__(self, other: Any) -> Expression:
+        return _of(">", self, other)
+
+    def __ge__(self, other: Any) -> Expression:
+        return _of(">=", self, other)
+
+    def __eq__(self, other: object) -> Expression:  # type: ignore[override]
+        return _of("==", self, other)
+
+    def __ne__(self, other: object) -> Expression:  # type: ignore[override]
+        return _of("!=", self, other)
+
+    def __and__(self, other: Any) -> Expression:
+        return _of("and", self, other)
+
+    def __or__(self, other: Any) -> Expression:
+        return _of("or", self, other)
+
+    def __invert__(self) -> Expression:
+        return Expression(Node("not", (self._node,)))
+
+    # NumPy.
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Expression:
+        if method == "__call__" and not options:
+            if ufunc is np.hypot:
+                return call("sqrt", _of("+", *(_of("^", side, 2) for side in inputs)))
+            if ufunc in ARITHMETIC:
+                return _of(ARITHMETIC[ufunc], *inputs)
+            if ufunc is np.negative:
+                return -self
+            if ufunc in (np.logical_not, np.invert):
+                return ~self
+            if ufunc in FUNCTIONS:
+                return call(FUNCTIONS[ufunc], *inputs)
+        return _unprinted(ufunc)
+
+    def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Expression:
+        if not options:
+            if function is np.where and len(args) == 3:
+                return where(*args)
+            if function is np.clip and len(args) == 3:
+                return call("minimum", call("maximum", *args[:2]), args[2])
+            if function in FUNCTIONS:
+                return call(FUNCTIONS[function], *args)
+        return _unprinted(function)
+
+    # What a single number has, and an expression has not.
+
+    def __bool__(self) -> bool:
+        template = (
+            "whether {expression} holds is another matter for each machine; write np.where(condition, a, b) for a choice, (a) & (b), "
+            "(a) | (b), ~(a), each condition in brackets, and np.minimum and np.maximum, which take arrays too"
+        )
+        refuse(Phrase(template, expression=_text(self._node)))
+
+    def _single(self, *_: Any) -> NoReturn:
+        template = "{expression} is no single number; write the function of NumPy, as np.sin for math.sin, which takes arrays too"
+        refuse(Phrase(template, expression=_text(self._node)))
+
+    __float__ = __int__ = __index__ = __complex__ = __round__ = __ceil__ = __floor__ = __trunc__ = _single
+
+    def __iter__(self) -> Any:
+        refuse(Phrase("{expression} is one quantity and cannot be gone through", expression=_text(self._node)))
+
+    def __repr__(self) -> str:
+        return f"<{_text(self._node)}>"
+
+
+def _unprinted(function: Any) -> NoReturn:
+    template = (
+        "a formula cannot print {function}; it holds arithmetic, conditions, numbers, constants and these functions of NumPy: {known}"
+    )
+    names = ", ".join(sorted({*FUNCTIONS.values(), "where", "hypot", "clip"}))
+    refuse(Phrase(template, function=f"np.{function.__name__}", known=names))
+
+
+def _of(sign: str, *operands: Any) -> Expression:
+    """Return an operation of two operands, of which one at least is an expression."""
+    nodes = tuple(map(node_of, operands))
+    return Expression(Node("cmp", (sign, *nodes)) if sign in COMPARISONS else Node(sign, nodes))
+
+
+def call(name: str, *args: Any) -> Expression:
+    """Return a function's value."""
+    wanted = 2 if name in OF_TWO else 1
+    if len(args) != wanted:
+        refuse(Phrase("np.{name} takes {wanted}, and is given {count}", name=name, wanted=wanted, count=len(args)))
+    return Expression(Node("call", (name, *map(node_of, args))))
+
+
+def where(condition: Any, value: Any, otherwise: Any) -> Expression:
+    """Return a value where a condition holds, another one elsewhere."""
+    last = node_of(otherwise)
+    return Expression(Node("cases", ((node_of(value), node_of(condition)), *(last.args if last.op == "cases" else ((last,),)))))
+
+
+def node_of(operand: Any) -> Node:
+    """Return the node of an expression or of a number."""
+    match operand:
+        case Expression():
+            return operand._node
+        case Number():
+            return operand.node
+        case int() | float() | np.integer() | np.floating() if not isinstance(operand, bool):
+            return _number(float(operand) if isinstance(operand, float | np.floating) else int(operand))
+        case str():
+            refuse(Phrase("{text} is a text; a quantity is written m.{name}", text=repr(operand), name=operand))
+    refuse(Phrase("{operand} is neither a quantity nor a number", operand=repr(operand)))
+
+
+OF_TURNS = 360  # the shares of π by which a formula is likely to multiply
+PLAIN_BELOW = 1e5  # numbers from here on are printed as a power of ten
+MAX_MANTISSA_LENGTH = 4  # letters before the power of ten, less than these
+
+
+def _number(value: float) -> Node:
+    if not math.isfinite(value):
+        refuse(Phrase("{value} is no number that can be printed", value=repr(value)))
+    turns = value / math.pi * OF_TURNS
+    if value and isinstance(value, float) and abs(turns - round(turns)) < 1e-12 * abs(turns) and round(turns):
+        template = "holds {value}, a multiple of π that would be printed as a number; write pi of diecut_report.api in place of np.pi"
+        refuse(Phrase(template, value=f"{value:.6g}"))
+    return Node("neg", (Node("num", (_literal(-value),)),)) if value < 0 else Node("num", (_literal(value),))
+
+
+def _literal(value: float) -> str:
+    """A number as it is printed: a great power of ten as such, not with its zeros and a decimal."""
+    text = repr(value)
+    if not text.endswith(".0") or abs(value) < PLAIN_BELOW:
+        return text
+    mantissa, power = f"{value:e}".split("e")
+    mantissa = mantissa.rstrip("0").rstrip(".")
+    return f"{mantissa}e{int(power)}" if len(mantissa) < MAX_MANTISSA_LENGTH else f"{value:.0f}"
+
+
+# Numbers that are printed as they are written.
+
+
+class Number(float):
+    """Hold a number that is printed as its author writes it: π as π, a third as 1/3. It computes as any other number."""
+
+    node: Node
+
+    def __new__(cls, value: float, node: Node | None = None) -> Self:
+        """Return the number; without a node it stands as it is."""
+        self = super().__new__(cls, value)
+        self.node = node if node is not None else _number(value)
+        return self
+
+    def __neg__(self) -> Number:
+        return Number(-float(self), Node("neg", (self.node,)))
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        plain = [float(each) if isinstance(each, Number) else each for each in inputs]
+        if any(isinstance(each, Expression) for each in inputs):
+            return NotImplemented
+        found = getattr(ufunc, method)(*plain, **options)
+        kept = ufunc in FUNCTIONS and not options and all(type(each) in (int, float) for each in plain)
+        return Number(found, Node("call", (FUNCTIONS[ufunc], *map(node_of, inputs)))) if kept else found
+
+
+def _kept(sign: str, operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
+    """The operation and its reflection, of which the tree is kept where both sides are single numbers."""
+
+    def of(left: Any, right: Any) -> Any:
+        kept = all(isinstance(each, Number) or type(each) in (int, float) for each in (left, right))
+        value = operation(*(float(each) if isinstance(each, Number) else each for each in (left, right)))
+        return Number(value, Node(sign, (node_of(left), node_of(right)))) if kept else value
+
+    def forward(self: Number, other: Any) -> Any:
+        return NotImplemented if isinstance(other, Expression) else of(self, other)
+
+    def reflected(self: Number, other: Any) -> Any:
+        return of(other, self)
+
+    return forward, reflected
+
+
+for _sign, _name in (("+", "add"), ("-", "sub"), ("*", "mul"), ("/", "truediv"), ("^", "pow")):
+    _forward, _reflected = _kept(_sign, getattr(operator, _name))
+    setattr(Number, f"__{_name}__", _forward)
+    setattr(Number, f"__r{_name}__", _reflected)
+
+
+def number(value: float) -> Number:
+    """Return a number with which arithmetic is printed as it is written: ``number(1) / 3`` is 1/3, not 0.3333."""
+    return Number(value)
+
+
+class Symbol(str):
+    """Hold the symbol of a constant in a tree, and the constant."""
+
+    constant: Constant
+
+    def __new__(cls, constant: Constant, symbol: str) -> Self:
+        self = super().__new__(cls, symbol)
+        self.constant = constant
+        return self
+
+
+class Constant(Number):
+    """Hold a physical constant of a formula: an SI value with symbol and unit (pint-readable, coherent SI)."""
+
+    symbol: str
+    unit: str
+
+    def __new__(cls, value: float, symbol: str, unit: str) -> Self:
+        given = known(unit)
+        if abs(given.factor - 1) > ROUNDING:
+            template = "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}"
+            given_text, in_si = format(given.factor, "g"), format(value * given.factor, "g")
+            raise TypeError(Phrase(template, symbol=symbol, unit=unit, factor=given_text, si=given.si, value=in_si))
+        self = super().__new__(cls, value, Node("sym", (symbol,)))
+        self.symbol, self.unit = symbol, unit
+        self.node = Node("sym", (Symbol(self, symbol),))
+        return self
+
+
+pi = Number(math.pi, PI)
+GRAVITY = Constant(9.80665, "g", "m/s**2")
+
+
+class Quantities:
+    """Give quantities by their ids: ``m.radius``, ``m["rods.0.length"]``, ``m.inputs.torque``."""
+
+    def __getattr__(self, name: str) -> Expression:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return Expression(Node("sym", (name,)))
+
+    def __getitem__(self, name: str) -> Expression:
+        return Expression(Node("sym", (name,)))
+
+
+m = Quantities()
+
+
+def arccos(cosine: Any) -> Any:
+    """Return the angle of a cosine, in [0, π] rad; a cosine beyond ±1 by rounding alone counts as ±1, beyond that is NaN."""
+    return call("arccos", cosine) if isinstance(cosine, Expression) else arccos_of(cosine)
+
+
+def as_number(angle: Any) -> Any:
+    """Say to the check of dimensions that the radian drops: the number of radians stands as a plain number.
+
+    It gives back what it takes and is not printed.
+    """
+    return _said(AS_NUMBER, angle)
+
+
+def as_angle(number: Any) -> Any:
+    """Say to the check of dimensions that what it takes stands as an angle in radians (1/s as rad/s, rad²/s² as rad/s²).
+
+    It gives back what it takes and is not printed.
+    """
+    return _said(AS_ANGLE, number)
+
+
+def _said(what: str, of: Any) -> Any:
+    match of:
+        case Expression():
+            return Expression(Node("call", (what, node_of(of))))
+        case Number():
+            return Number(float(of), Node("call", (what, of.node)))
+    return of
