@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, Formula, Steps, as_number, bind, pi
-from diecut_report.mechanics import cam, common, contact
+from diecut_report.api import Chapter, Formula, Steps, as_number, inner, m, pi, reduction, value
+from diecut_report.mechanics import cam, contact
 from diecut_report.plugins.cam_gear_transport import arms, formulas
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, TORQUE
 
@@ -24,28 +24,25 @@ rocker = Chapter("Rocker on the cams",
     text="The rocker is fixed to the sector; the rollers on its arms run on two fixed cams, each profile lying on the O₁ side of its roller. ψ is "
         "the direction of an arm from the outward line O₁O₃, w the ratio of the rocker's speed to the disc's, γ″ the second derivative of the "
         "sector's angle with respect to the disc's.", needs=CAMS, absent=NO_CAMS)
-rocker.value("sector_rate_change", "γ″", "1", "Ratio of the sector's acceleration to the square of the disc's speed",
-    lambda sector_acceleration, cycles_per_hour: as_number(sector_acceleration / (2 * pi * cycles_per_hour) ** 2), source="kinematics",
-    output=False)
-rocker.require("sweep_leaves_arms", lambda sector_sweep: sector_sweep < pi, key="sector_dwell_sweep",
+rocker.sector_rate_change = (inner(as_number(m.sector_acceleration / (2 * pi * m.cycles_per_hour) ** 2)), "γ″", "1",
+    "Ratio of the sector's acceleration to the square of the disc's speed", "kinematics")
+rocker.require("sweep_leaves_arms", m.sector_sweep < pi, key="sector_dwell_sweep",
     message="makes the whole sweep of the sector {sector_sweep}; it must be less than 180°, or no arm can stay on one side of the line O₁O₃")
-rocker.value("least_arm_angle", "χ_min", "deg", "Minimum angle of an arm to the left of O₁O₃", lambda sector_stop_sweep: sector_stop_sweep / 2,
-    source="geometry", output=False)
-rocker.value("greatest_arm_angle", "χ_max", "deg", "Maximum angle of an arm to the left of O₁O₃",
-    lambda sector_sweep, sector_stop_sweep: pi - sector_sweep + sector_stop_sweep / 2, source="geometry", output=False)
+rocker.least_arm_angle = inner(m.sector_stop_sweep / 2), "χ_min", "deg", "Minimum angle of an arm to the left of O₁O₃", "geometry"
+rocker.greatest_arm_angle = (inner(pi - m.sector_sweep + m.sector_stop_sweep / 2), "χ_max", "deg", "Maximum angle of an arm to the left of O₁O₃",
+    "geometry")
 rocker.words("arm_angles_best", arms.angles_at_the_ends, ("center_distance", "arm_length", "sector_dwell_sweep", "sector_sweep"))
 for number in "12":
-    rocker.value(f"arm_{number}_lowest", f"ψ_min,{number}", "deg", f"Direction of arm {number} at the start of phase I",
-        bind(formulas.lowest_direction, arm_angle=f"arm_angle_{number}"), source="geometry", output=False)
-    rocker.value(f"arm_{number}_highest", f"ψ_max,{number}", "deg", f"Direction of arm {number} at the end of phase III",
-        bind(formulas.highest_direction, lowest=f"arm_{number}_lowest"), source="geometry", output=False)
+    rocker[f"arm_{number}_lowest"] = (inner(formulas.lowest_direction.of(arm_angle=m[f"arm_angle_{number}"])), f"ψ_min,{number}", "deg",
+        f"Direction of arm {number} at the start of phase I", "geometry")
+    rocker[f"arm_{number}_highest"] = (inner(formulas.highest_direction.of(lowest=m[f"arm_{number}_lowest"])), f"ψ_max,{number}", "deg",
+        f"Direction of arm {number} at the end of phase III", "geometry")
 for number in "12":
-    rocker.require(f"arm_{number}_side", bind(formulas.stays_on_one_side, lowest=f"arm_{number}_lowest", highest=f"arm_{number}_highest"),
+    rocker.require(f"arm_{number}_side", formulas.stays_on_one_side.of(lowest=m[f"arm_{number}_lowest"], highest=m[f"arm_{number}_highest"]),
         key=f"arm_angle_{number}",
         message=f"is {{arm_angle_{number}}}; the arm would swing from {{arm_{number}_lowest}} to {{arm_{number}_highest}} across {OTHER_ARM}")
-rocker.require("arms_on_both_sides", lambda arm_1_lowest, arm_1_highest, arm_2_lowest, arm_2_highest:
-        (np.sin(arm_1_lowest) * np.sin(arm_2_lowest) < 0) | (np.sin(arm_1_highest) * np.sin(arm_2_highest) < 0), key="arm_angle_2",
-    message=f"is {{arm_angle_2}}, which puts both arms (the other at {{arm_angle_1}}) on one side of {OTHER_ARM}")
+rocker.require("arms_on_both_sides", (np.sin(m.arm_1_lowest) * np.sin(m.arm_2_lowest) < 0) | (np.sin(m.arm_1_highest) * np.sin(m.arm_2_highest) < 0),
+    key="arm_angle_2", message=f"is {{arm_angle_2}}, which puts both arms (the other at {{arm_angle_1}}) on one side of {OTHER_ARM}")
 
 
 def _path(number: str) -> dict[str, str]:
@@ -67,11 +64,11 @@ def _profile(chapter: Steps, number: str) -> None:
     """Curves of a cam."""
 
     def curve(name: str, symbol: str, unit: str, description: str, formula: Formula, *, output: bool = True) -> None:
-        takes = {p: q for p, q in _path(number).items() if p in formula.parameters}
-        chapter.value(f"cam_{number}_{name}", symbol, unit, f"{description}, cam {number}", bind(formula, **takes), output=output, source="geometry")
+        taken = {parameter: m[id] for parameter, id in _path(number).items() if parameter in formula.parameters}
+        chapter[f"cam_{number}_{name}"] = value(formula.of(**taken), output=output), symbol, unit, f"{description}, cam {number}", "geometry"
 
-    chapter.value(f"arm_{number}_direction", f"ψ_{number}", "deg", f"Direction of arm {number}",
-        bind(common.sum_of, first=f"arm_angle_{number}", second="sector_angle"), output=False, source="geometry")
+    chapter[f"arm_{number}_direction"] = (inner(m[f"arm_angle_{number}"] + m.sector_angle), f"ψ_{number}", "deg", f"Direction of arm {number}",
+        "geometry")
     curve("pitch_x", f"x_p{number}", "mm", "Pitch curve x", cam.pitch_x)
     curve("pitch_y", f"y_p{number}", "mm", "Pitch curve y", cam.pitch_y)
     curve("path", f"l_{number}", "mm", "Travel of the roller's centre per radian of the disc", cam.roller_path, output=False)
@@ -85,24 +82,21 @@ def _profile(chapter: Steps, number: str) -> None:
 
 def _extremes(chapter: Steps, number: str) -> None:
     """What a cam is judged by."""
-    chapter.reduction(f"cam_{number}_pressure_angle_max", f"δ_max,{number}", "deg", f"Maximum pressure angle of cam {number}", "max",
-        of=f"cam_{number}_pressure_angle", source="this method")
-    chapter.reduction(f"cam_{number}_curvature_greatest", f"κ_max,{number}", "1/m", f"Maximum curvature of pitch curve {number}, convex", "max",
-        of=f"cam_{number}_curvature", source="geometry", output=False)
-    chapter.reduction(f"cam_{number}_curvature_least", f"κ_min,{number}", "1/m",
-        f"Minimum curvature of pitch curve {number}, negative where it is concave", "min", of=f"cam_{number}_curvature", source="geometry",
-        output=False)
-    chapter.reduction(f"cam_{number}_tangent_min", f"q_min,{number}", "mm", f"Minimum distance of O₁ from the tangents of pitch curve {number}",
-        "min", of=f"cam_{number}_tangent_distance", source="geometry", output=False)
-    chapter.value(f"cam_{number}_curvature_min", f"ρ_min,{number}", "mm", f"Minimum radius of curvature of pitch curve {number} where it is convex",
-        bind(cam.least_radius, greatest_curvature=f"cam_{number}_curvature_greatest"), source="geometry")
-    chapter.value(f"cam_{number}_profile_radius_min", f"ρ_c,{number}", "mm",
-        f"Minimum radius of profile {number} where it is convex; negative: undercut",
-        bind(cam.profile_radius, pitch_radius=f"cam_{number}_curvature_min"), source="geometry")
-    chapter.value(f"cam_{number}_hollow_radius_min", f"ρ_h,{number}", "mm",
-        f"Minimum radius of profile {number} where it is concave: upper limit for the grinding wheel",
-        bind(cam.hollow_radius, least_curvature=f"cam_{number}_curvature_least"), source="geometry",
-        exists=bind(cam.is_hollow, least_curvature=f"cam_{number}_curvature_least"))
+    chapter[f"cam_{number}_pressure_angle_max"] = (reduction("max", of=f"cam_{number}_pressure_angle"), f"δ_max,{number}", "deg",
+        f"Maximum pressure angle of cam {number}", "this method")
+    chapter[f"cam_{number}_curvature_greatest"] = (reduction("max", of=f"cam_{number}_curvature", output=False), f"κ_max,{number}", "1/m",
+        f"Maximum curvature of pitch curve {number}, convex", "geometry")
+    chapter[f"cam_{number}_curvature_least"] = (reduction("min", of=f"cam_{number}_curvature", output=False), f"κ_min,{number}", "1/m",
+        f"Minimum curvature of pitch curve {number}, negative where it is concave", "geometry")
+    chapter[f"cam_{number}_tangent_min"] = (reduction("min", of=f"cam_{number}_tangent_distance", output=False), f"q_min,{number}", "mm",
+        f"Minimum distance of O₁ from the tangents of pitch curve {number}", "geometry")
+    chapter[f"cam_{number}_curvature_min"] = (cam.least_radius.of(greatest_curvature=m[f"cam_{number}_curvature_greatest"]), f"ρ_min,{number}", "mm",
+        f"Minimum radius of curvature of pitch curve {number} where it is convex", "geometry")
+    chapter[f"cam_{number}_profile_radius_min"] = (cam.profile_radius.of(pitch_radius=m[f"cam_{number}_curvature_min"]), f"ρ_c,{number}", "mm",
+        f"Minimum radius of profile {number} where it is convex; negative: undercut", "geometry")
+    chapter[f"cam_{number}_hollow_radius_min"] = (value(cam.hollow_radius.of(least_curvature=m[f"cam_{number}_curvature_least"]),
+        exists=cam.is_hollow.of(least_curvature=m[f"cam_{number}_curvature_least"])), f"ρ_h,{number}", "mm",
+        f"Minimum radius of profile {number} where it is concave: upper limit for the grinding wheel", "geometry")
 
 
 def _cam(number: str) -> Chapter:
@@ -119,36 +113,33 @@ def _cam(number: str) -> Chapter:
 both = Chapter("Both cams",
     text="A roller touches its profile at one point only if, in addition, the tangents of the pitch curve keep more than r from O₁: then profile "
         "and pitch curve go round O₁ without reversing.", needs=CAMS, absent=NO_CAMS)
-both.value("pressure_angle_max", "δ_max", "deg", "Maximum pressure angle of both cams",
-    lambda cam_1_pressure_angle_max, cam_2_pressure_angle_max: np.maximum(cam_1_pressure_angle_max, cam_2_pressure_angle_max), source="this method")
-both.value("curvature_min", "ρ_min", "mm", "Minimum radius of curvature of both pitch curves where convex",
-    lambda cam_1_curvature_min, cam_2_curvature_min: np.minimum(cam_1_curvature_min, cam_2_curvature_min), source="geometry")
-both.value("tangent_distance_min", "q_min", "mm", "Minimum distance of O₁ from the tangents of both pitch curves",
-    lambda cam_1_tangent_min, cam_2_tangent_min: np.minimum(cam_1_tangent_min, cam_2_tangent_min), source="geometry")
+both.pressure_angle_max = (np.maximum(m.cam_1_pressure_angle_max, m.cam_2_pressure_angle_max), "δ_max", "deg", "Maximum pressure angle of both cams",
+    "this method")
+both.curvature_min = (np.minimum(m.cam_1_curvature_min, m.cam_2_curvature_min), "ρ_min", "mm",
+    "Minimum radius of curvature of both pitch curves where convex", "geometry")
+both.tangent_distance_min = (np.minimum(m.cam_1_tangent_min, m.cam_2_tangent_min), "q_min", "mm",
+    "Minimum distance of O₁ from the tangents of both pitch curves", "geometry")
 both.words("arms_that_fit", arms.arms_that_fit, arms.TAKES, lacks=("module",))
 both.words("arms_that_fit", arms.arms_that_fit, (*arms.TAKES, "module"), needs=("module",))
 
 
 def _loaded(chapter: Steps, number: str) -> None:
     """Force and pressure of a roller."""
-    chapter.value(f"carried_moment_{number}", f"M_c{number}", "N*m", f"Moment of cam {number} about O₃",
-        bind(formulas.carried_moment, arm_direction=f"arm_{number}_direction"), source="statics", output=False)
-    chapter.value(f"roller_force_{number}", f"F_{number}", "N", f"Force of cam {number} on its roller",
-        bind(lambda carried_moment, arm_length, pressure_angle: carried_moment / (arm_length * np.cos(pressure_angle)),
-            carried_moment=f"carried_moment_{number}", pressure_angle=f"cam_{number}_pressure_angle"), source="statics")
-    chapter.value(f"effective_radius_{number}", f"R_e{number}", "mm", f"Effective radius of roller and profile {number}",
-        bind(cam.effective_radius, curvature=f"cam_{number}_curvature"), source="Hertz", output=False, needs=("roller_width",))
-    chapter.value(f"bearing_radius_{number}", f"R_b{number}", "mm",
-        f"Effective radius, at least a thousandth of the roller's radius (profile {number})",
-        bind(lambda effective_radius, roller_radius: np.maximum(effective_radius, roller_radius / 1000),
-            effective_radius=f"effective_radius_{number}"), source="Hertz", output=False, needs=("roller_width",))
-    chapter.value(f"contact_pressure_{number}", f"p_H{number}", "MPa", f"Contact pressure of roller and cam {number}",
-        bind(contact.contact_pressure, force=f"roller_force_{number}", effective_radius=f"bearing_radius_{number}", length="roller_width"),
-        source="Hertz", needs=("roller_width",))
-    chapter.reduction(f"cam_{number}_roller_force_peak", f"F_max,{number}", "N", f"Maximum force on roller {number}", "max",
-        of=f"roller_force_{number}", source="statics")
-    chapter.reduction(f"cam_{number}_contact_pressure_max", f"p_H{number},max", "MPa", f"Maximum contact pressure of roller and cam {number}", "max",
-        of=f"contact_pressure_{number}", needs=("roller_width",), source="Hertz")
+    chapter[f"carried_moment_{number}"] = (inner(formulas.carried_moment.of(arm_direction=m[f"arm_{number}_direction"])), f"M_c{number}", "N*m",
+        f"Moment of cam {number} about O₃", "statics")
+    chapter[f"roller_force_{number}"] = (m[f"carried_moment_{number}"] / (m.arm_length * np.cos(m[f"cam_{number}_pressure_angle"])), f"F_{number}",
+        "N", f"Force of cam {number} on its roller", "statics")
+    chapter[f"effective_radius_{number}"] = (inner(cam.effective_radius.of(curvature=m[f"cam_{number}_curvature"]), needs=("roller_width",)),
+        f"R_e{number}", "mm", f"Effective radius of roller and profile {number}", "Hertz")
+    chapter[f"bearing_radius_{number}"] = (inner(np.maximum(m[f"effective_radius_{number}"], m.roller_radius / 1000), needs=("roller_width",)),
+        f"R_b{number}", "mm", f"Effective radius, at least a thousandth of the roller's radius (profile {number})", "Hertz")
+    chapter[f"contact_pressure_{number}"] = (value(contact.contact_pressure.of(force=m[f"roller_force_{number}"],
+        effective_radius=m[f"bearing_radius_{number}"], length=m.roller_width), needs=("roller_width",)), f"p_H{number}", "MPa",
+        f"Contact pressure of roller and cam {number}", "Hertz")
+    chapter[f"cam_{number}_roller_force_peak"] = (reduction("max", of=f"roller_force_{number}"), f"F_max,{number}", "N",
+        f"Maximum force on roller {number}", "statics")
+    chapter[f"cam_{number}_contact_pressure_max"] = (reduction("max", of=f"contact_pressure_{number}", needs=("roller_width",)), f"p_H{number},max",
+        "MPa", f"Maximum contact pressure of roller and cam {number}", "Hertz")
 
 
 forces = Chapter("Forces on the rollers",
@@ -156,18 +147,13 @@ forces = Chapter("Forces on the rollers",
         "so the cam of the left arm turns the sector clockwise and that of the right arm counter-clockwise. The force acts normal to the profile, "
         "at the pressure angle from the roller's direction of motion. A preload of the rollers is not included.", needs=(*CAMS, *TORQUE),
     absent="not calculated: {missing} not given")
-forces.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃",
-    lambda sector_inertia, sector_acceleration, tooth_force, sector_radius:
-        sector_inertia * sector_acceleration - tooth_force * sector_radius,
-    source="statics", output=False)
-forces.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz",
-    needs=("roller_width",))
+forces.rocker_moment = (inner(m.sector_inertia * m.sector_acceleration - m.tooth_force * m.sector_radius), "M_3", "N*m",
+    "Moment of the cams on the rocker about O₃", "statics")
+forces.effective_modulus = value(contact.effective_modulus_alike, needs=("roller_width",)), "E*", "GPa", "Effective modulus of the contact", "Hertz"
 _loaded(forces, "1")
 _loaded(forces, "2")
-forces.value("roller_force_peak", "F_max", "N", "Maximum force on a roller",
-    lambda cam_1_roller_force_peak, cam_2_roller_force_peak: np.maximum(cam_1_roller_force_peak, cam_2_roller_force_peak), source="statics")
-forces.value("contact_pressure", "p_H,max", "MPa", "Maximum contact pressure of a roller",
-    lambda cam_1_contact_pressure_max, cam_2_contact_pressure_max: np.maximum(cam_1_contact_pressure_max, cam_2_contact_pressure_max), source="Hertz",
-    needs=("roller_width",))
+forces.roller_force_peak = np.maximum(m.cam_1_roller_force_peak, m.cam_2_roller_force_peak), "F_max", "N", "Maximum force on a roller", "statics"
+forces.contact_pressure = (value(np.maximum(m.cam_1_contact_pressure_max, m.cam_2_contact_pressure_max), needs=("roller_width",)), "p_H,max", "MPa",
+    "Maximum contact pressure of a roller", "Hertz")
 
 SECTIONS = (rocker, _cam("1"), _cam("2"), both, forces)

@@ -6,8 +6,26 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Binding, Chapter, Inputs, Quantity, Steps, bind, case, formula, pi
-from diecut_report.mechanics import circular_segment, common
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Binding,
+    Chapter,
+    Inputs,
+    Quantity,
+    Steps,
+    abscissa,
+    case,
+    choice,
+    formula,
+    inner,
+    m,
+    pi,
+    reduction,
+    root,
+    value,
+)
+from diecut_report.mechanics import circular_segment
 
 # fmt: off
 
@@ -116,113 +134,100 @@ reach = Chapter("Reach of the edge",
     text="The formulas are derived here. Of the source (001, third paper) only the first page survives: it gives the arrangement and its parameters "
         "r, R, δ, b and h, but no formulas; these are derived from that geometry. The shaft's axis is the origin; x runs along the counter-knife, "
         "depths point down, and the knife angle φ is measured clockwise from the direction of the cut to the edge's centre.")
-reach.require("edge_round_shaft", lambda eccentricity, edge_radius: eccentricity < edge_radius, key="edge_radius",
+reach.require("edge_round_shaft", m.eccentricity < m.edge_radius, key="edge_radius",
     message="is {edge_radius}, but the edge must lie around the shaft: R > r = {eccentricity}; make the edge's radius greater or the eccentricity "
-        "smaller")
-reach.value("depth_least", "H_min", "mm", "Depth above which the edge leaves the counter-knife",
-    lambda edge_radius, eccentricity: edge_radius - eccentricity, source=OWN, output=False)
-reach.value("depth_greatest", "H_max", "mm", "Maximum depth of the edge", lambda edge_radius, eccentricity: edge_radius + eccentricity, source=OWN,
-    output=False)
-reach.require("edge_leaves", bind(is_clear_of, smaller="depth_least", greater="depth"), key="depth",
+    "smaller")
+reach.depth_least = inner(m.edge_radius - m.eccentricity), "H_min", "mm", "Depth above which the edge leaves the counter-knife", OWN
+reach.depth_greatest = inner(m.edge_radius + m.eccentricity), "H_max", "mm", "Maximum depth of the edge", OWN
+reach.require("edge_leaves", is_clear_of.of(smaller=m.depth_least, greater=m.depth), key="depth",
     message="is {depth}, but the edge would stay below the counter-knife over the whole turn: more than R − r = {depth_least:up} is needed; put the "
-        "counter-knife lower, or make the edge's radius smaller or the eccentricity greater")
-reach.require("edge_arrives", bind(is_clear_of, smaller="depth", greater="depth_greatest"), key="depth",
+    "counter-knife lower, or make the edge's radius smaller or the eccentricity greater")
+reach.require("edge_arrives", is_clear_of.of(smaller=m.depth, greater=m.depth_greatest), key="depth",
     message="is {depth}, but the edge never gets down to the counter-knife: less than R + r = {depth_greatest:down} is needed; put the "
-        "counter-knife higher, or make the edge's radius or the eccentricity greater")
-reach.require("board_below_axis", lambda thickness, depth: thickness < depth, key="thickness",
+    "counter-knife higher, or make the edge's radius or the eccentricity greater")
+reach.require("board_below_axis", m.thickness < m.depth, key="thickness",
     message="is {thickness}, but the board's upper face would lie above the shaft's axis: h < H = {depth} is needed; take a thinner board or put "
-        "the counter-knife lower")
-reach.require("board_thick", lambda thickness, edge_radius: thickness >= 1e-06 * edge_radius, key="thickness",
+    "the counter-knife lower")
+reach.require("board_thick", m.thickness >= 1e-06 * m.edge_radius, key="thickness",
     message="is {thickness}, but at least a millionth of the edge's radius R = {edge_radius} is needed; look at the unit of both")
-reach.value("face_depth", "H_h", "mm", "Depth of the board's upper face", lambda depth, thickness: depth - thickness, source="geometry", output=False)
-reach.value("reach_greatest", "x_max", "mm", "Maximum distance from the axis at which the edge still cuts",
-    lambda edge_radius, eccentricity, depth: np.sqrt((edge_radius + eccentricity) ** 2 - depth**2), source=OWN)
-reach.value("cut_end", "x_2", "mm", "Distance of the end of the cut from the axis", lambda front_distance, cut_length: front_distance + cut_length,
-    source="geometry", output=False)
-reach.require("reaches_board", bind(is_clear_of, smaller="front_distance", greater="reach_greatest"), key="front_distance",
+reach.face_depth = inner(m.depth - m.thickness), "H_h", "mm", "Depth of the board's upper face", "geometry"
+reach.reach_greatest = (np.sqrt((m.edge_radius + m.eccentricity) ** 2 - m.depth**2), "x_max", "mm",
+    "Maximum distance from the axis at which the edge still cuts", OWN)
+reach.cut_end = inner(m.front_distance + m.cut_length), "x_2", "mm", "Distance of the end of the cut from the axis", "geometry"
+reach.require("reaches_board", is_clear_of.of(smaller=m.front_distance, greater=m.reach_greatest), key="front_distance",
     message="is {front_distance}, but the edge cannot reach the board: it cuts no further than √((R + r)² − H²) = {reach_greatest} from the axis; a "
-        "higher counter-knife, a greater edge radius or a greater eccentricity reaches further", advise=PLACE)
-reach.require("reaches_end", lambda cut_end, front_distance, reach_greatest, edge_radius:
-        is_clear_of(cut_end, reach_greatest, edge_radius) | ~is_clear_of(front_distance, reach_greatest, edge_radius), key="cut_length",
+    "higher counter-knife, a greater edge radius or a greater eccentricity reaches further", advise=PLACE)
+reach.require("reaches_end", is_clear_of(m.cut_end, m.reach_greatest, m.edge_radius) | ~is_clear_of(m.front_distance, m.reach_greatest,
+    m.edge_radius), key="cut_length",
     message="is {cut_length}, so that the cut ends b + L = {cut_end} from the axis, but the edge cannot reach that: it cuts no further than √((R + "
-        "r)² − H²) = {reach_greatest}; a higher counter-knife, a greater edge radius or a greater eccentricity reaches further",
+    "r)² − H²) = {reach_greatest}; a higher counter-knife, a greater edge radius or a greater eccentricity reaches further",
     advise=("cut_length", "front_distance"))
-reach.value("lowest_at_face", "x_h", "mm", "Distance from the axis at which the edge's lowest point passes the board's upper face",
-    bind(lowest_passes, depth="face_depth"), source=OWN, output=False)
-reach.value("lowest_at_counter", "x_0", "mm", "The same distance at the counter-knife", bind(lowest_passes, depth="depth"), source=OWN,
-    output=False)
-reach.require("enters_face", lambda lowest_at_face, front_distance: lowest_at_face <= front_distance, key="front_distance",
+reach.lowest_at_face = (inner(lowest_passes.of(depth=m.face_depth)), "x_h", "mm",
+    "Distance from the axis at which the edge's lowest point passes the board's upper face", OWN)
+reach.lowest_at_counter = inner(lowest_passes.of(depth=m.depth)), "x_0", "mm", "The same distance at the counter-knife", OWN
+reach.require("enters_face", m.lowest_at_face <= m.front_distance, key="front_distance",
     message="is {front_distance}, but the edge would come down on the board from above, {lowest_at_face} from the axis, and press it instead of "
-        "shearing it from its front edge: b ≥ √(r² − (H − h − R)²) is needed", advise=PLACE)
-reach.require("enters_counter", lambda lowest_at_counter, lowest_at_face, front_distance, edge_radius:
-        is_clear_of(lowest_at_counter, front_distance, edge_radius) | (front_distance < lowest_at_face), key="front_distance",
+    "shearing it from its front edge: b ≥ √(r² − (H − h − R)²) is needed", advise=PLACE)
+reach.require("enters_counter", is_clear_of(m.lowest_at_counter, m.front_distance, m.edge_radius) | (m.front_distance < m.lowest_at_face),
+    key="front_distance",
     message="is {front_distance}, but the edge would meet the counter-knife behind the board's front edge, {lowest_at_counter} from the axis: b > "
-        "√(r² − (H − R)²) is needed", advise=PLACE)
+    "√(r² − (H − R)²) is needed", advise=PLACE)
 
 
 def _at_distance(chapter: Steps, name: str, symbol: str, description: str, distance: str) -> None:
     """The knife angle at which the cutting point is at a distance from the axis."""
-    chapter.root(name, symbol, "deg", description, bind(past_centre, angle=name, distance=distance), low=lambda touch_angle: touch_angle,
-        high=lambda return_angle: return_angle,
-        left=bind(
-            lambda angle, distance, eccentricity, depth: (distance - eccentricity * np.cos(angle)) ** 2 + (depth - eccentricity * np.sin(angle)) ** 2,
-            angle=name, distance=distance), right=lambda edge_radius: edge_radius ** 2, source=OWN, unknown=name)
+    chapter[name] = (root(past_centre.of(angle=m[name], distance=m[distance]), low=m.touch_angle, high=m.return_angle,
+        left=(m[distance] - m.eccentricity * np.cos(m[name])) ** 2 + (m.depth - m.eccentricity * np.sin(m[name])) ** 2, right=m.edge_radius ** 2,
+        unknown=name), symbol, "deg", description, OWN)
 
 
 shear_range = Chapter("Range of the cut",
     text="From φ_0, where the edge touches the counter-knife, to φ_r, where the line from the axis through the edge's centre passes the cutting "
         "point, this point only moves forward; the cut lies in between. The shear angle increases throughout, since cos τ = (H − r·sin φ)/R "
         "decreases there.")
-shear_range.value("touch_angle", "φ_0", "deg", "Knife angle at which the edge touches the counter-knife",
-    lambda depth, edge_radius, eccentricity: np.arcsin((depth - edge_radius) / eccentricity), source=OWN, output=False)
-shear_range.value("return_angle", "φ_r", "deg", "Knife angle at which the cutting point reverses",
-    lambda depth, edge_radius, eccentricity: np.arcsin(depth / (edge_radius + eccentricity)), source=OWN, output=False)
+shear_range.touch_angle = (inner(np.arcsin((m.depth - m.edge_radius) / m.eccentricity)), "φ_0", "deg",
+    "Knife angle at which the edge touches the counter-knife", OWN)
+shear_range.return_angle = (inner(np.arcsin(m.depth / (m.edge_radius + m.eccentricity))), "φ_r", "deg",
+    "Knife angle at which the cutting point reverses", OWN)
 _at_distance(shear_range, "angle_start", "φ_1", "Knife angle at the start of the cut", "front_distance")
 _at_distance(shear_range, "angle_end", "φ_2", "Knife angle at the end of the cut", "cut_end")
-shear_range.value("cut_angle", "Δφ", "deg", "Angle of the cut", lambda angle_end, angle_start: angle_end - angle_start, source="kinematics")
-shear_range.value("cut_time", "t", "ms", "Time of the cut", lambda cut_angle, speed: cut_angle / speed, source="kinematics")
-shear_range.value("shear_angle_min", "τ_min", "deg", "Minimum shear angle: at the start of the cut", bind(edge_slope, angle="angle_start"),
-    source=OWN)
-shear_range.value("shear_angle_max", "τ_max", "deg", "Maximum shear angle: at the end of the cut", bind(edge_slope, angle="angle_end"), source=OWN)
-shear_range.value("shear_angle_lower", "τ_a", "deg", "Minimum usual shear angle", lambda: 2 * pi / 180, source="practice", output=False)
-shear_range.value("shear_angle_upper", "τ_b", "deg", "Maximum usual shear angle", lambda: 20 * pi / 180, source="practice", output=False)
+shear_range.cut_angle = m.angle_end - m.angle_start, "Δφ", "deg", "Angle of the cut", "kinematics"
+shear_range.cut_time = m.cut_angle / m.speed, "t", "ms", "Time of the cut", "kinematics"
+shear_range.shear_angle_min = edge_slope.of(angle=m.angle_start), "τ_min", "deg", "Minimum shear angle: at the start of the cut", OWN
+shear_range.shear_angle_max = edge_slope.of(angle=m.angle_end), "τ_max", "deg", "Maximum shear angle: at the end of the cut", OWN
+shear_range.shear_angle_lower = inner(2 * pi / 180), "τ_a", "deg", "Minimum usual shear angle", "practice"
+shear_range.shear_angle_upper = inner(20 * pi / 180), "τ_b", "deg", "Maximum usual shear angle", "practice"
 for name, symbol, description, above, below in (
     ("shear_demand", "τ_d", "Governing side of the shear angle: the actual angle, or the required minimum", "shear_angle_max", "shear_angle_lower"),
     ("shear_limit", "τ_l", "Its limit: the allowed maximum, or the actual minimum", "shear_angle_upper", "shear_angle_min"),
 ):
-    shear_range.choice(name, symbol, "deg", description,
-        case(bind(common.same, quantity=above), "the maximum angle is closer to its limit",
-            lambda shear_angle_max, shear_angle_upper, shear_angle_lower, shear_angle_min:
-                shear_angle_max / shear_angle_upper >= shear_angle_lower / shear_angle_min),
-        case(bind(common.same, quantity=below), "the minimum angle is closer to its limit"), output=False)
-shear_range.value("expulsion_angle", "τ_f", "deg", "Shear angle from which the board is pushed out", lambda friction: 2 * np.arctan(friction),
-    source="statics")
+    shear_range[name] = (choice(case(m[above], "the maximum angle is closer to its limit",
+        m.shear_angle_max / m.shear_angle_upper >= m.shear_angle_lower / m.shear_angle_min),
+        case(m[below], "the minimum angle is closer to its limit"), output=False), symbol, "deg", description)
+shear_range.expulsion_angle = 2 * np.arctan(m.friction), "τ_f", "deg", "Shear angle from which the board is pushed out", "statics"
 
 edge = Chapter("Edge",
     text="The edge meets the board first at its upper front edge, at φ_e, a little before the cutting point reaches the front edge. Positions on "
         "the edge are measured from the line shaft–centre, as seen from the edge's centre. The arc between ψ_1 and ψ_2 must be sharp; it is longer "
         "than the cut because the edge slides through the board. The point of the edge in the upper face reverses a little before the cutting point "
         "does.")
-edge.value("corner_distance", "D", "mm", "Distance of the board's upper front edge from the axis",
-    lambda front_distance, face_depth: np.sqrt(front_distance ** 2 + face_depth ** 2), source="geometry", output=False)
-edge.value("angle_entry", "φ_e", "deg", "Knife angle at which the edge meets the board", bind(meeting_angle, corner="corner_distance"), source=OWN)
-edge.value("edge_angle_first", "ψ_1", "deg", "Position on the edge of the point that meets the board first",
-    bind(meeting_place, corner="corner_distance"), source=OWN)
-edge.value("face_angle_end", "τ_h2", "deg", "Slope of the edge in the board's upper face at the end of the cut",
-    bind(edge_slope, angle="angle_end", depth="face_depth"), source=OWN, output=False)
-edge.value("edge_angle_last", "ψ_2", "deg", "Position on the edge of the point that cuts last",
-    lambda angle_end, face_angle_end: pi / 2 - angle_end - face_angle_end, source=OWN)
-edge.value("edge_length", "s", "mm", "Length of the edge that cuts",
-    lambda edge_radius, edge_angle_first, edge_angle_last: edge_radius * (edge_angle_first - edge_angle_last), source=OWN)
-edge.value("face_return_angle", "φ_rh", "deg", "Knife angle at which the point of the edge in the board's upper face reverses",
-    lambda face_depth, edge_radius, eccentricity: np.arcsin(face_depth / (edge_radius + eccentricity)), source=OWN, output=False)
-edge.value("used_sweep", "Δφ_2", "deg", "Rotation of the knife from touching the counter-knife to the end of the cut",
-    lambda angle_end, touch_angle: angle_end - touch_angle, source="kinematics", output=False)
-edge.value("usable_sweep", "Δφ_r", "deg", "Rotation up to which the edge moves forward throughout the thickness",
-    lambda face_return_angle, touch_angle: face_return_angle - touch_angle, source="kinematics", output=False)
+edge.corner_distance = (inner(np.sqrt(m.front_distance ** 2 + m.face_depth ** 2)), "D", "mm",
+    "Distance of the board's upper front edge from the axis", "geometry")
+edge.angle_entry = meeting_angle.of(corner=m.corner_distance), "φ_e", "deg", "Knife angle at which the edge meets the board", OWN
+edge.edge_angle_first = meeting_place.of(corner=m.corner_distance), "ψ_1", "deg", "Position on the edge of the point that meets the board first", OWN
+edge.face_angle_end = (inner(edge_slope.of(angle=m.angle_end, depth=m.face_depth)), "τ_h2", "deg",
+    "Slope of the edge in the board's upper face at the end of the cut", OWN)
+edge.edge_angle_last = pi / 2 - m.angle_end - m.face_angle_end, "ψ_2", "deg", "Position on the edge of the point that cuts last", OWN
+edge.edge_length = m.edge_radius * (m.edge_angle_first - m.edge_angle_last), "s", "mm", "Length of the edge that cuts", OWN
+edge.face_return_angle = (inner(np.arcsin(m.face_depth / (m.edge_radius + m.eccentricity))), "φ_rh", "deg",
+    "Knife angle at which the point of the edge in the board's upper face reverses", OWN)
+edge.used_sweep = (inner(m.angle_end - m.touch_angle), "Δφ_2", "deg", "Rotation of the knife from touching the counter-knife to the end of the cut",
+    "kinematics")
+edge.usable_sweep = (inner(m.face_return_angle - m.touch_angle), "Δφ_r", "deg",
+    "Rotation up to which the edge moves forward throughout the thickness", "kinematics")
 
 
-CUTTING = bind(lambda flag: flag == 1, flag="cutting")
+CUTTING = m.cutting == 1
 INSIDE, OUTSIDE = "the knife is in its cut", "the knife is outside its cut"
 
 
@@ -231,38 +236,34 @@ def _in_cut(
     name: str, symbol: str, unit: str, description: str, formula: Binding, *, source: str = OWN, output: bool = True
 ) -> None:
     """A curve that is zero outside the cut."""
-    chapter.choice(name, symbol, unit, description, case(formula, INSIDE, CUTTING), case(lambda: 0, OUTSIDE), source=source, output=output)
+    chapter[name] = choice(case(formula, INSIDE, CUTTING), case(0, OUTSIDE), output=output), symbol, unit, description, source
 
 
 motion = Chapter("Motion over a revolution of the knife",
     text="The curves cover a full revolution, so that a drive can use them. Outside the cut, cutting point and shear angle stay as they are at its "
         "start; speed, sliding, force and torque are zero. At the cutting point the angle between the edge's normal and the direction of its centre "
         "is φ + τ: hence the speeds of the edge along itself, ω·(R + r·sin(φ + τ)), and normal to itself, ω·r·cos(φ + τ).")
-motion.abscissa("knife_angle", "φ", "deg", "Knife angle, one turn", 2 * np.pi, shown_at="torque_max_at", speed="speed")
+motion.knife_angle = abscissa(2 * np.pi, shown_at="torque_max_at", speed="speed"), "φ", "deg", "Knife angle, one turn"
 motion.phase("cutting", "working", "The knife cuts", "knife_angle", ("angle_start", "angle_end"))
 motion.phase("free", "window", "The knife is off the board", "knife_angle", rest_of=("cutting",))
-motion.value("parting_angle", "φ_s", "deg", "Knife angle that divides the cut for integration: with a flat edge the cut begins steeply",
-    lambda angle_start, angle_end, touch_angle: touch_angle + np.sqrt((angle_start - touch_angle) * (angle_end - touch_angle)), source=OWN,
-    output=False)
+motion.parting_angle = (inner(m.touch_angle + np.sqrt((m.angle_start - m.touch_angle) * (m.angle_end - m.touch_angle))), "φ_s", "deg",
+    "Knife angle that divides the cut for integration: with a flat edge the cut begins steeply", OWN)
 motion.breakpoints("ends_of_cut", "knife_angle", "angle_start", "parting_angle", "angle_end")
-motion.value("middle_angle", "φ_m", "deg", "Knife angle in the middle of the cut", lambda angle_start, angle_end: (angle_start + angle_end) / 2,
-    source="kinematics", output=False)
-motion.choice("cutting", "c", "1", "Knife in its cut (1) or not (0)",
-    case(lambda: 1, INSIDE, lambda knife_angle, middle_angle, cut_angle: np.cos(knife_angle - middle_angle) >= np.cos(cut_angle / 2)),
-    case(lambda: 0, OUTSIDE), output=False, per_piece=True)
-motion.choice("cut_place", "φ_c", "deg", "Knife angle in the cut, or at its start", case(lambda knife_angle: knife_angle, INSIDE, CUTTING),
-    case(lambda angle_start: angle_start, OUTSIDE), output=False)
-motion.value("cut_position", "x_c", "mm", "Distance of the cutting point from the axis", bind(edge_position, angle="cut_place"), source=OWN)
-motion.value("shear_angle", "τ", "deg", "Shear angle between edge and counter-knife", bind(edge_slope, angle="cut_place"), source=OWN)
+motion.middle_angle = inner((m.angle_start + m.angle_end) / 2), "φ_m", "deg", "Knife angle in the middle of the cut", "kinematics"
+motion.cutting = (choice(case(1, INSIDE, np.cos(m.knife_angle - m.middle_angle) >= np.cos(m.cut_angle / 2)), case(0, OUTSIDE), output=False,
+    per_piece=True), "c", "1", "Knife in its cut (1) or not (0)")
+motion.cut_place = (choice(case(m.knife_angle, INSIDE, CUTTING), case(m.angle_start, OUTSIDE), output=False), "φ_c", "deg",
+    "Knife angle in the cut, or at its start")
+motion.cut_position = edge_position.of(angle=m.cut_place), "x_c", "mm", "Distance of the cutting point from the axis", OWN
+motion.shear_angle = edge_slope.of(angle=m.cut_place), "τ", "deg", "Shear angle between edge and counter-knife", OWN
 _in_cut(motion, "cut_speed", "v_c", "m/s", "Speed of the cutting point along the counter-knife",
-        bind(lambda speed, eccentricity, angle, shear_angle: speed * eccentricity * np.cos(angle + shear_angle) / np.sin(shear_angle),
-            angle="cut_place"), source="kinematics")
+        m.speed * m.eccentricity * np.cos(m.cut_place + m.shear_angle) / np.sin(m.shear_angle), source="kinematics")
 _in_cut(motion, "sliding_ratio", "k", "1", "Sliding ratio: speed of the edge along itself divided by its normal speed",
-        bind(sliding_ratio, angle="cut_place"))
-motion.reduction("cut_speed_max", "v_c,max", "m/s", "Maximum speed of the cutting point", "max", of="cut_speed", source="kinematics")
-motion.reduction("sliding_ratio_max", "k_max", "1", "Maximum sliding ratio", "max", of="sliding_ratio", source=OWN)
-motion.value("effective_sharpening_angle_min", "δ_e", "deg", "Minimum effective sharpening angle, in the direction of motion",
-    lambda sharpening_angle, sliding_ratio_max: np.arctan(np.tan(sharpening_angle) * np.cos(np.arctan(sliding_ratio_max))), source=OWN)
+        sliding_ratio.of(angle=m.cut_place))
+motion.cut_speed_max = reduction("max", of="cut_speed"), "v_c,max", "m/s", "Maximum speed of the cutting point", "kinematics"
+motion.sliding_ratio_max = reduction("max", of="sliding_ratio"), "k_max", "1", "Maximum sliding ratio", OWN
+motion.effective_sharpening_angle_min = (np.arctan(np.tan(m.sharpening_angle) * np.cos(np.arctan(m.sliding_ratio_max))), "δ_e", "deg",
+    "Minimum effective sharpening angle, in the direction of motion", OWN)
 
 forces = Chapter("Force and torque",
     text="Over the length a of the working front the board is partly cut through; the edge bows out of its chord by the area A_b. Each millimetre "
@@ -273,45 +274,35 @@ forces = Chapter("Force and torque",
         "already passed instead of that left. For a straight edge both are σ·h²/(2·tan τ); for this edge F_v is greater by 2·σ·A_b. The maximum "
         "force, the ratio to a guillotine and the friction are calculated with F_v, on the safe side; the work of cutting belongs to F_w. Both "
         "areas are integrals over the board's thickness, in closed form by the segment of the edge's arc.")
-forces.value("face_angle", "τ_h", "deg", "Slope of the edge in the board's upper face", bind(edge_slope, angle="cut_place", depth="face_depth"),
-    source=OWN, output=False)
-forces.value("front_half_angle", "α", "deg", "Half the angle of the working front", lambda shear_angle, face_angle: (face_angle - shear_angle) / 2,
-    source=OWN, output=False)
-_in_cut(forces, "front_length", "a", "mm", "Length of the working front", bind(front_length), output=False)
-forces.value("bow_area", "A_b", "mm**2", "Area between the working front and its chord",
-    bind(circular_segment.area, radius="edge_radius", half_angle="front_half_angle"), source=OWN, output=False)
-_in_cut(forces, "force", "F_v", "N", "Downward force on the board", bind(force), source=OWN)
+forces.face_angle = inner(edge_slope.of(angle=m.cut_place, depth=m.face_depth)), "τ_h", "deg", "Slope of the edge in the board's upper face", OWN
+forces.front_half_angle = inner((m.face_angle - m.shear_angle) / 2), "α", "deg", "Half the angle of the working front", OWN
+_in_cut(forces, "front_length", "a", "mm", "Length of the working front", front_length.of(), output=False)
+forces.bow_area = (inner(circular_segment.area.of(radius=m.edge_radius, half_angle=m.front_half_angle)), "A_b", "mm**2",
+    "Area between the working front and its chord", OWN)
+_in_cut(forces, "force", "F_v", "N", "Downward force on the board", force.of(), source=OWN)
 _in_cut(forces, "working_force", "F_w", "N", "Downward force by virtual work",
-        bind(lambda shear_resistance, thickness, front_length, bow_area: shear_resistance * (thickness * front_length / 2 - bow_area)),
+        m.shear_resistance * (m.thickness * m.front_length / 2 - m.bow_area),
         source="energy", output=False)
-forces.value("thrust", "F_h", "N", "Force along the cut by virtual work", lambda shear_resistance, thickness: shear_resistance * thickness**2 / 2,
-    source="energy")
+forces.thrust = m.shear_resistance * m.thickness**2 / 2, "F_h", "N", "Force along the cut by virtual work", "energy"
 _in_cut(forces, "useful_torque", "M_u", "N*m", "Torque of cutting",
-        bind(lambda eccentricity, working_force, thrust, angle: eccentricity * (working_force * np.cos(angle) - thrust * np.sin(angle)),
-            angle="cut_place"), source="statics", output=False)
-_in_cut(forces, "friction_torque", "M_f", "N*m", "Torque of friction", bind(friction_torque, angle="cut_place"), source=OWN)
-forces.value("torque", "M", "N*m", "Torque at the knife's shaft", lambda useful_torque, friction_torque: useful_torque + friction_torque,
-    source="statics")
-forces.reduction("front_length_max", "a_max", "mm", "Maximum length of the working front", "max", of="front_length", source=OWN)
-forces.reduction("force_max", "F_max", "N", "Maximum downward force on the board", "max", of="force", source=OWN)
-forces.reduction("working_force_max", "F_w,max", "N", "Maximum downward force by virtual work", "max", of="working_force", source="energy")
-forces.reduction("torque_max", "M_max", "N*m", "Maximum torque at the knife's shaft", "max", of="torque", source="statics")
-forces.reduction("useful_work", "W_u", "J", "Work of cutting, from φ_1 to φ_2", "integral", of="useful_torque", source="energy")
-forces.reduction("work", "W", "J", "Work of a cut, with friction", "integral", of="torque", source="energy")
-forces.value("power_mean", "P_mean", "W", "Mean power over a revolution with one cut", lambda work, speed: work * speed / (2 * pi),
-    source="energy")
-forces.value("power_peak", "P_max", "W", "Maximum power", lambda torque_max, speed: torque_max * speed, source="energy")
+        m.eccentricity * (m.working_force * np.cos(m.cut_place) - m.thrust * np.sin(m.cut_place)), source="statics", output=False)
+_in_cut(forces, "friction_torque", "M_f", "N*m", "Torque of friction", friction_torque.of(angle=m.cut_place), source=OWN)
+forces.torque = m.useful_torque + m.friction_torque, "M", "N*m", "Torque at the knife's shaft", "statics"
+forces.front_length_max = reduction("max", of="front_length"), "a_max", "mm", "Maximum length of the working front", OWN
+forces.force_max = reduction("max", of="force"), "F_max", "N", "Maximum downward force on the board", OWN
+forces.working_force_max = reduction("max", of="working_force"), "F_w,max", "N", "Maximum downward force by virtual work", "energy"
+forces.torque_max = reduction("max", of="torque"), "M_max", "N*m", "Maximum torque at the knife's shaft", "statics"
+forces.useful_work = reduction("integral", of="useful_torque"), "W_u", "J", "Work of cutting, from φ_1 to φ_2", "energy"
+forces.work = reduction("integral", of="torque"), "W", "J", "Work of a cut, with friction", "energy"
+forces.power_mean = m.work * m.speed / (2 * pi), "P_mean", "W", "Mean power over a revolution with one cut", "energy"
+forces.power_peak = m.torque_max * m.speed, "P_max", "W", "Maximum power", "energy"
 
 guillotine = Chapter("Comparison with a guillotine",
     text="A straight blade parallel to the counter-knife cuts the same length at once. Its work differs slightly from the work of cutting W_u: at "
         "φ_1 part of the board is already cut into, and at φ_2 the edge has cut into it beyond the end.")
-guillotine.value("guillotine_force", "F_g", "N", "Force of a guillotine for the same length of cut",
-    lambda shear_resistance, thickness, cut_length: shear_resistance * thickness * cut_length, source=OWN)
-guillotine.value("guillotine_work", "W_g", "J", "Its work, without friction", lambda guillotine_force, thickness: guillotine_force * thickness / 2,
-    source="energy")
-guillotine.value("guillotine_force_ratio", "q_F", "1", "Ratio of the maximum force to that of a guillotine",
-    lambda force_max, guillotine_force: force_max / guillotine_force, source=OWN)
-guillotine.value("guillotine_line_force", "q_σ", "N/mm", "Force of a straight cut per length, by the shear resistance",
-    lambda shear_resistance, thickness: shear_resistance * thickness, source=OWN)
-guillotine.value("resistance_by_rule", "σ_q", "N/mm**2", "Shear resistance corresponding to the force of the rule",
-    lambda rule_force, thickness: rule_force / thickness, source=OWN, needs=("rule_force",))
+guillotine.guillotine_force = m.shear_resistance * m.thickness * m.cut_length, "F_g", "N", "Force of a guillotine for the same length of cut", OWN
+guillotine.guillotine_work = m.guillotine_force * m.thickness / 2, "W_g", "J", "Its work, without friction", "energy"
+guillotine.guillotine_force_ratio = m.force_max / m.guillotine_force, "q_F", "1", "Ratio of the maximum force to that of a guillotine", OWN
+guillotine.guillotine_line_force = m.shear_resistance * m.thickness, "q_σ", "N/mm", "Force of a straight cut per length, by the shear resistance", OWN
+guillotine.resistance_by_rule = (value(m.rule_force / m.thickness, needs=("rule_force",)), "σ_q", "N/mm**2",
+    "Shear resistance corresponding to the force of the rule", OWN)

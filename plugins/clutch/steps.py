@@ -15,11 +15,17 @@ from diecut_report.api import (
     Inputs,
     OneOf,
     Quantity,
+    abscissa,
     as_number,
-    bind,
     case,
+    choice,
+    from_curve,
+    inner,
+    m,
     number,
     pi,
+    reduction,
+    value,
 )
 
 # fmt: off
@@ -74,112 +80,85 @@ class Clutch(Inputs):
 
 
 torque = Chapter("Torque")
-torque.value("torque", "M", "N*m", "Torque to be transmitted by the clutch", lambda power, speed: power / speed, source="002 eq. 16",
-    lacks=("torque",))
-torque.value("power", "W", "kW", "Power at this torque", lambda torque, speed: torque * speed, source="002 eq. 16", needs=("torque", "speed"))
-torque.value("design_torque", "M_c", "N*m", "Design torque of the clutch", lambda service_factor, torque: service_factor * torque,
-    source="this method")
+torque.torque = value(m.power / m.speed, lacks=("torque",)), "M", "N*m", "Torque to be transmitted by the clutch", "002 eq. 16"
+torque.power = value(m.torque * m.speed, needs=("torque", "speed")), "W", "kW", "Power at this torque", "002 eq. 16"
+torque.design_torque = m.service_factor * m.torque, "M_c", "N*m", "Design torque of the clutch", "this method"
 
 transmitted = Chapter("Torque over the cycle", needs=("torque_curve",),
     text="One period of the referenced curve is mapped to one revolution of the cycle angle. Where it is above the design torque the clutch slips.")
-transmitted.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution per period of the torque", period=2 * np.pi,
-    shown_at="transmitted_torque_max_at")
-transmitted.from_curve("transmitted_torque", "M_φ", "N*m", "Transmitted torque", given="torque_curve", abscissa="cycle_angle")
-transmitted.reduction("transmitted_torque_max", "M_φ,max", "N*m", "Maximum absolute transmitted torque", "abs_max", of="transmitted_torque")
+transmitted.cycle_angle = (abscissa(period=2 * np.pi, shown_at="transmitted_torque_max_at"), "φ", "deg",
+    "Cycle angle, one revolution per period of the torque")
+transmitted.transmitted_torque = from_curve(given="torque_curve", abscissa="cycle_angle"), "M_φ", "N*m", "Transmitted torque"
+transmitted.transmitted_torque_max = reduction("abs_max", of="transmitted_torque"), "M_φ,max", "N*m", "Maximum absolute transmitted torque"
 
 wedge = Chapter("Wedge",
     text="The force N_2 normal to the cone's face and the friction f·N_2 on it balance P_1 along the axis and the pressing force P of the shoes "
         "along the radius: P_1 = P·tan(α + ρ) with the angle of friction ρ. All forces are those of the whole ring of shoes.")
-wedge.value("radial_share", "c_α", "1", "Fraction of N_2 that presses the shoes", lambda wedge_angle: np.cos(wedge_angle), source="002 eq. 13",
-    output=False)
-wedge.value("held_share", "c_f", "1", "Fraction of N_2 that friction withholds from them",
-    lambda wedge_friction, wedge_angle: wedge_friction * np.sin(wedge_angle), source="002 eq. 13", output=False)
-wedge.value("wedge_angle_limit", "α_lim", "deg", "Wedge angle from which friction withholds all of it",
-    lambda wedge_friction: pi / 2 - np.arctan(wedge_friction), source="002 eq. 13", output=False)
-wedge.value("wedge_friction_limit", "f_lim", "1", "Friction that does so at the given angle", lambda wedge_angle: 1 / np.tan(wedge_angle),
-    source="002 eq. 13", output=False)
-wedge.require("wedge_lifts", lambda held_share, radial_share: held_share < radial_share, key="wedge_angle",
+wedge.radial_share = inner(np.cos(m.wedge_angle)), "c_α", "1", "Fraction of N_2 that presses the shoes", "002 eq. 13"
+wedge.held_share = inner(m.wedge_friction * np.sin(m.wedge_angle)), "c_f", "1", "Fraction of N_2 that friction withholds from them", "002 eq. 13"
+wedge.wedge_angle_limit = (inner(pi / 2 - np.arctan(m.wedge_friction)), "α_lim", "deg", "Wedge angle from which friction withholds all of it",
+    "002 eq. 13")
+wedge.wedge_friction_limit = inner(1 / np.tan(m.wedge_angle)), "f_lim", "1", "Friction that does so at the given angle", "002 eq. 13"
+wedge.require("wedge_lifts", m.held_share < m.radial_share, key="wedge_angle",
     message="is {wedge_angle}, but with a wedge friction of {wedge_friction} no force on the cone presses the shoes outwards: cos α > f·sin α is "
-        "needed: a wedge_angle below {wedge_angle_limit}, or a wedge_friction below {wedge_friction_limit}")
-wedge.require("load_below_capacity", lambda load_torque_at_engagement, design_torque: load_torque_at_engagement < design_torque,
-    key="load_torque_at_engagement",
+    "needed: a wedge_angle below {wedge_angle_limit}, or a wedge_friction below {wedge_friction_limit}")
+wedge.require("load_below_capacity", m.load_torque_at_engagement < m.design_torque, key="load_torque_at_engagement",
     message="is {load_torque_at_engagement}, but the slipping clutch carries {design_torque} only, so that the driven side never comes up to speed: "
-        "M_l < M_c = k_s·M is needed; lower the load while engaging or raise torque or service_factor")
-wedge.value("pressing_force", "P", "N", "Radial force on the shoes required for the torque",
-    lambda design_torque, shoe_friction, shoe_radius: design_torque / (shoe_friction * shoe_radius), source="002 eq. 16")
-wedge.value("wedge_normal_force", "N_2", "N", "Force normal to the cone's face",
-    lambda pressing_force, wedge_angle, wedge_friction: pressing_force / (np.cos(wedge_angle) - wedge_friction * np.sin(wedge_angle)),
-    source="002 eq. 14")
-wedge.value("wedge_friction_force", "F_f", "N", "Friction on the cone's face",
-    lambda wedge_friction, wedge_normal_force: wedge_friction * wedge_normal_force, source="002 eq. 12")
-wedge.value("engagement_force", "P_1", "N", "Axial force to engage the clutch",
-    lambda wedge_normal_force, wedge_angle, wedge_friction: wedge_normal_force * (np.sin(wedge_angle) + wedge_friction * np.cos(wedge_angle)),
-    source="002 eq. 12, 15")
-wedge.value("force_amplification", "k_P", "1", "Force amplification of the wedge",
-    lambda pressing_force, engagement_force: pressing_force / engagement_force, source="002 eq. 15")
+    "M_l < M_c = k_s·M is needed; lower the load while engaging or raise torque or service_factor")
+wedge.pressing_force = (m.design_torque / (m.shoe_friction * m.shoe_radius), "P", "N", "Radial force on the shoes required for the torque",
+    "002 eq. 16")
+wedge.wedge_normal_force = (m.pressing_force / (np.cos(m.wedge_angle) - m.wedge_friction * np.sin(m.wedge_angle)), "N_2", "N",
+    "Force normal to the cone's face", "002 eq. 14")
+wedge.wedge_friction_force = m.wedge_friction * m.wedge_normal_force, "F_f", "N", "Friction on the cone's face", "002 eq. 12"
+wedge.engagement_force = (m.wedge_normal_force * (np.sin(m.wedge_angle) + m.wedge_friction * np.cos(m.wedge_angle)), "P_1", "N",
+    "Axial force to engage the clutch", "002 eq. 12, 15")
+wedge.force_amplification = m.pressing_force / m.engagement_force, "k_P", "1", "Force amplification of the wedge", "002 eq. 15"
 
 release = Chapter("Release",
     text="When P_1 is removed, the shoes still press on the cone and friction reverses: it now holds the cone in. F_r is the axial force then "
         "required to pull the cone out. A negative F_r means that no pull is required: the shoes push the cone out with this force and the clutch "
         "opens by itself; to stay engaged, the actuator must hold the cone with at least this force. A positive or zero F_r means that the wedge is "
         "self-locking: the clutch stays engaged without P_1 until the cone is pulled out.")
-release.value("friction_angle", "ρ", "deg", "Angle of friction: up to this wedge angle the wedge is self-locking",
-    lambda wedge_friction: np.arctan(wedge_friction), source="statics")
-release.value("wedge_slope", "t_α", "1", "Slope of the cone's face: friction from this value on makes it self-locking",
-    lambda wedge_angle: np.tan(wedge_angle), source="statics", output=False)
-release.value("release_force", "F_r", "N", "Force to release the cone; negative: it opens by itself",
-    lambda pressing_force, friction_angle, wedge_angle: pressing_force * np.tan(friction_angle - wedge_angle), source="statics")
-release.choice("release_behaviour", "B_r", "1", "Without the engagement force the clutch",
-    case("opens by itself", "friction is less than the slope of the cone's face", lambda wedge_friction, wedge_slope: wedge_friction < wedge_slope),
-    case("stays engaged until the cone is pulled out", "friction is not less than the slope of the cone's face"), source="statics")
-release.value("self_locking", "L_s", "1", "Self-locking of the wedge", lambda wedge_angle, wedge_friction: np.tan(wedge_angle) <= wedge_friction,
-    source="statics")
+release.friction_angle = np.arctan(m.wedge_friction), "ρ", "deg", "Angle of friction: up to this wedge angle the wedge is self-locking", "statics"
+release.wedge_slope = (inner(np.tan(m.wedge_angle)), "t_α", "1", "Slope of the cone's face: friction from this value on makes it self-locking",
+    "statics")
+release.release_force = (m.pressing_force * np.tan(m.friction_angle - m.wedge_angle), "F_r", "N",
+    "Force to release the cone; negative: it opens by itself", "statics")
+release.release_behaviour = (choice(case("opens by itself", "friction is less than the slope of the cone's face", m.wedge_friction < m.wedge_slope),
+    case("stays engaged until the cone is pulled out", "friction is not less than the slope of the cone's face")), "B_r", "1",
+    "Without the engagement force the clutch", "statics")
+release.self_locking = np.tan(m.wedge_angle) <= m.wedge_friction, "L_s", "1", "Self-locking of the wedge", "statics"
 
 lining = Chapter("Lining", text="The shoes are cylindrical and press evenly on their part of the circumference.")
-lining.value("shoe_width", "b", "mm", "Shoe width required by the allowed pressure",
-    lambda pressing_force, shoe_radius, shoe_coverage, allowable_pressure:
-        pressing_force / (2 * pi * shoe_radius * shoe_coverage * allowable_pressure), source="002 eq. 17")
-lining.value("lining_width", "b_L", "mm", "Width of the lining: as given", bind(lambda shoe_width: shoe_width, shoe_width="inputs.shoe_width"),
-    source="input", needs=("shoe_width",))
-lining.value("lining_width", "b_L", "mm", "Width of the lining: as sized", lambda shoe_width: shoe_width, lacks=("shoe_width",))
-lining.value("lining_area", "A", "cm**2", "Area of the lining",
-    lambda shoe_radius, lining_width, shoe_coverage: 2 * pi * shoe_radius * lining_width * shoe_coverage, source="geometry")
-lining.value("pressure", "q", "MPa", "Pressure on the lining", lambda pressing_force, lining_area: pressing_force / lining_area, source="002 eq. 17")
-lining.value("width_ratio", "k_b", "1", "Ratio of lining width to drum diameter", lambda lining_width, shoe_radius: lining_width / (2 * shoe_radius),
-    source="this method")
+lining.shoe_width = (m.pressing_force / (2 * pi * m.shoe_radius * m.shoe_coverage * m.allowable_pressure), "b", "mm",
+    "Shoe width required by the allowed pressure", "002 eq. 17")
+lining.lining_width = value(m.inputs.shoe_width, needs=("shoe_width",)), "b_L", "mm", "Width of the lining: as given", "input"
+lining.lining_width = value(m.shoe_width, lacks=("shoe_width",)), "b_L", "mm", "Width of the lining: as sized"
+lining.lining_area = 2 * pi * m.shoe_radius * m.lining_width * m.shoe_coverage, "A", "cm**2", "Area of the lining", "geometry"
+lining.pressure = m.pressing_force / m.lining_area, "q", "MPa", "Pressure on the lining", "002 eq. 17"
+lining.width_ratio = m.lining_width / (2 * m.shoe_radius), "k_b", "1", "Ratio of lining width to drum diameter", "this method"
 
 travel = Chapter("Travel of the cone", text="As the cone travels, the shoes rise by tan α per unit of its travel.", needs=("radial_gap",),
     absent="not calculated: radial_gap is not given")
-travel.value("engagement_travel", "s_1", "mm", "Axial travel that closes the gap, new lining",
-    lambda radial_gap, wedge_angle: radial_gap / np.tan(wedge_angle), source="geometry")
-travel.value("axial_travel", "s", "mm", "Axial travel until the permissible wear is used up",
-    lambda radial_gap, wear_allowance, wedge_angle: (radial_gap + wear_allowance) / np.tan(wedge_angle), source="geometry")
+travel.engagement_travel = m.radial_gap / np.tan(m.wedge_angle), "s_1", "mm", "Axial travel that closes the gap, new lining", "geometry"
+travel.axial_travel = ((m.radial_gap + m.wear_allowance) / np.tan(m.wedge_angle), "s", "mm", "Axial travel until the permissible wear is used up",
+    "geometry")
 
 sliding = Chapter("Sliding at engagement", needs=("speed",), absent="not calculated: speed is not given")
-sliding.value("sliding_speed", "v", "m/s", "Sliding speed at first contact of the shoes with the drum",
-    lambda speed, shoe_radius: speed * shoe_radius, source="kinematics")
-sliding.value("pv", "qv", "MPa*m/s", "Product of pressure and sliding speed", lambda pressure, sliding_speed: pressure * sliding_speed,
-    source="this method")
+sliding.sliding_speed = m.speed * m.shoe_radius, "v", "m/s", "Sliding speed at first contact of the shoes with the drum", "kinematics"
+sliding.pv = m.pressure * m.sliding_speed, "qv", "MPa*m/s", "Product of pressure and sliding speed", "this method"
 
 heat = Chapter("Heat of the engagement",
     text="The driving shaft keeps its speed; the driven side starts from rest and is accelerated by M_a. The sliding speed falls as the driven side "
         "speeds up, and all friction work becomes heat.", needs=("driven_inertia", "speed"), absent="not calculated: {missing} not given")
-heat.value("accelerating_torque", "M_a", "N*m", "Torque that accelerates the driven side",
-    lambda design_torque, load_torque_at_engagement: design_torque - load_torque_at_engagement, source="statics")
-heat.value("slip_time", "t_s", "s", "Slip time of the clutch",
-    lambda driven_inertia, speed, accelerating_torque: driven_inertia * as_number(speed) / accelerating_torque, source="energy")
-heat.value("engagement_energy", "Q", "J", "Heat of one engagement",
-    lambda driven_inertia, speed, design_torque, accelerating_torque: driven_inertia * speed**2 * design_torque / (2 * accelerating_torque),
-    source="energy")
-heat.value("slip_share", "ε", "1", "Fraction of the time during which it slips",
-    lambda engagements_per_hour, slip_time: engagements_per_hour * slip_time, source="kinematics")
-heat.value("lining_power", "W_m", "W", "Mean friction power",
-    lambda engagement_energy, engagements_per_hour: engagement_energy * engagements_per_hour, source="energy")
-heat.value("lining_power_density", "p_A", "W/cm**2", "Mean friction power per unit area of lining",
-    lambda lining_power, lining_area: lining_power / lining_area, source="energy")
-heat.value("engagements_limit", "z_lim", "1/h", "Permissible number of engagements per hour for the lining",
-    lambda allowable_power_density, lining_area, engagement_energy: allowable_power_density * lining_area / engagement_energy, source="energy",
-    needs=("allowable_power_density",), output=False)
+heat.accelerating_torque = m.design_torque - m.load_torque_at_engagement, "M_a", "N*m", "Torque that accelerates the driven side", "statics"
+heat.slip_time = m.driven_inertia * as_number(m.speed) / m.accelerating_torque, "t_s", "s", "Slip time of the clutch", "energy"
+heat.engagement_energy = m.driven_inertia * m.speed**2 * m.design_torque / (2 * m.accelerating_torque), "Q", "J", "Heat of one engagement", "energy"
+heat.slip_share = m.engagements_per_hour * m.slip_time, "ε", "1", "Fraction of the time during which it slips", "kinematics"
+heat.lining_power = m.engagement_energy * m.engagements_per_hour, "W_m", "W", "Mean friction power", "energy"
+heat.lining_power_density = m.lining_power / m.lining_area, "p_A", "W/cm**2", "Mean friction power per unit area of lining", "energy"
+heat.engagements_limit = (inner(m.allowable_power_density * m.lining_area / m.engagement_energy, needs=("allowable_power_density",)), "z_lim", "1/h",
+    "Permissible number of engagements per hour for the lining", "energy")
 
 DRUM = {"conductivity": "drum_conductivity", "density": "drum_density", "specific_heat": "drum_specific_heat"}
 
@@ -188,40 +167,30 @@ temperature = Chapter("Temperature of the lining",
         "flow. During slip the drum is a thick body whose surface receives a heat flux that falls linearly to zero; the surface is hottest at half "
         "the slip time. A drum thinner than the penetration depth gets hotter; with drum_mass its own rise is used where it is greater. Over many "
         "engagements the drum warms up until its cooled surface dissipates the mean friction power.", needs=("driven_inertia", "speed"))
-temperature.value("heat_flux", "p_0", "W/cm**2", "Heat flux into the drum at the start of slip",
-    lambda design_torque, speed, shoe_radius, lining_width: design_torque * speed / (2 * pi * shoe_radius * lining_width), source="energy")
-temperature.value("heat_depth", "x_h", "mm", "Depth of drum that absorbs the heat during slip",
-    bind(lambda slip_time, conductivity, density, specific_heat: 2 * np.sqrt(conductivity * slip_time / (density * specific_heat)), **DRUM),
-    source="heat conduction")
-temperature.value("surface_temperature_rise", "ΔT_s", "K", "Temperature rise of the friction surface in one engagement",
-    bind(lambda heat_flux, slip_time, conductivity, density, specific_heat:
-            number(4) / 3 * heat_flux * np.sqrt(slip_time / (2 * as_number(pi) * conductivity * density * specific_heat)),
-    **DRUM),
-    source="heat conduction")
-temperature.value("drum_temperature_rise", "ΔT_d", "K", "Mean temperature rise of the drum in one engagement",
-    lambda engagement_energy, drum_mass, drum_specific_heat: engagement_energy / (drum_mass * drum_specific_heat), source="energy",
-    needs=("drum_mass",))
-temperature.value("engagement_temperature_rise", "ΔT_1", "K", "Temperature rise of the lining in one engagement",
-    lambda surface_temperature_rise, drum_temperature_rise: np.maximum(surface_temperature_rise, drum_temperature_rise), source="this method",
-    needs=("drum_mass",))
-temperature.value("engagement_temperature_rise", "ΔT_1", "K", "Temperature rise of the lining in one engagement",
-    lambda surface_temperature_rise: surface_temperature_rise, source="this method", lacks=("drum_mass",))
-temperature.value("lining_temperature_rise", "ΔT", "K", "Maximum temperature rise of the lining in a single engagement",
-    lambda engagement_temperature_rise: engagement_temperature_rise, lacks=("cooling",), source="this method")
+temperature.heat_flux = (m.design_torque * m.speed / (2 * pi * m.shoe_radius * m.lining_width), "p_0", "W/cm**2",
+    "Heat flux into the drum at the start of slip", "energy")
+temperature.heat_depth = (2 * np.sqrt(m.drum_conductivity * m.slip_time / (m.drum_density * m.drum_specific_heat)), "x_h", "mm",
+    "Depth of drum that absorbs the heat during slip", "heat conduction")
+temperature.surface_temperature_rise = (number(4) / 3 * m.heat_flux * np.sqrt(m.slip_time
+    / (2 * as_number(pi) * m.drum_conductivity * m.drum_density * m.drum_specific_heat)), "ΔT_s", "K",
+    "Temperature rise of the friction surface in one engagement", "heat conduction")
+temperature.drum_temperature_rise = (value(m.engagement_energy / (m.drum_mass * m.drum_specific_heat), needs=("drum_mass",)), "ΔT_d", "K",
+    "Mean temperature rise of the drum in one engagement", "energy")
+temperature.engagement_temperature_rise = (value(np.maximum(m.surface_temperature_rise, m.drum_temperature_rise), needs=("drum_mass",)), "ΔT_1", "K",
+    "Temperature rise of the lining in one engagement", "this method")
+temperature.engagement_temperature_rise = (value(m.surface_temperature_rise, lacks=("drum_mass",)), "ΔT_1", "K",
+    "Temperature rise of the lining in one engagement", "this method")
+temperature.lining_temperature_rise = (value(m.engagement_temperature_rise, lacks=("cooling",)), "ΔT", "K",
+    "Maximum temperature rise of the lining in a single engagement", "this method")
 
 warming = Chapter("Mean temperature", needs=("driven_inertia", "speed", "cooling"), absent="not calculated: {missing} not given")
-warming.value("mean_temperature_rise", "ΔT_m", "K", "Mean temperature rise of the drum above ambient",
-    bind(lambda lining_power, heat_transfer_coefficient, area: lining_power / (heat_transfer_coefficient * area),
-        heat_transfer_coefficient="cooling.heat_transfer_coefficient", area="cooling.area"), source="energy")
-warming.value("lining_temperature_rise", "ΔT", "K", "Maximum temperature rise of the lining above ambient",
-    lambda mean_temperature_rise, engagement_temperature_rise: mean_temperature_rise + engagement_temperature_rise, source="this method")
-warming.value("cooling_time", "τ", "min", "Time constant of the drum's cooling",
-    bind(lambda mass, specific_heat, heat_transfer_coefficient, area: mass * specific_heat / (heat_transfer_coefficient * area), mass="drum_mass",
-        specific_heat="drum_specific_heat", area="cooling.area", heat_transfer_coefficient="cooling.heat_transfer_coefficient"), source="energy",
-    needs=("drum_mass",))
-warming.value("drum_temperature_rise_warm", "ΔT_w", "K", "Temperature rise of the warm drum just after an engagement",
-    lambda drum_temperature_rise, engagements_per_hour, cooling_time:
-        drum_temperature_rise / (1 - np.exp(-1 / (engagements_per_hour * cooling_time))), source="energy", needs=("drum_mass",),
-    exists=lambda engagements_per_hour: engagements_per_hour > 0)
+warming.mean_temperature_rise = (m.lining_power / (m.cooling.heat_transfer_coefficient * m.cooling.area), "ΔT_m", "K",
+    "Mean temperature rise of the drum above ambient", "energy")
+warming.lining_temperature_rise = (m.mean_temperature_rise + m.engagement_temperature_rise, "ΔT", "K",
+    "Maximum temperature rise of the lining above ambient", "this method")
+warming.cooling_time = (value(m.drum_mass * m.drum_specific_heat / (m.cooling.heat_transfer_coefficient * m.cooling.area), needs=("drum_mass",)),
+    "τ", "min", "Time constant of the drum's cooling", "energy")
+warming.drum_temperature_rise_warm = (value(m.drum_temperature_rise / (1 - np.exp(-1 / (m.engagements_per_hour * m.cooling_time))),
+    needs=("drum_mass",), exists=m.engagements_per_hour > 0), "ΔT_w", "K", "Temperature rise of the warm drum just after an engagement", "energy")
 
 SECTIONS = (torque, transmitted, wedge, release, lining, travel, sliding, heat, temperature, warming)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import numpy as np
-
 from diecut_report.api import POINTS, Annotated, FromPress, Inputs, OneOf, Quantity, formula, pi
 
 # fmt: off

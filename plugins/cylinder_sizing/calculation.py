@@ -20,17 +20,21 @@ from diecut_report.api import (
     arccos,
     as_angle,
     as_number,
-    bind,
     case,
+    choice,
     circle,
     dimension,
     formula,
+    inner,
     label,
+    m,
     pi,
     point,
     polyline,
     radius_dimension,
     region,
+    root,
+    value,
 )
 from diecut_report.mechanics import circular_segment as segment
 from diecut_report.mechanics import common
@@ -68,99 +72,75 @@ def radius_by_huygens(working_length: Any, segment_height: Any) -> Any:
     return (6 * segment_height + 3 * pi * working_length + root) / (6 * pi**2)
 
 
-size.value("segment_height_limit", "h_lim", "mm", "Segment height from which no radius exists", lambda working_length: working_length / pi,
-    output=False)
-size.require("radius_exists", lambda segment_height, segment_height_limit: segment_height < segment_height_limit, key="segment_height",
+size.segment_height_limit = inner(m.working_length / pi), "h_lim", "mm", "Segment height from which no radius exists"
+size.require("radius_exists", m.segment_height < m.segment_height_limit, key="segment_height",
     message="is {segment_height}, but no cylinder with a working length of {working_length} has a segment that high: h < l_1/π = "
-        "{segment_height_limit} is needed; make the segment lower or the working length greater")
-size.value("radius_closed_form", "R_cf", "mm", "Radius by the closed-form approximation", radius_by_huygens, source="002 eq. 6", digits=6)
-size.root("radius_exact", "R_ex", "mm", "Exact radius", lambda radius_exact, working_length, segment_height:
-        radius_exact * (1 - np.cos(pi - as_angle(working_length / (2 * radius_exact)))) - segment_height,
-    low=lambda working_length, segment_height: np.maximum(segment_height, working_length / (2 * pi)),
-    high=lambda working_length: working_length / pi, left=lambda radius_exact, working_length: 2 * pi * radius_exact - working_length,
-    right=lambda radius_exact, segment_height: 2 * radius_exact * arccos((radius_exact - segment_height) / radius_exact), source="002 eq. 1",
-    digits=6)
-size.value("radius_closed_form_error", "e_cf", "%", "Error of the closed-form approximation against the exact radius",
-    lambda radius_closed_form, radius_exact: radius_closed_form / radius_exact - 1)
-size.value("closed_form_error_size", "|e_cf|", "%", "Absolute value of this error", lambda radius_closed_form_error: abs(radius_closed_form_error),
-    output=False)
-size.value("radius", "R", "mm", "Adopted radius: as given", bind(common.same, quantity="inputs.radius"), needs=("radius",), source="input")
-size.value("radius", "R", "mm", "Adopted radius: the exact one rounded up to the step",
-    bind(common.rounded_up, quantity="radius_exact", step="radius_step"), lacks=("radius",))
-size.require("segment_below_radius", lambda segment_height, radius: segment_height < radius, key="segment_height",
+    "{segment_height_limit} is needed; make the segment lower or the working length greater")
+size.radius_closed_form = value(radius_by_huygens, digits=6), "R_cf", "mm", "Radius by the closed-form approximation", "002 eq. 6"
+size.radius_exact = (root(m.radius_exact * (1 - np.cos(pi - as_angle(m.working_length / (2 * m.radius_exact)))) - m.segment_height,
+    low=np.maximum(m.segment_height, m.working_length / (2 * pi)), high=m.working_length / pi, left=2 * pi * m.radius_exact - m.working_length,
+    right=2 * m.radius_exact * arccos((m.radius_exact - m.segment_height) / m.radius_exact), digits=6), "R_ex", "mm", "Exact radius", "002 eq. 1")
+size.radius_closed_form_error = (m.radius_closed_form / m.radius_exact - 1, "e_cf", "%",
+    "Error of the closed-form approximation against the exact radius")
+size.closed_form_error_size = inner(abs(m.radius_closed_form_error)), "|e_cf|", "%", "Absolute value of this error"
+size.radius = value(m.inputs.radius, needs=("radius",)), "R", "mm", "Adopted radius: as given", "input"
+size.radius = (value(common.rounded_up.of(quantity=m.radius_exact, step=m.radius_step), lacks=("radius",)), "R", "mm",
+    "Adopted radius: the exact one rounded up to the step")
+size.require("segment_below_radius", m.segment_height < m.radius, key="segment_height",
     message="is {segment_height}, but the segment must be lower than the radius: h < R = {radius}")
-size.require("bore_below_radius", lambda bore_radius, radius: bore_radius < radius, key="bore_radius",
+size.require("bore_below_radius", m.bore_radius < m.radius, key="bore_radius",
     message="is {bore_radius}, but the bore must be narrower than the cylinder: 0 ≤ R_b < R = {radius}")
 
 
 flat = Chapter("Segment and flat", text="All geometry uses the adopted radius.")
-flat.value("chord", "c", "mm", "Chord: width of the flat", bind(segment.chord, height="segment_height"), source="002 eq. 3; 000 eq. 16")
-flat.value("half_angle", "α", "deg", "Half the central angle of the segment", bind(segment.half_angle, height="segment_height"), output=False)
-flat.value("segment_angle", "2α", "deg", "Central angle of the segment", lambda half_angle: 2 * half_angle)
-flat.value("arc_length", "l_2", "mm", "Arc of the segment, exactly", lambda radius, half_angle: 2 * radius * half_angle, source="002 eq. 1")
-flat.value("arc_length_huygens", "l_2H", "mm", "Arc of the segment by Huygens", bind(segment.arc_length_huygens, height="segment_height"),
-    source="002 eq. 2, 4; 000 eq. 15")
-flat.value("segment_area", "A", "mm**2", "Area of the segment", segment.area, source="000, before eq. 17")
-flat.value("centroid_distance", "ρ", "mm", "Distance of the segment's centroid from the axis",
-    lambda chord, segment_area: chord**3 / (12 * segment_area), source="000 eq. 17")
-flat.value("flat_distance", "d", "mm", "Distance of the flat from the axis", lambda radius, segment_height: radius - segment_height, output=False)
-flat.value("wall_at_flat", "w", "mm", "Wall between bore and flat", lambda radius, segment_height, bore_radius: radius - segment_height - bore_radius)
-flat.choice("wall_verdict", "w", "1", "Condition of the wall",
-    case("the bore breaks through the flat", "the bore reaches the flat", lambda flat_distance, bore_radius: flat_distance <= bore_radius),
-    case("the wall is closed, but thinner than required", "the wall is less than the required one",
-        lambda wall_at_flat, min_wall: wall_at_flat < min_wall), case("the wall is thick enough", "the wall is at least the required one"),
-    output=False)
-flat.value("cutting_arc_fraction", "κ", "1", "Fraction of the circumference that is not flat", lambda half_angle: 1 - half_angle / pi)
+flat.chord = segment.chord.of(height=m.segment_height), "c", "mm", "Chord: width of the flat", "002 eq. 3; 000 eq. 16"
+flat.half_angle = inner(segment.half_angle.of(height=m.segment_height)), "α", "deg", "Half the central angle of the segment"
+flat.segment_angle = 2 * m.half_angle, "2α", "deg", "Central angle of the segment"
+flat.arc_length = 2 * m.radius * m.half_angle, "l_2", "mm", "Arc of the segment, exactly", "002 eq. 1"
+flat.arc_length_huygens = (segment.arc_length_huygens.of(height=m.segment_height), "l_2H", "mm", "Arc of the segment by Huygens",
+    "002 eq. 2, 4; 000 eq. 15")
+flat.segment_area = segment.area, "A", "mm**2", "Area of the segment", "000, before eq. 17"
+flat.centroid_distance = m.chord**3 / (12 * m.segment_area), "ρ", "mm", "Distance of the segment's centroid from the axis", "000 eq. 17"
+flat.flat_distance = inner(m.radius - m.segment_height), "d", "mm", "Distance of the flat from the axis"
+flat.wall_at_flat = m.radius - m.segment_height - m.bore_radius, "w", "mm", "Wall between bore and flat"
+flat.wall_verdict = (choice(case("the bore breaks through the flat", "the bore reaches the flat", m.flat_distance <= m.bore_radius),
+    case("the wall is closed, but thinner than required", "the wall is less than the required one", m.wall_at_flat < m.min_wall),
+    case("the wall is thick enough", "the wall is at least the required one"), output=False), "w", "1", "Condition of the wall")
+flat.cutting_arc_fraction = 1 - m.half_angle / pi, "κ", "1", "Fraction of the circumference that is not flat"
 
 overlap = Chapter("Overlap of bore and segment",
     text="Where the bore reaches beyond the flat, bore and segment share a smaller segment of the bore's circle; it is subtracted only once.")
-overlap.choice("overlap_half_angle", "α_b", "deg", "Half the angle of the bore beyond the flat",
-    case(lambda flat_distance, bore_radius: arccos(flat_distance / bore_radius), "the bore breaks through the flat",
-        lambda flat_distance, bore_radius: flat_distance < bore_radius), case(lambda: 0, "the bore stays behind the flat: no overlap"), output=False)
-overlap.value("overlap_chord", "c_b", "mm", "Width of the opening in the flat",
-    lambda bore_radius, overlap_half_angle: 2 * bore_radius * np.sin(overlap_half_angle), output=False)
-overlap.value("overlap_area", "A_b", "mm**2", "Area of the overlap", bind(segment.area, radius="bore_radius", half_angle="overlap_half_angle"),
-    output=False)
+overlap.overlap_half_angle = (choice(case(arccos(m.flat_distance / m.bore_radius), "the bore breaks through the flat",
+    m.flat_distance < m.bore_radius), case(0, "the bore stays behind the flat: no overlap"), output=False), "α_b", "deg",
+    "Half the angle of the bore beyond the flat")
+overlap.overlap_chord = inner(2 * m.bore_radius * np.sin(m.overlap_half_angle)), "c_b", "mm", "Width of the opening in the flat"
+overlap.overlap_area = inner(segment.area.of(radius=m.bore_radius, half_angle=m.overlap_half_angle)), "A_b", "mm**2", "Area of the overlap"
 
 masses = Chapter("Masses")
-masses.value("solid_mass", "m′", "kg", "Mass of the full cylinder",
-    lambda radius, generatrix_length, density: as_number(pi) * radius**2 * generatrix_length * density, source="000 eq. 13, 17")
-masses.value("segment_mass", "m_1", "kg", "Mass of the segment",
-    lambda segment_area, generatrix_length, density: segment_area * generatrix_length * density, source="000 eq. 14")
-masses.value("bore_mass", "m_2", "kg", "Mass removed by the bore",
-    lambda bore_radius, generatrix_length, density: as_number(pi) * bore_radius**2 * generatrix_length * density, source="000, after eq. 16")
-masses.value("overlap_mass", "m_12", "kg", "Mass of the overlap",
-    lambda overlap_area, generatrix_length, density: overlap_area * generatrix_length * density, source="this method")
-masses.value("mass", "m", "kg", "Mass of the cylinder",
-    lambda solid_mass, segment_mass, bore_mass, overlap_mass: solid_mass - segment_mass - bore_mass + overlap_mass,
-    source="000 eq. 13, overlap once only")
+masses.solid_mass = as_number(pi) * m.radius**2 * m.generatrix_length * m.density, "m′", "kg", "Mass of the full cylinder", "000 eq. 13, 17"
+masses.segment_mass = m.segment_area * m.generatrix_length * m.density, "m_1", "kg", "Mass of the segment", "000 eq. 14"
+masses.bore_mass = as_number(pi) * m.bore_radius**2 * m.generatrix_length * m.density, "m_2", "kg", "Mass removed by the bore", "000, after eq. 16"
+masses.overlap_mass = m.overlap_area * m.generatrix_length * m.density, "m_12", "kg", "Mass of the overlap", "this method"
+masses.mass = m.solid_mass - m.segment_mass - m.bore_mass + m.overlap_mass, "m", "kg", "Mass of the cylinder", "000 eq. 13, overlap once only"
 
 inertia = Chapter("Moment of inertia and unbalance",
     text="The moment of inertia about the cylinder's axis is exact; the result of the source's formula is given for comparison.")
-inertia.value("inertia_solid", "I_s", "kg*m**2", "Inertia of the full cylinder",
-    lambda density, generatrix_length, radius: density * generatrix_length * pi * radius**4 / 2, output=False)
-inertia.value("segment_polar", "J_1", "cm**4", "Polar second moment of the segment about the axis",
-    bind(segment.polar_second_moment, distance="flat_distance"), output=False)
-inertia.value("inertia_segment", "I_1", "kg*m**2", "Inertia of the segment",
-    lambda density, generatrix_length, segment_polar: density * generatrix_length * segment_polar, output=False)
-inertia.value("inertia_bore", "I_2", "kg*m**2", "Inertia removed by the bore",
-    lambda density, generatrix_length, bore_radius: density * generatrix_length * pi * bore_radius**4 / 2, output=False)
-inertia.value("overlap_distance", "d_b", "mm", "Distance of the overlap's chord from the axis",
-    lambda bore_radius, overlap_half_angle: bore_radius * np.cos(overlap_half_angle), output=False)
-inertia.value("overlap_polar", "J_12", "cm**4", "Polar second moment of the overlap about the axis",
-    bind(segment.polar_second_moment, radius="bore_radius", distance="overlap_distance", half_angle="overlap_half_angle"), output=False)
-inertia.value("inertia_overlap", "I_12", "kg*m**2", "Inertia of the overlap",
-    lambda density, generatrix_length, overlap_polar: density * generatrix_length * overlap_polar, output=False)
-inertia.value("inertia", "I", "kg*m**2", "Moment of inertia of the cylinder about its axis",
-    lambda inertia_solid, inertia_segment, inertia_bore, inertia_overlap: inertia_solid - inertia_segment - (inertia_bore - inertia_overlap),
-    source="exact; 000 eq. 17 corrected")
-inertia.value("inertia_source", "I_000", "kg*m**2", "The same by the source's formula",
-    lambda solid_mass, bore_mass, segment_mass, radius, bore_radius, centroid_distance:
-        solid_mass * radius**2 / 2 - bore_mass * bore_radius**2 / 2 - segment_mass * centroid_distance**2, source="000 eq. 17")
-inertia.value("static_unbalance", "me", "kg*m", "Static unbalance", lambda density, generatrix_length, chord, overlap_chord:
-        density * generatrix_length * (segment.first_moment(chord) - segment.first_moment(overlap_chord)), source="this method")
-inertia.value("center_of_mass_offset", "e", "mm", "Offset of the centre of mass, away from the flat",
-    lambda static_unbalance, mass: static_unbalance / mass, source="this method")
+inertia.inertia_solid = inner(m.density * m.generatrix_length * pi * m.radius**4 / 2), "I_s", "kg*m**2", "Inertia of the full cylinder"
+inertia.segment_polar = (inner(segment.polar_second_moment.of(distance=m.flat_distance)), "J_1", "cm**4",
+    "Polar second moment of the segment about the axis")
+inertia.inertia_segment = inner(m.density * m.generatrix_length * m.segment_polar), "I_1", "kg*m**2", "Inertia of the segment"
+inertia.inertia_bore = inner(m.density * m.generatrix_length * pi * m.bore_radius**4 / 2), "I_2", "kg*m**2", "Inertia removed by the bore"
+inertia.overlap_distance = inner(m.bore_radius * np.cos(m.overlap_half_angle)), "d_b", "mm", "Distance of the overlap's chord from the axis"
+inertia.overlap_polar = (inner(segment.polar_second_moment.of(radius=m.bore_radius, distance=m.overlap_distance, half_angle=m.overlap_half_angle)),
+    "J_12", "cm**4", "Polar second moment of the overlap about the axis")
+inertia.inertia_overlap = inner(m.density * m.generatrix_length * m.overlap_polar), "I_12", "kg*m**2", "Inertia of the overlap"
+inertia.inertia = (m.inertia_solid - m.inertia_segment - (m.inertia_bore - m.inertia_overlap), "I", "kg*m**2",
+    "Moment of inertia of the cylinder about its axis", "exact; 000 eq. 17 corrected")
+inertia.inertia_source = (m.solid_mass * m.radius**2 / 2 - m.bore_mass * m.bore_radius**2 / 2 - m.segment_mass * m.centroid_distance**2, "I_000",
+    "kg*m**2", "The same by the source's formula", "000 eq. 17")
+inertia.static_unbalance = (m.density * m.generatrix_length * (segment.first_moment(m.chord) - segment.first_moment(m.overlap_chord)), "me", "kg*m",
+    "Static unbalance", "this method")
+inertia.center_of_mass_offset = m.static_unbalance / m.mass, "e", "mm", "Offset of the centre of mass, away from the flat", "this method"
 
 
 @formula
@@ -171,31 +151,22 @@ def second_moment_about_axis(radius: Any, bore_radius: Any, segment: Any, overla
 
 bending = Chapter("Bending under the line load", needs=("bearing_span",), absent="not calculated: bearing_span is not given",
     text="The section is weakest about one of its two principal axes, which are parallel and normal to the flat.")
-bending.require("span_over_generatrix", lambda generatrix_length, bearing_span: generatrix_length <= bearing_span, key="bearing_span",
+bending.require("span_over_generatrix", m.generatrix_length <= m.bearing_span, key="bearing_span",
     message="is {bearing_span}, but the bearings stand outside the generatrix: at least {generatrix_length} is needed")
-bending.value("segment_second_moment", "I_x1", "cm**4", "Second moment of the segment about the diameter parallel to the flat",
-    segment.second_moment_along_chord, output=False)
-bending.value("overlap_second_moment", "I_x12", "cm**4", "Second moment of the overlap about the same diameter",
-    bind(segment.second_moment_along_chord, radius="bore_radius", half_angle="overlap_half_angle"), output=False)
-bending.value("second_moment_parallel", "I_x", "cm**4", "Second moment about the centroid's axis parallel to the flat",
-    lambda radius, bore_radius, segment_second_moment, overlap_second_moment, mass, density, generatrix_length,
-        center_of_mass_offset:
-        second_moment_about_axis(radius, bore_radius, segment_second_moment, overlap_second_moment)
-        - mass / (density * generatrix_length) * center_of_mass_offset**2, output=False)
-bending.value("second_moment_square", "I_y", "cm**4", "Second moment about the axis of symmetry, normal to the flat",
-    lambda inertia, density, generatrix_length, radius, bore_radius, segment_second_moment, overlap_second_moment:
-        inertia / (density * generatrix_length) - second_moment_about_axis(radius, bore_radius, segment_second_moment, overlap_second_moment),
-    output=False)
-bending.value("second_moment_min", "I_min", "cm**4", "Minimum second moment of the section",
-    lambda second_moment_parallel, second_moment_square: np.minimum(second_moment_parallel, second_moment_square))
-bending.value("bearing_load", "F_b", "kN", "Load on each bearing from the line load",
-    lambda line_load, generatrix_length: line_load * generatrix_length / 2)
-bending.value("bending_moment", "M_b", "N*m", "Maximum bending moment",
-    lambda line_load, generatrix_length, bearing_span: line_load * generatrix_length * (2 * bearing_span - generatrix_length) / 8)
-bending.value("deflection", "f", "mm", "Bending deflection at mid-span, of a closed section",
-    lambda line_load, generatrix_length, bearing_span, elastic_modulus, second_moment_min:
-        line_load * generatrix_length * (8 * bearing_span**3 - 4 * bearing_span * generatrix_length**2 + generatrix_length**3)
-        / (384 * elastic_modulus * second_moment_min))
+bending.segment_second_moment = (inner(segment.second_moment_along_chord), "I_x1", "cm**4",
+    "Second moment of the segment about the diameter parallel to the flat")
+bending.overlap_second_moment = (inner(segment.second_moment_along_chord.of(radius=m.bore_radius, half_angle=m.overlap_half_angle)), "I_x12",
+    "cm**4", "Second moment of the overlap about the same diameter")
+bending.second_moment_parallel = (inner(second_moment_about_axis(m.radius, m.bore_radius, m.segment_second_moment,
+    m.overlap_second_moment) - m.mass / (m.density * m.generatrix_length) * m.center_of_mass_offset**2), "I_x", "cm**4",
+    "Second moment about the centroid's axis parallel to the flat")
+bending.second_moment_square = (inner(m.inertia / (m.density * m.generatrix_length) - second_moment_about_axis(m.radius, m.bore_radius,
+    m.segment_second_moment, m.overlap_second_moment)), "I_y", "cm**4", "Second moment about the axis of symmetry, normal to the flat")
+bending.second_moment_min = np.minimum(m.second_moment_parallel, m.second_moment_square), "I_min", "cm**4", "Minimum second moment of the section"
+bending.bearing_load = m.line_load * m.generatrix_length / 2, "F_b", "kN", "Load on each bearing from the line load"
+bending.bending_moment = m.line_load * m.generatrix_length * (2 * m.bearing_span - m.generatrix_length) / 8, "M_b", "N*m", "Maximum bending moment"
+bending.deflection = (m.line_load * m.generatrix_length * (8 * m.bearing_span**3 - 4 * m.bearing_span * m.generatrix_length**2
+    + m.generatrix_length**3) / (384 * m.elastic_modulus * m.second_moment_min), "f", "mm", "Bending deflection at mid-span, of a closed section")
 
 CHAPTERS = (size, flat, overlap, masses, inertia, bending)
 

@@ -17,13 +17,15 @@ from diecut_report.api import (
     Quantity,
     as_angle,
     as_number,
-    bind,
     case,
+    choice,
     formula,
+    inner,
+    m,
     number,
     pi,
+    value,
 )
-from diecut_report.mechanics import common
 from diecut_report.mechanics.common import rounded_up
 
 # fmt: off
@@ -158,138 +160,104 @@ def driven_count(
 
 
 energy = Chapter("Energy and rubber")
-energy.value("kinetic_energy", "W_k", "J", "Kinetic energy at contact: as given",
-    bind(lambda kinetic_energy: kinetic_energy, kinetic_energy="inputs.kinetic_energy"), source="input", needs=("kinetic_energy",))
-energy.value("kinetic_energy", "W_k", "J", "Kinetic energy at contact",
-    lambda mass, inertia, rolling_radius, velocity: (mass + inertia / rolling_radius ** 2) * velocity ** 2 / 2, source="energy",
-    lacks=("kinetic_energy", "carriage_mass"))
-energy.value("kinetic_energy", "W_k", "J", "Kinetic energy at contact, with the carriages and the unbalance", kinetic_energy, source="energy",
-    needs=STOPPED)
-energy.value("elastic_modulus", "E", "MPa", "Elastic modulus of the rubber: as given",
-    bind(lambda elastic_modulus: elastic_modulus, elastic_modulus="inputs.elastic_modulus"), source="input", needs=("elastic_modulus",),
-    lacks=("dynamic_stiffness_factor",))
-energy.value("elastic_modulus", "E", "MPa", "Elastic modulus from the hardness, with p_G = 0.0981 MPa", gent_modulus, source="Gent 1958",
-    lacks=("elastic_modulus", "dynamic_stiffness_factor"))
-energy.value("static_modulus", "E_0", "MPa", "Elastic modulus at rest: as given",
-    bind(lambda elastic_modulus: elastic_modulus, elastic_modulus="inputs.elastic_modulus"), source="input",
-    needs=("elastic_modulus", "dynamic_stiffness_factor"))
-energy.value("static_modulus", "E_0", "MPa", "Elastic modulus at rest from the hardness, with p_G = 0.0981 MPa", gent_modulus, source="Gent 1958",
-    needs=("dynamic_stiffness_factor",), lacks=("elastic_modulus",))
-energy.value("elastic_modulus", "E", "MPa", "Elastic modulus at the speed of the impact",
-    lambda dynamic_stiffness_factor, static_modulus: dynamic_stiffness_factor * static_modulus, source="this method",
-    needs=("dynamic_stiffness_factor",))
+energy.kinetic_energy = value(m.inputs.kinetic_energy, needs=("kinetic_energy",)), "W_k", "J", "Kinetic energy at contact: as given", "input"
+energy.kinetic_energy = (value((m.mass + m.inertia / m.rolling_radius ** 2) * m.velocity ** 2 / 2, lacks=("kinetic_energy", "carriage_mass")), "W_k",
+    "J", "Kinetic energy at contact", "energy")
+energy.kinetic_energy = value(kinetic_energy, needs=STOPPED), "W_k", "J", "Kinetic energy at contact, with the carriages and the unbalance", "energy"
+energy.elastic_modulus = (value(m.inputs.elastic_modulus, needs=("elastic_modulus",), lacks=("dynamic_stiffness_factor",)), "E", "MPa",
+    "Elastic modulus of the rubber: as given", "input")
+energy.elastic_modulus = (value(gent_modulus, lacks=("elastic_modulus", "dynamic_stiffness_factor")), "E", "MPa",
+    "Elastic modulus from the hardness, with p_G = 0.0981 MPa", "Gent 1958")
+energy.static_modulus = (value(m.inputs.elastic_modulus, needs=("elastic_modulus", "dynamic_stiffness_factor")), "E_0", "MPa",
+    "Elastic modulus at rest: as given", "input")
+energy.static_modulus = (value(gent_modulus, needs=("dynamic_stiffness_factor",), lacks=("elastic_modulus",)), "E_0", "MPa",
+    "Elastic modulus at rest from the hardness, with p_G = 0.0981 MPa", "Gent 1958")
+energy.elastic_modulus = (value(m.dynamic_stiffness_factor * m.static_modulus, needs=("dynamic_stiffness_factor",)), "E", "MPa",
+    "Elastic modulus at the speed of the impact", "this method")
 
 length = Chapter("Length",
     text="The n dampers that act at once absorb the energy as linear springs: W_k = n·P·h/2 (002 eq. 18–22). At the allowable stress this gives the "
         "length.")
-length.value("area", "S", "mm**2", "Compressed area of one damper", lambda ring_width, pad_height: ring_width * pad_height,
-    source="002, after eq. 22")
-length.value("free_length", "H", "mm", "Free length of the damper at the allowable stress",
-    lambda kinetic_energy, elastic_modulus, damper_count, area, allowable_stress:
-        2 * kinetic_energy * elastic_modulus / (damper_count * area * allowable_stress**2), source="002 eq. 23, for n dampers")
-length.value("adopted_length", "H_a", "mm", "Adopted length: as given",
-    bind(lambda adopted_length: adopted_length, adopted_length="inputs.adopted_length"), source="input", needs=("adopted_length",))
-length.value("adopted_length", "H_a", "mm", "Adopted length: rounded up to the step", bind(whole_steps_above, length="free_length"),
-    source="this method", lacks=("adopted_length",))
+length.area = m.ring_width * m.pad_height, "S", "mm**2", "Compressed area of one damper", "002, after eq. 22"
+length.free_length = (2 * m.kinetic_energy * m.elastic_modulus / (m.damper_count * m.area * m.allowable_stress**2), "H", "mm",
+    "Free length of the damper at the allowable stress", "002 eq. 23, for n dampers")
+length.adopted_length = value(m.inputs.adopted_length, needs=("adopted_length",)), "H_a", "mm", "Adopted length: as given", "input"
+length.adopted_length = (value(whole_steps_above.of(length=m.free_length), lacks=("adopted_length",)), "H_a", "mm",
+    "Adopted length: rounded up to the step", "this method")
 
 load = Chapter("Load at the adopted length")
-load.value("stress", "σ", "MPa", "Maximum compressive stress",
-    lambda kinetic_energy, elastic_modulus, damper_count, area, adopted_length:
-        np.sqrt(2 * kinetic_energy * elastic_modulus / (damper_count * area * adopted_length)),
-    source="002 eq. 22")
-load.value("strain", "ε", "1", "Maximum strain", lambda stress, elastic_modulus: stress / elastic_modulus, source="002 eq. 19")
-load.value("peak_force", "P", "N", "Maximum force on one damper", lambda stress, area: stress * area, source="002 eq. 20")
-load.value("stiffness_borne", "k_d,max", "1", "Ratio of dynamic to static stiffness at which the allowable stress is reached",
-    bind(stiffness_borne, modulus="elastic_modulus"), source="002 eq. 22", lacks=("dynamic_stiffness_factor",))
-load.value("stiffness_borne", "k_d,max", "1", "Ratio of dynamic to static stiffness at which the allowable stress is reached",
-    bind(stiffness_borne, modulus="static_modulus"), source="002 eq. 22", needs=("dynamic_stiffness_factor",))
-load.value("deflection", "h", "mm", "Maximum deflection",
-    lambda peak_force, adopted_length, area, elastic_modulus: peak_force * adopted_length / (area * elastic_modulus), source="002 eq. 21")
+load.stress = (np.sqrt(2 * m.kinetic_energy * m.elastic_modulus / (m.damper_count * m.area * m.adopted_length)), "σ", "MPa",
+    "Maximum compressive stress", "002 eq. 22")
+load.strain = m.stress / m.elastic_modulus, "ε", "1", "Maximum strain", "002 eq. 19"
+load.peak_force = m.stress * m.area, "P", "N", "Maximum force on one damper", "002 eq. 20"
+load.stiffness_borne = (value(stiffness_borne.of(modulus=m.elastic_modulus), lacks=("dynamic_stiffness_factor",)), "k_d,max", "1",
+    "Ratio of dynamic to static stiffness at which the allowable stress is reached", "002 eq. 22")
+load.stiffness_borne = (value(stiffness_borne.of(modulus=m.static_modulus), needs=("dynamic_stiffness_factor",)), "k_d,max", "1",
+    "Ratio of dynamic to static stiffness at which the allowable stress is reached", "002 eq. 22")
+load.deflection = m.peak_force * m.adopted_length / (m.area * m.elastic_modulus), "h", "mm", "Maximum deflection", "002 eq. 21"
 
 loss = Chapter("Energy loss of an impact")
-loss.require("one_loss", bind(lambda loss_fraction: loss_fraction < 0, loss_fraction="inputs.loss_fraction"), key="loss_tangent",
+loss.require("one_loss", m.inputs.loss_fraction < 0, key="loss_tangent",
     message="is given, and so is a loss_fraction of {inputs.loss_fraction}, but one follows from the other; leave one of them out",
     needs=("loss_fraction", "loss_tangent"))
-loss.value("loss_fraction", "ψ", "1", "Fraction of the energy lost in one impact: as given",
-    bind(lambda loss_fraction: loss_fraction, loss_fraction="inputs.loss_fraction"), source="input", needs=("loss_fraction",),
-    lacks=("loss_tangent",))
-loss.value("loss_fraction", "ψ", "1", "Fraction of the energy lost in one impact: usual for rubber", bind(common.same, quantity=USUAL_LOSS),
-    source="this method", lacks=("loss_fraction", "loss_tangent"))
-loss.value("loss_fraction", "ψ", "1", "Fraction of the energy lost in one impact: half a cycle",
-    lambda loss_tangent: 1 - np.exp(-as_number(pi) * loss_tangent), source="this method", needs=("loss_tangent",))
+loss.loss_fraction = (value(m.inputs.loss_fraction, needs=("loss_fraction",), lacks=("loss_tangent",)), "ψ", "1",
+    "Fraction of the energy lost in one impact: as given", "input")
+loss.loss_fraction = (value(USUAL_LOSS, lacks=("loss_fraction", "loss_tangent")), "ψ", "1",
+    "Fraction of the energy lost in one impact: usual for rubber", "this method")
+loss.loss_fraction = (value(1 - np.exp(-as_number(pi) * m.loss_tangent), needs=("loss_tangent",)), "ψ", "1",
+    "Fraction of the energy lost in one impact: half a cycle", "this method")
 
 stop = Chapter("Stop and rebound", text="Mass and dampers oscillate as a mass–spring system: the stop is a quarter of the period.",
     needs=("velocity",), absent="not calculated: velocity is not given")
-stop.value("reduced_mass", "m_red", "kg", "Equivalent mass at the speed of contact",
-    lambda kinetic_energy, velocity: 2 * kinetic_energy / velocity**2, source="energy")
-stop.value("stop_time", "t_s", "ms", "Time from contact to rest", lambda deflection, velocity: as_number(pi) * deflection / (2 * velocity),
-    source="this method")
-stop.value("peak_deceleration", "a_max", "m/s**2", "Maximum deceleration",
-    lambda damper_count, peak_force, reduced_mass: damper_count * peak_force / reduced_mass, source="this method")
-stop.value("rebound_velocity", "v_r", "m/s", "Rebound speed", lambda velocity, loss_fraction: velocity * np.sqrt(1 - loss_fraction), source="energy")
+stop.reduced_mass = 2 * m.kinetic_energy / m.velocity**2, "m_red", "kg", "Equivalent mass at the speed of contact", "energy"
+stop.stop_time = as_number(pi) * m.deflection / (2 * m.velocity), "t_s", "ms", "Time from contact to rest", "this method"
+stop.peak_deceleration = m.damper_count * m.peak_force / m.reduced_mass, "a_max", "m/s**2", "Maximum deceleration", "this method"
+stop.rebound_velocity = m.velocity * np.sqrt(1 - m.loss_fraction), "v_r", "m/s", "Rebound speed", "energy"
 
 heat = Chapter("Heat", needs=("impacts_per_hour",), absent="not calculated: neither impacts_per_hour nor the press's productivity is given")
-heat.value("heat_power", "P_h", "W", "Heat flow from the dampers of one end",
-    lambda loss_fraction, kinetic_energy, impacts_per_hour: loss_fraction * kinetic_energy * impacts_per_hour, source="energy")
+heat.heat_power = m.loss_fraction * m.kinetic_energy * m.impacts_per_hour, "P_h", "W", "Heat flow from the dampers of one end", "energy"
 
 buckling = Chapter("Buckling",
     text="A block with clamped ends does not buckle up to a length of three times its smaller side. The changes that bring this about, each by "
         "itself, are listed with the slenderness; a wider pad or more dampers need a shorter length for the same energy.")
-buckling.value("smaller_side", "b", "mm", "Smaller side of the pad", lambda ring_width, pad_height: np.minimum(ring_width, pad_height), output=False)
-buckling.value("slenderness", "λ", "1", "Ratio of length to smaller side", lambda adopted_length, smaller_side: adopted_length / smaller_side,
-    source="this method")
-buckling.choice("length_limit", "H_λ", "mm", "Length up to which this pad does not buckle",
-    case(lambda smaller_side, length_step: length_step * np.floor(three_sides(smaller_side) / length_step + 1e-09), "in whole steps",
-        lambda length_step, smaller_side: length_step <= three_sides(smaller_side)),
-    case(bind(three_sides, side="smaller_side"), "less than a step"), source="this method")
-buckling.value("least_side", "b_0", "mm", "Minimum side of a square pad at this length", lambda adopted_length: adopted_length / 3, output=False,
-    needs=("adopted_length",))
-buckling.value("least_side", "b_0", "mm", "Side of the square pad whose length is three sides",
-    lambda area, free_length: (area * free_length / 3) ** (number(1) / 3), output=False, lacks=("adopted_length",))
-buckling.value("steady_pad_side", "b_λ", "mm", "Minimum side of a square pad that does not buckle", bind(whole_steps_above, length="least_side"),
-    source="this method")
-buckling.value("steady_damper_count", "n_λ", "1", "Minimum number of dampers of this pad that does not buckle",
-    lambda damper_count, free_length, length_limit: np.ceil(damper_count * free_length / length_limit - 1e-09), whole=True, source="this method")
-buckling.value("steady_modulus", "E_λ", "MPa", "Maximum modulus with which this pad does not buckle",
-    lambda elastic_modulus, free_length, length_limit: elastic_modulus * length_limit / free_length, source="this method")
+buckling.smaller_side = inner(np.minimum(m.ring_width, m.pad_height)), "b", "mm", "Smaller side of the pad"
+buckling.slenderness = m.adopted_length / m.smaller_side, "λ", "1", "Ratio of length to smaller side", "this method"
+buckling.length_limit = (choice(case(m.length_step * np.floor(three_sides(m.smaller_side) / m.length_step + 1e-09), "in whole steps",
+    m.length_step <= three_sides(m.smaller_side)), case(three_sides.of(side=m.smaller_side), "less than a step")), "H_λ", "mm",
+    "Length up to which this pad does not buckle", "this method")
+buckling.least_side = inner(m.adopted_length / 3, needs=("adopted_length",)), "b_0", "mm", "Minimum side of a square pad at this length"
+buckling.least_side = (inner((m.area * m.free_length / 3) ** (number(1) / 3), lacks=("adopted_length",)), "b_0", "mm",
+    "Side of the square pad whose length is three sides")
+buckling.steady_pad_side = whole_steps_above.of(length=m.least_side), "b_λ", "mm", "Minimum side of a square pad that does not buckle", "this method"
+buckling.steady_damper_count = (value(np.ceil(m.damper_count * m.free_length / m.length_limit - 1e-09), whole=True), "n_λ", "1",
+    "Minimum number of dampers of this pad that does not buckle", "this method")
+buckling.steady_modulus = (m.elastic_modulus * m.length_limit / m.free_length, "E_λ", "MPa", "Maximum modulus with which this pad does not buckle",
+    "this method")
 
 drive = Chapter("Drive still pushing",
     text="A drive that is not disengaged before the stop continues to push with a constant force. Its work over the deflection adds to the energy, "
         "½k·h² = W_k + F·h, and the dampers are compressed further.", needs=("drive",), absent="not calculated: drive is not given")
-drive.value("driving_force", "F", "N", "Force of the drive: as given", bind(lambda force: force, force="drive.force"), source="input",
-    needs=("drive.force",))
-drive.value("driving_force", "F", "N", "Force of the drive",
-    bind(lambda torque, rolling_radius: torque / rolling_radius, torque="drive.torque", rolling_radius="drive.rolling_radius"), source="statics",
-    lacks=("drive.force",))
-drive.value("stiffness", "k", "N/mm", "Total stiffness of the dampers",
-    lambda damper_count, area, elastic_modulus, adopted_length: damper_count * area * elastic_modulus / adopted_length, source="002 eq. 21")
-drive.value("driven_deflection", "h_d", "mm", "Maximum deflection with the drive",
-    lambda driving_force, stiffness, kinetic_energy: (driving_force + np.sqrt(driving_force**2 + 2 * stiffness * kinetic_energy)) / stiffness,
-    source="energy")
-drive.value("driving_work", "A_d", "J", "Work of the drive until the stop",
-    lambda driving_force, driven_deflection: driving_force * driven_deflection, source="energy")
-drive.value("driven_strain", "ε_d", "1", "Maximum strain with the drive",
-    lambda driven_deflection, adopted_length: driven_deflection / adopted_length, source="002 eq. 18")
-drive.value("driven_stress", "σ_d", "MPa", "Maximum stress with the drive", lambda elastic_modulus, driven_strain: elastic_modulus * driven_strain,
-    source="002 eq. 19")
-drive.value("driven_peak_force", "P_d", "N", "Maximum force on one damper with the drive", lambda driven_stress, area: driven_stress * area,
-    source="002 eq. 20")
-drive.value("driven_peak_deceleration", "a_d", "m/s**2", "Maximum deceleration with the drive",
-    lambda damper_count, driven_peak_force, driving_force, reduced_mass: (damper_count * driven_peak_force - driving_force) / reduced_mass,
-    source="dynamics", needs=("velocity",))
-drive.value("driven_stop_time", "t_d", "ms", "Time from contact to rest with the drive", driven_stop_time, source="dynamics", needs=("velocity",))
-drive.value("resting_deflection", "h_0", "mm", "Deflection at which the drive holds the dampers at rest",
-    lambda driving_force, stiffness: driving_force / stiffness, source="statics")
-drive.value("stress_limit", "σ_lim", "MPa", "Stress within the allowable one and the linear law",
-    lambda allowable_stress, elastic_modulus, max_strain: np.minimum(allowable_stress, elastic_modulus * max_strain), output=False)
-drive.value("force_limit", "F_lim", "N", "Force from which no length is sufficient",
-    lambda damper_count, area, stress_limit: damper_count * area * stress_limit / 2, source="energy")
-drive.value("driven_free_length", "H_d", "mm", "Minimum length that withstands the drive", driven_length, source="energy",
-    exists=lambda driving_force, force_limit: driving_force < force_limit)
-drive.value("driven_length", "H_da", "mm", "Minimum length that withstands the drive, rounded up to the step",
-    bind(whole_steps_above, length="driven_free_length"), source="this method",
-    exists=lambda driving_force, force_limit: driving_force < force_limit)
-drive.value("driven_damper_count", "n_d", "1", "Minimum number of dampers of this pad and length that withstands the drive", driven_count,
-    whole=True, source="energy")
+drive.driving_force = value(m.drive.force, needs=("drive.force",)), "F", "N", "Force of the drive: as given", "input"
+drive.driving_force = value(m.drive.torque / m.drive.rolling_radius, lacks=("drive.force",)), "F", "N", "Force of the drive", "statics"
+drive.stiffness = m.damper_count * m.area * m.elastic_modulus / m.adopted_length, "k", "N/mm", "Total stiffness of the dampers", "002 eq. 21"
+drive.driven_deflection = ((m.driving_force + np.sqrt(m.driving_force**2 + 2 * m.stiffness * m.kinetic_energy)) / m.stiffness, "h_d", "mm",
+    "Maximum deflection with the drive", "energy")
+drive.driving_work = m.driving_force * m.driven_deflection, "A_d", "J", "Work of the drive until the stop", "energy"
+drive.driven_strain = m.driven_deflection / m.adopted_length, "ε_d", "1", "Maximum strain with the drive", "002 eq. 18"
+drive.driven_stress = m.elastic_modulus * m.driven_strain, "σ_d", "MPa", "Maximum stress with the drive", "002 eq. 19"
+drive.driven_peak_force = m.driven_stress * m.area, "P_d", "N", "Maximum force on one damper with the drive", "002 eq. 20"
+drive.driven_peak_deceleration = (value((m.damper_count * m.driven_peak_force - m.driving_force) / m.reduced_mass, needs=("velocity",)), "a_d",
+    "m/s**2", "Maximum deceleration with the drive", "dynamics")
+drive.driven_stop_time = value(driven_stop_time, needs=("velocity",)), "t_d", "ms", "Time from contact to rest with the drive", "dynamics"
+drive.resting_deflection = m.driving_force / m.stiffness, "h_0", "mm", "Deflection at which the drive holds the dampers at rest", "statics"
+drive.stress_limit = (inner(np.minimum(m.allowable_stress, m.elastic_modulus * m.max_strain)), "σ_lim", "MPa",
+    "Stress within the allowable one and the linear law")
+drive.force_limit = m.damper_count * m.area * m.stress_limit / 2, "F_lim", "N", "Force from which no length is sufficient", "energy"
+drive.driven_free_length = (value(driven_length, exists=m.driving_force < m.force_limit), "H_d", "mm", "Minimum length that withstands the drive",
+    "energy")
+drive.driven_length = (value(whole_steps_above.of(length=m.driven_free_length), exists=m.driving_force < m.force_limit), "H_da", "mm",
+    "Minimum length that withstands the drive, rounded up to the step", "this method")
+drive.driven_damper_count = (value(driven_count, whole=True), "n_d", "1",
+    "Minimum number of dampers of this pad and length that withstands the drive", "energy")
 
 SECTIONS = (energy, length, load, loss, stop, heat, buckling, drive)

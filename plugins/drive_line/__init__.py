@@ -19,7 +19,11 @@ from diecut_report.api import (
     Text,
     bind,
     formula,
+    inner,
+    m,
     pi,
+    total,
+    value,
 )
 from diecut_report.mechanics import drive_line as formulas
 
@@ -112,57 +116,47 @@ class DriveLine(Inputs):
 
 
 turning = Chapter("Speeds of the shafts")
-turning.value("speed", "n", "rpm", "Speed of the shaft", bind(lambda ratio, reference_speed: ratio * reference_speed, ratio="shafts.ratio"),
-    source="kinematics", named_by="shafts.name")
+turning.speed = value(m.shafts.ratio * m.reference_speed, named_by="shafts.name"), "n", "rpm", "Speed of the shaft", "kinematics"
 turning.part_table("shafts_table", "Shafts", "shafts", ("speed",))
 
 joins = Chapter("Gears, chains and belts", needs=("meshes",))
-joins.value("mesh_ratio", "i_z", "1", "Speed of the driven gear for each of the driving one",
-    bind(formulas.speed_ratio, driving="meshes.teeth_1", driven="meshes.teeth_2"), source="kinematics", named_by="meshes.name")
+joins.mesh_ratio = (value(formulas.speed_ratio.of(driving=m.meshes.teeth_1, driven=m.meshes.teeth_2), named_by="meshes.name"), "i_z", "1",
+    "Speed of the driven gear for each of the driving one", "kinematics")
 for number, gear in ((1, "driving"), (2, "driven")):
-    joins.value(f"radius_{number}", f"r_{number}", "mm", f"Pitch radius of the {gear} gear",
-        bind(formulas.pitch_radius, module="meshes.module", teeth=f"meshes.teeth_{number}", helix_angle="meshes.helix_angle"), source="ISO 21771",
-        output=False, named_by="meshes.name")
-joins.value("center_distance", "a", "mm", "Centre distance", formulas.center_distance, source="ISO 21771", named_by="meshes.name")
+    joins[f"radius_{number}"] = (inner(formulas.pitch_radius.of(module=m.meshes.module, teeth=m[f"meshes.teeth_{number}"],
+        helix_angle=m.meshes.helix_angle), named_by="meshes.name"), f"r_{number}", "mm", f"Pitch radius of the {gear} gear", "ISO 21771")
+joins.center_distance = value(formulas.center_distance, named_by="meshes.name"), "a", "mm", "Centre distance", "ISO 21771"
 joins.part_table("meshes_table", "Pairs of gears", "meshes", ("mesh_ratio", "radius_1", "radius_2", "center_distance"))
 drives = Chapter("Chains", needs=("chains",))
-drives.value("chain_travel", "v_φ", "mm", "Travel of the chain per radian of the driving sprocket",
-    bind(formulas.chain_travel, teeth="chains.teeth_1", pitch="chains.pitch"), source="kinematics",
-    named_by="chains.name")
-drives.value("chain_length", "L_c", "mm", "Length of the chain", bind(lambda links, pitch: links * pitch, links="chains.links", pitch="chains.pitch"),
-    source="geometry", named_by="chains.name")
-drives.value("chain_mass", "m_K", "kg", "Mass of the chains with what they move",
-    bind(lambda strands, links, pitch, mass_per_length, moving_mass: strands * links * pitch * mass_per_length + moving_mass,
-        **{key: f"chains.{key}" for key in ("strands", "links", "pitch", "mass_per_length", "moving_mass")}), source="geometry",
-    named_by="chains.name")
-drives.value("chain_pull", "F_0", "N", "Load of all chains at rest on the shaft of their sprockets",
-    bind(lambda strands, pretension: 2 * strands * pretension, strands="chains.strands", pretension="chains.pretension"), source="statics",
-    named_by="chains.name", output=False)
+drives.chain_travel = (value(formulas.chain_travel.of(teeth=m.chains.teeth_1, pitch=m.chains.pitch), named_by="chains.name"), "v_φ", "mm",
+    "Travel of the chain per radian of the driving sprocket", "kinematics")
+drives.chain_length = value(m.chains.links * m.chains.pitch, named_by="chains.name"), "L_c", "mm", "Length of the chain", "geometry"
+drives.chain_mass = (value(m.chains.strands * m.chains.links * m.chains.pitch * m.chains.mass_per_length + m.chains.moving_mass,
+    named_by="chains.name"), "m_K", "kg", "Mass of the chains with what they move", "geometry")
+drives.chain_pull = (inner(2 * m.chains.strands * m.chains.pretension, named_by="chains.name"), "F_0", "N",
+    "Load of all chains at rest on the shaft of their sprockets", "statics")
 drives.part_table("chains_table", "Chains", "chains", ("chain_travel", "chain_length", "chain_mass", "chain_pull"))
 rolling = Chapter("Rolling of the cylinder", needs=("rolling",))
-rolling.value("rolling_travel", "v_R", "mm", "Travel of the chain per radian of its sprocket",
-    bind(formulas.chain_travel, teeth="rolling.teeth", pitch="rolling.pitch"),
-    source="kinematics", output=False)
-rolling.value("rolling_error", "ε_R", "%", "Relative difference of travel and radius: the cylinder slips on the board by that much",
-    bind(lambda rolling_travel, radius: abs(rolling_travel / radius - 1), radius="rolling.radius"), source="kinematics", output=False)
+rolling.rolling_travel = (inner(formulas.chain_travel.of(teeth=m.rolling.teeth, pitch=m.rolling.pitch)), "v_R", "mm",
+    "Travel of the chain per radian of its sprocket", "kinematics")
+rolling.rolling_error = (inner(abs(m.rolling_travel / m.rolling.radius - 1)), "ε_R", "%",
+    "Relative difference of travel and radius: the cylinder slips on the board by that much", "kinematics")
 rolling.part_table("rolling_table", "Rolling of the cylinder", "rolling", ("rolling_travel", "rolling_error"))
-rolling.require("rolls", lambda rolling_error: rolling_error <= 0.005, key="rolling.{index}.teeth",
+rolling.require("rolls", m.rolling_error <= 0.005, key="rolling.{index}.teeth",
     message="moves the cylinder's axis by {rolling_travel} a radian, but its radius is {rolling.radius}: it slips by {rolling_error}, more than "
-        "0.5 %; take other teeth, or another radius")
+    "0.5 %; take other teeth, or another radius")
 belts = Chapter("V-belts", needs=("belts",))
-belts.value("belt_ratio", "i_b", "1", "Speed of the driving pulley for each of the driven one, without creep",
-    bind(formulas.speed_ratio, driving="belts.diameter_2", driven="belts.diameter_1"), source="kinematics", named_by="belts.name")
+belts.belt_ratio = (value(formulas.speed_ratio.of(driving=m.belts.diameter_2, driven=m.belts.diameter_1), named_by="belts.name"), "i_b", "1",
+    "Speed of the driving pulley for each of the driven one, without creep", "kinematics")
 belts.part_table("belts_table", "V-belts", "belts", ("belt_ratio",))
 brakes = Chapter("Brakes", needs=("brakes",))
-brakes.value("referred_torque", "M_b,m", "N*m", "Torque of the brake referred to the main shaft",
-    bind(at_main_shaft, torque="brakes.torque", ratio="brakes.ratio"), source="statics",
-    named_by="brakes.name", output=False)
+brakes.referred_torque = (inner(at_main_shaft.of(torque=m.brakes.torque, ratio=m.brakes.ratio), named_by="brakes.name"), "M_b,m", "N*m",
+    "Torque of the brake referred to the main shaft", "statics")
 brakes.part_table("brakes_table", "Brakes", "brakes", ("referred_torque",))
-brakes.total("brake_torque", "M_b,Σ", "N*m", "Torque of all brakes, referred to the main shaft", "sum", of="referred_torque")
+brakes.brake_torque = total("sum", of="referred_torque"), "M_b,Σ", "N*m", "Torque of all brakes, referred to the main shaft"
 held = Chapter("Brakes behind a clutch", needs=("clutch_brakes",))
-held.value("held_torque", "M_h,m", "N*m", "Torque of the brake referred to the main shaft",
-    bind(at_main_shaft, torque="clutch_brakes.torque", ratio="clutch_brakes.ratio"), source="statics",
-    named_by="clutch_brakes.name", output=False)
+held.held_torque = (inner(at_main_shaft.of(torque=m.clutch_brakes.torque, ratio=m.clutch_brakes.ratio), named_by="clutch_brakes.name"), "M_h,m",
+    "N*m", "Torque of the brake referred to the main shaft", "statics")
 held.part_table("clutch_brakes_table", "Brakes behind a clutch", "clutch_brakes", ("held_torque",))
 
 EXAMPLE = ExampleBlock("drive_line", {

@@ -19,9 +19,16 @@ from diecut_report.api import (
     Vary,
     arccos,
     as_number,
-    bind,
+    computed,
     formula,
+    inner,
+    lookup,
+    m,
+    neighbour,
+    part,
     pi,
+    total,
+    value,
 )
 from diecut_report.mechanics import belt_path, common
 from diecut_report.plugins.drive_train.figures import TOOTHED_BELT_FIGURES
@@ -72,58 +79,52 @@ def any_marked(is_cylinder: Any) -> Any:
     return is_cylinder.max(axis=1, keepdims=True)
 
 
-IS_MARKED = bind(common.is_positive, quantity="cylinder_pulley_there")
+IS_MARKED = common.is_positive.of(quantity=m.cylinder_pulley_there)
 
 listed = Chapter("Toothed belt: pulleys in the list",
     text="The first pulley of the list is the driving one; one may be fixed to the cylinder (κ = 1, otherwise −1). All pulleys inside the loop and "
         "the cylinder's pulley are toothed (τ = 1); any other outside pulley runs on the back of the belt and is smooth. The y axis points up, and "
         "the die lies below the cylinder: the belt passes over the cylinder's pulley where this engages away from the die, and below it where it "
         "engages on the die side.", needs=("toothed_belt", PULLEYS), absent=f"not calculated: {PULLEYS} is not given")
-listed.value("pulley_teeth", "n_z", "1", "Number of teeth of the circumference",
-    bind(lambda radius, pitch: as_number(2 * pi) * radius / pitch, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry", digits=6,
-    output=False)
-listed.value("pulley_whole_radius", "r_z", "mm", "Pitch radius of the nearest whole number of teeth",
-    bind(whole_radius, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry", digits=6, output=False)
-listed.value("pulley_teeth_off", "Δz", "1", "Difference in teeth",
-    bind(teeth_apart, radius=f"{PULLEYS}.radius", other="pulley_whole_radius", pitch=PITCH), source="this method", output=False)
+listed.pulley_teeth = (inner(as_number(2 * pi) * m[f"{PULLEYS}.radius"] / m[PITCH], digits=6), "n_z", "1", "Number of teeth of the circumference",
+    "geometry")
+listed.pulley_whole_radius = (inner(whole_radius.of(radius=m[f"{PULLEYS}.radius"], pitch=m[PITCH]), digits=6), "r_z", "mm",
+    "Pitch radius of the nearest whole number of teeth", "geometry")
+listed.pulley_teeth_off = (inner(teeth_apart.of(radius=m[f"{PULLEYS}.radius"], other=m.pulley_whole_radius, pitch=m[PITCH])), "Δz", "1",
+    "Difference in teeth", "this method")
 listed.clash("one_cylinder_pulley", next_marked, ("is_cylinder_pulley",), key=f"{PULLEYS}",
     message="pulleys {part} and {other} both have role: cylinder, but one is fixed to the cylinder; give the others role: other")
-listed.total("pulley_teeth_off_max", "Δz_max", "1", "Maximum difference of the toothed pulleys", "max", of="pulley_teeth_off", among="has_teeth",
-    source="this method", output=False)
-listed.computed("farthest_radius", "r_f", "mm", "Radius of the worst toothed pulley", of_farthest, (f"{PULLEYS}.radius", *OFF), FARTHEST, **UNPRINTED)
-listed.computed("farthest_teeth", "n_f", "1", "Number of teeth of the worst toothed pulley", of_farthest, ("pulley_teeth", *OFF), FARTHEST,
-    **UNPRINTED)
-listed.computed("farthest_whole_radius", "r_zf", "mm", "Radius of the worst toothed pulley with whole teeth", of_farthest,
-    ("pulley_whole_radius", *OFF), FARTHEST, **UNPRINTED)
-listed.part("first_radius", "r_1st", "mm", "Radius of the first pulley, which drives", of=f"{PULLEYS}.radius", index=0, digits=6, output=False)
-listed.value("driving_teeth_off", "Δz_p", "1", "Difference of the first pulley from the driving one, in teeth",
-    bind(teeth_apart, radius="first_radius", other="driving_pulley_pitch_radius", pitch=PITCH), source="this method", output=False)
-listed.value("driven_whole_radius", "r_dz", "mm", "Radius r_d with the nearest whole number of teeth",
-    bind(whole_radius, radius="toothed_belt.driven_radius", pitch=PITCH), digits=6, source="geometry", output=False)
-listed.computed("cylinder_pulley_there", "κ_max", "1", "Cylinder's pulley in the list: 1, otherwise −1", any_marked, ("is_cylinder_pulley",),
-    "maximum mark of its pulleys", printed=False, output=False)
-listed.total("cylinder_pulley_radius", "r_c", "mm", "Radius of the cylinder's pulley in the list", "sum", of=f"{PULLEYS}.radius",
-    among="is_cylinder_pulley", digits=6, output=False)
-listed.value("cylinder_teeth_off", "Δz_d", "1", "Its difference from r_d, in teeth",
-    bind(teeth_apart, radius="cylinder_pulley_radius", other="toothed_belt.driven_radius", pitch=PITCH), source="this method", output=False,
-    exists=IS_MARKED)
-listed.total("cylinder_pulley_side", "σ_c", "1", "Side of the cylinder's pulley", "sum", of="pulley_side", among="is_cylinder_pulley", output=False)
-listed.total("cylinder_direction_before", "θ_c", "deg", "Direction of the span before it", "sum", of="direction_before", among="is_cylinder_pulley",
-    output=False)
-listed.total("cylinder_wrap", "α_c", "deg", "Its wrap", "sum", of="wraps", among="is_cylinder_pulley", output=False)
-listed.value("cylinder_wrap_height", "h_c", "1", "Height of the middle of its wrap above the axis, relative to the radius",
-    lambda cylinder_pulley_side, cylinder_direction_before, cylinder_wrap:
-        -cylinder_pulley_side * np.cos(cylinder_direction_before + cylinder_pulley_side * cylinder_wrap / 2), output=False, source="geometry",
-    exists=IS_MARKED)
-listed.value("engagement_angle", "γ", "deg", "Angle of the middle of the wrap from the side of engagement",
-    ByText("toothed_belt.engagement", {"away": formula(lambda height: arccos(height)), "die": formula(lambda height: arccos(-height))},
-        height="cylinder_wrap_height"), source="geometry",
-    output=False, exists=IS_MARKED)
+listed.pulley_teeth_off_max = (total("max", of="pulley_teeth_off", among="has_teeth", output=False), "Δz_max", "1",
+    "Maximum difference of the toothed pulleys", "this method")
+listed.farthest_radius = computed(of_farthest, (f"{PULLEYS}.radius", *OFF), FARTHEST, **UNPRINTED), "r_f", "mm", "Radius of the worst toothed pulley"
+listed.farthest_teeth = (computed(of_farthest, ("pulley_teeth", *OFF), FARTHEST, **UNPRINTED), "n_f", "1",
+    "Number of teeth of the worst toothed pulley")
+listed.farthest_whole_radius = (computed(of_farthest, ("pulley_whole_radius", *OFF), FARTHEST, **UNPRINTED), "r_zf", "mm",
+    "Radius of the worst toothed pulley with whole teeth")
+listed.first_radius = part(of=f"{PULLEYS}.radius", index=0, digits=6, output=False), "r_1st", "mm", "Radius of the first pulley, which drives"
+listed.driving_teeth_off = (inner(teeth_apart.of(radius=m.first_radius, other=m.driving_pulley_pitch_radius, pitch=m[PITCH])), "Δz_p", "1",
+    "Difference of the first pulley from the driving one, in teeth", "this method")
+listed.driven_whole_radius = (inner(whole_radius.of(radius=m.toothed_belt.driven_radius, pitch=m[PITCH]), digits=6), "r_dz", "mm",
+    "Radius r_d with the nearest whole number of teeth", "geometry")
+listed.cylinder_pulley_there = (computed(any_marked, ("is_cylinder_pulley",), "maximum mark of its pulleys", printed=False, output=False), "κ_max",
+    "1", "Cylinder's pulley in the list: 1, otherwise −1")
+listed.cylinder_pulley_radius = (total("sum", of=f"{PULLEYS}.radius", among="is_cylinder_pulley", digits=6, output=False), "r_c", "mm",
+    "Radius of the cylinder's pulley in the list")
+listed.cylinder_teeth_off = (inner(teeth_apart.of(radius=m.cylinder_pulley_radius, other=m.toothed_belt.driven_radius, pitch=m[PITCH]),
+    exists=IS_MARKED), "Δz_d", "1", "Its difference from r_d, in teeth", "this method")
+listed.cylinder_pulley_side = total("sum", of="pulley_side", among="is_cylinder_pulley", output=False), "σ_c", "1", "Side of the cylinder's pulley"
+listed.cylinder_direction_before = (total("sum", of="direction_before", among="is_cylinder_pulley", output=False), "θ_c", "deg",
+    "Direction of the span before it")
+listed.cylinder_wrap = total("sum", of="wraps", among="is_cylinder_pulley", output=False), "α_c", "deg", "Its wrap"
+listed.cylinder_wrap_height = (inner(-m.cylinder_pulley_side * np.cos(m.cylinder_direction_before + m.cylinder_pulley_side * m.cylinder_wrap / 2),
+    exists=IS_MARKED), "h_c", "1", "Height of the middle of its wrap above the axis, relative to the radius", "geometry")
+listed.engagement_angle = (inner(ByText("toothed_belt.engagement", {"away": formula(lambda height: arccos(height)),
+    "die": formula(lambda height: arccos(-height))}, height="cylinder_wrap_height"), exists=IS_MARKED), "γ", "deg",
+    "Angle of the middle of the wrap from the side of engagement", "geometry")
 MARKS = Steps()
-MARKS.lookup("is_cylinder_pulley", "κ", "1", "Cylinder's pulley: 1, other pulleys: −1", {"cylinder": 1.0, "other": -1.0}, by=f"{PULLEYS}.role",
-    source="this method", output=False)
-MARKS.value("has_teeth", "τ", "1", "Pulley with teeth: 1, smooth: −1",
-    lambda pulley_side, is_cylinder_pulley: np.maximum(pulley_side, is_cylinder_pulley), source="this method", output=False)
+MARKS.is_cylinder_pulley = (lookup({"cylinder": 1.0, "other": -1.0}, by=f"{PULLEYS}.role", output=False), "κ", "1",
+    "Cylinder's pulley: 1, other pulleys: −1", "this method")
+MARKS.has_teeth = inner(np.maximum(m.pulley_side, m.is_cylinder_pulley)), "τ", "1", "Pulley with teeth: 1, smooth: −1", "this method"
 
 LISTED_CHECKS = (
     Check(id="teeth_in_mesh", check_class="practice", title="Teeth in mesh",
@@ -204,68 +205,63 @@ speed = Chapter("Toothed belt: speed and driving pulley",
     text="The carriage moves at V while the pulley fixed to the rolling cylinder turns with it: the belt is faster than the carriage by V·r_d/R on "
         "the side away from the die, and slower by as much on the die side.", needs=("toothed_belt",),
     absent="not calculated: toothed_belt is not given")
-speed.value("belt_speed", "V_b", "m/s", "Speed of the toothed belt",
-    ByText("toothed_belt.engagement", {
-        "away": formula(lambda velocity, driven_radius, cylinder_radius: velocity * (1 + driven_radius / cylinder_radius)),
-        "die": formula(lambda velocity, driven_radius, cylinder_radius: velocity * (1 - driven_radius / cylinder_radius)),
-    }, **ROLLING), source="002 eq. 7–9")
-speed.require("belt_moves", lambda belt_speed: belt_speed > 0, key="toothed_belt.driven_radius",
+speed.belt_speed = (ByText("toothed_belt.engagement", {"away": formula(lambda velocity, driven_radius,
+    cylinder_radius: velocity * (1 + driven_radius / cylinder_radius)), "die": formula(lambda velocity, driven_radius,
+    cylinder_radius: velocity * (1 - driven_radius / cylinder_radius))}, **ROLLING), "V_b", "m/s", "Speed of the toothed belt", "002 eq. 7–9")
+speed.require("belt_moves", m.belt_speed > 0, key="toothed_belt.driven_radius",
     message="gives a belt speed of {belt_speed} with engagement: die; there the driven pulley must be smaller than the cylinder (or take "
-        "engagement: away)")
-speed.value("driving_pulley_radius", "r_p", "mm", "Pitch radius of the belt's driving pulley, before rounding",
-    bind(lambda belt_speed, shaft_speed: belt_speed / shaft_speed, shaft_speed="toothed_belt.shaft_speed"), source="002 eq. 10", digits=6)
-speed.value("driving_pulley_teeth", "z_p", "1", "Teeth of the belt's driving pulley, the nearest whole number",
-    bind(lambda driving_pulley_radius, pitch: np.round(as_number(2 * pi) * driving_pulley_radius / pitch), pitch="toothed_belt.pitch"), whole=True,
-    source="this method")
-speed.value("driving_pulley_pitch_radius", "r_pz", "mm", "Pitch radius of the driving pulley with whole teeth",
-    bind(lambda driving_pulley_teeth, pitch: driving_pulley_teeth * pitch / (2 * pi), pitch="toothed_belt.pitch"), source="geometry", digits=6)
-speed.require("pulley_has_teeth", lambda driving_pulley_teeth: driving_pulley_teeth >= 1, key="toothed_belt.pitch",
+    "engagement: away)")
+speed.driving_pulley_radius = (value(m.belt_speed / m.toothed_belt.shaft_speed, digits=6), "r_p", "mm",
+    "Pitch radius of the belt's driving pulley, before rounding", "002 eq. 10")
+speed.driving_pulley_teeth = (value(np.round(as_number(2 * pi) * m.driving_pulley_radius / m.toothed_belt.pitch), whole=True), "z_p", "1",
+    "Teeth of the belt's driving pulley, the nearest whole number", "this method")
+speed.driving_pulley_pitch_radius = (value(m.driving_pulley_teeth * m.toothed_belt.pitch / (2 * pi), digits=6), "r_pz", "mm",
+    "Pitch radius of the driving pulley with whole teeth", "geometry")
+speed.require("pulley_has_teeth", m.driving_pulley_teeth >= 1, key="toothed_belt.pitch",
     message="is more than twice the circumference of the driving pulley, whose radius is {driving_pulley_radius}; take a smaller pitch or a slower "
-        "shaft")
-speed.value("driving_pulley_speed_error", "ε_b", "%", "Error of the belt speed due to whole teeth, at the given shaft_speed",
-    bind(lambda driving_pulley_teeth, pitch, shaft_speed, belt_speed: driving_pulley_teeth * pitch * shaft_speed / (2 * pi * belt_speed) - 1,
-        pitch="toothed_belt.pitch", shaft_speed="toothed_belt.shaft_speed"), source="this method")
+    "shaft")
+speed.driving_pulley_speed_error = (m.driving_pulley_teeth * m.toothed_belt.pitch * m.toothed_belt.shaft_speed / (2 * pi * m.belt_speed) - 1, "ε_b",
+    "%", "Error of the belt speed due to whole teeth, at the given shaft_speed", "this method")
 
 path = Chapter("Toothed belt: path over the pulleys",
     text="The belt runs counter-clockwise over the pulleys in their order, with inside ones on its left (σ = 1) and outside ones on its right (σ = "
         "−1). Each pulley is listed with the span behind it; a prime marks the next pulley. The 10⁻⁹ in the wrap prevents a rounding error below "
         "zero from counting as a full turn.", needs=("toothed_belt", PULLEYS), absent=f"not calculated: {PULLEYS} is not given")
 path.clash("two_pulleys", alone, (f"{PULLEYS}.x",), key=PULLEYS, message="has one pulley; a belt needs at least two")
-path.lookup("pulley_side", "σ", "1", "Side of the pulley: inside 1, outside −1", {"inside": 1.0, "outside": -1.0}, by=f"{PULLEYS}.side",
-    source="this method", output=False)
+path.pulley_side = (lookup({"inside": 1.0, "outside": -1.0}, by=f"{PULLEYS}.side", output=False), "σ", "1",
+    "Side of the pulley: inside 1, outside −1", "this method")
 path.add(MARKS)
-path.value("signed_radius", "r_σ", "mm", "Radius, negative outside", bind(belt_path.signed, side="pulley_side", size=f"{PULLEYS}.radius"),
-    output=False, source="geometry", digits=6)
-path.neighbour("next_pulley_x", "x′", "mm", "Position of the next pulley along x", of=f"{PULLEYS}.x", digits=6, output=False)
-path.neighbour("next_pulley_y", "y′", "mm", "Position of the next pulley along y", of=f"{PULLEYS}.y", digits=6, output=False)
-path.neighbour("next_signed_radius", "r_σ′", "mm", "The next pulley's radius, negative outside", of="signed_radius", digits=6, output=False)
-path.value("pulley_distance", "d", "mm", "Distance to the next pulley", bind(belt_path.center_distance, **PLACES), output=False, source="geometry",
-    digits=6)
-path.require("tangents", bind(belt_path.has_tangent, center_distance="pulley_distance", **RADII), key=PULLEY,
-    message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch or overlap, or one lies "
-        "within the other; move them apart or make them smaller")
+path.signed_radius = (inner(belt_path.signed.of(side=m.pulley_side, size=m[f"{PULLEYS}.radius"]), digits=6), "r_σ", "mm", "Radius, negative outside",
+    "geometry")
+path.next_pulley_x = neighbour(of=f"{PULLEYS}.x", digits=6, output=False), "x′", "mm", "Position of the next pulley along x"
+path.next_pulley_y = neighbour(of=f"{PULLEYS}.y", digits=6, output=False), "y′", "mm", "Position of the next pulley along y"
+path.next_signed_radius = neighbour(of="signed_radius", digits=6, output=False), "r_σ′", "mm", "The next pulley's radius, negative outside"
+path.pulley_distance = (inner(belt_path.center_distance.of(x=m.toothed_belt.pulleys.x, y=m.toothed_belt.pulleys.y, next_x=m.next_pulley_x,
+    next_y=m.next_pulley_y), digits=6), "d", "mm", "Distance to the next pulley", "geometry")
+path.require("tangents", belt_path.has_tangent.of(center_distance=m.pulley_distance, radius=m.signed_radius, next_radius=m.next_signed_radius),
+    key=PULLEY, message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch or overlap, or one lies " "within the other; move them apart or make them smaller")
 path.clash("toothed_pulleys_apart", belt_path.overlapping, LAYOUT, key=PULLEY,
     message="pulleys {part} and {other} overlap; move them apart or make them smaller")
 path.clash("pulleys_counter_clockwise", belt_path.clockwise, LAYOUT, key=PULLEYS,
     message="pulleys {part} to {other} are listed clockwise, so the signed wraps do not sum to 360°; reverse their order, so that the belt meets "
         "them counter-clockwise")
-path.value("straight_runs", "l", "mm", "Span to the next pulley", bind(belt_path.run_length, center_distance="pulley_distance", **RADII),
-    source="geometry", digits=6)
-path.value("run_direction", "θ", "deg", "Direction of the span", bind(belt_path.run_direction, center_distance="pulley_distance", **PLACES, **RADII),
-    source="geometry", output=False)
-path.neighbour("direction_before", "θ_before", "deg", "Direction of the span before the pulley", of="run_direction", shift=-1, output=False)
-path.value("wraps", "α", "deg", "Wrap of the pulley", bind(belt_path.wrap, side="pulley_side", direction="run_direction"), source="geometry",
-    numbered="wraps.{}", first=0)
-path.value("signed_wraps", "σα", "deg", "Wrap, negative outside", bind(belt_path.signed, side="pulley_side", size="wraps"), source="geometry",
-    output=False)
-path.total("signed_wraps_sum", "α_Σ", "deg", "Sum of the signed wraps: one turn", "sum", of="signed_wraps", output=False)
-path.value("belt_turns", "n_b", "1", "Revolutions of the belt's direction along its path: 1 in a loop",
-    bind(belt_path.turns, sum_of_wraps="signed_wraps_sum"), output=False, source="geometry")
-path.total("greatest_wrap", "α_max", "deg", "Maximum wrap", "max", of="wraps", output=False)
-path.require("one_turn", lambda belt_turns, wraps, greatest_wrap: (belt_turns == 1) | (wraps < greatest_wrap), key=PULLEY,
+path.straight_runs = (value(belt_path.run_length.of(center_distance=m.pulley_distance, radius=m.signed_radius, next_radius=m.next_signed_radius),
+    digits=6), "l", "mm", "Span to the next pulley", "geometry")
+path.run_direction = (inner(belt_path.run_direction.of(center_distance=m.pulley_distance, x=m.toothed_belt.pulleys.x, y=m.toothed_belt.pulleys.y,
+    next_x=m.next_pulley_x, next_y=m.next_pulley_y, radius=m.signed_radius, next_radius=m.next_signed_radius)), "θ", "deg", "Direction of the span",
+    "geometry")
+path.direction_before = neighbour(of="run_direction", shift=-1, output=False), "θ_before", "deg", "Direction of the span before the pulley"
+path.wraps = (value(belt_path.wrap.of(side=m.pulley_side, direction=m.run_direction), numbered="wraps.{}", first=0), "α", "deg",
+    "Wrap of the pulley", "geometry")
+path.signed_wraps = inner(belt_path.signed.of(side=m.pulley_side, size=m.wraps)), "σα", "deg", "Wrap, negative outside", "geometry"
+path.signed_wraps_sum = total("sum", of="signed_wraps", output=False), "α_Σ", "deg", "Sum of the signed wraps: one turn"
+path.belt_turns = (inner(belt_path.turns.of(sum_of_wraps=m.signed_wraps_sum)), "n_b", "1",
+    "Revolutions of the belt's direction along its path: 1 in a loop", "geometry")
+path.greatest_wrap = total("max", of="wraps", output=False), "α_max", "deg", "Maximum wrap"
+path.require("one_turn", (m.belt_turns == 1) | (m.wraps < m.greatest_wrap), key=PULLEY,
     message="the signed wraps (inside +, outside −) do not sum to 360°, one turn of the belt, but to {belt_turns} turns: it would have to run "
-        "{wraps} around pulley {part}, which it does not touch. Move pulley {part} against the belt or leave it out, change its side, or list the "
-        "pulleys in the order in which the belt meets them")
+    "{wraps} around pulley {part}, which it does not touch. Move pulley {part} against the belt or leave it out, change its side, or list the "
+    "pulleys in the order in which the belt meets them")
 path.clash("runs_apart", belt_path.crossing, LAYOUT, key=PULLEY,
     message="the straight runs behind pulleys {part} and {other} cross; move a pulley, or list them in the order in which the belt meets them")
 path.clash("runs_clear", belt_path.pierced, LAYOUT, key=PULLEY,
@@ -273,26 +269,23 @@ path.clash("runs_clear", belt_path.pierced, LAYOUT, key=PULLEY,
         "which the belt meets the pulleys")
 
 length = Chapter("Toothed belt: length and teeth in mesh", needs=("toothed_belt", PULLEYS), absent=f"not calculated: {PULLEYS} is not given")
-length.value("belt_arcs", "s", "mm", "Arc length of the belt on the pulley",
-    bind(lambda radius, wrap: radius * wrap, radius=f"{PULLEYS}.radius", wrap="wraps"), source="geometry", output=False, digits=6)
-length.total("straight_length", "Σl", "mm", "Total length of the spans", "sum", of="straight_runs", digits=6)
-length.total("arc_length", "Σs", "mm", "Total length of the arcs", "sum", of="belt_arcs", digits=6)
-length.value("toothed_belt_length", "L_b", "mm", "Length of the toothed belt's path",
-    lambda straight_length, arc_length: straight_length + arc_length, digits=7, source="002 eq. 11, in general")
-length.value("toothed_belt_teeth", "z_b", "1", "Number of teeth of the belt, the nearest whole number",
-    bind(lambda toothed_belt_length, pitch: np.round(toothed_belt_length / pitch), pitch="toothed_belt.pitch"), whole=True, source="this method")
-length.value("toothed_belt_take_up", "ΔL", "mm", "Difference of belt and path length: longer (+) or shorter (−); to be tensioned",
-    bind(lambda toothed_belt_teeth, pitch, toothed_belt_length: toothed_belt_teeth * pitch - toothed_belt_length, pitch="toothed_belt.pitch"),
-    source="this method")
-length.value("teeth_in_mesh", "z_m", "1", "Number of teeth in mesh along the wrap",
-    bind(lambda radius, wrap, pitch: radius * as_number(wrap) / pitch, radius=f"{PULLEYS}.radius", wrap="wraps", pitch="toothed_belt.pitch"),
-    source="this method")
-length.total("teeth_in_mesh_inside", "z_m,i", "1", "Minimum number of teeth in mesh of the toothed pulleys inside", "min", of="teeth_in_mesh",
-    among="has_teeth", output=False)
-length.part("teeth_in_mesh_driving", "z_m,1", "1", "Number of teeth in mesh of the first pulley, which drives", of="teeth_in_mesh", index=0,
-    output=False)
-length.value("teeth_in_mesh_min", "z_m,min", "1", "Minimum number of teeth in mesh of the toothed pulleys",
-    lambda teeth_in_mesh_inside, teeth_in_mesh_driving: np.minimum(teeth_in_mesh_inside, teeth_in_mesh_driving), source="this method")
+length.belt_arcs = inner(m[f"{PULLEYS}.radius"] * m.wraps, digits=6), "s", "mm", "Arc length of the belt on the pulley", "geometry"
+length.straight_length = total("sum", of="straight_runs", digits=6), "Σl", "mm", "Total length of the spans"
+length.arc_length = total("sum", of="belt_arcs", digits=6), "Σs", "mm", "Total length of the arcs"
+length.toothed_belt_length = (value(m.straight_length + m.arc_length, digits=7), "L_b", "mm", "Length of the toothed belt's path",
+    "002 eq. 11, in general")
+length.toothed_belt_teeth = (value(np.round(m.toothed_belt_length / m.toothed_belt.pitch), whole=True), "z_b", "1",
+    "Number of teeth of the belt, the nearest whole number", "this method")
+length.toothed_belt_take_up = (m.toothed_belt_teeth * m.toothed_belt.pitch - m.toothed_belt_length, "ΔL", "mm",
+    "Difference of belt and path length: longer (+) or shorter (−); to be tensioned", "this method")
+length.teeth_in_mesh = (m[f"{PULLEYS}.radius"] * as_number(m.wraps) / m.toothed_belt.pitch, "z_m", "1", "Number of teeth in mesh along the wrap",
+    "this method")
+length.teeth_in_mesh_inside = (total("min", of="teeth_in_mesh", among="has_teeth", output=False), "z_m,i", "1",
+    "Minimum number of teeth in mesh of the toothed pulleys inside")
+length.teeth_in_mesh_driving = (part(of="teeth_in_mesh", index=0, output=False), "z_m,1", "1",
+    "Number of teeth in mesh of the first pulley, which drives")
+length.teeth_in_mesh_min = (np.minimum(m.teeth_in_mesh_inside, m.teeth_in_mesh_driving), "z_m,min", "1",
+    "Minimum number of teeth in mesh of the toothed pulleys", "this method")
 
 TOOTHED_BELT = (speed, path, length, listed)
 

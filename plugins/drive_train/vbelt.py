@@ -10,12 +10,17 @@ from diecut_report.api import (
     Chapter,
     Vary,
     as_number,
-    bind,
     formula,
+    inner,
+    lookup,
+    m,
     pi,
+    pick,
+    root,
     standard_series,
     standard_series_by,
     standard_table,
+    value,
 )
 from diecut_report.mechanics import belt_path
 
@@ -59,60 +64,46 @@ RATIO_TOO_GREAT = (
 vbelt = Chapter("V-belt",
     text="The belt length follows exactly from its two spans and two arcs. The nearest standard length corrects the centre distance. Radii are "
         "those of the datum line.")
-vbelt.lookup("least_driver_diameter", "d_min", "mm", "Minimum datum diameter of the section's pulleys", standard_table("vbelt_least_diameter"),
-    by="vbelt.section", source="ISO 4183", output=False)
-vbelt.value("vbelt_speed", "v", "m/s", "Speed of the belt", bind(rim_speed, speed="shaft_1_speed", diameter="vbelt.driver_diameter"),
-    source="kinematics")
-vbelt.value("small_radius", "r_1", "mm", "Radius of the smaller pulley",
-    bind(lambda driver_diameter, driven_diameter: np.minimum(driver_diameter, driven_diameter) / 2, driver_diameter="vbelt.driver_diameter"),
-    output=False)
-vbelt.value("large_radius", "r_2", "mm", "Radius of the larger pulley",
-    bind(lambda driver_diameter, driven_diameter: np.maximum(driver_diameter, driven_diameter) / 2, driver_diameter="vbelt.driver_diameter"),
-    output=False)
-vbelt.value("least_center_distance", "a_min", "mm", "Centre distance at which the pulleys touch",
-    lambda small_radius, large_radius: small_radius + large_radius, output=False)
-vbelt.lookup("shortest_belt", "L_min", "mm", "Shortest standard belt of the section",
-    {name: series.values[0] for name, series in LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
-vbelt.lookup("longest_belt", "L_max", "mm", "Longest standard belt of the section",
-    {name: series.values[-1] for name, series in LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
-vbelt.require("ratio_leaves_room", bind(lambda ratio, largest, least, distance: (ratio <= largest) | (least < distance),
-    least="least_center_distance", **RATIO), key="gears", message=RATIO_TOO_GREAT,
-    advise=("gears.driven_teeth",))
-vbelt.require("driver_large_enough",
-    bind(lambda least_driver_diameter, driver_diameter: least_driver_diameter <= driver_diameter, driver_diameter="vbelt.driver_diameter"),
-    key="vbelt.driver_diameter",
+vbelt.least_driver_diameter = (lookup(standard_table("vbelt_least_diameter"), by="vbelt.section", output=False), "d_min", "mm",
+    "Minimum datum diameter of the section's pulleys", "ISO 4183")
+vbelt.vbelt_speed = rim_speed.of(speed=m.shaft_1_speed, diameter=m.vbelt.driver_diameter), "v", "m/s", "Speed of the belt", "kinematics"
+vbelt.small_radius = inner(np.minimum(m.vbelt.driver_diameter, m.driven_diameter) / 2), "r_1", "mm", "Radius of the smaller pulley"
+vbelt.large_radius = inner(np.maximum(m.vbelt.driver_diameter, m.driven_diameter) / 2), "r_2", "mm", "Radius of the larger pulley"
+vbelt.least_center_distance = inner(m.small_radius + m.large_radius), "a_min", "mm", "Centre distance at which the pulleys touch"
+vbelt.shortest_belt = (lookup({name: series.values[0] for name, series in LENGTHS.items()}, by="vbelt.section", output=False), "L_min", "mm",
+    "Shortest standard belt of the section", "ISO 4184")
+vbelt.longest_belt = (lookup({name: series.values[-1] for name, series in LENGTHS.items()}, by="vbelt.section", output=False), "L_max", "mm",
+    "Longest standard belt of the section", "ISO 4184")
+vbelt.require("ratio_leaves_room", (m.vbelt_ratio <= 7.0) | (m.least_center_distance < m.vbelt.center_distance), key="gears",
+    message=RATIO_TOO_GREAT, advise=("gears.driven_teeth",))
+vbelt.require("driver_large_enough", m.least_driver_diameter <= m.vbelt.driver_diameter, key="vbelt.driver_diameter",
     message="is {vbelt.driver_diameter}, but a belt of section {vbelt.section} needs pulleys of {least_driver_diameter} or more: take a larger "
-        "pulley or a smaller section", advise=(Vary("vbelt.driver_diameter", "up", PULLEYS),))
-vbelt.require("pulleys_apart", bind(lambda ratio, largest, least, distance: (ratio > largest) | (least < distance),
-    least="least_center_distance", **RATIO), key="vbelt.center_distance",
+    "pulley or a smaller section", advise=(Vary("vbelt.driver_diameter", "up", PULLEYS),))
+vbelt.require("pulleys_apart", (m.vbelt_ratio > 7.0) | (m.least_center_distance < m.vbelt.center_distance), key="vbelt.center_distance",
     message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} overlap up to {least_center_distance:up}",
     advise=DISTANCE)
-vbelt.value("vbelt_length", "L_0", "mm", "Belt length at the wanted centre distance",
-    bind(belt_path.open_belt_length, center_distance="vbelt.center_distance", **PAIR), source="geometry")
-vbelt.require("ratio_leaves_belt",
-    bind(lambda ratio, largest, shortest, length, longest: (ratio <= largest) | ((length >= shortest) & (length <= longest)),
-    **RANGE), key="gears", message=RATIO_TOO_GREAT, advise=("gears.driven_teeth",))
-vbelt.require("belt_exists", bind(lambda ratio, largest, shortest, length, longest: (ratio > largest) | ((length >= shortest) & (length <= longest)),
-    **RANGE), key="vbelt.center_distance",
+vbelt.vbelt_length = (belt_path.open_belt_length.of(center_distance=m.vbelt.center_distance, small=m.small_radius, large=m.large_radius), "L_0",
+    "mm", "Belt length at the wanted centre distance", "geometry")
+vbelt.require("ratio_leaves_belt", (m.vbelt_ratio <= 7.0) | ((m.vbelt_length >= m.shortest_belt) & (m.vbelt_length <= m.longest_belt)), key="gears",
+    message=RATIO_TOO_GREAT, advise=("gears.driven_teeth",))
+vbelt.require("belt_exists", (m.vbelt_ratio > 7.0) | ((m.vbelt_length >= m.shortest_belt) & (m.vbelt_length <= m.longest_belt)),
+    key="vbelt.center_distance",
     message="is {vbelt.center_distance}; that takes a belt of {vbelt_length}, but section {vbelt.section} has standard lengths of {shortest_belt} … "
-        "{longest_belt}", advise=DISTANCE)
-vbelt.pick("vbelt_standard_length", "L", "mm", "Standard length of the belt", "nearest", of="vbelt_length", series=LENGTHS, source="ISO 4184",
-    by="vbelt.section")
-vbelt.value("least_belt", "L_t", "mm", "Belt length with the pulleys touching",
-    bind(belt_path.open_belt_length, center_distance="least_center_distance", **PAIR), output=False)
-vbelt.require("standard_belt_fits", lambda least_belt, vbelt_standard_length: least_belt < vbelt_standard_length, key="vbelt.center_distance",
+    "{longest_belt}", advise=DISTANCE)
+vbelt.vbelt_standard_length = (pick("nearest", of="vbelt_length", series=LENGTHS, by="vbelt.section"), "L", "mm", "Standard length of the belt",
+    "ISO 4184")
+vbelt.least_belt = (inner(belt_path.open_belt_length.of(center_distance=m.least_center_distance, small=m.small_radius, large=m.large_radius)), "L_t",
+    "mm", "Belt length with the pulleys touching")
+vbelt.require("standard_belt_fits", m.least_belt < m.vbelt_standard_length, key="vbelt.center_distance",
     message="is {vbelt.center_distance}; the nearest standard belt, {vbelt_standard_length} long, draws the pulleys into each other "
-        "({least_belt:up} is the least)", advise=DISTANCE)
-vbelt.root("center_distance", "a", "mm", "Centre distance, corrected for the standard belt",
-    bind(lambda center_distance, small, large, belt: belt_path.open_belt_length(center_distance, small, large) - belt,
-        belt="vbelt_standard_length", **PAIR), low=lambda least_center_distance: least_center_distance,
-    high=lambda vbelt_standard_length: vbelt_standard_length / 2, left=bind(belt_path.run_length, radius="small_radius", next_radius="large_radius"),
-    right=bind(lambda center_distance, small, large, belt:
-            (belt - pi * (large + small)) / 2 - (large - small) * np.arcsin((large - small) / center_distance),
-        belt="vbelt_standard_length", **PAIR), source="geometry")
-vbelt.value("vbelt_wrap", "β_1", "deg", "Wrap on the smaller pulley", bind(belt_path.wrap_small, **PAIR), source="geometry")
-vbelt.value("vbelt_wrap_large", "β_2", "deg", "Wrap on the larger pulley", bind(belt_path.wrap_large, wrap_small="vbelt_wrap"), source="geometry",
-    output=False)
+    "({least_belt:up} is the least)", advise=DISTANCE)
+vbelt.center_distance = (root(belt_path.open_belt_length(m.center_distance, m.small_radius, m.large_radius) - m.vbelt_standard_length,
+    low=m.least_center_distance, high=m.vbelt_standard_length / 2, left=belt_path.run_length.of(radius=m.small_radius, next_radius=m.large_radius),
+    right=(m.vbelt_standard_length - pi * (m.large_radius + m.small_radius)) / 2 - (m.large_radius
+    - m.small_radius) * np.arcsin((m.large_radius - m.small_radius) / m.center_distance)), "a", "mm",
+    "Centre distance, corrected for the standard belt", "geometry")
+vbelt.vbelt_wrap = belt_path.wrap_small.of(small=m.small_radius, large=m.large_radius), "β_1", "deg", "Wrap on the smaller pulley", "geometry"
+vbelt.vbelt_wrap_large = inner(belt_path.wrap_large.of(wrap_small=m.vbelt_wrap)), "β_2", "deg", "Wrap on the larger pulley", "geometry"
 
 REFERENCE_LENGTHS = {"SPZ": 1600, "SPA": 2500, "SPB": 3550, "SPC": 5600}  # mm
 MASSES = {"SPZ": 0.07, "SPA": 0.12, "SPB": 0.20, "SPC": 0.37}  # kg/m
@@ -122,59 +113,45 @@ WITHOUT_COUNT: dict[str, Any] = {"lacks": ("power_per_belt", COUNT)}
 count = Chapter("Number of belts",
     text="The manufacturer states the power of one belt for half a turn of wrap and the reference length. The belts must transmit the motor's rated "
         "power with the service factor.")
-count.value("tension_ratio", "m", "1", "Ratio of tight-side to slack-side tension",
-    bind(lambda groove_friction, wrap: np.exp(groove_friction * as_number(wrap)),
-        groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
-count.value("wrap_factor", "c_1", "1", "Arc of contact factor", lambda vbelt_wrap: 1.25 * (1 - 5 ** (-vbelt_wrap / pi)), source="ISO 5292")
-count.lookup("reference_length", "L_r", "mm", "Reference length of the section", REFERENCE_LENGTHS, by="vbelt.section", source="Optibelt",
-    output=False)
-count.value("length_factor", "c_3", "1", "Belt length factor",
-    bind(length_factor, length="vbelt_standard_length", reference="reference_length"), source="Optibelt")
-count.value("vbelt_power", "P_b", "kW", "Design power of the belts",
-    bind(lambda service_factor, motor_power: service_factor * motor_power, service_factor="vbelt.service_factor"), source="Optibelt")
-count.value("vbelt_share", "z_P", "1", "Design power in terms of that of one belt", lambda vbelt_power, power_per_belt, wrap_factor, length_factor:
-        vbelt_power / (power_per_belt * wrap_factor * length_factor), source="Optibelt", output=False, needs=("power_per_belt",))
-count.value("vbelt_count_needed", "z_req", "1", "Required number of belts", lambda vbelt_share: np.maximum(1, np.ceil(vbelt_share)), whole=True,
-    source="Optibelt", needs=("power_per_belt",))
-count.value("vbelt_count", "z", "1", "Number of belts: as given", bind(lambda given: given, given=COUNT), whole=True, source="input", needs=(COUNT,))
-count.value("vbelt_count", "z", "1", "Number of belts: the smallest sufficient number", lambda vbelt_count_needed: vbelt_count_needed, whole=True,
-    source="this method", needs=("power_per_belt",), lacks=(COUNT,))
+count.tension_ratio = np.exp(m.vbelt.groove_friction * as_number(m.vbelt_wrap)), "m", "1", "Ratio of tight-side to slack-side tension", "Euler"
+count.wrap_factor = 1.25 * (1 - 5 ** (-m.vbelt_wrap / pi)), "c_1", "1", "Arc of contact factor", "ISO 5292"
+count.reference_length = lookup(REFERENCE_LENGTHS, by="vbelt.section", output=False), "L_r", "mm", "Reference length of the section", "Optibelt"
+count.length_factor = length_factor.of(length=m.vbelt_standard_length, reference=m.reference_length), "c_3", "1", "Belt length factor", "Optibelt"
+count.vbelt_power = m.vbelt.service_factor * m.motor_power, "P_b", "kW", "Design power of the belts", "Optibelt"
+count.vbelt_share = (inner(m.vbelt_power / (m.power_per_belt * m.wrap_factor * m.length_factor), needs=("power_per_belt",)), "z_P", "1",
+    "Design power in terms of that of one belt", "Optibelt")
+count.vbelt_count_needed = (value(np.maximum(1, np.ceil(m.vbelt_share)), whole=True, needs=("power_per_belt",)), "z_req", "1",
+    "Required number of belts", "Optibelt")
+count.vbelt_count = value(m[COUNT], whole=True, needs=(COUNT,)), "z", "1", "Number of belts: as given", "input"
+count.vbelt_count = (value(m.vbelt_count_needed, whole=True, needs=("power_per_belt",), lacks=(COUNT,)), "z", "1",
+    "Number of belts: the smallest sufficient number", "this method")
 
 PULL: dict[str, str | float] = {"count": "vbelt_count", "mass_per_length": "vbelt_mass", "speed": "vbelt_speed"}
 tensions = Chapter("Belt pull and shaft load",
     text="The belts transmit the motor's breakdown torque when it runs up or is overloaded, and must not slip then. The required static tension "
         "follows from the friction in their grooves: the ratio of the tensions of both sides is that of Euler's formula, and their mean is the "
         "static tension less the centrifugal force. At rest the whole tension loads the shafts.")
-tensions.value("vbelt_peak_torque", "M_1,max", "N*m", "Maximum torque of the motor, its breakdown torque",
-    lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="IEC 60034-12")
-tensions.value("vbelt_pull", "F_u", "N", "Maximum effective pull, all belts together",
-    bind(lambda service_factor, power, speed, torque, diameter: np.maximum(service_factor * power / speed, 2 * torque / diameter),
-        service_factor="vbelt.service_factor", power="motor_power", speed="vbelt_speed", torque="vbelt_peak_torque",
-        diameter="vbelt.driver_diameter"), source="mechanics")
-tensions.value("tight_tension", "F_1", "N", "Tight-side tension, without the centrifugal component",
-    lambda vbelt_pull, tension_ratio: vbelt_pull * tension_ratio / (tension_ratio - 1), source="Euler")
-tensions.value("slack_tension", "F_2", "N", "Slack-side tension, without the centrifugal component",
-    lambda vbelt_pull, tension_ratio: vbelt_pull / (tension_ratio - 1), source="Euler")
-tensions.lookup("vbelt_mass", "q", "kg/m", "Mass of one belt from its length", MASSES, by="vbelt.section", source="ISO 4184", output=False)
+tensions.vbelt_peak_torque = (m.breakdown_ratio * m.motor_rated_torque, "M_1,max", "N*m", "Maximum torque of the motor, its breakdown torque",
+    "IEC 60034-12")
+tensions.vbelt_pull = (np.maximum(m.vbelt.service_factor * m.motor_power / m.vbelt_speed, 2 * m.vbelt_peak_torque / m.vbelt.driver_diameter), "F_u",
+    "N", "Maximum effective pull, all belts together", "mechanics")
+tensions.tight_tension = (m.vbelt_pull * m.tension_ratio / (m.tension_ratio - 1), "F_1", "N",
+    "Tight-side tension, without the centrifugal component", "Euler")
+tensions.slack_tension = m.vbelt_pull / (m.tension_ratio - 1), "F_2", "N", "Slack-side tension, without the centrifugal component", "Euler"
+tensions.vbelt_mass = lookup(MASSES, by="vbelt.section", output=False), "q", "kg/m", "Mass of one belt from its length", "ISO 4184"
 for known in (("power_per_belt",), (COUNT,)):
     lacks = (COUNT,) if known == ("power_per_belt",) else ()
-    tensions.value("vbelt_tension_needed", "F_T,req", "N", "Required static tension of one belt",
-        bind(lambda pull, tension_ratio, count, mass_per_length, speed:
-                pull * (tension_ratio + 1) / (2 * count * (tension_ratio - 1)) + mass_per_length * speed**2,
-            pull="vbelt_pull", **PULL), source="GB/T 13575.1", needs=known, lacks=lacks)
-    tensions.value("vbelt_tension", "F_T", "N", "Static tension of one belt: the required one", lambda vbelt_tension_needed: vbelt_tension_needed,
-        source="this method", needs=known, lacks=(*lacks, "vbelt.tension"))
-    tensions.value("vbelt_tension", "F_T", "N", "Static tension of one belt: as given", bind(lambda given: given, given="vbelt.tension"),
-        source="input", needs=(*known, "vbelt.tension"), lacks=lacks)
-    tensions.value("vbelt_slip_pull", "F_slip", "N", "Effective pull at which the belts begin to slip",
-        bind(lambda tension, tension_ratio, count, mass_per_length, speed:
-                2 * count * (tension - mass_per_length * speed**2) * (tension_ratio - 1) / (tension_ratio + 1),
-            tension="vbelt_tension", **PULL), source="Euler", needs=(*known, "vbelt.tension"), lacks=lacks)
-    tensions.value("shaft_load", "F_s", "N", "Static load of the belts on the shafts of motor and flywheel",
-        lambda vbelt_count, vbelt_tension, vbelt_wrap: 2 * vbelt_count * vbelt_tension * np.sin(vbelt_wrap / 2), source="statics", needs=known,
-        lacks=lacks)
-tensions.value("shaft_load", "F_s", "N",
-    "Static load of the belts on the shafts, without the centrifugal component if the number of belts is not known",
-    lambda tight_tension, slack_tension, vbelt_wrap: (tight_tension + slack_tension) * np.sin(vbelt_wrap / 2), source="statics", **WITHOUT_COUNT)
-tensions.value("vbelt_bendings", "f_B", "1/s", "Belt bending frequency",
-    lambda vbelt_speed, vbelt_standard_length: 2 * vbelt_speed / vbelt_standard_length, source="kinematics")
+    tensions.vbelt_tension_needed = (value(m.vbelt_pull * (m.tension_ratio + 1) / (2 * m.vbelt_count * (m.tension_ratio - 1)) + m.vbelt_mass
+        * m.vbelt_speed**2, needs=known, lacks=lacks), "F_T,req", "N", "Required static tension of one belt", "GB/T 13575.1")
+    tensions.vbelt_tension = (value(m.vbelt_tension_needed, needs=known, lacks=(*lacks, "vbelt.tension")), "F_T", "N",
+        "Static tension of one belt: the required one", "this method")
+    tensions.vbelt_tension = (value(m.vbelt.tension, needs=(*known, "vbelt.tension"), lacks=lacks), "F_T", "N",
+        "Static tension of one belt: as given", "input")
+    tensions.vbelt_slip_pull = (value(2 * m.vbelt_count * (m.vbelt_tension - m.vbelt_mass * m.vbelt_speed**2) * (m.tension_ratio - 1)
+        / (m.tension_ratio + 1), needs=(*known, "vbelt.tension"), lacks=lacks), "F_slip", "N", "Effective pull at which the belts begin to slip",
+        "Euler")
+    tensions.shaft_load = (value(2 * m.vbelt_count * m.vbelt_tension * np.sin(m.vbelt_wrap / 2), needs=known, lacks=lacks), "F_s", "N",
+        "Static load of the belts on the shafts of motor and flywheel", "statics")
+tensions.shaft_load = (value((m.tight_tension + m.slack_tension) * np.sin(m.vbelt_wrap / 2), **WITHOUT_COUNT), "F_s", "N",
+    "Static load of the belts on the shafts, without the centrifugal component if the number of belts is not known", "statics")
+tensions.vbelt_bendings = 2 * m.vbelt_speed / m.vbelt_standard_length, "f_B", "1/s", "Belt bending frequency", "kinematics"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_angle, as_number, bind, number, pi
+from diecut_report.api import Chapter, as_angle, as_number, inner, m, number, pi, root, value
 from diecut_report.mechanics import drive_line, involute
 from diecut_report.plugins.gear_pair import formulas as f
 from diecut_report.plugins.gear_pair.load import DYNAMIC_KNOWN
@@ -17,69 +17,52 @@ FORM, CORRECTION = "ISO 6336-3:2006, 6", "ISO 6336-3:2006, 7"
 root_form = Chapter("Form of the tooth root",
     text="Virtual spur gears in the normal section, lengths in modules. The whole load acts at the outer point of single pair tooth contact. The "
         "critical section lies where tangents at 30° to the tooth's centre line touch the root fillet.")
-root_form.value("half_tip_width", "E", "1", "Distance of the fillet centre from the centre line of the rack tooth", f.half_tip_width, source=FORM,
-    output=False)
-root_form.require("rack_possible", lambda half_tip_width: half_tip_width >= 0, key="root_radius",
+root_form.half_tip_width = inner(f.half_tip_width), "E", "1", "Distance of the fillet centre from the centre line of the rack tooth", FORM
+root_form.require("rack_possible", m.half_tip_width >= 0, key="root_radius",
     message="is {root_radius}, so that the roundings of the rack's tip overlap; take a smaller root_radius or dedendum")
-root_form.value("virtual_contact_ratio", "ε_αn", "1", "Contact ratio of the virtual spur gears",
-    lambda contact_ratio, base_helix_angle: contact_ratio / np.cos(base_helix_angle) ** 2, source=FORM, output=False)
-root_form.require("below_two_pairs", lambda virtual_contact_ratio: virtual_contact_ratio < 2, key="addendum",
+root_form.virtual_contact_ratio = (inner(m.contact_ratio / np.cos(m.base_helix_angle) ** 2), "ε_αn", "1", "Contact ratio of the virtual spur gears",
+    FORM)
+root_form.require("below_two_pairs", m.virtual_contact_ratio < 2, key="addendum",
     message="is {addendum}, with which the virtual contact ratio is {virtual_contact_ratio}; from 2 on no single pair carries the load and this "
-        "method does not hold: take a smaller addendum, fewer teeth or less helix")
+    "method does not hold: take a smaller addendum, fewer teeth or less helix")
 
 for g, teeth in TEETH.items():
-    own = {"virtual_teeth": f"virtual_teeth_{g}", "theta": f"root_angle_{g}", "center_height": f"rounding_height_{g}"}
-    load = {"half_thickness": f"load_half_angle_{g}", "load_angle": f"load_angle_{g}", "diameter": f"load_diameter_{g}"}
-    root_form.value(f"virtual_teeth_{g}", f"z_n{g}", "1", f"Number of teeth of virtual spur gear {g}",
-        bind(lambda teeth, base_helix_angle, helix_angle: teeth / (np.cos(base_helix_angle) ** 2 * np.cos(helix_angle)), teeth=teeth),
-        source=FORM, output=False, digits=6)
-    root_form.value(f"rounding_height_{g}", f"G_{g}", "1", f"Height of the fillet centre on gear {g}",
-        bind(lambda root_radius, dedendum, shift: root_radius - dedendum + shift, shift=f"shift_{g}"), source=FORM, output=False)
-    root_form.value(f"tangent_offset_{g}", f"H_{g}", "rad", f"Auxiliary angle of gear {g}",
-        bind(lambda virtual_teeth, half_tip_width: as_angle(2 / virtual_teeth * (as_number(pi) / 2 - half_tip_width)) - pi / 3,
-            virtual_teeth=f"virtual_teeth_{g}"), source=FORM, output=False, digits=6)
-    root_form.require(f"root_exists_{g}",
-        bind(lambda offset, virtual_teeth, center_height:
-                (offset < 0) & (virtual_teeth * as_number(pi / 3 + offset) > 2 * np.sqrt(number(3)) * center_height), offset=f"tangent_offset_{g}",
-            virtual_teeth=f"virtual_teeth_{g}", center_height=f"rounding_height_{g}"), key=f"shift_{g}",
+    own = {"virtual_teeth": m[f"virtual_teeth_{g}"], "theta": m[f"root_angle_{g}"], "center_height": m[f"rounding_height_{g}"]}
+    root_form[f"virtual_teeth_{g}"] = (inner(m[teeth] / (np.cos(m.base_helix_angle) ** 2 * np.cos(m.helix_angle)), digits=6), f"z_n{g}", "1",
+        f"Number of teeth of virtual spur gear {g}", FORM)
+    root_form[f"rounding_height_{g}"] = (inner(m.root_radius - m.dedendum + m[f"shift_{g}"]), f"G_{g}", "1",
+        f"Height of the fillet centre on gear {g}", FORM)
+    root_form[f"tangent_offset_{g}"] = (inner(as_angle(2 / m[f"virtual_teeth_{g}"] * (as_number(pi) / 2 - m.half_tip_width)) - pi / 3, digits=6),
+        f"H_{g}", "rad", f"Auxiliary angle of gear {g}", FORM)
+    root_form.require(f"root_exists_{g}", (m[f"tangent_offset_{g}"] < 0) & (m[f"virtual_teeth_{g}"] * as_number(pi / 3 + m[f"tangent_offset_{g}"])
+        > 2 * np.sqrt(number(3)) * m[f"rounding_height_{g}"]), key=f"shift_{g}",
         message=f"is {{shift_{g}}}, with which no tangent at 30° touches the root of the tooth {g}; take less shift or more teeth")
-    root_form.root(f"root_angle_{g}", f"θ_{g}", "rad", f"Angle of the tangent's contact on gear {g}",
-        bind(lambda theta, offset, virtual_teeth, center_height: theta + offset - as_angle(2 * center_height / virtual_teeth * np.tan(theta)),
-            theta=f"root_angle_{g}", offset=f"tangent_offset_{g}", virtual_teeth=f"virtual_teeth_{g}", center_height=f"rounding_height_{g}"),
-        low=lambda: 0, high=lambda: pi / 3,
-        left=bind(lambda theta, virtual_teeth, offset: virtual_teeth * as_number(theta + offset) * np.cos(theta), theta=f"root_angle_{g}",
-            offset=f"tangent_offset_{g}", virtual_teeth=f"virtual_teeth_{g}"),
-        right=bind(lambda theta, center_height: 2 * center_height * np.sin(theta), theta=f"root_angle_{g}", center_height=f"rounding_height_{g}"),
-        source=FORM, output=False, digits=6, tolerance=1e-9)
-    root_form.value(f"chord_{g}", f"s_n{g}", "1", f"Tooth root chord of gear {g} at the critical section, in modules", bind(f.root_chord, **own),
-        source=FORM, output=False, digits=6)
-    root_form.value(f"fillet_{g}", f"r_n{g}", "1", f"Root fillet radius of gear {g} at the critical section, in modules",
-        bind(f.fillet_radius, **own), source=FORM, output=False, digits=6)
-    root_form.value(f"load_diameter_{g}", f"d_en{g}", "1", f"Diameter at the outer point of single pair tooth contact of gear {g}, in modules",
-        bind(f.single_contact_diameter, virtual_teeth=f"virtual_teeth_{g}", tip_height=f"tip_height_{g}"), source=FORM, output=False, digits=6)
-    root_form.value(f"load_pressure_angle_{g}", f"α_en{g}", "deg", f"Pressure angle at this point of gear {g}",
-        bind(lambda virtual_teeth, pressure_angle, diameter: np.arccos(virtual_teeth * np.cos(pressure_angle) / diameter),
-            virtual_teeth=f"virtual_teeth_{g}", diameter=f"load_diameter_{g}"), source=FORM, output=False, digits=6)
-    root_form.value(f"load_half_angle_{g}", f"γ_e{g}", "deg", f"Tooth thickness half angle at this point of gear {g}",
-        bind(involute.half_thickness, teeth=f"virtual_teeth_{g}", shift=f"shift_{g}", alpha="pressure_angle", alpha_there=f"load_pressure_angle_{g}"),
-        source=FORM, output=False, digits=6)
-    root_form.value(f"load_angle_{g}", f"α_Fen{g}", "deg", f"Load direction angle of gear {g}",
-        bind(lambda pressure, half: pressure - half, pressure=f"load_pressure_angle_{g}", half=f"load_half_angle_{g}"), source=FORM, output=False,
-        digits=6)
-    root_form.value(f"load_arm_{g}", f"h_Fe{g}", "1", f"Bending moment arm of gear {g}, in modules", bind(f.load_arm, **own, **load), source=FORM,
-        output=False, digits=6)
-    root_form.require(f"load_above_root_{g}", bind(lambda arm, chord: (arm > 0) & (chord > 0), arm=f"load_arm_{g}", chord=f"chord_{g}"),
-        key="addendum",
+    root_form[f"root_angle_{g}"] = (root(m[f"root_angle_{g}"] + m[f"tangent_offset_{g}"]
+        - as_angle(2 * m[f"rounding_height_{g}"] / m[f"virtual_teeth_{g}"] * np.tan(m[f"root_angle_{g}"])), low=0, high=pi / 3,
+        left=m[f"virtual_teeth_{g}"] * as_number(m[f"root_angle_{g}"] + m[f"tangent_offset_{g}"]) * np.cos(m[f"root_angle_{g}"]),
+        right=2 * m[f"rounding_height_{g}"] * np.sin(m[f"root_angle_{g}"]), output=False, digits=6, tolerance=1e-9), f"θ_{g}", "rad",
+        f"Angle of the tangent's contact on gear {g}", FORM)
+    root_form[f"chord_{g}"] = (inner(f.root_chord.of(**own), digits=6), f"s_n{g}", "1", f"Tooth root chord of gear {g} at the critical section, in modules", FORM)
+    root_form[f"fillet_{g}"] = (inner(f.fillet_radius.of(**own), digits=6), f"r_n{g}", "1", f"Root fillet radius of gear {g} at the critical section, in modules", FORM)
+    root_form[f"load_diameter_{g}"] = (inner(f.single_contact_diameter.of(virtual_teeth=m[f"virtual_teeth_{g}"], tip_height=m[f"tip_height_{g}"]),
+        digits=6), f"d_en{g}", "1", f"Diameter at the outer point of single pair tooth contact of gear {g}, in modules", FORM)
+    root_form[f"load_pressure_angle_{g}"] = (inner(np.arccos(m[f"virtual_teeth_{g}"] * np.cos(m.pressure_angle) / m[f"load_diameter_{g}"]),
+        digits=6), f"α_en{g}", "deg", f"Pressure angle at this point of gear {g}", FORM)
+    root_form[f"load_half_angle_{g}"] = (inner(involute.half_thickness.of(teeth=m[f"virtual_teeth_{g}"], shift=m[f"shift_{g}"],
+        alpha=m.pressure_angle, alpha_there=m[f"load_pressure_angle_{g}"]), digits=6), f"γ_e{g}", "deg",
+        f"Tooth thickness half angle at this point of gear {g}", FORM)
+    root_form[f"load_angle_{g}"] = (inner(m[f"load_pressure_angle_{g}"] - m[f"load_half_angle_{g}"], digits=6), f"α_Fen{g}", "deg",
+        f"Load direction angle of gear {g}", FORM)
+    root_form[f"load_arm_{g}"] = (inner(f.load_arm.of(**own, half_thickness=m[f"load_half_angle_{g}"], load_angle=m[f"load_angle_{g}"],
+        diameter=m[f"load_diameter_{g}"]), digits=6), f"h_Fe{g}", "1", f"Bending moment arm of gear {g}, in modules", FORM)
+    root_form.require(f"load_above_root_{g}", (m[f"load_arm_{g}"] > 0) & (m[f"chord_{g}"] > 0), key="addendum",
         message=f"is {{addendum}}, with which the load meets the tooth {g} below its critical section; take a greater addendum, or less dedendum")
-    root_form.value(f"form_factor_{g}", f"Y_F{g}", "1", f"Form factor of gear {g}",
-        bind(f.form_factor, load_arm=f"load_arm_{g}", load_angle=f"load_angle_{g}", root_chord=f"chord_{g}"), source=FORM, digits=6)
-    root_form.value(f"notch_parameter_{g}", f"q_s{g}", "1", f"Notch parameter of root {g}",
-        bind(lambda chord, fillet: chord / (2 * fillet), chord=f"chord_{g}", fillet=f"fillet_{g}"), source=CORRECTION, output=False)
-    root_form.value(f"stress_factor_{g}", f"Y_S{g}", "1", f"Stress correction factor of gear {g}",
-        bind(f.stress_factor, root_chord=f"chord_{g}", load_arm=f"load_arm_{g}", notch_parameter=f"notch_parameter_{g}"), source=CORRECTION,
-        digits=6)
-root_form.value("notch_parameter", "q_s", "1", "Notch parameter: the one below 1, else the greater one", f.worse_notch, source=CORRECTION,
-    output=False)
+    root_form[f"form_factor_{g}"] = (value(f.form_factor.of(load_arm=m[f"load_arm_{g}"], load_angle=m[f"load_angle_{g}"],
+        root_chord=m[f"chord_{g}"]), digits=6), f"Y_F{g}", "1", f"Form factor of gear {g}", FORM)
+    root_form[f"notch_parameter_{g}"] = inner(m[f"chord_{g}"] / (2 * m[f"fillet_{g}"])), f"q_s{g}", "1", f"Notch parameter of root {g}", CORRECTION
+    root_form[f"stress_factor_{g}"] = (value(f.stress_factor.of(root_chord=m[f"chord_{g}"], load_arm=m[f"load_arm_{g}"],
+        notch_parameter=m[f"notch_parameter_{g}"]), digits=6), f"Y_S{g}", "1", f"Stress correction factor of gear {g}", CORRECTION)
+root_form.notch_parameter = inner(f.worse_notch), "q_s", "1", "Notch parameter: the one below 1, else the greater one", CORRECTION
 
 
 PITTING, ROOT, STATICS = "ISO 6336-2:2006", "ISO 6336-3:2006", "statics"
@@ -90,149 +73,113 @@ RATED = (DYNAMIC_KNOWN,)
 
 sizes = Chapter("Dimensions")
 for g, teeth in TEETH.items():
-    sizes.value(f"pitch_diameter_{g}", f"d_{g}", "mm", f"Reference diameter of gear {g}",
-        bind(drive_line.reference_diameter, teeth=teeth), source=ISO_21771,
-        digits=6)
-sizes.value("reference_distance", "a_d", "mm", "Reference centre distance",
-    lambda pitch_diameter_1, pitch_diameter_2: (pitch_diameter_1 + pitch_diameter_2) / 2, source=ISO_21771, output=False, digits=6)
-sizes.value("center_distance", "a", "mm", "Centre distance: as given", bind(lambda given: given, given="inputs.center_distance"),
-    needs=GIVEN_DISTANCE, source="input", digits=6)
-sizes.value("center_distance", "a", "mm", "Centre distance without backlash", lambda reference_distance, transverse_angle, working_pressure_angle:
-        reference_distance * np.cos(transverse_angle) / np.cos(working_pressure_angle), lacks=GIVEN_DISTANCE, source=ISO_21771, digits=6)
+    sizes[f"pitch_diameter_{g}"] = (value(drive_line.reference_diameter.of(teeth=m[teeth]), digits=6), f"d_{g}", "mm",
+        f"Reference diameter of gear {g}", ISO_21771)
+sizes.reference_distance = inner((m.pitch_diameter_1 + m.pitch_diameter_2) / 2, digits=6), "a_d", "mm", "Reference centre distance", ISO_21771
+sizes.center_distance = value(m.inputs.center_distance, needs=GIVEN_DISTANCE, digits=6), "a", "mm", "Centre distance: as given", "input"
+sizes.center_distance = (value(m.reference_distance * np.cos(m.transverse_angle) / np.cos(m.working_pressure_angle), lacks=GIVEN_DISTANCE, digits=6),
+    "a", "mm", "Centre distance without backlash", ISO_21771)
 for g, teeth in TEETH.items():
-    sizes.value(f"base_diameter_{g}", f"d_b{g}", "mm", f"Base diameter of gear {g}",
-        bind(lambda diameter, transverse_angle: diameter * np.cos(transverse_angle), diameter=f"pitch_diameter_{g}"), source=ISO_21771, digits=6)
-    sizes.value(f"working_diameter_{g}", f"d_w{g}", "mm", f"Working pitch diameter of gear {g}",
-        bind(lambda distance, teeth, teeth_1, teeth_2: 2 * distance * teeth / (teeth_1 + teeth_2), distance="center_distance", teeth=teeth),
-        source=ISO_21771, digits=6)
-    sizes.value(f"tip_diameter_{g}", f"d_a{g}", "mm", f"Tip diameter of gear {g}",
-        bind(lambda diameter, module, height: diameter + 2 * module * height, diameter=f"pitch_diameter_{g}", height=f"tip_height_{g}"),
-        source=ISO_21771, digits=6)
-    sizes.value(f"root_diameter_{g}", f"d_f{g}", "mm", f"Root diameter of gear {g}",
-        bind(drive_line.root_diameter, diameter=f"pitch_diameter_{g}", shift=f"shift_{g}"), source=ISO_21771, digits=6)
-    sizes.require(f"root_circle_{g}", bind(lambda diameter: diameter > 0, diameter=f"root_diameter_{g}"), key="dedendum",
+    sizes[f"base_diameter_{g}"] = (value(m[f"pitch_diameter_{g}"] * np.cos(m.transverse_angle), digits=6), f"d_b{g}", "mm",
+        f"Base diameter of gear {g}", ISO_21771)
+    sizes[f"working_diameter_{g}"] = (value(2 * m.center_distance * m[teeth] / (m.teeth_1 + m.teeth_2), digits=6), f"d_w{g}", "mm",
+        f"Working pitch diameter of gear {g}", ISO_21771)
+    sizes[f"tip_diameter_{g}"] = (value(m[f"pitch_diameter_{g}"] + 2 * m.module * m[f"tip_height_{g}"], digits=6), f"d_a{g}", "mm",
+        f"Tip diameter of gear {g}", ISO_21771)
+    sizes[f"root_diameter_{g}"] = (value(drive_line.root_diameter.of(diameter=m[f"pitch_diameter_{g}"], shift=m[f"shift_{g}"]), digits=6), f"d_f{g}",
+        "mm", f"Root diameter of gear {g}", ISO_21771)
+    sizes.require(f"root_circle_{g}", m[f"root_diameter_{g}"] > 0, key="dedendum",
         message=f"is {{dedendum}}, with which nothing is left of the gear {g} within its roots; take a smaller dedendum or more teeth")
 for g in TEETH:
-    sizes.value(f"tip_clearance_{g}", f"c_{g}", "mm", f"Clearance between tip {g} and the root of the mating gear",
-        bind(lambda center_distance, tip, root: center_distance - (tip + root) / 2, tip=f"tip_diameter_{g}", root=f"root_diameter_{3 - g}"),
-        source=ISO_21771)
-    sizes.value(f"tip_thickness_{g}", f"s_an{g}", "mm", f"Normal tooth thickness at tip {g}",
-        bind(f.tip_thickness, tip_diameter=f"tip_diameter_{g}", half_thickness=f"tip_half_angle_{g}", reference_diameter=f"pitch_diameter_{g}"),
-        source=ISO_21771)
-    sizes.value(f"root_chord_{g}", f"s_Fn{g}", "mm", f"Tooth root chord of gear {g} at the critical section",
-        bind(lambda chord, module: chord * module, chord=f"chord_{g}"), source=f"{ROOT}, 6", digits=6)
-    sizes.value(f"root_radius_{g}", f"ρ_F{g}", "mm", f"Root fillet radius of gear {g} at the critical section",
-        bind(lambda fillet, module: fillet * module, fillet=f"fillet_{g}"), source=f"{ROOT}, 6", digits=6)
-sizes.value("tip_clearance_least", "c_min", "mm", "Minimum tip clearance",
-    lambda tip_clearance_1, tip_clearance_2: np.minimum(tip_clearance_1, tip_clearance_2), source=ISO_21771, output=False)
-sizes.value("tip_thickness_least", "s_an,min", "mm", "Minimum tip thickness",
-    lambda tip_thickness_1, tip_thickness_2: np.minimum(tip_thickness_1, tip_thickness_2), source=ISO_21771, output=False)
-sizes.value("tip_clearance_wanted", "c_w", "mm", "Minimum usual tip clearance", lambda module: 0.12 * module, source="practice", output=False)
-sizes.value("tip_thickness_wanted", "s_w", "mm", "Minimum usual tip thickness", lambda module: 0.2 * module, source="practice", output=False)
-sizes.value("face_width_wanted", "b_w", "mm", "Maximum usual face width", lambda pitch_diameter_1: 1.2 * pitch_diameter_1, source="practice",
-    output=False)
-sizes.value("base_pitch", "p_bt", "mm", "Transverse base pitch",
-    lambda pitch_diameter_1, teeth_1, transverse_angle: as_number(pi) * pitch_diameter_1 / teeth_1 * np.cos(transverse_angle), source=ISO_21771,
-    digits=6)
-sizes.value("overlap_ratio", "ε_β", "1", "Overlap ratio",
-    lambda face_width, helix_angle, module: face_width * np.sin(helix_angle) / (as_number(pi) * module), source=ISO_21771, digits=6)
-sizes.value("contact_ratio_total", "ε_γ", "1", "Total contact ratio", lambda contact_ratio, overlap_ratio: contact_ratio + overlap_ratio,
-    source=ISO_21771)
+    sizes[f"tip_clearance_{g}"] = (m.center_distance - (m[f"tip_diameter_{g}"] + m[f"root_diameter_{3 - g}"]) / 2, f"c_{g}", "mm",
+        f"Clearance between tip {g} and the root of the mating gear", ISO_21771)
+    sizes[f"tip_thickness_{g}"] = (f.tip_thickness.of(tip_diameter=m[f"tip_diameter_{g}"], half_thickness=m[f"tip_half_angle_{g}"],
+        reference_diameter=m[f"pitch_diameter_{g}"]), f"s_an{g}", "mm", f"Normal tooth thickness at tip {g}", ISO_21771)
+    sizes[f"root_chord_{g}"] = (value(m[f"chord_{g}"] * m.module, digits=6), f"s_Fn{g}", "mm",
+        f"Tooth root chord of gear {g} at the critical section", f"{ROOT}, 6")
+    sizes[f"root_radius_{g}"] = (value(m[f"fillet_{g}"] * m.module, digits=6), f"ρ_F{g}", "mm",
+        f"Root fillet radius of gear {g} at the critical section", f"{ROOT}, 6")
+sizes.tip_clearance_least = inner(np.minimum(m.tip_clearance_1, m.tip_clearance_2)), "c_min", "mm", "Minimum tip clearance", ISO_21771
+sizes.tip_thickness_least = inner(np.minimum(m.tip_thickness_1, m.tip_thickness_2)), "s_an,min", "mm", "Minimum tip thickness", ISO_21771
+sizes.tip_clearance_wanted = inner(0.12 * m.module), "c_w", "mm", "Minimum usual tip clearance", "practice"
+sizes.tip_thickness_wanted = inner(0.2 * m.module), "s_w", "mm", "Minimum usual tip thickness", "practice"
+sizes.face_width_wanted = inner(1.2 * m.pitch_diameter_1), "b_w", "mm", "Maximum usual face width", "practice"
+sizes.base_pitch = (value(as_number(pi) * m.pitch_diameter_1 / m.teeth_1 * np.cos(m.transverse_angle), digits=6), "p_bt", "mm",
+    "Transverse base pitch", ISO_21771)
+sizes.overlap_ratio = value(m.face_width * np.sin(m.helix_angle) / (as_number(pi) * m.module), digits=6), "ε_β", "1", "Overlap ratio", ISO_21771
+sizes.contact_ratio_total = m.contact_ratio + m.overlap_ratio, "ε_γ", "1", "Total contact ratio", ISO_21771
 
 forces = Chapter("Forces",
     text="For the maximum torque of run and frequent load cases. F_t acts at the reference circle and is used for the rating; the others act at the "
         "mesh.")
-forces.value("tangential_force", "F_t", "N", "Tangential force at the reference circle",
-    lambda torque_peak, pitch_diameter_1: 2 * torque_peak / pitch_diameter_1, source="ISO 6336-1")
-forces.value("root_force", "F_tF", "N", "Tangential force at the reference circle, for the tooth root",
-    lambda torque_root, pitch_diameter_1: 2 * torque_root / pitch_diameter_1, source="ISO 6336-1", output=False)
-forces.value("working_force", "F_tw", "N", "Tangential force at the working pitch circle",
-    lambda torque_peak, working_diameter_1: 2 * torque_peak / working_diameter_1, source=STATICS)
-forces.value("radial_force", "F_r", "N", "Radial force, which separates the axes",
-    lambda working_force, working_pressure_angle: working_force * np.tan(working_pressure_angle), source=STATICS)
-forces.value("axial_force", "F_a", "N", "Axial force", lambda tangential_force, helix_angle: tangential_force * np.tan(helix_angle), source=STATICS)
-forces.value("normal_force", "F_bn", "N", "Force normal to the flanks",
-    lambda torque_peak, base_diameter_1, base_helix_angle: 2 * torque_peak / (base_diameter_1 * np.cos(base_helix_angle)), source=STATICS)
-forces.value("pitch_velocity", "v", "m/s", "Pitch line velocity", lambda speed, working_diameter_1: speed * working_diameter_1 / 2, needs=("speed",),
-    source="kinematics")
-forces.value("power_peak", "P", "kW", "Power at the maximum torque", lambda torque_peak, speed: torque_peak * speed, needs=("speed",),
-    source="kinematics")
+forces.tangential_force = 2 * m.torque_peak / m.pitch_diameter_1, "F_t", "N", "Tangential force at the reference circle", "ISO 6336-1"
+forces.root_force = (inner(2 * m.torque_root / m.pitch_diameter_1), "F_tF", "N", "Tangential force at the reference circle, for the tooth root",
+    "ISO 6336-1")
+forces.working_force = 2 * m.torque_peak / m.working_diameter_1, "F_tw", "N", "Tangential force at the working pitch circle", STATICS
+forces.radial_force = m.working_force * np.tan(m.working_pressure_angle), "F_r", "N", "Radial force, which separates the axes", STATICS
+forces.axial_force = m.tangential_force * np.tan(m.helix_angle), "F_a", "N", "Axial force", STATICS
+forces.normal_force = 2 * m.torque_peak / (m.base_diameter_1 * np.cos(m.base_helix_angle)), "F_bn", "N", "Force normal to the flanks", STATICS
+forces.pitch_velocity = value(m.speed * m.working_diameter_1 / 2, needs=("speed",)), "v", "m/s", "Pitch line velocity", "kinematics"
+forces.power_peak = value(m.torque_peak * m.speed, needs=("speed",)), "P", "kW", "Power at the maximum torque", "kinematics"
 
 pitting = Chapter("Pitting",
     text="Load at the pitch point, converted to the inner points of single pair tooth contact by Z_B and Z_D. Z_E is for Poisson's ratio 0.3.")
-pitting.value("zone_factor", "Z_H", "1", "Zone factor", bind(lambda base_helix_angle, working_angle, alpha:
-        np.sqrt(2 * np.cos(base_helix_angle) * np.cos(working_angle) / (np.cos(alpha) ** 2 * np.sin(working_angle))),
-    working_angle="working_pressure_angle", alpha="transverse_angle"),
-    source=f"{PITTING}, 6")
-pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E",
-    lambda elastic_modulus_1, elastic_modulus_2:
-        1 / (as_number(pi) * ((1 - number(0.3) ** 2) / elastic_modulus_1 + (1 - number(0.3) ** 2) / elastic_modulus_2)),
-    source=f"{PITTING}, 7", output=False)
-pitting.value("contact_ratio_factor", "Z_ε", "1", "Contact ratio factor", f.contact_ratio_factor, source=f"{PITTING}, 8")
-pitting.value("helix_factor", "Z_β", "1", "Helix angle factor", lambda helix_angle: 1 / np.sqrt(np.cos(helix_angle)),
-    source=f"{PITTING}, 9, corrigendum 2008", output=False)
-pitting.value("nominal_contact_stress", "σ_H0", "MPa", "Nominal contact stress at the pitch point",
-    bind(f.nominal_contact_stress, force="tangential_force", diameter="pitch_diameter_1"), source=f"{PITTING}, 5")
+pitting.zone_factor = (np.sqrt(2 * np.cos(m.base_helix_angle) * np.cos(m.working_pressure_angle)
+    / (np.cos(m.transverse_angle) ** 2 * np.sin(m.working_pressure_angle))), "Z_H", "1", "Zone factor", f"{PITTING}, 6")
+pitting.elasticity = (inner(1 / (as_number(pi) * ((1 - number(0.3) ** 2) / m.elastic_modulus_1 + (1 - number(0.3) ** 2) / m.elastic_modulus_2))),
+    "E_Z", "MPa", "Square of the elasticity factor Z_E", f"{PITTING}, 7")
+pitting.contact_ratio_factor = f.contact_ratio_factor, "Z_ε", "1", "Contact ratio factor", f"{PITTING}, 8"
+pitting.helix_factor = inner(1 / np.sqrt(np.cos(m.helix_angle))), "Z_β", "1", "Helix angle factor", f"{PITTING}, 9, corrigendum 2008"
+pitting.nominal_contact_stress = (f.nominal_contact_stress.of(force=m.tangential_force, diameter=m.pitch_diameter_1), "σ_H0", "MPa",
+    "Nominal contact stress at the pitch point", f"{PITTING}, 5")
 for g, teeth in TEETH.items():
-    pitting.require(f"single_contact_exists_{g}",
-        bind(lambda tip_angle, teeth: np.tan(tip_angle) > 2 * as_number(pi) / teeth, tip_angle=f"tip_angle_{g}", teeth=teeth), key="addendum",
+    pitting.require(f"single_contact_exists_{g}", np.tan(m[f"tip_angle_{g}"]) > 2 * as_number(pi) / m[teeth], key="addendum",
         message=f"is {{addendum}}, with which the flank {g} ends before its inner point of single contact; take more shift, less dedendum and "
-            "addendum, or more teeth")
+        "addendum, or more teeth")
 for g, teeth in TEETH.items():
     mate = 3 - g
-    pitting.value(f"single_contact_{g}", f"M_{g}", "1",
-        f"Ratio of the pressure at the inner point of single pair tooth contact of gear {g} to that at the pitch point",
-        bind(f.single_contact, working_angle="working_pressure_angle", tip_angle=f"tip_angle_{g}", teeth=teeth, tip_angle_mate=f"tip_angle_{mate}",
-            teeth_mate=TEETH[mate]), source=f"{PITTING}, 6", output=False)
-    pitting.value(f"contact_factor_{g}", "Z_B" if g == 1 else "Z_D", "1", f"Single pair tooth contact factor of gear {g}",
-        bind(f.contact_factor, single_contact=f"single_contact_{g}"), source=f"{PITTING}, 6")
-    pitting.value(f"contact_stress_{g}", f"σ_H{g}", "MPa", f"Contact stress of gear {g}",
-        bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", **FOR_FLANK),
-        source=f"{PITTING}, 5", needs=RATED)
-    pitting.value(f"pitting_safety_{g}", f"S_H{g}", "1", f"Safety factor of gear {g} against pitting",
-        bind(f.pitting_safety, limit=f"sigma_h_lim_{g}", life=f"life_factor_h_{g}", film="film_factor", stress=f"contact_stress_{g}"),
-        source=f"{PITTING}, 5", needs=RATED)
+    pitting[f"single_contact_{g}"] = (inner(f.single_contact.of(working_angle=m.working_pressure_angle, tip_angle=m[f"tip_angle_{g}"],
+        teeth=m[teeth], tip_angle_mate=m[f"tip_angle_{mate}"], teeth_mate=m[TEETH[mate]])), f"M_{g}", "1",
+        f"Ratio of the pressure at the inner point of single pair tooth contact of gear {g} to that at the pitch point", f"{PITTING}, 6")
+    pitting[f"contact_factor_{g}"] = (f.contact_factor.of(single_contact=m[f"single_contact_{g}"]), "Z_B" if g == 1 else "Z_D", "1",
+        f"Single pair tooth contact factor of gear {g}", f"{PITTING}, 6")
+    pitting[f"contact_stress_{g}"] = (value(f.contact_stress.of(nominal=m.nominal_contact_stress, contact_factor=m[f"contact_factor_{g}"],
+        application=m.application_factor, dynamic=m.dynamic_factor, face=m.face_load_factor, transverse=m.transverse_load_factor), needs=RATED),
+        f"σ_H{g}", "MPa", f"Contact stress of gear {g}", f"{PITTING}, 5")
+    pitting[f"pitting_safety_{g}"] = (value(f.pitting_safety.of(limit=m[f"sigma_h_lim_{g}"], life=m[f"life_factor_h_{g}"], film=m.film_factor,
+        stress=m[f"contact_stress_{g}"]), needs=RATED), f"S_H{g}", "1", f"Safety factor of gear {g} against pitting", f"{PITTING}, 5")
 
 root_stress = Chapter("Tooth root",
     text="Method B: the load acts at the outer point of single pair tooth contact, Y_ε does not occur; Y_B = Y_DT = 1.")
-root_stress.value("tooth_height", "h", "mm", "Tooth depth",
-    lambda module, addendum, dedendum, tip_alteration: module * (addendum + dedendum + tip_alteration), source=ISO_21771, output=False)
-root_stress.value("face_to_height", "r", "1", "Ratio of face width to tooth depth, at least 3",
-    lambda face_width, tooth_height: np.maximum(face_width / tooth_height, 3), source="ISO 6336-1", output=False)
-root_stress.value("face_load_root", "K_Fβ", "1", "Face load factor for tooth root stress",
-    lambda face_load_factor, face_to_height: face_load_factor ** (face_to_height**2 / (1 + face_to_height + face_to_height**2)),
-    source="ISO 6336-1, 7", needs=RATED)
-root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor for tooth root stress",
-    lambda overlap_ratio, helix_angle: 1 - np.minimum(overlap_ratio, 1) * helix_angle / (2 * pi / 3), source=f"{ROOT}, 8")
+root_stress.tooth_height = inner(m.module * (m.addendum + m.dedendum + m.tip_alteration)), "h", "mm", "Tooth depth", ISO_21771
+root_stress.face_to_height = (inner(np.maximum(m.face_width / m.tooth_height, 3)), "r", "1", "Ratio of face width to tooth depth, at least 3",
+    "ISO 6336-1")
+root_stress.face_load_root = (value(m.face_load_factor ** (m.face_to_height**2 / (1 + m.face_to_height + m.face_to_height**2)), needs=RATED), "K_Fβ",
+    "1", "Face load factor for tooth root stress", "ISO 6336-1, 7")
+root_stress.helix_factor_root = (1 - np.minimum(m.overlap_ratio, 1) * m.helix_angle / (2 * pi / 3), "Y_β", "1",
+    "Helix angle factor for tooth root stress", f"{ROOT}, 8")
 for g in TEETH:
-    root_stress.value(f"nominal_root_stress_{g}", f"σ_F0{g}", "MPa", f"Nominal tooth root stress of gear {g}",
-        bind(lambda force, form_factor, stress_factor, helix_factor, face_width, module:
-                force * form_factor * stress_factor * helix_factor / (face_width * module), force="root_force", form_factor=f"form_factor_{g}",
-            stress_factor=f"stress_factor_{g}", helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
-    root_stress.value(f"root_stress_{g}", f"σ_F{g}", "MPa", f"Tooth root stress of gear {g}",
-        bind(lambda nominal, application, dynamic, face, transverse: nominal * application * dynamic * face * transverse,
-            nominal=f"nominal_root_stress_{g}", **FOR_ROOT), source=f"{ROOT}, 5", needs=RATED)
-    root_stress.value(f"root_safety_{g}", f"S_F{g}", "1", f"Safety factor of gear {g} against tooth breakage",
-        bind(lambda limit, life, notch, alternating, stress: 2 * limit * life * notch * alternating / stress, limit=f"sigma_f_lim_{g}",
-            life=f"life_factor_f_{g}", notch="notch_size_factor", alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5",
-        needs=RATED)
+    root_stress[f"nominal_root_stress_{g}"] = (m.root_force * m[f"form_factor_{g}"] * m[f"stress_factor_{g}"] * m.helix_factor_root
+        / (m.face_width * m.module), f"σ_F0{g}", "MPa", f"Nominal tooth root stress of gear {g}", f"{ROOT}, 5")
+    root_stress[f"root_stress_{g}"] = (value(m[f"nominal_root_stress_{g}"] * m.application_factor * m.dynamic_factor * m.face_load_root
+        * m.transverse_load_root, needs=RATED), f"σ_F{g}", "MPa", f"Tooth root stress of gear {g}", f"{ROOT}, 5")
+    root_stress[f"root_safety_{g}"] = (value(2 * m[f"sigma_f_lim_{g}"] * m[f"life_factor_f_{g}"] * m.notch_size_factor * m.alternating_factor
+        / m[f"root_stress_{g}"], needs=RATED), f"S_F{g}", "1", f"Safety factor of gear {g} against tooth breakage", f"{ROOT}, 5")
 
 over_cycle = Chapter("Forces over the cycle", needs=("torque_curve",))
-over_cycle.value("tangential_force_curve", "F_tφ", "N", "Tangential force at the reference circle, with the sign of the torque",
-    lambda torque_pinion_curve, pitch_diameter_1: 2 * torque_pinion_curve / pitch_diameter_1, source="ISO 6336-1")
-over_cycle.value("nominal_contact_curve", "σ_H0φ", "MPa", "Nominal contact stress",
-    bind(f.nominal_contact_stress, force="tangential_force_curve", diameter="pitch_diameter_1"), source=f"{PITTING}, 5", output=False)
-over_cycle.value("contact_stress_curve", "σ_H1φ", "MPa", "Contact stress of the pinion",
-    bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", **FOR_FLANK),
-    source=f"{PITTING}, 5", needs=RATED)
+over_cycle.tangential_force_curve = (2 * m.torque_pinion_curve / m.pitch_diameter_1, "F_tφ", "N",
+    "Tangential force at the reference circle, with the sign of the torque", "ISO 6336-1")
+over_cycle.nominal_contact_curve = (inner(f.nominal_contact_stress.of(force=m.tangential_force_curve, diameter=m.pitch_diameter_1)), "σ_H0φ", "MPa",
+    "Nominal contact stress", f"{PITTING}, 5")
+over_cycle.contact_stress_curve = (value(f.contact_stress.of(nominal=m.nominal_contact_curve, contact_factor=m.contact_factor_1,
+    application=m.application_factor, dynamic=m.dynamic_factor, face=m.face_load_factor, transverse=m.transverse_load_factor), needs=RATED), "σ_H1φ",
+    "MPa", "Contact stress of the pinion", f"{PITTING}, 5")
 
 sector = Chapter("Sector", needs=("sector",), absent="sector is not given: the wheel makes full revolutions",
     text="The maximum torque is assumed to act at any position in the mesh, on every tooth of the sector.")
-sector.value("teeth_swept", "z_γ", "1", "Number of teeth swept by the swing",
-    bind(lambda swing, teeth_2: swing * teeth_2 / (2 * pi), swing="sector.swing"), source="kinematics", digits=6)
-sector.value("teeth_needed", "z_n", "1", "Required number of teeth of the sector: those swept, those in mesh at the end, and one to spare",
-    lambda teeth_swept, contact_ratio: np.ceil(teeth_swept + contact_ratio) + 1, whole=True, source="this method")
-sector.value("pinion_rotation", "γ_1", "deg", "Rotation of the pinion", bind(lambda ratio, swing: ratio * swing, swing="sector.swing"),
-    source="kinematics", digits=6)
-sector.require("teeth_fit", bind(lambda present, teeth_2: present <= teeth_2, present="sector.teeth_present"), key="sector.teeth_present",
-    needs=("sector.teeth_present",), message="is {sector.teeth_present}, more than the {teeth_2} of the full circle; give at most those")
+sector.teeth_swept = value(m.sector.swing * m.teeth_2 / (2 * pi), digits=6), "z_γ", "1", "Number of teeth swept by the swing", "kinematics"
+sector.teeth_needed = (value(np.ceil(m.teeth_swept + m.contact_ratio) + 1, whole=True), "z_n", "1",
+    "Required number of teeth of the sector: those swept, those in mesh at the end, and one to spare", "this method")
+sector.pinion_rotation = value(m.ratio * m.sector.swing, digits=6), "γ_1", "deg", "Rotation of the pinion", "kinematics"
+sector.require("teeth_fit", m.sector.teeth_present <= m.teeth_2, key="sector.teeth_present", needs=("sector.teeth_present",),
+    message="is {sector.teeth_present}, more than the {teeth_2} of the full circle; give at most those")

@@ -7,7 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Bound, Chapter, Formula, Value, Vary, bind, phrase, si, standard_series
+from diecut_report.api import (
+    Bound,
+    Chapter,
+    Formula,
+    Value,
+    Vary,
+    computed,
+    m,
+    phrase,
+    pick,
+    si,
+    standard_series,
+    value,
+)
 from diecut_report.plugins.gear_pair import load, rating
 from diecut_report.plugins.gear_pair.load import KEYS
 from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, TEETH
@@ -80,13 +93,12 @@ module = Chapter("Module",
     text="The rating below is evaluated with each module of the preferred series; the smallest one with which flank and root of both gears reach "
         "their required safety factors is selected.")
 module.prepared("sufficient_module", least_module, TAKES, for_many=True, lacks=GIVEN_DISTANCE)
-module.computed("module_least", "m_min", "mm", "Smallest sufficient preferred module", function=lambda found: found, takes=("sufficient_module",),
+module.module_least = (computed(function=lambda found: found, takes=("sufficient_module",),
     method="the safety factors for pitting and tooth root below, with each module of ISO 54, series I, in turn; 0 where none is sufficient",
-    lacks=GIVEN_DISTANCE, output=False)
-module.require("module_exists", lambda module_least: module_least > 0, key="face_width", lacks=("module",),
+    lacks=GIVEN_DISTANCE, output=False), "m_min", "mm", "Smallest sufficient preferred module")
+module.require("module_exists", m.module_least > 0, key="face_width", lacks=("module",),
     message="is {face_width}, with which no module of ISO 54 carries the torque at a speed for which the dynamic factor is known; better steel, a "
-        "smaller torque or a given dynamic_factor helps",
-    advise=(Vary("face_width", "up"),))
-module.pick("module", "m_n", "mm", "Normal module: the smallest sufficient one", "above", of="module_least", series=MODULES, lacks=("module",),
-    source="ISO 54")
-module.value("module", "m_n", "mm", "Normal module: as given", bind(lambda given: given, given="inputs.module"), needs=("module",), source="input")
+    "smaller torque or a given dynamic_factor helps", advise=(Vary("face_width", "up"),))
+module.module = (pick("above", of="module_least", series=MODULES, lacks=("module",)), "m_n", "mm", "Normal module: the smallest sufficient one",
+    "ISO 54")
+module.module = value(m.inputs.module, needs=("module",)), "m_n", "mm", "Normal module: as given", "input"

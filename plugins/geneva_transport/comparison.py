@@ -22,18 +22,23 @@ from diecut_report.api import (
     Steps,
     Text,
     View,
+    abscissa,
     as_number,
-    bind,
     case,
     chart_panel,
+    choice,
     formula,
+    from_curve,
+    inner,
     level,
     line,
+    m,
     mark,
     pi,
+    reduction,
+    value,
     vertical,
 )
-from diecut_report.mechanics import common
 from diecut_report.plugins.geneva_transport import formulas
 
 # fmt: off
@@ -207,97 +212,78 @@ class TransportComparison(Inputs):
 basis = Chapter("Basis of comparison",
     text="Both drives make the same step S in the same time T, each with its own dwell. Velocities are related to the mean velocity S/T, "
         "accelerations to S/T²; so they hold for any step and any productivity.")
-basis.value("cycle_time", "T", "ms", "Cycle time of the cam-gear", lambda cycles_per_hour: 1 / cycles_per_hour, source="kinematics")
-basis.value("geneva_cycle_time", "T_g", "ms", "Time of a revolution of the Geneva drive's crank, as given there",
-    lambda crank_speed: 2 * pi / crank_speed, source="kinematics")
-basis.choice("cycle_basis", "→", "1", "Cycle time of the comparison",
-    case("both drives have it", "the cycle times are the same", bind(are_alike, one="cycle_time", other="geneva_cycle_time")),
-    case("the cam-gear's, for both drives", "the Geneva drive has another one"))
-basis.choice("step_basis", "→", "1", "Step of the comparison",
-    case("both drives have it", "the steps are the same", bind(are_alike, one="cam_step", other="geneva_step")),
-    case("the cam-gear's, for both drives", "the Geneva drive has another one"), needs=("cam_step", "geneva_step"))
+basis.cycle_time = 1 / m.cycles_per_hour, "T", "ms", "Cycle time of the cam-gear", "kinematics"
+basis.geneva_cycle_time = 2 * pi / m.crank_speed, "T_g", "ms", "Time of a revolution of the Geneva drive's crank, as given there", "kinematics"
+basis.cycle_basis = (choice(case("both drives have it", "the cycle times are the same", are_alike.of(one=m.cycle_time, other=m.geneva_cycle_time)),
+    case("the cam-gear's, for both drives", "the Geneva drive has another one")), "→", "1", "Cycle time of the comparison")
+basis.step_basis = (choice(case("both drives have it", "the steps are the same", are_alike.of(one=m.cam_step, other=m.geneva_step)),
+    case("the cam-gear's, for both drives", "the Geneva drive has another one"), needs=("cam_step", "geneva_step")), "→", "1",
+    "Step of the comparison")
 
 dwell = Chapter("Dwell")
-dwell.value("geneva_dwell", "κ_d", "1", "Geneva: dwell fraction of the cycle", formulas.dwell_fraction, source="geometry")
-dwell.value("cam_time_dwell", "t_c", "ms", "Cam-gear: time of the dwell", lambda dwell_share, cycle_time: dwell_share * cycle_time,
-    source="kinematics")
-dwell.value("geneva_time_dwell", "t_g", "ms", "Geneva: time of the dwell", lambda geneva_dwell, cycle_time: geneva_dwell * cycle_time,
-    source="kinematics")
-dwell.value("dwell_ratio", "q_d", "1", "Dwell, ratio of Geneva to cam-gear", lambda geneva_dwell, dwell_share: geneva_dwell / dwell_share,
-    source="kinematics")
+dwell.geneva_dwell = formulas.dwell_fraction, "κ_d", "1", "Geneva: dwell fraction of the cycle", "geometry"
+dwell.cam_time_dwell = m.dwell_share * m.cycle_time, "t_c", "ms", "Cam-gear: time of the dwell", "kinematics"
+dwell.geneva_time_dwell = m.geneva_dwell * m.cycle_time, "t_g", "ms", "Geneva: time of the dwell", "kinematics"
+dwell.dwell_ratio = m.geneva_dwell / m.dwell_share, "q_d", "1", "Dwell, ratio of Geneva to cam-gear", "kinematics"
 
-IN_SLOT = bind(lambda flag: flag == 1, flag="engaged")
+IN_SLOT = m.engaged == 1
 
 motion = Chapter("Motion of the sheet over a cycle",
     text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. k and s hold for a whole piece of the cycle "
         "and are shown in its middle, all other curves at the stated φ.")
-motion.value("crank_ratio", "λ", "1", "Geneva: ratio of crank radius to centre distance", formulas.crank_ratio, source="geometry", output=False)
-motion.value("engagement_half_angle", "α_e", "deg", "Geneva: half the angle of the engagement", formulas.engagement_half_angle, source="geometry",
-    output=False)
-motion.value("middle", "φ_m", "deg", "Cycle angle in the middle of both motions", lambda dwell_share: pi * (1 + dwell_share), source="kinematics",
-    output=False)
-motion.value("geneva_entry", "φ_g1", "deg", "Cycle angle at the Geneva drive's entry",
-    lambda middle, engagement_half_angle: middle - engagement_half_angle, source="kinematics", output=False)
-motion.value("geneva_exit", "φ_g2", "deg", "Cycle angle at the Geneva drive's exit",
-    lambda middle, engagement_half_angle: middle + engagement_half_angle, source="kinematics", output=False)
-motion.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution, from the beginning of the cam-gear's dwell", 2 * np.pi,
-    shown_at="geneva_acceleration_peak_at")
+motion.crank_ratio = inner(formulas.crank_ratio), "λ", "1", "Geneva: ratio of crank radius to centre distance", "geometry"
+motion.engagement_half_angle = inner(formulas.engagement_half_angle), "α_e", "deg", "Geneva: half the angle of the engagement", "geometry"
+motion.middle = inner(pi * (1 + m.dwell_share)), "φ_m", "deg", "Cycle angle in the middle of both motions", "kinematics"
+motion.geneva_entry = inner(m.middle - m.engagement_half_angle), "φ_g1", "deg", "Cycle angle at the Geneva drive's entry", "kinematics"
+motion.geneva_exit = inner(m.middle + m.engagement_half_angle), "φ_g2", "deg", "Cycle angle at the Geneva drive's exit", "kinematics"
+motion.cycle_angle = (abscissa(2 * np.pi, shown_at="geneva_acceleration_peak_at"), "φ", "deg",
+    "Cycle angle, one revolution, from the beginning of the cam-gear's dwell")
 motion.breakpoints("engagement", "cycle_angle", "geneva_entry", "geneva_exit")
-motion.choice("turns", "k", "1", "Nearest motion of the Geneva drive",
-    case(lambda: 1, "the end of the previous motion", lambda cycle_angle, middle: cycle_angle < middle - pi),
-    case(lambda: 0, "the motion of this cycle"), output=False, per_piece=True)
-motion.value("geneva_angle", "α", "deg", "Geneva: crank angle from the middle of the motion",
-    lambda cycle_angle, middle, turns: cycle_angle - middle + 2 * pi * turns, source="kinematics", output=False)
-motion.choice("engaged", "s", "1", "Geneva drive's roller in a slot (1) or not (0)",
-    case(lambda: 1, "the roller is in a slot", lambda geneva_angle, engagement_half_angle: abs(geneva_angle) <= engagement_half_angle),
-    case(lambda: 0, "the locking disc holds the wheel"), output=False, per_piece=True)
-motion.from_curve("cam_gear_speed", "ω_1", "rad", "Cam-gear: speed of the gear, per revolution of the disc", given="gear_speed",
-    abscissa="cycle_angle", output=False)
-motion.from_curve("cam_gear_acceleration", "ε_1", "rad/s**2", "Cam-gear: acceleration of the gear", given="gear_acceleration", abscissa="cycle_angle",
-    output=False)
-motion.value("cam_velocity", "v_c", "1", "Cam-gear: ratio of the sheet's velocity to the mean velocity S/T",
-    lambda cam_gear_speed: cam_gear_speed / (2 * pi), source="kinematics")
-motion.value("cam_acceleration", "a_c", "1", "Cam-gear: sheet acceleration in units of S/T²",
-    lambda cam_gear_acceleration, cycle_time: cam_gear_acceleration * cycle_time ** 2 / (2 * pi), source="kinematics")
-motion.choice("geneva_velocity", "v_g", "1", "Geneva: ratio of the sheet's velocity to the mean velocity S/T",
-    case(lambda slots, geneva_angle, crank_ratio: slots * formulas.speed_ratio(geneva_angle, crank_ratio), "the roller is in a slot", IN_SLOT),
-    case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
-motion.choice("geneva_acceleration", "a_g", "1", "Geneva: sheet acceleration in units of S/T²",
-    case(lambda slots, geneva_angle, crank_ratio: as_number(2 * pi) * slots * formulas.acceleration_ratio(geneva_angle, crank_ratio),
-        "the roller is in a slot", IN_SLOT), case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
-motion.value("cam_power", "P_c", "1", "Cam-gear: power in units of m·S²/T³", lambda cam_velocity, cam_acceleration: cam_velocity * cam_acceleration,
-    source="energy", output=False)
-motion.value("geneva_power", "P_g", "1", "Geneva: power in units of m·S²/T³",
-    lambda geneva_velocity, geneva_acceleration: geneva_velocity * geneva_acceleration, source="energy", output=False)
+motion.turns = (choice(case(1, "the end of the previous motion", m.cycle_angle < m.middle - pi), case(0, "the motion of this cycle"), output=False,
+    per_piece=True), "k", "1", "Nearest motion of the Geneva drive")
+motion.geneva_angle = (inner(m.cycle_angle - m.middle + 2 * pi * m.turns), "α", "deg", "Geneva: crank angle from the middle of the motion",
+    "kinematics")
+motion.engaged = (choice(case(1, "the roller is in a slot", abs(m.geneva_angle) <= m.engagement_half_angle),
+    case(0, "the locking disc holds the wheel"), output=False, per_piece=True), "s", "1", "Geneva drive's roller in a slot (1) or not (0)")
+motion.cam_gear_speed = (from_curve(given="gear_speed", abscissa="cycle_angle", output=False), "ω_1", "rad",
+    "Cam-gear: speed of the gear, per revolution of the disc")
+motion.cam_gear_acceleration = (from_curve(given="gear_acceleration", abscissa="cycle_angle", output=False), "ε_1", "rad/s**2",
+    "Cam-gear: acceleration of the gear")
+motion.cam_velocity = m.cam_gear_speed / (2 * pi), "v_c", "1", "Cam-gear: ratio of the sheet's velocity to the mean velocity S/T", "kinematics"
+motion.cam_acceleration = (m.cam_gear_acceleration * m.cycle_time ** 2 / (2 * pi), "a_c", "1", "Cam-gear: sheet acceleration in units of S/T²",
+    "kinematics")
+motion.geneva_velocity = (choice(case(m.slots * formulas.speed_ratio(m.geneva_angle, m.crank_ratio), "the roller is in a slot", IN_SLOT),
+    case(0, "the locking disc holds the wheel")), "v_g", "1", "Geneva: ratio of the sheet's velocity to the mean velocity S/T", "kinematics")
+motion.geneva_acceleration = (choice(case(as_number(2 * pi) * m.slots * formulas.acceleration_ratio(m.geneva_angle, m.crank_ratio),
+    "the roller is in a slot", IN_SLOT), case(0, "the locking disc holds the wheel")), "a_g", "1", "Geneva: sheet acceleration in units of S/T²",
+    "kinematics")
+motion.cam_power = inner(m.cam_velocity * m.cam_acceleration), "P_c", "1", "Cam-gear: power in units of m·S²/T³", "energy"
+motion.geneva_power = inner(m.geneva_velocity * m.geneva_acceleration), "P_g", "1", "Geneva: power in units of m·S²/T³", "energy"
 for what, letter, told in (("velocity", "v", "velocity in units of S/T"), ("acceleration", "a", "acceleration in units of S/T²"),
                            ("power", "P", "power in units of m·S²/T³, and so torque")):
     for drive, name in (("cam", "Cam-gear"), ("geneva", "Geneva")):
-        motion.reduction(f"{drive}_{what}_peak", f"{letter}_{drive[0]},max", "1", f"{name}: maximum {told}", "abs_max", of=f"{drive}_{what}",
-            source="kinematics")
-motion.value("geneva_jump", "a_g,e", "1", "Geneva: jump of the acceleration at entry and exit in units of S/T²",
-    lambda slots: as_number(2 * pi) * slots * np.tan(pi / slots), source="kinematics")
+        motion[f"{drive}_{what}_peak"] = (reduction("abs_max", of=f"{drive}_{what}"), f"{letter}_{drive[0]},max", "1", f"{name}: maximum {told}",
+            "kinematics")
+motion.geneva_jump = (as_number(2 * pi) * m.slots * np.tan(pi / m.slots), "a_g,e", "1",
+    "Geneva: jump of the acceleration at entry and exit in units of S/T²", "kinematics")
 for what, symbol in (("velocity", "q_v"), ("acceleration", "q_a")):
-    motion.value(f"{what}_ratio", symbol, "1", f"Maximum {what}, ratio of Geneva to cam-gear",
-        bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
-motion.value("torque_ratio", "q_M", "1", "Maximum torque for the same mass, ratio of Geneva to cam-gear",
-    lambda geneva_power_peak, cam_power_peak: geneva_power_peak / cam_power_peak, source="energy")
+    motion[f"{what}_ratio"] = (m[f"geneva_{what}_peak"] / m[f"cam_{what}_peak"], symbol, "1", f"Maximum {what}, ratio of Geneva to cam-gear",
+        "kinematics")
+motion.torque_ratio = m.geneva_power_peak / m.cam_power_peak, "q_M", "1", "Maximum torque for the same mass, ratio of Geneva to cam-gear", "energy"
 
 
 def _in_units(chapter: Steps, step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> None:
     """Peaks of both drives with the step of one of them."""
     drives = (("cam", "Cam-gear"), ("geneva", "Geneva"))
     for drive, name in drives:
-        chapter.value(f"{drive}_sheet_velocity_max", f"V_{drive[0]}", "m/s", f"{name}: maximum velocity of the sheet",
-            bind(lambda relative, step, cycle_time: relative * step / cycle_time, relative=f"{drive}_velocity_peak", step=step), source="kinematics",
-            needs=needs, lacks=lacks)
+        chapter[f"{drive}_sheet_velocity_max"] = (value(m[f"{drive}_velocity_peak"] * m[step] / m.cycle_time, needs=needs, lacks=lacks),
+            f"V_{drive[0]}", "m/s", f"{name}: maximum velocity of the sheet", "kinematics")
     for drive, name in drives:
-        chapter.value(f"{drive}_sheet_acceleration_max", f"a_s{drive[0]}", "m/s**2", f"{name}: maximum acceleration of the sheet",
-            bind(lambda relative, step, cycle_time: relative * step / cycle_time**2, relative=f"{drive}_acceleration_peak", step=step),
-            source="kinematics", needs=needs, lacks=lacks)
+        chapter[f"{drive}_sheet_acceleration_max"] = (value(m[f"{drive}_acceleration_peak"] * m[step] / m.cycle_time**2, needs=needs, lacks=lacks),
+            f"a_s{drive[0]}", "m/s**2", f"{name}: maximum acceleration of the sheet", "kinematics")
     for drive, name in drives:
-        chapter.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: maximum torque for the conveyor's mass alone",
-            bind(lambda relative, mass, step, cycle_time: relative * mass * (step / cycle_time) ** 2 / (2 * pi), relative=f"{drive}_power_peak",
-                mass="conveyor_mass", step=step), source="energy", needs=(*needs, "conveyor_mass"), lacks=lacks)
+        chapter[f"{drive}_torque_peak"] = (value(m[f"{drive}_power_peak"] * m.conveyor_mass * (m[step] / m.cycle_time) ** 2 / (2 * pi),
+            needs=(*needs, "conveyor_mass"), lacks=lacks), f"M_{drive[0]}", "N*m", f"{name}: maximum torque for the conveyor's mass alone", "energy")
 
 
 sheet = Chapter("Velocity, acceleration and torque",
@@ -308,25 +294,21 @@ _in_units(sheet, "geneva_step", ("geneva_step",), ("cam_step",))
 same_dwell = Chapter("Cam-gear with the Geneva drive's dwell",
     text="A cam-gear stepper with this dwell has little time to stop, return and start. The time for stop and start is lost to the return: a wide "
         "sweep shortens the return, a narrow one makes the stop abrupt. In between there is one sweep with the same acceleration in both.")
-same_dwell.value("stop_sweep_limit", "γ_lim", "deg", "Sweep of stop and start that leaves a tenth of the cycle for the return",
-    bind(lambda geneva_dwell, dwell_sweep, peak_velocity, least_return:
-            (1 - least_return - geneva_dwell) * dwell_sweep / (peak_velocity * geneva_dwell), dwell_sweep="sector_dwell_sweep",
-        peak_velocity="law_peak_velocity", least_return=LEAST_RETURN), source="003 eq. 1–4")
-same_dwell.value("stop_sweep_best", "γ_b", "deg", "Sweep of stop and start with the lowest acceleration of the sheet",
-    bind(stop_sweep_best, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"), source="003 eq. 1–4")
-same_dwell.value("best_stop_time", "T_s", "1", "Fraction of the cycle for stop and start with this sweep",
-    bind(time_of_stop, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"),
-    source="003 eq. 3")
-same_dwell.value("best_return_time", "T_r", "1", "Fraction of the cycle for the return with this sweep",
-    bind(time_of_return, time_of_stop="best_stop_time"), source="003 eq. 4")
-same_dwell.value("best_velocity", "v_b", "1", "Maximum velocity with this sweep in units of S/T",
-    bind(velocity_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity",
-        return_time="best_return_time"), source="003, after eq. 4")
-same_dwell.value("best_acceleration", "a_b", "1", "Maximum acceleration with this sweep in units of S/T²",
-    bind(acceleration_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_acceleration="law_peak_acceleration",
-        return_time="best_return_time"), source="motion laws")
-same_dwell.value("best_acceleration_ratio", "q_b", "1", "Ratio of the Geneva drive's acceleration to this value",
-    lambda geneva_acceleration_peak, best_acceleration: geneva_acceleration_peak / best_acceleration, source="kinematics")
+same_dwell.stop_sweep_limit = ((1 - LEAST_RETURN - m.geneva_dwell) * m.sector_dwell_sweep / (m.law_peak_velocity * m.geneva_dwell), "γ_lim", "deg",
+    "Sweep of stop and start that leaves a tenth of the cycle for the return", "003 eq. 1–4")
+same_dwell.stop_sweep_best = (stop_sweep_best.of(dwell_sweep=m.sector_dwell_sweep, peak_velocity=m.law_peak_velocity), "γ_b", "deg",
+    "Sweep of stop and start with the lowest acceleration of the sheet", "003 eq. 1–4")
+same_dwell.best_stop_time = (time_of_stop.of(stop_sweep=m.stop_sweep_best, dwell_sweep=m.sector_dwell_sweep, peak_velocity=m.law_peak_velocity),
+    "T_s", "1", "Fraction of the cycle for stop and start with this sweep", "003 eq. 3")
+same_dwell.best_return_time = (time_of_return.of(time_of_stop=m.best_stop_time), "T_r", "1", "Fraction of the cycle for the return with this sweep",
+    "003 eq. 4")
+same_dwell.best_velocity = (velocity_of_return.of(stop_sweep=m.stop_sweep_best, dwell_sweep=m.sector_dwell_sweep, peak_velocity=m.law_peak_velocity,
+    return_time=m.best_return_time), "v_b", "1", "Maximum velocity with this sweep in units of S/T", "003, after eq. 4")
+same_dwell.best_acceleration = (acceleration_of_return.of(stop_sweep=m.stop_sweep_best, dwell_sweep=m.sector_dwell_sweep,
+    peak_acceleration=m.law_peak_acceleration, return_time=m.best_return_time), "a_b", "1", "Maximum acceleration with this sweep in units of S/T²",
+    "motion laws")
+same_dwell.best_acceleration_ratio = (m.geneva_acceleration_peak / m.best_acceleration, "q_b", "1",
+    "Ratio of the Geneva drive's acceleration to this value", "kinematics")
 
 GENEVA_HAS = "the Geneva drive has"
 JUMPS = "its acceleration jumps at entry and exit"
@@ -335,31 +317,26 @@ ACCELERATIONS = {"geneva": "geneva_acceleration_peak", "cam": "cam_acceleration_
 verdict = Chapter("Verdict",
     text="Apart from the peaks, the acceleration of the Geneva drive jumps at entry and exit, which excites vibration of chain and sheet; the "
         "cam-gear has no jump if its law of motion has no acceleration at half its time.")
-verdict.choice("verdict", "→", "1", "Peak acceleration and dwell",
-    case(f"{GENEVA_HAS} lower peak acceleration and the same dwell, but {JUMPS}", "it accelerates the sheet less",
-        bind(lambda geneva, cam, geneva_dwell, dwell_share: (geneva < cam) & are_alike(geneva_dwell, dwell_share), **ACCELERATIONS)),
+verdict.verdict = (choice(case(f"{GENEVA_HAS} lower peak acceleration and the same dwell, but {JUMPS}", "it accelerates the sheet less",
+    (m.geneva_acceleration_peak < m.cam_acceleration_peak) & are_alike(m.geneva_dwell, m.dwell_share)),
     case(f"{GENEVA_HAS} lower peak acceleration and a longer dwell, but {JUMPS}", "it accelerates the sheet less",
-        bind(lambda geneva, cam, geneva_dwell, dwell_share: (geneva < cam) & (geneva_dwell >= dwell_share), **ACCELERATIONS)),
+    (m.geneva_acceleration_peak < m.cam_acceleration_peak) & (m.geneva_dwell >= m.dwell_share)),
     case(f"{GENEVA_HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}", "it accelerates the sheet less",
-        lambda geneva_acceleration_peak, cam_acceleration_peak: geneva_acceleration_peak < cam_acceleration_peak),
-    case(f"{GENEVA_HAS} no lower peak acceleration and the same dwell, and {JUMPS}", "it does not accelerate the sheet less",
-        bind(are_alike, one="geneva_dwell", other="dwell_share")),
+    m.geneva_acceleration_peak < m.cam_acceleration_peak), case(f"{GENEVA_HAS} no lower peak acceleration and the same dwell, and {JUMPS}",
+    "it does not accelerate the sheet less", are_alike.of(one=m.geneva_dwell, other=m.dwell_share)),
     case(f"{GENEVA_HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}", "it does not accelerate the sheet less",
-        lambda geneva_dwell, dwell_share: geneva_dwell >= dwell_share),
-    case(f"{GENEVA_HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}", "the cam-gear is better in both"))
-verdict.choice("peaks_verdict", "→", "1", "Peak velocity and torque",
-    case(f"{GENEVA_HAS} lower peak velocity and torque", "both are below the cam-gear's",
-        lambda velocity_ratio, torque_ratio: (velocity_ratio < 1) & (torque_ratio < 1)),
-    case(f"{GENEVA_HAS} lower peak velocity, but no lower torque", "its velocity is below the cam-gear's", lambda velocity_ratio: velocity_ratio < 1),
-    case(f"{GENEVA_HAS} lower peak torque, but no lower velocity", "its torque is below the cam-gear's", lambda torque_ratio: torque_ratio < 1),
-    case(f"{GENEVA_HAS} no lower peak velocity and torque", "neither is below the cam-gear's"))
-verdict.choice("dwell_verdict", "→", "1", "Can the cam-gear dwell as long as the Geneva drive?",
-    case("it does already", "its dwell is not shorter", lambda geneva_dwell, dwell_share: geneva_dwell <= dwell_share),
-    case("yes, with its sweep of stop and start", "the sweep leaves a tenth of the cycle for the return",
-        lambda sector_stop_sweep, stop_sweep_limit: sector_stop_sweep <= stop_sweep_limit),
+    m.geneva_dwell >= m.dwell_share), case(f"{GENEVA_HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}",
+    "the cam-gear is better in both")), "→", "1", "Peak acceleration and dwell")
+verdict.peaks_verdict = (choice(case(f"{GENEVA_HAS} lower peak velocity and torque", "both are below the cam-gear's",
+    (m.velocity_ratio < 1) & (m.torque_ratio < 1)), case(f"{GENEVA_HAS} lower peak velocity, but no lower torque",
+    "its velocity is below the cam-gear's", m.velocity_ratio < 1), case(f"{GENEVA_HAS} lower peak torque, but no lower velocity",
+    "its torque is below the cam-gear's", m.torque_ratio < 1), case(f"{GENEVA_HAS} no lower peak velocity and torque",
+    "neither is below the cam-gear's")), "→", "1", "Peak velocity and torque")
+verdict.dwell_verdict = (choice(case("it does already", "its dwell is not shorter", m.geneva_dwell <= m.dwell_share),
+    case("yes, with its sweep of stop and start", "the sweep leaves a tenth of the cycle for the return", m.sector_stop_sweep <= m.stop_sweep_limit),
     case("only with a smaller sweep of stop and start",
-        "the present sweep leaves less than a tenth of the cycle for the return; γ_lim is the largest that leaves it, and γ_b gives the lowest "
-            "acceleration"))
+    "the present sweep leaves less than a tenth of the cycle for the return; γ_lim is the largest that leaves it, and γ_b gives the lowest "
+    "acceleration")), "→", "1", "Can the cam-gear dwell as long as the Geneva drive?")
 
 COMPARISON = Mechanism(
     kind="transport_comparison",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, formula, pi
 
 # fmt: off

@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from textwrap import wrap
 from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Binding, Chapter, Phrase, Shape, Steps, View, bind, box, case, phrase, told
-from diecut_report.mechanics import common
+from diecut_report.api import (
+    Chapter,
+    Expression,
+    Phrase,
+    Shape,
+    Steps,
+    View,
+    box,
+    case,
+    choice,
+    inner,
+    m,
+    phrase,
+    told,
+    value,
+)
 from diecut_report.plugins.knife_drive import working
 from diecut_report.plugins.knife_drive.working import (
     ALL,
@@ -108,19 +123,16 @@ def _indexed(symbol: str, index: str) -> str:
     return f"{symbol}{',' if '_' in symbol else '_'}{index}"
 
 
-def _is_best(drive: DriveKind, *, allowed: bool = False) -> Binding:
+def _is_best(drive: DriveKind, *, allowed: bool = False) -> Expression:
     """The condition that a drive's peak is the least one (and one that the paper stands)."""
-    own, best = f"{drive.key}_{PEAK}", f"best_{PEAK}"
+    own, best = m[f"{drive.key}_{PEAK}"], m[f"best_{PEAK}"]
     if allowed:
-        return bind(lambda own, best, allowed: (own <= best) & (best <= allowed), own=own, best=best, allowed=ALLOWED)
-    return bind(common.is_at_most, smaller=own, greater=best)
+        return (own <= best) & (best <= m[ALLOWED])
+    return own <= best
 
 
-def _least(drives: Drives) -> Binding:
-    peaks = [f"{drive.key}_{PEAK}" for drive in drives]
-    if len(peaks) == 2:
-        return bind(lambda first, second: np.minimum(first, second), first=peaks[0], second=peaks[1])
-    return bind(lambda first, second, third: np.minimum(np.minimum(first, second), third), first=peaks[0], second=peaks[1], third=peaks[2])
+def _least(drives: Drives) -> Expression:
+    return reduce(np.minimum, [m[f"{drive.key}_{PEAK}"] for drive in drives])
 
 
 def _best(chapter: Steps, drives: Drives) -> None:
@@ -128,25 +140,22 @@ def _best(chapter: Steps, drives: Drives) -> None:
     given: dict[str, Any] = {"needs": keys(drives), "lacks": lacking(drives)}
     *first, last = drives
     words = {drive: f"the {drive.name} has the lowest acceleration" for drive in drives}
-    chapter.value(f"best_{PEAK}", "a_m,best", "m/s**2", "Lowest of the maximum accelerations in the working stroke", _least(drives), output=False,
-        **given)
-    chapter.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper", *(case(d.key, words[d], _is_best(d)) for d in first),
-        case(last.key, words[last]), **given)
+    chapter[f"best_{PEAK}"] = inner(_least(drives), **given), "a_m,best", "m/s**2", "Lowest of the maximum accelerations in the working stroke"
+    chapter.best_drive = (choice(*(case(d.key, words[d], _is_best(d)) for d in first), case(last.key, words[last]), **given), "→", "1",
+        "Drive with the lowest acceleration of the paper")
     for name, symbol, title, unit in COMPARED:
         if name != PEAK:
-            chapter.choice(f"best_{name}", _indexed(symbol, "best"), unit, f"{title}, best drive",
-                *(case(bind(common.same, quantity=f"{d.key}_{name}"), words[d], _is_best(d)) for d in first),
-                case(bind(common.same, quantity=f"{last.key}_{name}"), words[last]), output=False, **given)
+            chapter[f"best_{name}"] = (choice(*(case(m[f"{d.key}_{name}"], words[d], _is_best(d)) for d in first),
+                case(m[f"{last.key}_{name}"], words[last]), output=False, **given), _indexed(symbol, "best"), unit, f"{title}, best drive")
 
 
 def _ratios(chapter: Steps, drive: DriveKind) -> None:
     """A drive's numbers to those of the best one, where there is another to compare it with."""
     for name, symbol, title, _ in COMPARED:
         for pair, lacks in _with_another(drive):
-            chapter.value(f"{drive.key}_{name}_ratio", f"q_{symbol[0]}{symbol[2:]},{drive.letter}", "1", f"{title}: {drive.name} to best drive",
-                bind(common.quotient, quantity=f"{drive.key}_{name}", by=f"best_{name}"),
-                exists=bind(working.holds, flag=f"best_{name}") if name in MAY_VANISH else None, source="this method", needs=keys(pair),
-                lacks=lacks)
+            chapter[f"{drive.key}_{name}_ratio"] = (value(m[f"{drive.key}_{name}"] / m[f"best_{name}"],
+                exists=working.holds.of(flag=m[f"best_{name}"]) if name in MAY_VANISH else None, needs=keys(pair), lacks=lacks),
+                f"q_{symbol[0]}{symbol[2:]},{drive.letter}", "1", f"{title}: {drive.name} to best drive", "this method")
 
 
 def _with_another(drive: DriveKind) -> list[tuple[Drives, tuple[str, ...]]]:
@@ -157,25 +166,23 @@ def _with_another(drive: DriveKind) -> list[tuple[Drives, tuple[str, ...]]]:
 
 def _verdict(chapter: Steps, drives: Drives) -> None:
     """In words: which drive, and whether the paper stands it."""
-    kept = [case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed",
-                 f"the {d.name} has the lowest acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
+    kept = [case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed", f"the {d.name} has the lowest acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
     broken = [(f"the {d.name} is gentlest on the paper, but its acceleration, too, is above the allowed one",
                f"the {d.name} has the lowest acceleration, but it is above the allowed one", d) for d in drives]  # fmt: skip
     text, words, _ = broken[-1]
     cases = (*kept, *(case(text, words, _is_best(d)) for text, words, d in broken[:-1]), case(text, words))
-    chapter.choice("verdict", "→", "1", "Verdict", *cases, needs=keys(drives), lacks=lacking(drives))
+    chapter.verdict = choice(*cases, needs=keys(drives), lacks=lacking(drives)), "→", "1", "Verdict"
 
 
 def _alone(chapter: Steps, drive: DriveKind) -> None:
     """A drive that is given alone is the best one."""
     given: dict[str, Any] = {"needs": (drive.key,), "lacks": lacking((drive,))}
-    stands = bind(common.is_at_most, smaller=f"{drive.key}_{PEAK}", greater=ALLOWED)
-    chapter.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper",
-        case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
-        case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"), **given)
-    chapter.choice("verdict", "→", "1", "Verdict",
-        case(f"only the {drive.name} is given; its acceleration is allowed", "its acceleration is allowed", stands),
-        case(f"only the {drive.name} is given; its acceleration is above the allowed one", "it is not allowed"), **given)
+    stands = m[f"{drive.key}_{PEAK}"] <= m[ALLOWED]
+    chapter.best_drive = (choice(case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
+        case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"), **given), "→", "1",
+        "Drive with the lowest acceleration of the paper")
+    chapter.verdict = (choice(case(f"only the {drive.name} is given; its acceleration is allowed", "its acceleration is allowed", stands),
+        case(f"only the {drive.name} is given; its acceleration is above the allowed one", "it is not allowed"), **given), "→", "1", "Verdict")
 
 
 SEVERAL = groups(least=2)
@@ -198,16 +205,15 @@ OTHERS = (("acceleration_peak", "a_m", "Maximum acceleration in the working stro
 
 def _best_other(chapter: Steps) -> None:
     """The numbers of the better one of the two other drives."""
-    is_slider = bind(common.is_at_most, smaller=f"{CRANK_SLIDER.key}_{PEAK}", greater=f"{CRANK_ROCKER.key}_{PEAK}")
+    is_slider = m[f"{CRANK_SLIDER.key}_{PEAK}"] <= m[f"{CRANK_ROCKER.key}_{PEAK}"]
     for name, symbol, title, unit in OTHERS:
-        chapter.choice(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, best other drive",
-            case(bind(common.same, quantity=f"{CRANK_SLIDER.key}_{name}"), "the crank-slider is the gentler one", is_slider),
-            case(bind(common.same, quantity=f"{CRANK_ROCKER.key}_{name}"), "the crank-rocker is the gentler one"),
-            needs=(PLANETARY.key, CRANK_SLIDER.key, CRANK_ROCKER.key), output=False)
+        chapter[f"other_{name}"] = (choice(case(m[f"{CRANK_SLIDER.key}_{name}"], "the crank-slider is the gentler one", is_slider),
+            case(m[f"{CRANK_ROCKER.key}_{name}"], "the crank-rocker is the gentler one"), needs=(PLANETARY.key, CRANK_SLIDER.key, CRANK_ROCKER.key),
+            output=False), _indexed(symbol, "other"), unit, f"{title}, best other drive")
     for drive in (CRANK_SLIDER, CRANK_ROCKER):
         for name, symbol, title, unit in OTHERS:
-            chapter.value(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, other drive",
-                bind(common.same, quantity=f"{drive.key}_{name}"), needs=(PLANETARY.key, drive.key), lacks=lacking((PLANETARY, drive)), output=False)
+            chapter[f"other_{name}"] = (inner(m[f"{drive.key}_{name}"], needs=(PLANETARY.key, drive.key), lacks=lacking((PLANETARY, drive))),
+                _indexed(symbol, "other"), unit, f"{title}, other drive")
 
 
 def _of_planetary(chapter: Steps, lacks: tuple[str, ...], *pair: str) -> None:
@@ -215,16 +221,16 @@ def _of_planetary(chapter: Steps, lacks: tuple[str, ...], *pair: str) -> None:
     given: dict[str, Any] = {"needs": pair, "lacks": lacks}
 
     def ratio(name: str, symbol: str, title: str, of: str) -> None:
-        chapter.value(name, symbol, "1", f"{title}: planetary drive to best other drive",
-            bind(common.quotient, quantity=f"{PLANETARY.key}_{of}", by=f"other_{of}"), source="this method", **given)
+        chapter[name] = (value(m[f"{PLANETARY.key}_{of}"] / m[f"other_{of}"], **given), symbol, "1", f"{title}: planetary drive to best other drive",
+            "this method")
 
     ratio("acceleration_ratio_planetary", "q_W", "Maximum acceleration", PEAK)
     ratio("stroke_ratio_planetary", "q_H", "Stroke", "stroke")
     ratio("factor_ratio_planetary", "q_k", "Factor of the acceleration at the lowest point", "end_factor")
-    chapter.choice("reason", "→", "1", "Cause of the difference in the planetary drive's acceleration",
-        case("mostly its stroke", "the strokes differ more than the factors of the drives", lambda stroke_ratio_planetary, factor_ratio_planetary:
-                np.maximum(stroke_ratio_planetary, 1 / stroke_ratio_planetary) >= np.maximum(factor_ratio_planetary, 1 / factor_ratio_planetary)),
-        case("mostly the kind of drive", "the factors of the drives differ more than the strokes"), **given)
+    chapter.reason = (choice(case("mostly its stroke", "the strokes differ more than the factors of the drives",
+        np.maximum(m.stroke_ratio_planetary, 1 / m.stroke_ratio_planetary) >= np.maximum(m.factor_ratio_planetary, 1 / m.factor_ratio_planetary)),
+        case("mostly the kind of drive", "the factors of the drives differ more than the strokes"), **given), "→", "1",
+        "Cause of the difference in the planetary drive's acceleration")
 
 
 why = Chapter("Why the drives differ",
@@ -239,8 +245,7 @@ _of_planetary(why, (CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key)
 grip = Chapter("Knife and rollers",
     text="No drive spares the signature the jump from the knife's speed, which falls to zero at the lowest point, to that of the rollers.")
 for drives in SEVERAL:
-    grip.choice("grip_verdict", "→", "1", "More severe for the paper",
-        case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
-            bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
+    grip.grip_verdict = (choice(case("the grip of the rollers, not the knife",
+        "with the best drive the grip accelerates the signature more than the knife does", m[f"best_{PEAK}"] < m.best_grip_size),
         case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much"),
-        needs=keys(drives), lacks=lacking(drives))
+        needs=keys(drives), lacks=lacking(drives)), "→", "1", "More severe for the paper")

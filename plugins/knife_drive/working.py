@@ -9,8 +9,23 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.api import Chapter, Step, Steps, as_number, bind, case, formula, phrase, pi, prefixed
-from diecut_report.mechanics import common
+from diecut_report.api import (
+    Chapter,
+    Step,
+    Steps,
+    abscissa,
+    as_number,
+    case,
+    choice,
+    formula,
+    inner,
+    m,
+    phrase,
+    pi,
+    prefixed,
+    reduction,
+    value,
+)
 
 # fmt: off
 
@@ -70,77 +85,64 @@ def lacking(drives: Drives) -> tuple[str, ...]:
 
 speeds = Chapter("Knife shaft and folding rollers",
     text="The crank angle of each drive has its own origin. Displacement, velocity and acceleration of the knife's edge count upwards.")
-speeds.require("any_drive", lambda: 0 >= 1, key="planetary",
+speeds.require("any_drive", 0 >= 1, key="planetary",
     message="no drive is given; give at least one of the blocks planetary, crank_slider and crank_rocker", lacks=DRIVES)
-speeds.value("crank_speed", "ω_1", "rad/s", "Angular speed of the knife shaft",
-    lambda cylinder_rate, drive_ratio: 2 * pi * cylinder_rate * drive_ratio, source="kinematics")
-speeds.value("cycle_time", "T", "ms", "Time of a revolution of the knife shaft", lambda crank_speed: 2 * pi / crank_speed,
-    source="004, after Fig. 3")
-speeds.value("roller_velocity", "V_r", "m/s", "Surface speed of the rollers",
-    lambda roller_diameter, roller_ratio, cycle_time: pi * roller_diameter * roller_ratio / cycle_time, source="kinematics")
-speeds.value("grip_time", "t_g", "ms", "Time for the rollers to bring the signature to their speed",
-    lambda grip_angle, cycle_time: grip_angle * cycle_time / (2 * pi), source="004, after Fig. 3")
-speeds.value("roller_time", "t_r", "ms", "Time from the knife's lowest point until the trailing edge has left the table",
-    lambda signature_length, working_depth, roller_velocity: (signature_length - working_depth) / roller_velocity, needs=("signature_length",),
-    source="kinematics")
-speeds.value("signature_interval", "t_s", "ms", "Time between two signatures", lambda cycle_time, drive_ratio: cycle_time * drive_ratio / 2,
-    needs=("signature_length",), source="kinematics")
-speeds.value("strokes_per_signature", "k_s", "1", "Strokes of the knife per signature: a signature comes each half turn of the plate cylinder",
-    lambda drive_ratio: drive_ratio / 2, source="kinematics")
-speeds.value("stroke_error", "Δk", "1", "Deviation from one stroke per signature", lambda strokes_per_signature: abs(strokes_per_signature - 1),
-    source="kinematics", output=False)
-speeds.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, speed="crank_speed")
+speeds.crank_speed = 2 * pi * m.cylinder_rate * m.drive_ratio, "ω_1", "rad/s", "Angular speed of the knife shaft", "kinematics"
+speeds.cycle_time = 2 * pi / m.crank_speed, "T", "ms", "Time of a revolution of the knife shaft", "004, after Fig. 3"
+speeds.roller_velocity = pi * m.roller_diameter * m.roller_ratio / m.cycle_time, "V_r", "m/s", "Surface speed of the rollers", "kinematics"
+speeds.grip_time = (m.grip_angle * m.cycle_time / (2 * pi), "t_g", "ms", "Time for the rollers to bring the signature to their speed",
+    "004, after Fig. 3")
+speeds.roller_time = (value((m.signature_length - m.working_depth) / m.roller_velocity, needs=("signature_length",)), "t_r", "ms",
+    "Time from the knife's lowest point until the trailing edge has left the table", "kinematics")
+speeds.signature_interval = (value(m.cycle_time * m.drive_ratio / 2, needs=("signature_length",)), "t_s", "ms", "Time between two signatures",
+    "kinematics")
+speeds.strokes_per_signature = (m.drive_ratio / 2, "k_s", "1",
+    "Strokes of the knife per signature: a signature comes each half turn of the plate cylinder", "kinematics")
+speeds.stroke_error = inner(abs(m.strokes_per_signature - 1)), "Δk", "1", "Deviation from one stroke per signature", "kinematics"
+speeds.crank_angle = abscissa(2 * np.pi, speed="crank_speed"), "φ", "deg", "Crank angle"
 
 WORKING = Steps()
-WORKING.value("working_time", "t_w", "ms", "Duration of the working stroke",
-    lambda working_angle, cycle_time: working_angle * cycle_time / (2 * pi), source="kinematics")
-WORKING.value("contact_velocity", "V_t", "m/s", "Speed of the edge as it meets the signature on the table", lambda contact_rate: abs(contact_rate),
-    source="kinematics")
+WORKING.working_time = m.working_angle * m.cycle_time / (2 * pi), "t_w", "ms", "Duration of the working stroke", "kinematics"
+WORKING.contact_velocity = abs(m.contact_rate), "V_t", "m/s", "Speed of the edge as it meets the signature on the table", "kinematics"
 WORKING.breakpoints("working_ends", "crank_angle", "contact_angle", "lowest_angle")
-WORKING.choice("working", "s_", "1", "Knife leads the signature (1) or not (0)",
-    case(lambda: 1, "within the working stroke",
-        lambda crank_angle, lowest_angle, working_angle: np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)),
-    case(lambda: 0, "outside the working stroke"), output=False, per_piece=True)
-WORKING.choice("paper_acceleration", "a_p", "m/s**2", "Acceleration of the signature while the knife leads it",
-    case(lambda acceleration: acceleration, "within the working stroke", bind(holds, flag="working")),
-    case(lambda: 0, "outside the working stroke"), output=False)
-WORKING.reduction("acceleration_peak", "a_m", "m/s**2", "Maximum acceleration in the working stroke", "abs_max", of="paper_acceleration")
-WORKING.value("end_factor", "k_", "1", "Ratio of the acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2",
-    lambda acceleration_end, stroke, crank_speed: 2 * acceleration_end / (stroke * as_number(crank_speed) ** 2), source="this method")
-WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the signature when gripping begins", lambda grip_speed: grip_speed, source="input",
-    needs=("grip_speed",))
-WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the edge when gripping begins", lambda grip_rate: abs(grip_rate), source="kinematics",
-    lacks=("grip_speed",))
-WORKING.value("grip_acceleration", "a_g", "m/s**2", "Acceleration of the signature in the grip of the rollers",
-    lambda roller_velocity, grip_velocity, grip_time: (roller_velocity - grip_velocity) / grip_time, source="004, after Fig. 3")
-WORKING.value("grip_size", "a_s", "m/s**2", "Absolute acceleration in the grip of the rollers", lambda grip_acceleration: abs(grip_acceleration),
-    output=False)
-WORKING.value("table_time", "t_t", "ms", "Time of the signature on the table, from contact on",
-    lambda working_time, roller_time: working_time + roller_time, source="kinematics", needs=("signature_length",))
+WORKING.working = (choice(case(1, "within the working stroke", np.cos(m.crank_angle - m.lowest_angle + m.working_angle / 2)
+    > np.cos(m.working_angle / 2)), case(0, "outside the working stroke"), output=False, per_piece=True), "s_", "1",
+    "Knife leads the signature (1) or not (0)")
+WORKING.paper_acceleration = (choice(case(m.acceleration, "within the working stroke", holds.of(flag=m.working)),
+    case(0, "outside the working stroke"), output=False), "a_p", "m/s**2", "Acceleration of the signature while the knife leads it")
+WORKING.acceleration_peak = reduction("abs_max", of="paper_acceleration"), "a_m", "m/s**2", "Maximum acceleration in the working stroke"
+WORKING.end_factor = (2 * m.acceleration_end / (m.stroke * as_number(m.crank_speed) ** 2), "k_", "1",
+    "Ratio of the acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2", "this method")
+WORKING.grip_velocity = value(m.grip_speed, needs=("grip_speed",)), "V_g", "m/s", "Speed of the signature when gripping begins", "input"
+WORKING.grip_velocity = value(abs(m.grip_rate), lacks=("grip_speed",)), "V_g", "m/s", "Speed of the edge when gripping begins", "kinematics"
+WORKING.grip_acceleration = ((m.roller_velocity - m.grip_velocity) / m.grip_time, "a_g", "m/s**2",
+    "Acceleration of the signature in the grip of the rollers", "004, after Fig. 3")
+WORKING.grip_size = inner(abs(m.grip_acceleration)), "a_s", "m/s**2", "Absolute acceleration in the grip of the rollers"
+WORKING.table_time = (value(m.working_time + m.roller_time, needs=("signature_length",)), "t_t", "ms",
+    "Time of the signature on the table, from contact on", "kinematics")
 
 
 SIGNATURE_BEYOND_DEPTH = Steps()
-SIGNATURE_BEYOND_DEPTH.require("signature_beyond_depth", lambda working_depth, signature_length: working_depth < signature_length,
-    key="signature_length",
+SIGNATURE_BEYOND_DEPTH.require("signature_beyond_depth", m.working_depth < m.signature_length, key="signature_length",
     message="is {signature_length}, but the knife alone takes {working_depth} of the signature (working_depth) below the table; make "
-        "signature_length greater than that", needs=("signature_length",))
+    "signature_length greater than that", needs=("signature_length",))
 
 
 def reaches(drive: DriveKind) -> Steps:
     """The edge must rise above the table."""
     steps = Steps()
-    steps.require("rises", lambda working_depth, stroke: working_depth <= stroke, key="working_depth",
+    steps.require("rises", m.working_depth <= m.stroke, key="working_depth",
         message=f"is {{working_depth}}, but the edge of the {drive.name} travels {{{drive.key}_stroke}} in all: it would never rise above the "
-            f"table; make the depth at most {{{drive.key}_stroke:down}}, or the stroke greater with {drive.longer} in {drive.key}")
+        f"table; make the depth at most {{{drive.key}_stroke:down}}, or the stroke greater with {drive.longer} in {drive.key}")
     return steps
 
 
 def grips(drive: DriveKind) -> Steps:
     """The rollers grip what the knife has pushed to them."""
     steps = Steps()
-    steps.require(f"{drive.key}_grips", bind(common.is_at_most, smaller="grip_angle", greater=f"{drive.key}_working_angle"), key="grip_angle",
+    steps.require(f"{drive.key}_grips", m.grip_angle <= m[f"{drive.key}_working_angle"], key="grip_angle",
         message=f"is {{grip_angle}}, but the working stroke of the {drive.name} is {{{drive.key}_working_angle}}: the rollers would grip before the "
-            f"knife meets the signature; make grip_angle at most {{{drive.key}_working_angle:down}}, or working_depth greater", needs=(drive.key,))
+        f"knife meets the signature; make grip_angle at most {{{drive.key}_working_angle:down}}, or working_depth greater", needs=(drive.key,))
     return steps
 
 

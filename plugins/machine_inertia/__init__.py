@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, bind
+from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, bind, m, total, value
 
 # fmt: off
 
@@ -37,14 +37,14 @@ MOVING = ("moving",)
 inertia = Chapter("Mass and inertia of the shafts",
     text="The inertia of each shaft is referred to the main shaft by the square of its ratio. That of shafts which swing or turn in steps is part of "
         "the mechanisms that move them.")
-inertia.value("referred_inertia", "J_m", "kg*m**2", "Moment of inertia referred to the main shaft",
-    bind(lambda inertia, ratio: inertia * ratio ** 2, inertia="shafts.inertia", ratio="shafts.ratio"), source="energy", named_by="shafts.name")
+inertia.referred_inertia = (value(m.shafts.inertia * m.shafts.ratio ** 2, named_by="shafts.name"), "J_m", "kg*m**2",
+    "Moment of inertia referred to the main shaft", "energy")
 inertia.part_table("shafts_table", "Shafts", "shafts", ("referred_inertia",))
-inertia.total("inertia", "J", "kg*m**2", "Moment of inertia of all steadily turning shafts, referred to the main shaft", "sum", of="referred_inertia")
-inertia.total("turning_mass", "m_t", "kg", "Mass of the steadily turning shafts with their parts", "sum", of="shafts.mass", output=False)
-inertia.total("moving_mass", "m_S", "kg", "Mass of the shafts that swing or turn in steps", "sum", of="moving.mass", output=False, needs=MOVING)
-inertia.value("mass", "m", "kg", "Mass of all shafts with their parts", lambda turning_mass, moving_mass: turning_mass + moving_mass, needs=MOVING)
-inertia.value("mass", "m", "kg", "Mass of all shafts with their parts", lambda turning_mass: turning_mass, lacks=MOVING)
+inertia.inertia = total("sum", of="referred_inertia"), "J", "kg*m**2", "Moment of inertia of all steadily turning shafts, referred to the main shaft"
+inertia.turning_mass = total("sum", of="shafts.mass", output=False), "m_t", "kg", "Mass of the steadily turning shafts with their parts"
+inertia.moving_mass = total("sum", of="moving.mass", output=False, needs=MOVING), "m_S", "kg", "Mass of the shafts that swing or turn in steps"
+inertia.mass = value(m.turning_mass + m.moving_mass, needs=MOVING), "m", "kg", "Mass of all shafts with their parts"
+inertia.mass = value(m.turning_mass, lacks=MOVING), "m", "kg", "Mass of all shafts with their parts"
 
 EXAMPLE = ExampleBlock("machine_inertia", {
     "shafts": [{"name": "main", "ratio": 1, "mass": "57.8 kg", "inertia": "0.576 kg*m**2"},

@@ -19,14 +19,24 @@ from diecut_report.api import (
     OneOf,
     Quantity,
     Text,
-    bind,
+    abscissa,
     case,
+    choice,
+    computed,
+    crossings,
     formula,
+    from_curve,
+    inner,
+    m,
     number,
     pi,
+    pick,
+    reduction,
     si,
     standard_series,
     standard_table,
+    total,
+    value,
 )
 from diecut_report.mechanics.load_cases import GREATEST, governing_case
 
@@ -133,23 +143,20 @@ def of_shaft(column: str) -> Callable[[Any], Any]:
 
 
 dimensions = Chapter("Dimensions")
-dimensions.require("in_table", lambda shaft_diameter: (shaft_diameter > LEAST_SHAFT) & (shaft_diameter <= GREATEST_SHAFT), key="shaft_diameter",
-    lacks=GIVEN,
+dimensions.require("in_table", (m.shaft_diameter > LEAST_SHAFT) & (m.shaft_diameter <= GREATEST_SHAFT), key="shaft_diameter", lacks=GIVEN,
     message="is {shaft_diameter}, for which the table of DIN 6885-1 has no key: it goes from above 10 to 200 mm; give width, height, depth_shaft "
-        "and depth_hub")
+    "and depth_hub")
 for name, (symbol, column, words) in DIMENSIONS.items():
-    dimensions.computed(name, symbol, "mm", words, function=of_shaft(column), takes=("shaft_diameter",), lacks=GIVEN, source="DIN 6885-1",
-        method="the row of the table whose range of diameters holds the shaft, its upper end included")
-    dimensions.value(name, symbol, "mm", f"{words}: as given", bind(lambda given: given, given=f"inputs.{name}"), needs=GIVEN, source="input")
-dimensions.value("height_shaft", "h_W", "mm", "Bearing height in the shaft", lambda depth_shaft, chamfer: depth_shaft - chamfer, source="geometry",
-    output=False)
-dimensions.value("height_hub", "h_N", "mm", "Bearing height in the hub", lambda height, depth_shaft, chamfer: height - depth_shaft - chamfer,
-    source="geometry", output=False)
-dimensions.value("height_key", "h_P", "mm", "Smaller bearing height, which governs the pressure on the key",
-    lambda height_shaft, height_hub: np.minimum(height_shaft, height_hub), source="geometry", output=False)
-dimensions.require("key_stands_out", lambda height, depth_shaft: depth_shaft < height, key="depth_shaft", needs=GIVEN,
+    dimensions[name] = (computed(function=of_shaft(column), takes=("shaft_diameter",), lacks=GIVEN,
+        method="the row of the table whose range of diameters holds the shaft, its upper end included"), symbol, "mm", words, "DIN 6885-1")
+    dimensions[name] = value(m.inputs[name], needs=GIVEN), symbol, "mm", f"{words}: as given", "input"
+dimensions.height_shaft = inner(m.depth_shaft - m.chamfer), "h_W", "mm", "Bearing height in the shaft", "geometry"
+dimensions.height_hub = inner(m.height - m.depth_shaft - m.chamfer), "h_N", "mm", "Bearing height in the hub", "geometry"
+dimensions.height_key = (inner(np.minimum(m.height_shaft, m.height_hub)), "h_P", "mm",
+    "Smaller bearing height, which governs the pressure on the key", "geometry")
+dimensions.require("key_stands_out", m.depth_shaft < m.height, key="depth_shaft", needs=GIVEN,
     message="is {depth_shaft}, in which a key of height {height} sinks whole; take a keyway that is less deep")
-dimensions.require("bears", lambda height_key: height_key > 0, key="chamfer",
+dimensions.require("bears", m.height_key > 0, key="chamfer",
     message="is {chamfer}, which leaves no height to bear of the {height} high key; take a smaller chamfer")
 
 
@@ -167,86 +174,70 @@ LEAST_LIFE = Constant(2000 * 3600, "L_min", "s")  # as that of required_life: no
 DIAGRAM = 1e7  # changes of flank up to which the factor is confirmed
 
 cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referenced curve is mapped to one revolution of the cycle angle.")
-cycle.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution per period of the torque", period=2 * np.pi, shown_at="torque_size_at")
-cycle.from_curve("torque_over_cycle", "T_φ", "N*m", "Torque as given", given="torque_curve", abscissa="cycle_angle")
-cycle.reduction("torque_size", "T_m", "N*m", "Maximum absolute torque", "abs_max", of="torque_over_cycle", output=False)
-cycle.reduction("torque_greatest", "T_up", "N*m", "Maximum torque", "max", of="torque_over_cycle", output=False)
-cycle.crossings("flank_change", "φ_f", "deg", "Cycle angle at which the torque changes its sign", of="torque_over_cycle", output=False)
-cycle.computed("curve_rate", "n_φ", "rpm", "Cycle rate of the referred torque, as a speed; 0 where a list of values tells none",
-    function=lambda torque: torque.rate, takes=CURVE, method="the speed of what it runs over, divided by the turns of a cycle", source="kinematics",
-    output=False)
-cycle.require("one_speed",
-    bind(lambda own, curve_rate, tolerance: (curve_rate <= 0) | (abs(own - curve_rate) <= tolerance * curve_rate), own="cycle_speed",
-        tolerance=ONE_SPEED), key="cycle_speed", needs=("cycle_speed",),
+cycle.cycle_angle = abscissa(period=2 * np.pi, shown_at="torque_size_at"), "φ", "deg", "Cycle angle, one revolution per period of the torque"
+cycle.torque_over_cycle = from_curve(given="torque_curve", abscissa="cycle_angle"), "T_φ", "N*m", "Torque as given"
+cycle.torque_size = reduction("abs_max", of="torque_over_cycle", output=False), "T_m", "N*m", "Maximum absolute torque"
+cycle.torque_greatest = reduction("max", of="torque_over_cycle", output=False), "T_up", "N*m", "Maximum torque"
+cycle.flank_change = crossings(of="torque_over_cycle", output=False), "φ_f", "deg", "Cycle angle at which the torque changes its sign"
+cycle.curve_rate = (computed(function=lambda torque: torque.rate, takes=CURVE,
+    method="the speed of what it runs over, divided by the turns of a cycle", output=False), "n_φ", "rpm",
+    "Cycle rate of the referred torque, as a speed; 0 where a list of values tells none", "kinematics")
+cycle.require("one_speed", (m.curve_rate <= 0) | (abs(m.cycle_speed - m.curve_rate) <= ONE_SPEED * m.curve_rate), key="cycle_speed",
+    needs=("cycle_speed",),
     message="is {cycle_speed}, but the curve that torque refers to comes again with {curve_rate}; refer to the speed with which that curve is "
-        "calculated")
-cycle.reduction("torque_least", "T_low", "N*m", "Minimum torque", "min", of="torque_over_cycle", output=False)
+    "calculated")
+cycle.torque_least = reduction("min", of="torque_over_cycle", output=False), "T_low", "N*m", "Minimum torque"
 
 load = Chapter("Load", text="A peak in every revolution is a regular load and is included in the equivalent torque; torque_peak is a rare one.")
-load.value("torque_size", "T_m", "N*m", "Absolute torque", lambda torque: abs(torque), lacks=CURVE, source="input", output=False)
-load.require("loaded", lambda torque_size: torque_size > 0, key="torque", message="is 0; give the torque that the key carries", lacks=CURVE)
-load.require("loaded_by_curve", lambda torque_size: torque_size > 0, key="torque_curve", needs=CURVE,
-    message="is 0 everywhere; give the torque that the key carries")
-load.value("application_factor", "K_A", "1", "Application factor: as given", bind(lambda given: given, given="inputs.application_factor"),
-    needs=("application_factor",), source="input")
-load.value("application_factor", "K_A", "1", "Application factor: the curve includes the dynamics", lambda: 1, lacks=("application_factor",),
-    source="this method")
-load.value("torque_equivalent", "T_eq", "N*m", "Equivalent torque", lambda application_factor, torque_size: application_factor * torque_size,
-    source=METHOD)
-load.require("peak_is_greatest",
-    bind(lambda peak, torque_size, rounding: peak >= torque_size * (1 - rounding), peak="inputs.torque_peak", rounding=ROUNDING), key="torque_peak",
-    needs=("torque_peak",),
+load.torque_size = inner(abs(m.torque), lacks=CURVE), "T_m", "N*m", "Absolute torque", "input"
+load.require("loaded", m.torque_size > 0, key="torque", message="is 0; give the torque that the key carries", lacks=CURVE)
+load.require("loaded_by_curve", m.torque_size > 0, key="torque_curve", needs=CURVE, message="is 0 everywhere; give the torque that the key carries")
+load.application_factor = value(m.inputs.application_factor, needs=("application_factor",)), "K_A", "1", "Application factor: as given", "input"
+load.application_factor = value(1, lacks=("application_factor",)), "K_A", "1", "Application factor: the curve includes the dynamics", "this method"
+load.torque_equivalent = m.application_factor * m.torque_size, "T_eq", "N*m", "Equivalent torque", METHOD
+load.require("peak_is_greatest", m.inputs.torque_peak >= m.torque_size * (1 - ROUNDING), key="torque_peak", needs=("torque_peak",),
     message="is {inputs.torque_peak}, less than the torque of {torque_size} that acts anyway; give the maximum one, or remove the key")
-PEAK = ("torque_run", "T_run", "N*m", "Maximum torque of the run")
-load.value(*PEAK, bind(lambda given: given, given="inputs.torque_peak"), needs=("torque_peak",), source="input", output=False)
-load.value(*PEAK, lambda torque_size: torque_size, lacks=("torque_peak",), source="this method", output=False)
-load.total("torque_case", "T_j,max", "N*m", "Maximum torque of the load cases", "max", of="load_cases.torque", needs=CASES, output=False)
-load.value("torque_peak", "T_max", "N*m", "Maximum torque: that of the run", lambda torque_run: torque_run, lacks=CASES, source="this method")
-load.value("torque_peak", "T_max", "N*m", "Maximum torque of run and load cases", lambda torque_run, torque_case: np.maximum(torque_run, torque_case),
-    needs=CASES, source="this method")
-PEAK_CASE = ("peak_case", "C", "1", "Load case of the maximum torque", governing_case)
-load.computed(*PEAK_CASE, ("torque_run", "load_cases.name", "load_cases.torque"), GREATEST, is_text=True, needs=CASES)
-load.computed(*PEAK_CASE, ("torque_run",), GREATEST, is_text=True, lacks=CASES, printed=False, output=False)
-load.value("reversing", "R_T", "1", "Reversing torque over the cycle",
-    bind(lambda torque_greatest, torque_least, torque_size, share: (torque_greatest > share * torque_size) & (-torque_least > share * torque_size),
-        share=REVERSED), needs=CURVE, source="this method")
-load.value("reversing", "R_T", "1", "Reversing torque: a single torque does not reverse", lambda torque_size: torque_size < 0, lacks=CURVE,
-    source="this method")
-FLANKS = ("changes_of_flank", "N_W", "1", "Number of load direction changes in the life")
-load.value(*FLANKS,
-    bind(lambda reversing, count, speed, life: reversing * count * speed * life / (2 * pi), count="flank_change_count", speed="cycle_speed",
-        life="required_life"), needs=(*CURVE, *BY_LIFE), source="this method")
-load.value(*FLANKS, lambda: 0, needs=BY_LIFE, lacks=CURVE, source="this method")
-load.value("least_changes", "N_W,min", "1", "Load direction changes of the curve in the least plausible life; in a cycle, if its speed is not known",
-    bind(lambda reversing, count, rate: reversing * count * np.maximum(1, rate * LEAST_LIFE / (2 * pi)), count="flank_change_count",
-        rate="curve_rate"), needs=CURVE, lacks=BY_LIFE, source="this method", output=False)
-load.require("as_many_as_the_curve_has", bind(lambda given, least: given >= least, given="flank_changes", least="least_changes"), key="flank_changes",
-    needs=(*CURVE, "flank_changes"),
+PEAK = ("T_run", "N*m", "Maximum torque of the run")
+load.torque_run = inner(m.inputs.torque_peak, needs=("torque_peak",)), *PEAK, "input"
+load.torque_run = inner(m.torque_size, lacks=("torque_peak",)), *PEAK, "this method"
+load.torque_case = total("max", of="load_cases.torque", needs=CASES, output=False), "T_j,max", "N*m", "Maximum torque of the load cases"
+load.torque_peak = value(m.torque_run, lacks=CASES), "T_max", "N*m", "Maximum torque: that of the run", "this method"
+load.torque_peak = value(np.maximum(m.torque_run, m.torque_case), needs=CASES), "T_max", "N*m", "Maximum torque of run and load cases", "this method"
+PEAK_CASE = ("C", "1", "Load case of the maximum torque")
+load.peak_case = (computed(governing_case, ("torque_run", "load_cases.name", "load_cases.torque"), GREATEST, is_text=True, needs=CASES), *PEAK_CASE)
+load.peak_case = computed(governing_case, ("torque_run",), GREATEST, is_text=True, lacks=CASES, printed=False, output=False), *PEAK_CASE
+load.reversing = (value((m.torque_greatest > REVERSED * m.torque_size) & (-m.torque_least > REVERSED * m.torque_size), needs=CURVE), "R_T", "1",
+    "Reversing torque over the cycle", "this method")
+load.reversing = value(m.torque_size < 0, lacks=CURVE), "R_T", "1", "Reversing torque: a single torque does not reverse", "this method"
+FLANKS = ("N_W", "1", "Number of load direction changes in the life")
+load.changes_of_flank = (value(m.reversing * m.flank_change_count * m.cycle_speed * m.required_life / (2 * pi), needs=(*CURVE, *BY_LIFE)), *FLANKS,
+    "this method")
+load.changes_of_flank = value(0, needs=BY_LIFE, lacks=CURVE), *FLANKS, "this method"
+load.least_changes = (inner(m.reversing * m.flank_change_count * np.maximum(1, m.curve_rate * LEAST_LIFE / (2 * pi)), needs=CURVE, lacks=BY_LIFE),
+    "N_W,min", "1", "Load direction changes of the curve in the least plausible life; in a cycle, if its speed is not known", "this method")
+load.require("as_many_as_the_curve_has", m.flank_changes >= m.least_changes, key="flank_changes", needs=(*CURVE, "flank_changes"),
     message="is {flank_changes}, but the torque changes its sign {flank_change_count} times a cycle, so at least {least_changes} times in 2000 h "
-        "(in one cycle, if its speed is not known); give required_life and cycle_speed, by which the changes are counted")
-load.value(*FLANKS, lambda flank_changes: flank_changes, needs=("flank_changes",), source="input")
-FACTOR = ("direction_factor", "f_w", "1", "Load direction factor")
-SELDOM_CHANGED = bind(lambda changes_of_flank, seldom: changes_of_flank <= seldom, seldom=SELDOM)
-COUNTED = case(direction_factor, "from the load direction changes in the life", bind(lambda changes_of_flank, end: changes_of_flank <= end,
-                                                                                       end=DIAGRAM))
+    "(in one cycle, if its speed is not known); give required_life and cycle_speed, by which the changes are counted")
+load.changes_of_flank = value(m.flank_changes, needs=("flank_changes",)), *FLANKS, "input"
+FACTOR = ("f_w", "1", "Load direction factor")
+SELDOM_CHANGED = m.changes_of_flank <= SELDOM
+COUNTED = case(direction_factor, "from the load direction changes in the life", m.changes_of_flank <= DIAGRAM)
 for needs in (BY_LIFE, ("flank_changes",)):
-    load.choice(*FACTOR, case(lambda: 1, "the load direction changes too rarely to count", SELDOM_CHANGED), COUNTED,
-        case(direction_factor, "from the load direction changes; beyond 10⁷ of them the formula is extrapolated"), source=METHOD, needs=needs)
-load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=FACTOR_GIVEN, source="input")
-load.value("factor_of_least", "f_w,max", "1", "Load direction factor with the least number of changes",
-    bind(direction_factor, changes_of_flank="least_changes"), needs=(*CURVE, *FACTOR_GIVEN), source=METHOD, output=False)
-load.fact("flank_known", lambda reversing: reversing <= 0, "the torque reverses, and the number of reversals in the life is not known", lacks=KNOWN)
-load.choice(*FACTOR, case(lambda: 1, "the torque keeps its sign", lambda reversing: reversing <= 0),
-    case(lambda: 0.2, "as for 10¹⁰ load direction changes, since the torque reverses and their number in the life is not known"), lacks=KNOWN,
-    source="this method")
-load.choice("key_share", "φ_k", "1", "Load share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),
-    case(lambda: 0.75, "the second key of two carries less"), source=METHOD, output=False)
-load.choice("key_share_peak", "φ_k,max", "1", "Load share of the second key under the maximum load",
-    case(lambda: 1, "one key", lambda key_count: key_count < 2), case(lambda: 0.9, "the second key of two carries nearly as much"), source=METHOD,
-    output=False)
-load.value("key_force", "F", "N", "Force on one key, equivalent", bind(key_force, torque="torque_equivalent"), source=METHOD)
-load.value("key_force_peak", "F_max", "N", "Force on one key, maximum", bind(key_force, torque="torque_peak", key_share="key_share_peak"),
-    source=METHOD)
+    load.direction_factor = (choice(case(1, "the load direction changes too rarely to count", SELDOM_CHANGED), COUNTED,
+        case(direction_factor, "from the load direction changes; beyond 10⁷ of them the formula is extrapolated"), needs=needs), *FACTOR, METHOD)
+load.direction_factor = value(m.load_direction_factor, needs=FACTOR_GIVEN), *FACTOR, "input"
+load.factor_of_least = (inner(direction_factor.of(changes_of_flank=m.least_changes), needs=(*CURVE, *FACTOR_GIVEN)), "f_w,max", "1",
+    "Load direction factor with the least number of changes", METHOD)
+load.fact("flank_known", m.reversing <= 0, "the torque reverses, and the number of reversals in the life is not known", lacks=KNOWN)
+load.direction_factor = (choice(case(1, "the torque keeps its sign", m.reversing <= 0),
+    case(0.2, "as for 10¹⁰ load direction changes, since the torque reverses and their number in the life is not known"), lacks=KNOWN), *FACTOR,
+    "this method")
+load.key_share = (choice(case(1, "one key", m.key_count < 2), case(0.75, "the second key of two carries less"), output=False), "φ_k", "1",
+    "Load share of the second key", METHOD)
+load.key_share_peak = (choice(case(1, "one key", m.key_count < 2), case(0.9, "the second key of two carries nearly as much"), output=False),
+    "φ_k,max", "1", "Load share of the second key under the maximum load", METHOD)
+load.key_force = key_force.of(torque=m.torque_equivalent), "F", "N", "Force on one key, equivalent", METHOD
+load.key_force_peak = key_force.of(torque=m.torque_peak, key_share=m.key_share_peak), "F_max", "N", "Force on one key, maximum", METHOD
 
 
 PARTS = {"shaft": "W", "hub": "N", "key": "P"}
@@ -259,92 +250,72 @@ allowed = Chapter("Allowable stresses",
     text="Each part withstands more than its yield strength because of the support of the material around the loaded face.")
 needed = Chapter("Required length",
     text="The smallest bearing length at which all pressures and the shear of the key are within the allowable values.")
-allowed.value("support_shaft", "f_SW", "1", "Support factor of the shaft, of steel", lambda: 1.3, source=METHOD, output=False)
-allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of steel", lambda: 1.5, source=METHOD, needs=("brittle_hub=false",),
-    output=False)
-allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of cast iron", lambda: 2, source=METHOD, needs=("brittle_hub=true",),
-    output=False)
-allowed.value("support_key", "f_SP", "1", "Support factor of the key", lambda: 1.1, source=METHOD, output=False)
+allowed.support_shaft = inner(1.3), "f_SW", "1", "Support factor of the shaft, of steel", METHOD
+allowed.support_hub = inner(1.5, needs=("brittle_hub=false",)), "f_SN", "1", "Support factor of the hub, of steel", METHOD
+allowed.support_hub = inner(2, needs=("brittle_hub=true",)), "f_SN", "1", "Support factor of the hub, of cast iron", METHOD
+allowed.support_key = inner(1.1), "f_SP", "1", "Support factor of the key", METHOD
 for part, peak in PRESSED:
     _, factor, end, words = LOADS[peak]
-    allowed.value(f"allowed_{part}{peak}", f"p_{PARTS[part]}zul{end}", "MPa", f"Allowable pressure on the {part}, {words} load",
-        bind(lambda factor, support, strength: factor * support * strength, factor=factor, support=f"support_{part}", strength=f"yield_{part}"),
-        source=METHOD, output=False)
-allowed.value("allowed_shear", "τ_zul", "MPa", "Allowable shear stress of the key", lambda yield_key: yield_key / np.sqrt(number(3)),
-    source="strength of materials", output=False)
+    allowed[f"allowed_{part}{peak}"] = (inner(m[factor] * m[f"support_{part}"] * m[f"yield_{part}"]), f"p_{PARTS[part]}zul{end}", "MPa",
+        f"Allowable pressure on the {part}, {words} load", METHOD)
+allowed.allowed_shear = inner(m.yield_key / np.sqrt(number(3))), "τ_zul", "MPa", "Allowable shear stress of the key", "strength of materials"
 for part, peak in PRESSED:
     force, _, end, words = LOADS[peak]
-    needed.value(f"length_{part}{peak}", f"l_{PARTS[part]}{end}", "mm", f"Bearing length required by the {part}, {words} load",
-        bind(lambda force, height, allowed, load_distribution_factor: load_distribution_factor * force / (height * allowed), force=force,
-            height=f"height_{part}", allowed=f"allowed_{part}{peak}"), source=METHOD, output=False)
-needed.value("length_shear", "l_τ", "mm", "Bearing length required by the shear of the key",
-    lambda key_force_peak, width, allowed_shear: key_force_peak / (width * allowed_shear), source="strength of materials", output=False)
-needed.value("length_pressed", "l_p", "mm", "Bearing length required by the pressures",
-    bind(lambda shaft, hub, key, shaft_peak, hub_peak, key_peak:
-            np.maximum(np.maximum(np.maximum(shaft, hub), key), np.maximum(np.maximum(shaft_peak, hub_peak), key_peak)),
-        **{name: f"length_{name}" for name in SIX}), source=METHOD, output=False)
-needed.value("bearing_length_needed", "l_tr,req", "mm", "Required bearing length",
-    lambda length_pressed, length_shear: np.maximum(length_pressed, length_shear), source="this method", output=False)
-needed.value("round_ends", "l_r", "mm", "Length of the round ends, which do not carry", lambda width: width, needs=("form=A",), source="DIN 6892",
-    output=False)
-needed.value("round_ends", "l_r", "mm", "Length of the round ends: square ends carry fully", lambda: 0, needs=("form=B",), source="DIN 6892",
-    output=False)
-needed.value("least_key_length", "l_min", "mm", "Minimum length of the key",
-    lambda bearing_length_needed, round_ends: bearing_length_needed + round_ends, source=METHOD, output=False)
-needed.require("standard_key_exists", lambda least_key_length: least_key_length <= LONGEST_KEY, key="shaft_diameter", lacks=("key_length",),
+    needed[f"length_{part}{peak}"] = (inner(m.load_distribution_factor * m[force] / (m[f"height_{part}"] * m[f"allowed_{part}{peak}"])),
+        f"l_{PARTS[part]}{end}", "mm", f"Bearing length required by the {part}, {words} load", METHOD)
+needed.length_shear = (inner(m.key_force_peak / (m.width * m.allowed_shear)), "l_τ", "mm", "Bearing length required by the shear of the key",
+    "strength of materials")
+needed.length_pressed = (inner(np.maximum(np.maximum(np.maximum(m.length_shaft, m.length_hub), m.length_key),
+    np.maximum(np.maximum(m.length_shaft_peak, m.length_hub_peak), m.length_key_peak))), "l_p", "mm", "Bearing length required by the pressures",
+    METHOD)
+needed.bearing_length_needed = inner(np.maximum(m.length_pressed, m.length_shear)), "l_tr,req", "mm", "Required bearing length", "this method"
+needed.round_ends = inner(m.width, needs=("form=A",)), "l_r", "mm", "Length of the round ends, which do not carry", "DIN 6892"
+needed.round_ends = inner(0, needs=("form=B",)), "l_r", "mm", "Length of the round ends: square ends carry fully", "DIN 6892"
+needed.least_key_length = inner(m.bearing_length_needed + m.round_ends), "l_min", "mm", "Minimum length of the key", METHOD
+needed.require("standard_key_exists", m.least_key_length <= LONGEST_KEY, key="shaft_diameter", lacks=("key_length",),
     message="is {shaft_diameter}, on which the key would have to be {least_key_length} long; the longest standard key has 280 mm: take a thicker "
-        "shaft, two keys or stronger material")
-needed.pick("standard_key_length", "l_std,req", "mm", "Next standard length", "above", of="least_key_length", series=LENGTHS, beyond="last",
-    source="DIN 6885-1", output=False)
-needed.value("required_key_length", "l_req", "mm", "Smallest sufficient standard length", lambda standard_key_length: standard_key_length,
-    exists=lambda least_key_length: least_key_length <= LONGEST_KEY, source="DIN 6885-1")
+    "shaft, two keys or stronger material")
+needed.standard_key_length = (pick("above", of="least_key_length", series=LENGTHS, beyond="last", output=False), "l_std,req", "mm",
+    "Next standard length", "DIN 6885-1")
+needed.required_key_length = (value(m.standard_key_length, exists=m.least_key_length <= LONGEST_KEY), "l_req", "mm",
+    "Smallest sufficient standard length", "DIN 6885-1")
 
 pressures = Chapter("Pressures",
     text="Shaft and hub each bear on their own height of the key; the pressure on the key is highest where this height is smaller.")
-pressures.value("key_length", "l", "mm", "Length of the key: as given", bind(lambda given: given, given="inputs.key_length"), needs=("key_length",),
-    source="input")
-pressures.value("key_length", "l", "mm", "Length of the key: the smallest sufficient standard length",
-    lambda required_key_length: required_key_length, lacks=("key_length",), source="this method")
-pressures.require("longer_than_wide", lambda key_length, round_ends: key_length > round_ends, key="key_length", needs=("key_length", "form=A"),
+pressures.key_length = value(m.inputs.key_length, needs=("key_length",)), "l", "mm", "Length of the key: as given", "input"
+pressures.key_length = (value(m.required_key_length, lacks=("key_length",)), "l", "mm", "Length of the key: the smallest sufficient standard length",
+    "this method")
+pressures.require("longer_than_wide", m.key_length > m.round_ends, key="key_length", needs=("key_length", "form=A"),
     message="is {key_length}, of which the round ends of the {width} wide key leave nothing to bear; take a longer key, or form B")
-BEARING = ("bearing_length", "l_tr", "mm")
-pressures.value(*BEARING, "Bearing length, no longer than the hub",
-    lambda key_length, round_ends, hub_length: np.minimum(key_length - round_ends, hub_length), needs=("hub_length",), source=METHOD)
-pressures.value(*BEARING, "Bearing length", lambda key_length, round_ends: key_length - round_ends, lacks=("hub_length",), source=METHOD)
+BEARING = ("l_tr", "mm")
+pressures.bearing_length = (value(np.minimum(m.key_length - m.round_ends, m.hub_length), needs=("hub_length",)), *BEARING,
+    "Bearing length, no longer than the hub", METHOD)
+pressures.bearing_length = value(m.key_length - m.round_ends, lacks=("hub_length",)), *BEARING, "Bearing length", METHOD
 for part, peak in PRESSED:
     force, _, end, words = LOADS[peak]
-    pressures.value(f"pressure_{part}{peak}", f"p_{PARTS[part]}{end}", "MPa", f"Pressure on the {part}, {words} load",
-        bind(lambda force, height, length, load_distribution_factor: load_distribution_factor * force / (height * length), force=force,
-            height=f"height_{part}", length="bearing_length"), source=METHOD)
-pressures.value("shear_stress", "τ", "MPa", "Shear stress of the key, maximum load",
-    lambda key_force_peak, width, bearing_length: key_force_peak / (width * bearing_length), source="strength of materials")
+    pressures[f"pressure_{part}{peak}"] = (m.load_distribution_factor * m[force] / (m[f"height_{part}"] * m.bearing_length), f"p_{PARTS[part]}{end}",
+        "MPa", f"Pressure on the {part}, {words} load", METHOD)
+pressures.shear_stress = m.key_force_peak / (m.width * m.bearing_length), "τ", "MPa", "Shear stress of the key, maximum load", "strength of materials"
 for part, peak in PRESSED:
-    pressures.value(f"safety_{part}{peak}", f"S_{PARTS[part]}{LOADS[peak][2]}", "1", f"Safety factor of the {part}, {LOADS[peak][3]} load",
-        bind(lambda limit, pressure: limit / pressure, limit=f"allowed_{part}{peak}", pressure=f"pressure_{part}{peak}"), source=METHOD,
-        output=False)
-pressures.value("safety", "S", "1", "Minimum safety factor", bind(lambda shaft, hub, key, shaft_peak, hub_peak, key_peak:
-        np.minimum(np.minimum(np.minimum(shaft, hub), key), np.minimum(np.minimum(shaft_peak, hub_peak), key_peak)),
-    **{name: f"safety_{name}" for name in SIX}), source=METHOD)
-pressures.value("safety_peak", "S_max", "1", "Minimum safety factor under the maximum load",
-    lambda safety_shaft_peak, safety_hub_peak, safety_key_peak: np.minimum(np.minimum(safety_shaft_peak, safety_hub_peak), safety_key_peak),
-    source=METHOD, output=False)
-pressures.choice("governing", "G", "1", "Governing part and load",
-    *(case(f"{part}, {LOADS[peak][3]} load", f"the {part} has the lowest safety factor, under the {LOADS[peak][3]} load",
-           bind(lambda own, safety: own <= safety, own=f"safety_{part}{peak}")) for part, peak in PRESSED[:-1]),
-    case("key, maximum load", "the key has the lowest safety factor, under the maximum load"), source=METHOD)
-pressures.value("longest_wanted", "l_max", "mm", "Maximum bearing length over which the load still distributes",
-    lambda shaft_diameter: 1.3 * shaft_diameter, source=METHOD, output=False)
-pressures.pick("nearest_length", "l_std", "mm", "Nearest standard length", "nearest", of="key_length", series=LENGTHS, beyond="last",
-    source="DIN 6885-1", output=False)
-pressures.value("length_off", "Δl", "mm", "Deviation from it", lambda key_length, nearest_length: abs(key_length - nearest_length),
-    source="this method", output=False)
-pressures.choice("reversal_left_out", "n_w", "1", "Reversing torque not considered (1) or considered (0)",
-    case(lambda: 1, "the torque reverses, and the number of reversals in the life is not known", lambda reversing: reversing > 0),
-    case(lambda: 0, "the torque keeps its sign"), source="this method", output=False, lacks=KNOWN)
+    pressures[f"safety_{part}{peak}"] = (inner(m[f"allowed_{part}{peak}"] / m[f"pressure_{part}{peak}"]), f"S_{PARTS[part]}{LOADS[peak][2]}", "1",
+        f"Safety factor of the {part}, {LOADS[peak][3]} load", METHOD)
+pressures.safety = (np.minimum(np.minimum(np.minimum(m.safety_shaft, m.safety_hub), m.safety_key),
+    np.minimum(np.minimum(m.safety_shaft_peak, m.safety_hub_peak), m.safety_key_peak)), "S", "1", "Minimum safety factor", METHOD)
+pressures.safety_peak = (inner(np.minimum(np.minimum(m.safety_shaft_peak, m.safety_hub_peak), m.safety_key_peak)), "S_max", "1",
+    "Minimum safety factor under the maximum load", METHOD)
+pressures.governing = (choice(*(case(f"{part}, {LOADS[peak][3]} load", f"the {part} has the lowest safety factor, under the {LOADS[peak][3]} load",
+    m[f"safety_{part}{peak}"] <= m.safety) for part, peak in PRESSED[:-1]), case("key, maximum load",
+    "the key has the lowest safety factor, under the maximum load")), "G", "1", "Governing part and load", METHOD)
+pressures.longest_wanted = inner(1.3 * m.shaft_diameter), "l_max", "mm", "Maximum bearing length over which the load still distributes", METHOD
+pressures.nearest_length = (pick("nearest", of="key_length", series=LENGTHS, beyond="last", output=False), "l_std", "mm", "Nearest standard length",
+    "DIN 6885-1")
+pressures.length_off = inner(abs(m.key_length - m.nearest_length)), "Δl", "mm", "Deviation from it", "this method"
+pressures.reversal_left_out = (choice(case(1, "the torque reverses, and the number of reversals in the life is not known", m.reversing > 0),
+    case(0, "the torque keeps its sign"), output=False, lacks=KNOWN), "n_w", "1", "Reversing torque not considered (1) or considered (0)",
+    "this method")
 for needs, lacks in ((BY_LIFE, ()), (("flank_changes",), ()), (FACTOR_GIVEN, CURVE)):
-    pressures.value("reversal_left_out", "n_w", "1", "Reversing torque not considered: no, the factor includes it", lambda: 0, source="this method",
-        output=False, needs=needs, lacks=lacks)
-pressures.choice("reversal_left_out", "n_w", "1", "Reversing torque not considered (1) or considered (0)",
-    case(lambda: 1, "the factor is greater than with the load direction changes that the curve has at least",
-        lambda load_direction_factor, factor_of_least: load_direction_factor > factor_of_least), case(lambda: 0, "the factor includes it"),
-    source="this method", output=False, needs=(*CURVE, *FACTOR_GIVEN))
+    pressures.reversal_left_out = (inner(0, needs=needs, lacks=lacks), "n_w", "1", "Reversing torque not considered: no, the factor includes it",
+        "this method")
+pressures.reversal_left_out = (choice(case(1, "the factor is greater than with the load direction changes that the curve has at least",
+    m.load_direction_factor > m.factor_of_least), case(0, "the factor includes it"), output=False, needs=(*CURVE, *FACTOR_GIVEN)), "n_w", "1",
+    "Reversing torque not considered (1) or considered (0)", "this method")

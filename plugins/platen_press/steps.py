@@ -17,12 +17,18 @@ from diecut_report.api import (
     Inputs,
     OneOf,
     Quantity,
-    bind,
+    abscissa,
     case,
+    choice,
+    crossings,
     formula,
+    inner,
+    m,
     pi,
+    reduction,
+    value,
 )
-from diecut_report.mechanics import common, slider_crank
+from diecut_report.mechanics import slider_crank
 from diecut_report.mechanics.slider_crank import inner_arm_first_order
 
 # fmt: off
@@ -191,7 +197,7 @@ ADOPTED = (
 
 def in_phase(number: int) -> Bound:
     """Whether the crank is in a phase: 1 the rods relax, 2 free travel, 3 cutting."""
-    return bind(lambda phase, number: phase == number, number=number)
+    return m.phase == number
 
 
 def by_phase(relaxing: Bound, free: Bound, cutting: Bound) -> tuple[Case, ...]:
@@ -203,112 +209,97 @@ def by_phase(relaxing: Bound, free: Bound, cutting: Bound) -> tuple[Case, ...]:
 
 machine = Chapter("Machine",
     text="The crank angle φ is measured from the inner dead centre, where crank and rods are folded and the platen is closest to the shaft.")
-machine.require("rod_longer", lambda rod_length, crank_radius: rod_length > 1.001 * crank_radius, key="rod_length",
+machine.require("rod_longer", m.rod_length > 1.001 * m.crank_radius, key="rod_length",
     message="is {rod_length}, but the rod must be longer than the crank's radius {crank_radius}, by a thousandth of it at least; else the crank "
-        "cannot turn fully")
-machine.value("crank_speed", "ω", "rad/s", "Angular speed of the crank", lambda cycles_per_hour: 2 * pi * cycles_per_hour)
-machine.value("stroke", "H", "mm", "Stroke of the platen", lambda crank_radius: 2 * crank_radius)
-machine.value("lambda_ratio", "λ", "1", "Ratio of crank radius to rod length", lambda crank_radius, rod_length: crank_radius / rod_length,
-    source="001, after eq. 2")
-machine.value("drive_deformation", "Δl_m", "mm", "Elongation of the drive under the maximum cutting force: as given",
-    bind(lambda drive_deformation: drive_deformation, drive_deformation="inputs.drive_deformation"), source="input", needs=("drive_deformation",))
-machine.value("drive_deformation", "Δl_m", "mm", "Elongation of the two rods under the maximum cutting force",
-    lambda cutting_force_max, rod_length, rod_area, elastic_modulus: cutting_force_max * rod_length / (2 * rod_area * elastic_modulus),
-    source="Hooke", lacks=("drive_deformation",))
-machine.value("drive_stiffness", "c", "kN/mm", "Stiffness of the drive at the platen",
-    lambda cutting_force_max, drive_deformation: cutting_force_max / drive_deformation)
-machine.require("stiff_enough", lambda drive_deformation, crank_radius: drive_deformation < crank_radius, key="drive_deformation",
+    "cannot turn fully")
+machine.crank_speed = 2 * pi * m.cycles_per_hour, "ω", "rad/s", "Angular speed of the crank"
+machine.stroke = 2 * m.crank_radius, "H", "mm", "Stroke of the platen"
+machine.lambda_ratio = m.crank_radius / m.rod_length, "λ", "1", "Ratio of crank radius to rod length", "001, after eq. 2"
+machine.drive_deformation = (value(m.inputs.drive_deformation, needs=("drive_deformation",)), "Δl_m", "mm",
+    "Elongation of the drive under the maximum cutting force: as given", "input")
+machine.drive_deformation = (value(m.cutting_force_max * m.rod_length / (2 * m.rod_area * m.elastic_modulus), lacks=("drive_deformation",)), "Δl_m",
+    "mm", "Elongation of the two rods under the maximum cutting force", "Hooke")
+machine.drive_stiffness = m.cutting_force_max / m.drive_deformation, "c", "kN/mm", "Stiffness of the drive at the platen"
+machine.require("stiff_enough", m.drive_deformation < m.crank_radius, key="drive_deformation",
     message="is {drive_deformation}, but must be less than the crank_radius {crank_radius}; a drive that stretches more cannot cut",
     needs=("drive_deformation",))
-machine.require("rods_stiff_enough", lambda drive_deformation, crank_radius: drive_deformation < crank_radius, key="rod_area",
+machine.require("rods_stiff_enough", m.drive_deformation < m.crank_radius, key="rod_area",
     message="is {rod_area}; under cutting_force_max = {cutting_force_max} the rods stretch by {drive_deformation}, which must be less than the "
-        "crank_radius {crank_radius}: take thicker rods", lacks=("drive_deformation",))
-machine.require("within_stroke",
-    lambda material_thickness, drive_deformation, crank_radius: material_thickness + drive_deformation < 2 * crank_radius, key="material_thickness",
+    "crank_radius {crank_radius}: take thicker rods", lacks=("drive_deformation",))
+machine.require("within_stroke", m.material_thickness + m.drive_deformation < 2 * m.crank_radius, key="material_thickness",
     message="is {material_thickness}; board and stretch of the drive ({drive_deformation}) together must be less than the platen's stroke {stroke}, "
-        "twice the crank_radius")
-machine.require("guides_given", lambda offset_force, offset_weight: (offset_force == 0) & (offset_weight == 0), key="guide_length",
+    "twice the crank_radius")
+machine.require("guides_given", (m.offset_force == 0) & (m.offset_weight == 0), key="guide_length",
     message="is needed: with offset_force = {offset_force} and offset_weight = {offset_weight} the platen presses on its guides",
     lacks=("guide_length",))
 for name, symbol, place in ADOPTED:
-    machine.value(name, symbol, "1", f"Coefficient of friction of the {place}: individual value", bind(common.same, quantity=f"inputs.{name}"),
-        needs=(name,), source="input", output=False)
-    machine.value(name, symbol, "1", f"Coefficient of friction of the {place}: common value", lambda friction: friction, lacks=(name,),
-        source="input", output=False)
+    machine[name] = inner(m.inputs[name], needs=(name,)), symbol, "1", f"Coefficient of friction of the {place}: individual value", "input"
+    machine[name] = inner(m.friction, lacks=(name,)), symbol, "1", f"Coefficient of friction of the {place}: common value", "input"
 
 contact = Chapter("Contact, dead centre and dwell",
     text="The travel of the drive covers both the thickness of the board and its own elongation. After the dead centre the platen stands on the die "
         "until the rods have regained their own length.")
-contact.value("contact_travel", "u_c", "mm", "Travel of the unloaded drive from contact to the dead centre",
-    lambda material_thickness, drive_deformation: material_thickness + drive_deformation, source="001, before eq. 12")
-contact.value("cutting_start_angle", "φ_c", "deg", "Crank angle before the dead centre at which cutting begins",
-    bind(slider_crank.inner_crank_angle_at, displacement="contact_travel"), source="closed form")
-contact.value("dwell_end_angle", "φ_d", "deg", "Crank angle after the dead centre at which the rods have relaxed",
-    bind(slider_crank.inner_crank_angle_at, displacement="drive_deformation"), source="001, after eq. 17, closed form")
-contact.value("contact_rod_angle", "β_c", "deg", "Angle of the rods to the guides at contact",
-    bind(slider_crank.inner_coupler_angle, crank_angle="cutting_start_angle", crank_ratio="lambda_ratio"), output=False)
-contact.value("velocity_at_contact", "V_c", "m/s", "Speed of the platen at contact with the board",
-    bind(slider_crank.inner_velocity, crank_angle="cutting_start_angle", coupler_angle="contact_rod_angle"), source="loop")
-contact.value("friction_arm", "X", "mm", "Friction arm of the joints at the dead centre", friction_arm, source="001 eq. 10, 11")
-contact.value("acceleration_dead_center", "a_0", "m/s**2", "Acceleration of the platen at the dead centre",
-    lambda crank_radius, crank_speed, lambda_ratio: crank_radius * crank_speed ** 2 * (1 - lambda_ratio), output=False)
-contact.value("inertia_dead_center", "P_i0", "N", "Inertia force at the dead centre",
-    lambda platen_mass, acceleration_dead_center: platen_mass * acceleration_dead_center)
-contact.value("torque_dead_center", "M_0", "N*m", "Torque at the dead centre, with the inertia force",
-    lambda cutting_force_max, inertia_dead_center, friction_arm: abs(cutting_force_max - inertia_dead_center) * friction_arm,
-    source="001 eq. 10, 11")
-contact.value("torque_relaxing", "M_1", "N*m", "Torque just after the dead centre, where the platen stands",
-    lambda cutting_force_max, friction_arm: cutting_force_max * friction_arm, source="001 eq. 17")
+contact.contact_travel = (m.material_thickness + m.drive_deformation, "u_c", "mm", "Travel of the unloaded drive from contact to the dead centre",
+    "001, before eq. 12")
+contact.cutting_start_angle = (slider_crank.inner_crank_angle_at.of(displacement=m.contact_travel), "φ_c", "deg",
+    "Crank angle before the dead centre at which cutting begins", "closed form")
+contact.dwell_end_angle = (slider_crank.inner_crank_angle_at.of(displacement=m.drive_deformation), "φ_d", "deg",
+    "Crank angle after the dead centre at which the rods have relaxed", "001, after eq. 17, closed form")
+contact.contact_rod_angle = (inner(slider_crank.inner_coupler_angle.of(crank_angle=m.cutting_start_angle, crank_ratio=m.lambda_ratio)), "β_c", "deg",
+    "Angle of the rods to the guides at contact")
+contact.velocity_at_contact = (slider_crank.inner_velocity.of(crank_angle=m.cutting_start_angle, coupler_angle=m.contact_rod_angle), "V_c", "m/s",
+    "Speed of the platen at contact with the board", "loop")
+contact.friction_arm = friction_arm, "X", "mm", "Friction arm of the joints at the dead centre", "001 eq. 10, 11"
+contact.acceleration_dead_center = (inner(m.crank_radius * m.crank_speed ** 2 * (1 - m.lambda_ratio)), "a_0", "m/s**2",
+    "Acceleration of the platen at the dead centre")
+contact.inertia_dead_center = m.platen_mass * m.acceleration_dead_center, "P_i0", "N", "Inertia force at the dead centre"
+contact.torque_dead_center = (abs(m.cutting_force_max - m.inertia_dead_center) * m.friction_arm, "M_0", "N*m",
+    "Torque at the dead centre, with the inertia force", "001 eq. 10, 11")
+contact.torque_relaxing = (m.cutting_force_max * m.friction_arm, "M_1", "N*m", "Torque just after the dead centre, where the platen stands",
+    "001 eq. 17")
 
 motion = Chapter("Motion over a revolution of the crank",
     text="The ideal displacement is that of an inextensible drive. The first-order form of the source is given beside the exact speed; the "
         "calculation uses the exact one.")
-motion.abscissa("crank_angle", "φ", "deg", "Crank angle from the inner dead centre", 2 * np.pi, shown_at="torque_max_at", speed="crank_speed")
-motion.value("cutting_begin", "φ_b", "deg", "Crank angle at which cutting begins", lambda cutting_start_angle: 2 * pi - cutting_start_angle,
-    output=False)
+motion.crank_angle = abscissa(2 * np.pi, shown_at="torque_max_at", speed="crank_speed"), "φ", "deg", "Crank angle from the inner dead centre"
+motion.cutting_begin = inner(2 * pi - m.cutting_start_angle), "φ_b", "deg", "Crank angle at which cutting begins"
 motion.breakpoints("phases", "crank_angle", "dwell_end_angle", "cutting_begin")
 motion.phase("cutting", "working", "The board is cut and the rods elongate", "crank_angle", ("cutting_begin", 0))
 motion.phase("relaxing", "working", "The platen stands on the die and the rods relax", "crank_angle", (0, "dwell_end_angle"))
 motion.phase("pressing", "working", "Pressing", "crank_angle", union=("cutting", "relaxing"))
 motion.phase("open", "window", "The platen is off the board", "crank_angle", rest_of=("pressing",))
-motion.value("phase", "j", "1", "Phase: 1 the rods relax, 2 free travel, 3 cutting",
-    lambda crank_angle, dwell_end_angle, cutting_begin: np.where(crank_angle < dwell_end_angle, 1, np.where(crank_angle < cutting_begin, 2, 3)),
-    output=False, per_piece=True)
-motion.value("rod_angle", "β", "deg", "Angle of the rods to the guides", bind(slider_crank.inner_coupler_angle, crank_ratio="lambda_ratio"),
-    source="001, after eq. 6", output=False)
-motion.value("platen_displacement", "u", "mm", "Displacement of the platen from the dead centre, ideal",
-    bind(slider_crank.inner_displacement, coupler_angle="rod_angle"), source="loop")
-motion.value("travel_rate", "u′", "mm", "Ideal travel of the platen per radian of the crank, V/ω",
-    bind(slider_crank.inner_arm, coupler_angle="rod_angle"), source="loop", output=False)
-motion.value("platen_velocity_ideal", "V", "m/s", "Speed of the platen away from the die, ideal",
-    lambda crank_speed, travel_rate: crank_speed * travel_rate, source="loop")
-motion.value("platen_velocity_first_order", "V_1", "m/s", "The same, first-order in λ",
-    bind(slider_crank.inner_velocity_first_order, crank_ratio="lambda_ratio"), source="001 eq. 2")
-motion.value("first_order_error", "ΔV", "m/s", "Difference of exact and first-order speed",
-    lambda platen_velocity_ideal, platen_velocity_first_order: platen_velocity_ideal - platen_velocity_first_order, output=False)
-motion.value("platen_acceleration", "a_p", "m/s**2", "Acceleration of the platen away from the die, ideal",
-    bind(slider_crank.inner_acceleration, coupler_angle="rod_angle", crank_ratio="lambda_ratio"), source="loop")
-motion.choice("platen_displacement_true", "u_t", "mm", "Displacement of the platen, true",
-    *by_phase(bind(common.same, quantity="drive_deformation"), bind(common.same, quantity="platen_displacement"), bind(true_travel)),
-    source="001 eq. 12")
-motion.choice("platen_velocity_true", "V_t", "m/s", "Speed of the platen, true",
-    *by_phase(bind(common.zero), bind(common.same, quantity="platen_velocity_ideal"),
-        bind(lambda platen_velocity_ideal, material_thickness, drive_deformation:
-                platen_velocity_ideal * material_thickness / (material_thickness + drive_deformation))), source="001 eq. 13")
-motion.reduction("velocity_max", "V_max", "m/s", "Maximum speed of the platen", "abs_max", of="platen_velocity_ideal")
-motion.reduction("velocity_difference", "ΔV_max", "m/s", "Maximum difference of the first-order speed", "abs_max", of="first_order_error")
+motion["phase"] = (inner(np.where(m.crank_angle < m.dwell_end_angle, 1, np.where(m.crank_angle < m.cutting_begin, 2, 3)), per_piece=True), "j", "1",
+    "Phase: 1 the rods relax, 2 free travel, 3 cutting")
+motion.rod_angle = (inner(slider_crank.inner_coupler_angle.of(crank_ratio=m.lambda_ratio)), "β", "deg", "Angle of the rods to the guides",
+    "001, after eq. 6")
+motion.platen_displacement = (slider_crank.inner_displacement.of(coupler_angle=m.rod_angle), "u", "mm",
+    "Displacement of the platen from the dead centre, ideal", "loop")
+motion.travel_rate = (inner(slider_crank.inner_arm.of(coupler_angle=m.rod_angle)), "u′", "mm",
+    "Ideal travel of the platen per radian of the crank, V/ω", "loop")
+motion.platen_velocity_ideal = m.crank_speed * m.travel_rate, "V", "m/s", "Speed of the platen away from the die, ideal", "loop"
+motion.platen_velocity_first_order = (slider_crank.inner_velocity_first_order.of(crank_ratio=m.lambda_ratio), "V_1", "m/s",
+    "The same, first-order in λ", "001 eq. 2")
+motion.first_order_error = inner(m.platen_velocity_ideal - m.platen_velocity_first_order), "ΔV", "m/s", "Difference of exact and first-order speed"
+motion.platen_acceleration = (slider_crank.inner_acceleration.of(coupler_angle=m.rod_angle, crank_ratio=m.lambda_ratio), "a_p", "m/s**2",
+    "Acceleration of the platen away from the die, ideal", "loop")
+motion.platen_displacement_true = (choice(*by_phase(m.drive_deformation, m.platen_displacement, true_travel.of())), "u_t", "mm",
+    "Displacement of the platen, true", "001 eq. 12")
+motion.platen_velocity_true = (choice(*by_phase(0, m.platen_velocity_ideal, m.platen_velocity_ideal * m.material_thickness
+    / (m.material_thickness + m.drive_deformation))), "V_t", "m/s", "Speed of the platen, true", "001 eq. 13")
+motion.velocity_max = reduction("abs_max", of="platen_velocity_ideal"), "V_max", "m/s", "Maximum speed of the platen"
+motion.velocity_difference = reduction("abs_max", of="first_order_error"), "ΔV_max", "m/s", "Maximum difference of the first-order speed"
 
 window = Chapter("Window of the carriages", needs=("carriage_clearance",), absent="not calculated: carriage_clearance is not given",
     text="The carriages pass while the platen is at least their clearance away from the die.")
-window.require("clearance_within_stroke", lambda carriage_clearance, drive_deformation, material_thickness, crank_radius:
-        (material_thickness <= carriage_clearance) & (carriage_clearance + drive_deformation < 2 * crank_radius), key="carriage_clearance",
+window.require("clearance_within_stroke", (m.material_thickness <= m.carriage_clearance)
+    & (m.carriage_clearance + m.drive_deformation < 2 * m.crank_radius), key="carriage_clearance",
     message="is {carriage_clearance}, but must be at least the board's thickness {material_thickness}, and less than what the platen opens, its "
-        "stroke {stroke} less the stretch {drive_deformation}")
-window.value("clear_travel", "u_w", "mm", "Travel of the platen from the dead centre at which the clearance remains",
-    lambda carriage_clearance, drive_deformation: carriage_clearance + drive_deformation, output=False)
-window.value("window_start", "φ_w1", "deg", "Crank angle at which the window opens",
-    bind(slider_crank.inner_crank_angle_at, displacement="clear_travel"), source="closed form")
-window.value("window_end", "φ_w2", "deg", "Crank angle at which the press closes", lambda window_start: 2 * pi - window_start, source="symmetry")
+    "stroke {stroke} less the stretch {drive_deformation}")
+window.clear_travel = (inner(m.carriage_clearance + m.drive_deformation), "u_w", "mm",
+    "Travel of the platen from the dead centre at which the clearance remains")
+window.window_start = (slider_crank.inner_crank_angle_at.of(displacement=m.clear_travel), "φ_w1", "deg", "Crank angle at which the window opens",
+    "closed form")
+window.window_end = 2 * pi - m.window_start, "φ_w2", "deg", "Crank angle at which the press closes", "symmetry"
 window.phase("carriage_window", "window", "Clearance for the carriages", "crank_angle", ("window_start", "window_end"))
 
 
@@ -325,135 +316,108 @@ LOAD = (
 forces = Chapter("Force of the rods",
     text="Both rods together, along the guides, tension positive. The force from the rods' elongation equals the cutting force up to the dead "
         "centre; after it the platen stands and the rods relax.")
-forces.value("standing_distance", "x_p", "mm", "Distance of the standing platen's pins from the shaft",
-    lambda rod_length, drive_deformation, crank_radius: rod_length + drive_deformation - crank_radius,
-    source="001 eq. 16", output=False)
-forces.value("stretched_length", "L", "mm", "Length of the rods while the platen stands", stretched_length, source="001 eq. 16, exact",
-    output=False)
-forces.choice("rod_stretch", "Δl", "mm", "Elongation of the rods",
-    *by_phase(bind(common.difference, quantity="stretched_length", less="rod_length"), bind(common.zero),
-        bind(lambda platen_displacement, material_thickness, drive_deformation:
-                drive_deformation * (1 - platen_displacement / (material_thickness + drive_deformation)))), source="001 eq. 12, 16")
-forces.value("elastic_force", "P", "kN", "Force of the elongated rods; while cutting, equal to the cutting force",
-    lambda cutting_force_max, rod_stretch, drive_deformation: cutting_force_max * rod_stretch / drive_deformation, source="001, before eq. 12")
-forces.choice("inertia_force", "P_i", "N", "Inertia force of the platen", case(lambda: 0, "the platen stands on the die", in_phase(1)),
-    case(lambda platen_mass, platen_acceleration: platen_mass * platen_acceleration, "the platen moves"), source="001, after eq. 2")
-forces.value("force", "F", "kN", "Force of the rods along the guides", lambda elastic_force, inertia_force: elastic_force - inertia_force,
-    source="001, after eq. 2")
-forces.value("crank_pin_force_x", "F_A,x", "kN", "Force of one of the two rods on its crank pin, along the guides", lambda force: force / 2,
-    source="symmetry")
-forces.value("crank_pin_force_y", "F_A,y", "kN", "Force of one of the two rods on its crank pin, across the guides",
-    lambda crank_pin_force_x, rod_angle: crank_pin_force_x * np.tan(rod_angle), source="statics")
-forces.crossings("force_change", "φ_F", "deg", "Crank angle at which the force of the rods changes its sign", of="force", output=False)
+forces.standing_distance = (inner(m.rod_length + m.drive_deformation - m.crank_radius), "x_p", "mm",
+    "Distance of the standing platen's pins from the shaft", "001 eq. 16")
+forces.stretched_length = inner(stretched_length), "L", "mm", "Length of the rods while the platen stands", "001 eq. 16, exact"
+forces.rod_stretch = (choice(*by_phase(m.stretched_length - m.rod_length, 0, m.drive_deformation
+    * (1 - m.platen_displacement / (m.material_thickness + m.drive_deformation)))), "Δl", "mm", "Elongation of the rods", "001 eq. 12, 16")
+forces.elastic_force = (m.cutting_force_max * m.rod_stretch / m.drive_deformation, "P", "kN",
+    "Force of the elongated rods; while cutting, equal to the cutting force", "001, before eq. 12")
+forces.inertia_force = (choice(case(0, "the platen stands on the die", in_phase(1)),
+    case(m.platen_mass * m.platen_acceleration, "the platen moves")), "P_i", "N", "Inertia force of the platen", "001, after eq. 2")
+forces.force = m.elastic_force - m.inertia_force, "F", "kN", "Force of the rods along the guides", "001, after eq. 2"
+forces.crank_pin_force_x = m.force / 2, "F_A,x", "kN", "Force of one of the two rods on its crank pin, along the guides", "symmetry"
+forces.crank_pin_force_y = (m.crank_pin_force_x * np.tan(m.rod_angle), "F_A,y", "kN",
+    "Force of one of the two rods on its crank pin, across the guides", "statics")
+forces.force_change = crossings(of="force", output=False), "φ_F", "deg", "Crank angle at which the force of the rods changes its sign"
 forces.breakpoints("force_changes", "crank_angle", "force_change")
-forces.reduction("inertia_force_max", "P_i,max", "N", "Maximum inertia force of the platen", "abs_max", of="inertia_force")
-forces.value("force_max", "F_max", "kN", "Maximum force of the rods: from cutting, or from inertia in free travel",
-    lambda cutting_force_max, inertia_force_max: np.maximum(cutting_force_max, inertia_force_max))
+forces.inertia_force_max = reduction("abs_max", of="inertia_force"), "P_i,max", "N", "Maximum inertia force of the platen"
+forces.force_max = (np.maximum(m.cutting_force_max, m.inertia_force_max), "F_max", "kN",
+    "Maximum force of the rods: from cutting, or from inertia in free travel")
 
 friction = Chapter("Friction of the joints",
     text="Each joint turns under the force of the rods; its friction acts at the joint's radius with the relative angular speed of the two parts. "
         "While the rods relax the crank is near its dead centre, and the value of X at the dead centre is used.")
-friction.value("rod_speed_ratio", "β′", "1", "Ratio of the rods' angular speed to the crank's",
-    bind(slider_crank.inner_coupler_angle_speed, coupler_angle="rod_angle", crank_ratio="lambda_ratio"), source="001 eq. 5", output=False)
-friction.crossings("rod_turn", "φ_β", "deg", "Crank angle at which the rods reverse their swing", of="rod_speed_ratio", output=False)
+friction.rod_speed_ratio = (inner(slider_crank.inner_coupler_angle_speed.of(coupler_angle=m.rod_angle, crank_ratio=m.lambda_ratio)), "β′", "1",
+    "Ratio of the rods' angular speed to the crank's", "001 eq. 5")
+friction.rod_turn = crossings(of="rod_speed_ratio", output=False), "φ_β", "deg", "Crank angle at which the rods reverse their swing"
 friction.breakpoints("rod_turns", "crank_angle", "rod_turn")
-friction.value("moving_joint_arm", "X_φ", "mm", "Friction arm of the joints at the crank angle", joint_arm, source="001 eq. 5–7",
-    output=False)
-friction.choice("joint_arm", "X_j", "mm", "Friction arm of the joints",
-    case(lambda friction_arm: friction_arm, "the rods relax: value at the dead centre", in_phase(1)),
-    case(lambda moving_joint_arm: moving_joint_arm, "the platen moves"), source="001 eq. 5–7, 17")
-friction.value("joint_torque", "M_j", "N*m", "Torque from joint friction", lambda force, joint_arm: abs(force) * joint_arm, source="001 eq. 5–7",
-    output=False)
+friction.moving_joint_arm = inner(joint_arm), "X_φ", "mm", "Friction arm of the joints at the crank angle", "001 eq. 5–7"
+friction.joint_arm = (choice(case(m.friction_arm, "the rods relax: value at the dead centre", in_phase(1)),
+    case(m.moving_joint_arm, "the platen moves")), "X_j", "mm", "Friction arm of the joints", "001 eq. 5–7, 17")
+friction.joint_torque = inner(abs(m.force) * m.joint_arm), "M_j", "N*m", "Torque from joint friction", "001 eq. 5–7"
 
 guides = Chapter("Friction of the guides",
     text="A force offset from the axis of the guides tilts the platen in them. Where the platen stands, its guides have no friction. The rods also "
         "carry the friction of the guides, so its arm is theirs, V/ω with the ideal speed.", needs=("guide_length",),
     absent="not calculated: guide_length is not given, and no force is offset from the axis of the guides")
-guides.value("guide_moment", "M_g", "N*m", "Tilting moment on the platen in its guides",
-    lambda force, offset_force, platen_mass, offset_weight: force * offset_force - platen_mass * GRAVITY * offset_weight, source="001 eq. 3",
-    output=False)
-guides.crossings("guide_change", "φ_g", "deg", "Crank angle at which the guides' reactions change sides", of="guide_moment", output=False)
-guides.crossings("platen_turn", "φ_V", "deg", "Crank angle at which the platen reverses", of="platen_velocity_ideal", output=False)
+guides.guide_moment = (inner(m.force * m.offset_force - m.platen_mass * GRAVITY * m.offset_weight), "M_g", "N*m",
+    "Tilting moment on the platen in its guides", "001 eq. 3")
+guides.guide_change = crossings(of="guide_moment", output=False), "φ_g", "deg", "Crank angle at which the guides' reactions change sides"
+guides.platen_turn = crossings(of="platen_velocity_ideal", output=False), "φ_V", "deg", "Crank angle at which the platen reverses"
 guides.breakpoints("guide_changes", "crank_angle", "guide_change", "platen_turn")
-guides.choice("guide_friction", "T", "N", "Friction of the guides", case(lambda: 0, "the platen stands on the die", in_phase(1)),
-    case(lambda friction_guide, guide_moment, guide_length: 2 * friction_guide * abs(guide_moment) / guide_length, "the platen moves"),
-    source="001 eq. 3, 4")
-guides.value("guide_torque", "M_n", "N*m", "Torque from guide friction", lambda guide_friction, travel_rate: guide_friction * abs(travel_rate),
-    source="001 eq. 4", output=False)
-guides.value("weight_torque", "M_G", "N*m", "Maximum torque due to the guides' friction under the weight alone", weight_torque,
-    source="001 eq. 4", output=False, needs=("allowable_torque",))
+guides.guide_friction = (choice(case(0, "the platen stands on the die", in_phase(1)),
+    case(2 * m.friction_guide * abs(m.guide_moment) / m.guide_length, "the platen moves")), "T", "N", "Friction of the guides", "001 eq. 3, 4")
+guides.guide_torque = inner(m.guide_friction * abs(m.travel_rate)), "M_n", "N*m", "Torque from guide friction", "001 eq. 4"
+guides.weight_torque = (inner(weight_torque, needs=("allowable_torque",)), "M_G", "N*m",
+    "Maximum torque due to the guides' friction under the weight alone", "001 eq. 4")
 
 torque = Chapter("Torque at the main shaft",
     text="The moment arm of the rods' force follows from the crank and rods alone: V/ω with the ideal speed. The crank must also supply the strain "
         "energy of the rods; they return it after the dead centre.")
-torque.choice("force_arm", "a", "mm", "Moment arm of the rods' force about the shaft, positive where it resists the crank",
-    case(lambda standing_distance, crank_radius, crank_angle, stretched_length:
-            -standing_distance * crank_radius * np.sin(crank_angle) / stretched_length, "the platen stands on the die", in_phase(1)),
-    case(lambda travel_rate: -travel_rate, "the platen moves"), source="001 eq. 2, 16", output=False)
-torque.value("torque_useful", "M_u", "N*m", "Torque from cutting, elongation and inertia", lambda force, force_arm: force * force_arm,
-    source="virtual work")
-torque.value("torque_friction", "M_f", "N*m", "Torque from friction in joints and guides",
-    lambda joint_torque, guide_torque: joint_torque + guide_torque, source="001 eq. 1", needs=("guide_length",))
-torque.value("torque_friction", "M_f", "N*m", "Torque from friction in the joints", lambda joint_torque: joint_torque, source="001 eq. 1",
-    lacks=("guide_length",))
-torque.value("torque", "M", "N*m", "Torque at the main shaft", lambda torque_useful, torque_friction: torque_useful + torque_friction,
-    source="001 eq. 1, corrected")
-torque.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="torque")
-torque.value("torque_max_angle", "φ_M", "deg", "Crank angle of the maximum torque, before the dead centre",
-    lambda torque_max_at: np.where(torque_max_at > 0, 2 * pi - torque_max_at, 0))
-torque.reduction("torque_min", "M_min", "N*m", "Minimum torque (negative: platen or rods drive the crank)", "min", of="torque")
-torque.value("crank_pin_torque", "M_A", "N*m", "Torque of one of the two rods, including friction, on its crank", lambda torque: -torque / 2,
-    source="symmetry")
-torque.choice("torque_source", "M_14", "N*m", "Torque by eq. 14 as printed, while cutting",
-    case(bind(torque_as_printed), "the board is cut", in_phase(3)), case(lambda: 0, "eq. 14 is for cutting alone"), source="001 eq. 14")
-torque.reduction("torque_max_source", "M_14,max", "N*m", "Maximum torque by eq. 14 as printed", "max", of="torque_source")
-torque.value("torque_max_source_angle", "φ_14", "deg", "Its crank angle before the dead centre",
-    lambda torque_max_source_at: np.where(torque_max_source_at > 0, 2 * pi - torque_max_source_at, 0))
+torque.force_arm = (choice(case(-m.standing_distance * m.crank_radius * np.sin(m.crank_angle) / m.stretched_length, "the platen stands on the die",
+    in_phase(1)), case(-m.travel_rate, "the platen moves"), output=False), "a", "mm",
+    "Moment arm of the rods' force about the shaft, positive where it resists the crank", "001 eq. 2, 16")
+torque.torque_useful = m.force * m.force_arm, "M_u", "N*m", "Torque from cutting, elongation and inertia", "virtual work"
+torque.torque_friction = (value(m.joint_torque + m.guide_torque, needs=("guide_length",)), "M_f", "N*m", "Torque from friction in joints and guides",
+    "001 eq. 1")
+torque.torque_friction = value(m.joint_torque, lacks=("guide_length",)), "M_f", "N*m", "Torque from friction in the joints", "001 eq. 1"
+torque.torque = m.torque_useful + m.torque_friction, "M", "N*m", "Torque at the main shaft", "001 eq. 1, corrected"
+torque.torque_max = reduction("max", of="torque"), "M_max", "N*m", "Maximum torque"
+torque.torque_max_angle = (np.where(m.torque_max_at > 0, 2 * pi - m.torque_max_at, 0), "φ_M", "deg",
+    "Crank angle of the maximum torque, before the dead centre")
+torque.torque_min = reduction("min", of="torque"), "M_min", "N*m", "Minimum torque (negative: platen or rods drive the crank)"
+torque.crank_pin_torque = -m.torque / 2, "M_A", "N*m", "Torque of one of the two rods, including friction, on its crank", "symmetry"
+torque.torque_source = (choice(case(torque_as_printed.of(), "the board is cut", in_phase(3)), case(0, "eq. 14 is for cutting alone")), "M_14", "N*m",
+    "Torque by eq. 14 as printed, while cutting", "001 eq. 14")
+torque.torque_max_source = reduction("max", of="torque_source"), "M_14,max", "N*m", "Maximum torque by eq. 14 as printed"
+torque.torque_max_source_angle = (np.where(m.torque_max_source_at > 0, 2 * pi - m.torque_max_source_at, 0), "φ_14", "deg",
+    "Its crank angle before the dead centre")
 
 returning = Chapter("Relaxing rods",
     text="The elongated rods drive the crank over an arm that grows until they have relaxed; friction resists over X.")
-returning.value("elastic_arm", "a_d", "mm", "Maximum arm with which the relaxing rods drive the crank",
-    lambda standing_distance, crank_radius, dwell_end_angle, rod_length: standing_distance * crank_radius * np.sin(dwell_end_angle) / rod_length,
-    source="001 eq. 16, exact")
-returning.value("return_arm_min", "X_min", "mm", "Minimum excess of the friction arm over the arm of the rods",
-    lambda friction_arm, elastic_arm: friction_arm - elastic_arm, source="001 eq. 17")
-returning.value("friction_limit", "f_rev", "1", "Coefficient of friction below which the rods would drive the crank",
-    lambda friction, elastic_arm, friction_arm: friction * elastic_arm / friction_arm, source="statics", needs=("friction",),
-    lacks=tuple(key for key, _, _ in ADOPTED), exists=lambda friction: friction > 0)
-returning.value("deformation_limit", "Δl_rev", "mm", "Elongation of the drive above which the rods would drive the crank", deformation_limit,
-    source="statics", exists=lambda friction_arm, crank_radius: friction_arm < crank_radius)
+returning.elastic_arm = (m.standing_distance * m.crank_radius * np.sin(m.dwell_end_angle) / m.rod_length, "a_d", "mm",
+    "Maximum arm with which the relaxing rods drive the crank", "001 eq. 16, exact")
+returning.return_arm_min = m.friction_arm - m.elastic_arm, "X_min", "mm", "Minimum excess of the friction arm over the arm of the rods", "001 eq. 17"
+returning.friction_limit = (value(m.friction * m.elastic_arm / m.friction_arm, needs=("friction",), lacks=tuple(key for key, _, _ in ADOPTED),
+    exists=m.friction > 0), "f_rev", "1", "Coefficient of friction below which the rods would drive the crank", "statics")
+returning.deformation_limit = (value(deformation_limit, exists=m.friction_arm < m.crank_radius), "Δl_rev", "mm",
+    "Elongation of the drive above which the rods would drive the crank", "statics")
 
 work = Chapter("Work and power",
     text="In the model the platen is set in motion instantaneously when the rods have relaxed; this energy is not part of the torque over the "
         "revolution and is added to it. The energy stored in the rods before the dead centre is returned after it.")
-work.reduction("torque_work", "W_M", "J", "Work of the torque over a revolution", "integral", of="torque", output=False)
-work.value("start_rod_angle", "β_d", "deg", "Angle of the rods to the guides where they have relaxed",
-    bind(slider_crank.inner_coupler_angle, crank_angle="dwell_end_angle", crank_ratio="lambda_ratio"), output=False)
-work.value("start_velocity", "V_d", "m/s", "Speed with which the platen leaves the die",
-    bind(slider_crank.inner_velocity, crank_angle="dwell_end_angle", coupler_angle="start_rod_angle"), output=False)
-work.value("start_energy", "W_d", "J", "Energy to set the platen in motion",
-    lambda platen_mass, start_velocity: platen_mass * start_velocity ** 2 / 2, source="energy", output=False)
-work.value("work_per_cycle", "W_c", "J", "Work per cycle, including setting the platen in motion",
-    lambda torque_work, start_energy: torque_work + start_energy, source="energy")
-work.value("cutting_work", "W_s", "J", "Work of cutting the board",
-    lambda cutting_force_max, material_thickness: cutting_force_max * material_thickness / 2, source="energy")
-work.reduction("friction_work", "W_f", "J", "Work of friction", "integral", of="torque_friction")
-work.value("strain_energy", "W_e", "J", "Energy stored and returned by the rods",
-    lambda cutting_force_max, drive_deformation: cutting_force_max * drive_deformation / 2, source="energy")
-work.value("friction_share", "k_f", "%", "Fraction of the work taken by friction",
-    lambda friction_work, work_per_cycle: friction_work / work_per_cycle)
-work.value("power_mean", "P_mean", "W", "Mean power at the main shaft", lambda work_per_cycle, cycles_per_hour: work_per_cycle * cycles_per_hour)
-work.value("energy_residual", "r_E", "1", "Relative difference between the work and its components",
-    lambda work_per_cycle, cutting_work, friction_work: abs(work_per_cycle - cutting_work - friction_work) / work_per_cycle,
-    source="conservation of energy", output=False)
+work.torque_work = reduction("integral", of="torque", output=False), "W_M", "J", "Work of the torque over a revolution"
+work.start_rod_angle = (inner(slider_crank.inner_coupler_angle.of(crank_angle=m.dwell_end_angle, crank_ratio=m.lambda_ratio)), "β_d", "deg",
+    "Angle of the rods to the guides where they have relaxed")
+work.start_velocity = (inner(slider_crank.inner_velocity.of(crank_angle=m.dwell_end_angle, coupler_angle=m.start_rod_angle)), "V_d", "m/s",
+    "Speed with which the platen leaves the die")
+work.start_energy = inner(m.platen_mass * m.start_velocity ** 2 / 2), "W_d", "J", "Energy to set the platen in motion", "energy"
+work.work_per_cycle = m.torque_work + m.start_energy, "W_c", "J", "Work per cycle, including setting the platen in motion", "energy"
+work.cutting_work = m.cutting_force_max * m.material_thickness / 2, "W_s", "J", "Work of cutting the board", "energy"
+work.friction_work = reduction("integral", of="torque_friction"), "W_f", "J", "Work of friction"
+work.strain_energy = m.cutting_force_max * m.drive_deformation / 2, "W_e", "J", "Energy stored and returned by the rods", "energy"
+work.friction_share = m.friction_work / m.work_per_cycle, "k_f", "%", "Fraction of the work taken by friction"
+work.power_mean = m.work_per_cycle * m.cycles_per_hour, "P_mean", "W", "Mean power at the main shaft"
+work.energy_residual = (inner(abs(m.work_per_cycle - m.cutting_work - m.friction_work) / m.work_per_cycle), "r_E", "1",
+    "Relative difference between the work and its components", "conservation of energy")
 
 
 def _pressure(key: str, name: str, symbol: str, pins: str, radius: str) -> Chapter:
     """The pressure of one kind of pins."""
     chapter = Chapter(f"Pressure on the {pins}", text="The two of them share the force of the rods.", needs=(key,),
         absent=f"not calculated: {key} is not given")
-    chapter.value(name, symbol, "MPa", f"Pressure on the {pins} on their projected area",
-        bind(lambda force_max, radius, length: force_max / (4 * radius * length), radius=radius, length=key), source="statics")
+    chapter[name] = m.force_max / (4 * m[radius] * m[key]), symbol, "MPa", f"Pressure on the {pins} on their projected area", "statics"
     return chapter
 
 
@@ -465,5 +429,4 @@ PRESSURES = (
 
 rods = Chapter("Stress in the rods", text="The two of them share the force, which pulsates from zero once per revolution.", needs=("rod_net_area",),
     absent="not calculated: rod_net_area is not given")
-rods.value("rod_stress", "σ_r", "MPa", "Maximum tensile stress of the rods", lambda force_max, rod_net_area: force_max / (2 * rod_net_area),
-    source="statics")
+rods.rod_stress = m.force_max / (2 * m.rod_net_area), "σ_r", "MPa", "Maximum tensile stress of the rods", "statics"

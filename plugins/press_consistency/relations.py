@@ -10,7 +10,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Cell, Chapter, Curve, GivenMechanism, ListedColumn, Phrase, Refusal, named, phrase, told
+from diecut_report.api import (
+    Cell,
+    Chapter,
+    Curve,
+    GivenMechanism,
+    ListedColumn,
+    Phrase,
+    Refusal,
+    computed,
+    named,
+    phrase,
+    told,
+)
 from diecut_report.mechanics.numerics import first
 from diecut_report.mechanics.timing.engagement import (
     Slip,
@@ -124,10 +136,10 @@ sizes = Chapter("Cylinder of the press", needs=("cylinder",),
     absent="not calculated: there is no cylinder to use, or there are several")
 for needs, lacks in ((("drive", "damper"), ()), (("drive",), ("damper",)), (("damper",), ("drive",))):
     forms: dict[str, Any] = {"needs": needs, "lacks": lacks, "output": False}
-    sizes.computed("cylinder_sizes_apart", "N_s", "1", "Number of sizes that are not those of the cylinder",
-        partial(_counted, keys=SIZES, is_wrong=_is_another), ("cylinder", *needs), "compared one by one", **forms)
-    sizes.computed("cylinder_loads_short", "N_l", "1", "Number of masses and moments that are less than those of the cylinder",
-        partial(_counted, keys=LOADS, is_wrong=_is_less), ("cylinder", *needs), "compared one by one", **forms)
+    sizes.cylinder_sizes_apart = (computed(partial(_counted, keys=SIZES, is_wrong=_is_another), ("cylinder", *needs), "compared one by one",
+        **forms), "N_s", "1", "Number of sizes that are not those of the cylinder")
+    sizes.cylinder_loads_short = (computed(partial(_counted, keys=LOADS, is_wrong=_is_less), ("cylinder", *needs), "compared one by one", **forms),
+        "N_l", "1", "Number of masses and moments that are less than those of the cylinder")
     sizes.words("cylinder_sizes", partial(_listed, keys=SIZES, is_wrong=_is_another), ("cylinder", *needs), needs=needs, lacks=lacks)
     sizes.words("cylinder_loads", partial(_listed, keys=LOADS, is_wrong=_is_less), ("cylinder", *needs), needs=needs, lacks=lacks)
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Chapter, Curve, bind, case, si
+from diecut_report.api import Chapter, Curve, case, choice, computed, inner, m, pick, si
 from diecut_report.mechanics import drive_line
 from diecut_report.plugins.roller_chain import steps
 from diecut_report.plugins.roller_chain.chains import CHAINS
@@ -142,36 +142,31 @@ def _least(*names: str) -> Callable[..., Array]:
 size = Chapter("Selection of the chain",
     text="If chain is omitted, each chain of the table is tried; the smallest one that satisfies both safety factors and the pressure of the joints "
         "is selected.")
-size.value("driven_teeth", "z_2", "1", "Teeth of the driven sprocket: as given", bind(lambda given: given, given="teeth_2"), needs=("teeth_2",),
-    source="input", whole=True, output=False)
-size.value("driven_teeth", "z_2", "1", "Teeth of the driven sprocket: those of the driving one", lambda teeth_1: teeth_1, lacks=("teeth_2",),
-    source="input", whole=True, output=False)
-size.value("application", "K_A", "1", "Application factor: as given", lambda application_factor: application_factor, needs=("application_factor",),
-    source="input", output=False)
+size.driven_teeth = inner(m.teeth_2, needs=("teeth_2",), whole=True), "z_2", "1", "Teeth of the driven sprocket: as given", "input"
+size.driven_teeth = inner(m.teeth_1, lacks=("teeth_2",), whole=True), "z_2", "1", "Teeth of the driven sprocket: those of the driving one", "input"
+size.application = inner(m.application_factor, needs=("application_factor",)), "K_A", "1", "Application factor: as given", "input"
 for chosen in ((DRIVE, "torque_curve"), (CONVEYOR,)):
-    size.value("application", "K_A", "1", "Application factor: the loads are dynamic ones", lambda: 1, needs=chosen, lacks=("application_factor",),
-        source="this method", output=False)
+    size.application = (inner(1, needs=chosen, lacks=("application_factor",)), "K_A", "1", "Application factor: the loads are dynamic ones",
+        "this method")
 WANTED = {"distance_wanted": ("center_distance", "a_w", "mm", "Centre distance"), "links_wanted": ("links", "X_w", "1", "Links"),
           "pressure_allowed": ("allowable_bearing_pressure", "p_w", "MPa", "Allowable pressure of the joints")}
 for key, (given, symbol, unit, words) in WANTED.items():
-    size.value(key, symbol, unit, f"{words}: as given", bind(lambda given: given, given=f"inputs.{given}"), needs=(given,), lacks=("chain",),
-        source="input", output=False)
-    size.value(key, symbol, unit, f"{words}: 0, since not given", lambda: 0, lacks=("chain", given), source="input", output=False)
+    size[key] = inner(m.inputs[given], needs=(given,), lacks=("chain",)), symbol, unit, f"{words}: as given", "input"
+    size[key] = inner(0, lacks=("chain", given)), symbol, unit, f"{words}: 0, since not given", "input"
 for use, load in WAYS:
     names = (*ALWAYS, *load, *(CONVEYED if use == CONVEYOR else ()))
-    size.computed("pitch_least", "p_min", "mm", "Pitch of the smallest sufficient chain", function=_least(*names),
-        takes=tuple(f"inputs.{name}" if name in load else name for name in names),
+    size.pitch_least = (computed(function=_least(*names), takes=tuple(f"inputs.{name}" if name in load else name for name in names),
         method="all tensions below, with each chain of the table in turn, over the cycle where curves are given; 0 where none is sufficient",
-        needs=(use, *load), lacks=("chain",), output=False)
+        needs=(use, *load), lacks=("chain",), output=False), "p_min", "mm", "Pitch of the smallest sufficient chain")
 for key in OVERRIDES:
-    size.require(f"{key}_of_a_chain", lambda teeth_1: teeth_1 < 0, key=key, needs=(key,), lacks=("chain",),
+    size.require(f"{key}_of_a_chain", m.teeth_1 < 0, key=key, needs=(key,), lacks=("chain",),
         message="has no use without a chain; give chain, or set chain to custom with pitch, pin_diameter, bearing_area, breaking_load and "
-            "mass_per_length")
-size.require("chain_exists", lambda pitch_least: pitch_least > 0, key="chain", lacks=("chain",),
+        "mass_per_length")
+size.require("chain_exists", m.pitch_least > 0, key="chain", lacks=("chain",),
     message="is left out, and no chain from 08B to 24B is enough; give more strands, a larger sprocket or less load, or set chain to custom")
-size.pick("pitch", "p", "mm", "Pitch: the smallest sufficient chain", "above", of="pitch_least", series=CHAINS.series("pitch"), lacks=("chain",),
-    source="ISO 606")
+size.pitch = (pick("above", of="pitch_least", series=CHAINS.series("pitch"), lacks=("chain",)), "p", "mm", "Pitch: the smallest sufficient chain",
+    "ISO 606")
 INCHES = {name: pitch / 25.4 for name, pitch in CHAINS.by_name("pitch").items()}
-size.choice("designation", "C", "1", "Selected chain",
-    *(case(name, f"its pitch is {round(16 * inches):d}/16 inch", bind(lambda pitch, own: pitch / INCH <= own, own=inches * (1 + SAME)))
-      for name, inches in list(INCHES.items())[:-1]), case(CHAINS.names[-1], "its pitch is the largest"), lacks=("chain",), source="ISO 606")
+size.designation = (choice(*(case(name, f"its pitch is {round(16 * inches):d}/16 inch",
+    m.pitch / INCH <= inches * (1 + SAME)) for name, inches in list(INCHES.items())[:-1]),
+    case(CHAINS.names[-1], "its pitch is the largest"), lacks=("chain",)), "C", "1", "Selected chain", "ISO 606")

@@ -6,7 +6,28 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import GRAVITY, Chapter, Constant, Curve, as_angle, as_number, bind, case, formula, pi
+from diecut_report.api import (
+    GRAVITY,
+    Chapter,
+    Constant,
+    Curve,
+    abscissa,
+    as_angle,
+    as_number,
+    case,
+    choice,
+    computed,
+    crossings,
+    formula,
+    from_curve,
+    inner,
+    interpolated,
+    lookup,
+    m,
+    pi,
+    reduction,
+    value,
+)
 from diecut_report.mechanics import drive_line
 from diecut_report.plugins.roller_chain.chains import BY_PITCH, CHAINS
 from diecut_report.plugins.roller_chain.inputs import CONVEYOR, CUSTOM, DRIVE
@@ -148,74 +169,63 @@ SHARES = {"pitch": (0.999, 1.001), "pin_diameter": (0.8, 1.25), "bearing_area": 
 
 chain = Chapter("Chain", text="All values are those of one strand.")
 for key, (symbol, unit, words) in TAKEN.items():
-    chain.lookup(key, symbol, unit, words, CHAINS, by="chain", column=key, given=key, needs=("chain",), source="ISO 606")
+    chain[key] = lookup(CHAINS, by="chain", column=key, given=key, needs=("chain",)), symbol, unit, words, "ISO 606"
     if key != "pitch":
-        chain.interpolated(key, symbol, unit, f"{words} of this pitch", BY_PITCH, of="pitch", column=key, key="chain", lacks=("chain",),
-            source="ISO 606")
+        chain[key] = interpolated(BY_PITCH, of="pitch", column=key, key="chain", lacks=("chain",)), symbol, unit, f"{words} of this pitch", "ISO 606"
 for key, (symbol, unit, words) in MEASURED.items():
-    chain.lookup(key, symbol, unit, words, CHAINS, by="chain", column=key, needs=("chain",), lacks=(CUSTOM,), source="ISO 606", output=False)
-    chain.interpolated(key, symbol, unit, f"{words} of this pitch", BY_PITCH, of="pitch", column=key, key="chain", lacks=("chain", "bearing_area"),
-        source="ISO 606", output=False)
-chain.value("bearing_area", "A", "mm**2", "Bearing area of a joint: pin and bush, whose length is the width of the inner link", bearing_area,
-    lacks=("bearing_area",), source="geometry")
-chain.value("bearing_area", "A", "mm**2", "Bearing area of a joint: as given", bind(lambda given: given, given="inputs.bearing_area"),
-    needs=("bearing_area",), source="input")
+    chain[key] = lookup(CHAINS, by="chain", column=key, needs=("chain",), lacks=(CUSTOM,), output=False), symbol, unit, words, "ISO 606"
+    chain[key] = (interpolated(BY_PITCH, of="pitch", column=key, key="chain", lacks=("chain", "bearing_area"), output=False), symbol, unit,
+        f"{words} of this pitch", "ISO 606")
+chain.bearing_area = (value(bearing_area, lacks=("bearing_area",)), "A", "mm**2",
+    "Bearing area of a joint: pin and bush, whose length is the width of the inner link", "geometry")
+chain.bearing_area = value(m.inputs.bearing_area, needs=("bearing_area",)), "A", "mm**2", "Bearing area of a joint: as given", "input"
 for key, (symbol, unit, words) in TAKEN.items():
-    chain.lookup(f"{key}_of_table", f"{symbol},t", unit, f"{words}: that of the table", CHAINS, by="chain", column=key, needs=("chain",),
-        lacks=(CUSTOM,), source="ISO 606", output=False)
-chain.value("bearing_area_of_table", "A_t", "mm**2", "Bearing area of a joint: that of the table",
-    bind(bearing_area, pin_diameter="pin_diameter_of_table"), needs=("chain",), lacks=(CUSTOM,), source="geometry", output=False)
+    chain[f"{key}_of_table"] = (lookup(CHAINS, by="chain", column=key, needs=("chain",), lacks=(CUSTOM,), output=False), f"{symbol},t", unit,
+        f"{words}: that of the table", "ISO 606")
+chain.bearing_area_of_table = (inner(bearing_area.of(pin_diameter=m.pin_diameter_of_table), needs=("chain",), lacks=(CUSTOM,)), "A_t", "mm**2",
+    "Bearing area of a joint: that of the table", "geometry")
 for key, (least, most) in SHARES.items():
-    chain.require(f"{key}_as_table", bind(lambda given, own, least, most: (given >= least * own) & (given <= most * own),
-        given=f"inputs.{key}", own=f"{key}_of_table", least=least, most=most), key=key,
+    chain.require(f"{key}_as_table", (m.inputs[key] >= least * m[f"{key}_of_table"]) & (m.inputs[key] <= most * m[f"{key}_of_table"]), key=key,
         needs=("chain", key), lacks=(CUSTOM,),
         message=f"is {{inputs.{key}}}, but the table has {{{key}_of_table}} for this designation, and no maker less than {least:g} or more than "
-            f"{most:g} times that; correct it, or its unit, or the designation, or set chain to custom with all its values")
+        f"{most:g} times that; correct it, or its unit, or the designation, or set chain to custom with all its values")
 
 loop = Chapter("Loop over the sprockets",
     text="The number of links follows from the centre distance and is even, so that no link is cranked; with whole links the distance is adjusted. "
         "The catalogue formulas are compared with the exact polygon.")
-loop.value("teeth_small", "z_s", "1", "Number of teeth of the smaller sprocket", lambda teeth_1, driven_teeth: np.minimum(teeth_1, driven_teeth),
-    source="geometry", whole=True, output=False)
+loop.teeth_small = inner(np.minimum(m.teeth_1, m.driven_teeth), whole=True), "z_s", "1", "Number of teeth of the smaller sprocket", "geometry"
 for g, teeth in TEETH.items():
-    loop.value(f"sprocket_diameter_{g}", f"d_{g}", "mm", f"Pitch circle diameter of the {'driving' if g == 1 else 'driven'} sprocket",
-        bind(drive_line.sprocket_diameter, teeth=teeth), source="geometry", digits=6)
-loop.value("center_least", "a_min", "mm", "Centre distance at which the sprockets touch",
-    lambda sprocket_diameter_1, sprocket_diameter_2: (sprocket_diameter_1 + sprocket_diameter_2) / 2, source="geometry", output=False)
-loop.require("sprockets_apart", lambda center_distance, center_least: center_distance > center_least, key="center_distance", needs=GIVEN_DISTANCE,
+    loop[f"sprocket_diameter_{g}"] = (value(drive_line.sprocket_diameter.of(teeth=m[teeth]), digits=6), f"d_{g}", "mm",
+        f"Pitch circle diameter of the {'driving' if g == 1 else 'driven'} sprocket", "geometry")
+loop.center_least = (inner((m.sprocket_diameter_1 + m.sprocket_diameter_2) / 2), "a_min", "mm", "Centre distance at which the sprockets touch",
+    "geometry")
+loop.require("sprockets_apart", m.center_distance > m.center_least, key="center_distance", needs=GIVEN_DISTANCE,
     message="is {center_distance}, at which sprockets of {sprocket_diameter_1} and {sprocket_diameter_2} overlap; give more than {center_least:up}")
-loop.value("links_exact", "X_0", "1", "Number of links required by the centre distance", bind(exact_links, center="center_distance", **BOTH),
-    needs=GIVEN_DISTANCE, source=SHIGLEY, digits=7)
-loop.value("links", "X", "1", "Links: the next even number", bind(even_links, exact="links_exact"), needs=GIVEN_DISTANCE, source=SHIGLEY,
-    whole=True)
-loop.value("links", "X", "1", "Links: as given", bind(lambda given: given, given="inputs.links"), lacks=GIVEN_DISTANCE, source="input", whole=True)
-loop.value("links_free", "B", "1", "Links that are not on the sprockets", bind(drive_line.free_links, **BOTH), source=SHIGLEY, output=False, digits=6)
-loop.value("links_discriminant", "D_X", "1", "Condition for a whole number of links (positive)",
-    bind(drive_line.links_discriminant, free="links_free", **BOTH), source=SHIGLEY, output=False, digits=6)
-loop.require("long_enough", lambda links_free, links_discriminant: (links_free > 0) & (links_discriminant > 0), key="links", lacks=GIVEN_DISTANCE,
+loop.links_exact = (value(exact_links.of(center=m.center_distance, teeth_1=m.teeth_1, teeth_2=m.driven_teeth), needs=GIVEN_DISTANCE, digits=7),
+    "X_0", "1", "Number of links required by the centre distance", SHIGLEY)
+loop.links = value(even_links.of(exact=m.links_exact), needs=GIVEN_DISTANCE, whole=True), "X", "1", "Links: the next even number", SHIGLEY
+loop.links = value(m.inputs.links, lacks=GIVEN_DISTANCE, whole=True), "X", "1", "Links: as given", "input"
+loop.links_free = (inner(drive_line.free_links.of(teeth_1=m.teeth_1, teeth_2=m.driven_teeth), digits=6), "B", "1",
+    "Links that are not on the sprockets", SHIGLEY)
+loop.links_discriminant = (inner(drive_line.links_discriminant.of(free=m.links_free, teeth_1=m.teeth_1, teeth_2=m.driven_teeth), digits=6), "D_X",
+    "1", "Condition for a whole number of links (positive)", SHIGLEY)
+loop.require("long_enough", (m.links_free > 0) & (m.links_discriminant > 0), key="links", lacks=GIVEN_DISTANCE,
     message="is {inputs.links}, too few to go round sprockets of {teeth_1} and {driven_teeth} teeth; give more links or fewer teeth")
-loop.value("center_distance_adjusted", "a_X", "mm", "Centre distance for this number of links",
-    bind(drive_line.chain_center_distance, free="links_free", root_of="links_discriminant"), source=SHIGLEY, digits=7)
-loop.require("adjusted_apart", lambda center_distance_adjusted, center_least: center_distance_adjusted > center_least, key="links",
-    lacks=GIVEN_DISTANCE,
+loop.center_distance_adjusted = (value(drive_line.chain_center_distance.of(free=m.links_free, root_of=m.links_discriminant), digits=7), "a_X", "mm",
+    "Centre distance for this number of links", SHIGLEY)
+loop.require("adjusted_apart", m.center_distance_adjusted > m.center_least, key="links", lacks=GIVEN_DISTANCE,
     message="is {inputs.links}, with which the sprockets overlap: the centre distance would be {center_distance_adjusted}, and they touch at "
-        "{center_least}; give more links")
-loop.value("center", "a", "mm", "Centre distance, for the tensions: as given", lambda center_distance: center_distance, needs=GIVEN_DISTANCE,
-    source="input", output=False)
-loop.value("center", "a", "mm", "Centre distance, for the tensions", lambda center_distance_adjusted: center_distance_adjusted, lacks=GIVEN_DISTANCE,
-    source=SHIGLEY, output=False)
-loop.value("chain_length", "L", "m", "Length of the chain", lambda links, pitch: links * pitch, source="geometry")
-loop.value("links_polygon", "X_e", "1", "Number of links at the adjusted distance by the exact polygon",
-    bind(polygon_links, center="center_distance_adjusted", diameter_1="sprocket_diameter_1", diameter_2="sprocket_diameter_2", **BOTH),
-    source="geometry", output=False, digits=8)
-loop.value("links_residual", "ΔX", "1", "Deviation of the formula from the exact polygon, in links",
-    lambda links_polygon, links: abs(links_polygon - links), source="geometry", output=False)
-loop.value("wrap_small", "β_s", "deg", "Wrap of the smaller sprocket",
-    lambda sprocket_diameter_1, sprocket_diameter_2, center: pi - 2 * np.arcsin(abs(sprocket_diameter_2 - sprocket_diameter_1) / (2 * center)),
-    source="geometry")
-loop.value("center_in_pitches", "a_p", "1", "Centre distance in pitches", lambda center, pitch: center / pitch, source="geometry", output=False)
-loop.value("links_odd", "X_2", "1", "Links in excess of an even number", lambda links: links - 2 * np.floor(links / 2), source="this method",
-    output=False)
+    "{center_least}; give more links")
+loop.center = inner(m.center_distance, needs=GIVEN_DISTANCE), "a", "mm", "Centre distance, for the tensions: as given", "input"
+loop.center = inner(m.center_distance_adjusted, lacks=GIVEN_DISTANCE), "a", "mm", "Centre distance, for the tensions", SHIGLEY
+loop.chain_length = m.links * m.pitch, "L", "m", "Length of the chain", "geometry"
+loop.links_polygon = (inner(polygon_links.of(center=m.center_distance_adjusted, diameter_1=m.sprocket_diameter_1, diameter_2=m.sprocket_diameter_2,
+    teeth_1=m.teeth_1, teeth_2=m.driven_teeth), digits=8), "X_e", "1", "Number of links at the adjusted distance by the exact polygon", "geometry")
+loop.links_residual = inner(abs(m.links_polygon - m.links)), "ΔX", "1", "Deviation of the formula from the exact polygon, in links", "geometry"
+loop.wrap_small = (pi - 2 * np.arcsin(abs(m.sprocket_diameter_2 - m.sprocket_diameter_1) / (2 * m.center)), "β_s", "deg",
+    "Wrap of the smaller sprocket", "geometry")
+loop.center_in_pitches = inner(m.center / m.pitch), "a_p", "1", "Centre distance in pitches", "geometry"
+loop.links_odd = inner(m.links - 2 * np.floor(m.links / 2)), "X_2", "1", "Links in excess of an even number", "this method"
 
 
 INCH = Constant(0.0254, "inch", "m")
@@ -255,122 +265,112 @@ OUT_OF_PLACE = {
 cycle = Chapter("Cycle", text="One period of the referenced curves is mapped to one revolution of the cycle angle.")
 for use, keys in OUT_OF_PLACE.items():
     for key in keys:
-        cycle.require(f"{key}_out_of_place", lambda teeth_1: teeth_1 < 0, key=key, needs=(use, key),
+        cycle.require(f"{key}_out_of_place", m.teeth_1 < 0, key=key, needs=(use, key),
             message=f"has no use beside {use.replace('=', ': ')}; remove it, or set use to {'drive' if use == CONVEYOR else 'conveyor'}")
 BOTH_CURVES: Way = {"needs": (CONVEYOR, "acceleration_curve", "velocity_curve")}
-cycle.computed("one_cycle", "k_z", "1", "Both curves run over the same cycle", function=one_cycle,
-    takes=("acceleration_curve", "velocity_curve", "teeth_1"), method="their abscissae are compared", output=False, **BOTH_CURVES)
-cycle.require("same_cycle", lambda one_cycle: one_cycle > 0, key="velocity_curve",
+cycle.one_cycle = (computed(function=one_cycle, takes=("acceleration_curve", "velocity_curve", "teeth_1"), method="their abscissae are compared",
+    output=False, **BOTH_CURVES), "k_z", "1", "Both curves run over the same cycle")
+cycle.require("same_cycle", m.one_cycle > 0, key="velocity_curve",
     message="runs over another cycle than acceleration; give both over one cycle, or one of them as a number", **BOTH_CURVES)
 for way in CURVES:
-    cycle.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution per period of the curves", period=2 * np.pi, shown_at="tension_peak_at",
-        **way)
-cycle.from_curve("torque_over", "T_φ", "N*m", "Torque as given", given="torque_curve", abscissa="cycle_angle", output=False, **TORQUE)
-cycle.from_curve("velocity_over", "v_φ", "m/s", "Velocity as given", given="velocity_curve", abscissa="cycle_angle", output=False, **VELOCITY)
-cycle.from_curve("acceleration_over", "a_φ", "m/s**2", "Acceleration as given", given="acceleration_curve", abscissa="cycle_angle", output=False,
-    needs=(CONVEYOR, "acceleration_curve"))
+    cycle.cycle_angle = (abscissa(period=2 * np.pi, shown_at="tension_peak_at", **way), "φ", "deg",
+        "Cycle angle, one revolution per period of the curves")
+cycle.torque_over = from_curve(given="torque_curve", abscissa="cycle_angle", output=False, **TORQUE), "T_φ", "N*m", "Torque as given"
+cycle.velocity_over = from_curve(given="velocity_curve", abscissa="cycle_angle", output=False, **VELOCITY), "v_φ", "m/s", "Velocity as given"
+cycle.acceleration_over = (from_curve(given="acceleration_curve", abscissa="cycle_angle", output=False, needs=(CONVEYOR, "acceleration_curve")),
+    "a_φ", "m/s**2", "Acceleration as given")
 
-cycle.reduction("velocity_size", "v_m", "m/s", "Maximum absolute velocity", "abs_max", of="velocity_over", output=False, **VELOCITY)
-cycle.value("velocity_margin", "v_k", "m/s", "Absolute velocity above the threshold of rest",
-    bind(lambda speed, size, still: abs(speed) - still * size, speed="velocity_over", size="velocity_size", still=STILL), source="this method",
-    output=False, **VELOCITY)
-cycle.crossings("rest_edge", "φ_r", "deg", "Start or end of a rest", of="velocity_margin", output=False, **VELOCITY)
+cycle.velocity_size = reduction("abs_max", of="velocity_over", output=False, **VELOCITY), "v_m", "m/s", "Maximum absolute velocity"
+cycle.velocity_margin = (inner(abs(m.velocity_over) - STILL * m.velocity_size, **VELOCITY), "v_k", "m/s",
+    "Absolute velocity above the threshold of rest", "this method")
+cycle.rest_edge = crossings(of="velocity_margin", output=False, **VELOCITY), "φ_r", "deg", "Start or end of a rest"
 cycle.breakpoints("rests", "cycle_angle", "rest_edge", **VELOCITY)
 
 motion = Chapter("Motion",
     text="The chain forms a polygon on the sprocket: at constant shaft speed its velocity rises and falls with each tooth, and its acceleration "
         "jumps where a joint meets the sprocket.")
-motion.value("velocity", "v", "m/s", "Mean velocity of the chain", bind(mean_velocity, teeth="teeth_1"), source="kinematics", **DRIVEN)
-motion.value("velocity", "v", "m/s", "Absolute velocity", bind(lambda given: abs(given), given="inputs.velocity"), needs=(CONVEYOR, "velocity"),
-    source="input")
-motion.value("velocity", "v", "m/s", "Maximum velocity over the cycle", lambda velocity_size: velocity_size, source="this method", **VELOCITY)
-motion.value("angular_speed", "ω", "rad/s", "Angular speed of the driving sprocket", lambda speed: speed, source="input", **DRIVEN)
-motion.value("angular_speed", "ω", "rad/s", "Maximum angular speed of the driving sprocket",
-    lambda velocity, sprocket_diameter_1: as_angle(velocity / (sprocket_diameter_1 / 2)), source="kinematics", **CONVEYED)
-motion.value("velocity_max", "v_max", "m/s", "Maximum velocity within a tooth",
-    lambda angular_speed, sprocket_diameter_1: angular_speed * sprocket_diameter_1 / 2, source="geometry")
-motion.value("velocity_min", "v_min", "m/s", "Minimum velocity within a tooth", lambda velocity_max, teeth_1: velocity_max * np.cos(pi / teeth_1),
-    source="geometry")
-motion.value("speed_unevenness", "δ", "%", "Relative drop in velocity within a tooth", lambda teeth_1: 1 - np.cos(pi / teeth_1), source="geometry")
-motion.value("chordal_acceleration", "a_ch", "m/s**2", "Jump in the acceleration where a joint meets the sprocket", chordal_step, source="geometry")
+motion.velocity = value(mean_velocity.of(teeth=m.teeth_1), **DRIVEN), "v", "m/s", "Mean velocity of the chain", "kinematics"
+motion.velocity = value(abs(m.inputs.velocity), needs=(CONVEYOR, "velocity")), "v", "m/s", "Absolute velocity", "input"
+motion.velocity = value(m.velocity_size, **VELOCITY), "v", "m/s", "Maximum velocity over the cycle", "this method"
+motion.angular_speed = value(m.speed, **DRIVEN), "ω", "rad/s", "Angular speed of the driving sprocket", "input"
+motion.angular_speed = (value(as_angle(m.velocity / (m.sprocket_diameter_1 / 2)), **CONVEYED), "ω", "rad/s",
+    "Maximum angular speed of the driving sprocket", "kinematics")
+motion.velocity_max = m.angular_speed * m.sprocket_diameter_1 / 2, "v_max", "m/s", "Maximum velocity within a tooth", "geometry"
+motion.velocity_min = m.velocity_max * np.cos(pi / m.teeth_1), "v_min", "m/s", "Minimum velocity within a tooth", "geometry"
+motion.speed_unevenness = 1 - np.cos(pi / m.teeth_1), "δ", "%", "Relative drop in velocity within a tooth", "geometry"
+motion.chordal_acceleration = chordal_step, "a_ch", "m/s**2", "Jump in the acceleration where a joint meets the sprocket", "geometry"
 
 useful = Chapter("Useful tension", text="All tensions are those of one strand.")
-useful.value("torque_carried", "T_d", "N*m", "Absolute torque of the driving sprocket", lambda torque: abs(torque), needs=(DRIVE, "torque"),
-    source="input", output=False)
-useful.value("torque_carried", "T_d", "N*m", "Torque of the driving sprocket", lambda power, angular_speed: power / angular_speed,
-    needs=(DRIVE, "power"), source="power", output=False)
-useful.reduction("torque_carried", "T_d", "N*m", "Maximum absolute torque over the cycle", "abs_max", of="torque_over", output=False, **TORQUE)
-useful.value("moving_mass_with_chain", "m_h", "kg", "Moving mass, with the chains; all of it is assumed to hang on one side",
-    bind(hanging_mass, mass="moving_mass", length="chain_length"), source="this method", output=False, **CONVEYED)
-useful.value("moving_mass_total", "m_tot", "kg", "Accelerated mass, with the parts that turn with the driven sprocket",
-    bind(total_mass, hanging="moving_mass_with_chain", inertia="driven_inertia", diameter="sprocket_diameter_2"), source="dynamics", **CONVEYED)
-useful.value("resistance", "F_w", "N", "Force against the motion", bind(resistance, friction="friction_coefficient", mass="moving_mass_with_chain"),
-    source="this method", **CONVEYED)
+useful.torque_carried = inner(abs(m.torque), needs=(DRIVE, "torque")), "T_d", "N*m", "Absolute torque of the driving sprocket", "input"
+useful.torque_carried = inner(m.power / m.angular_speed, needs=(DRIVE, "power")), "T_d", "N*m", "Torque of the driving sprocket", "power"
+useful.torque_carried = reduction("abs_max", of="torque_over", output=False, **TORQUE), "T_d", "N*m", "Maximum absolute torque over the cycle"
+useful.moving_mass_with_chain = (inner(hanging_mass.of(mass=m.moving_mass, length=m.chain_length), **CONVEYED), "m_h", "kg",
+    "Moving mass, with the chains; all of it is assumed to hang on one side", "this method")
+useful.moving_mass_total = (value(total_mass.of(hanging=m.moving_mass_with_chain, inertia=m.driven_inertia, diameter=m.sprocket_diameter_2),
+    **CONVEYED), "m_tot", "kg", "Accelerated mass, with the parts that turn with the driven sprocket", "dynamics")
+useful.resistance = (value(resistance.of(friction=m.friction_coefficient, mass=m.moving_mass_with_chain), **CONVEYED), "F_w", "N",
+    "Force against the motion", "this method")
 MOVES = "Chain in motion (1) or at rest (0)"
-useful.choice("moving_over", "k_φ", "1", MOVES, case(lambda: 1, "the chain moves", lambda velocity_margin: velocity_margin > 0),
-    case(lambda: 0, "the chain stands"), per_piece=True, source="this method", output=False, **VELOCITY)
-useful.choice("moving", "k_v", "1", MOVES, case(lambda: 1, "the chain moves", lambda velocity: velocity > 0), case(lambda: 0, "the chain stands"),
-    needs=(CONVEYOR, "velocity"), source="this method", output=False)
+useful.moving_over = (choice(case(1, "the chain moves", m.velocity_margin > 0), case(0, "the chain stands"), per_piece=True, output=False,
+    **VELOCITY), "k_φ", "1", MOVES, "this method")
+useful.moving = (choice(case(1, "the chain moves", m.velocity > 0), case(0, "the chain stands"), needs=(CONVEYOR, "velocity"), output=False), "k_v",
+    "1", MOVES, "this method")
 
 
 def pulled(acceleration: str, moving: str) -> Any:
     """Useful tension of a conveyor."""
-    return bind(conveyor_tension, total="moving_mass_total", acceleration=acceleration, moving=moving)
+    return conveyor_tension.of(total=m.moving_mass_total, acceleration=m[acceleration], moving=m[moving])
 
 
-for way, pull in ((TORQUE, bind(drive_tension, torque="torque_over", diameter="sprocket_diameter_1")),
+for way, pull in ((TORQUE, drive_tension.of(torque=m.torque_over, diameter=m.sprocket_diameter_1)),
                   ({"needs": (*VELOCITY["needs"], "acceleration_curve")}, pulled("acceleration_over", "moving_over")),
                   ({"needs": (*VELOCITY["needs"], "acceleration")}, pulled("acceleration", "moving_over")),
                   (ACCELERATION, pulled("acceleration_over", "moving"))):
-    useful.value("useful_tension_curve", "F_tφ", "N", "Useful tension", pull, source="statics", **way)
-    useful.reduction("useful_tension", "F_t", "N", "Maximum useful tension over the cycle", "max", of="useful_tension_curve", **way)
-useful.value("useful_tension", "F_t", "N", "Useful tension", bind(drive_tension, torque="torque_carried", diameter="sprocket_diameter_1"),
-    source="statics", **NUMBERS[0])
-useful.value("useful_tension", "F_t", "N", "Useful tension", pulled("acceleration", "moving"), source="statics", **NUMBERS[1])
+    useful.useful_tension_curve = value(pull, **way), "F_tφ", "N", "Useful tension", "statics"
+    useful.useful_tension = reduction("max", of="useful_tension_curve", **way), "F_t", "N", "Maximum useful tension over the cycle"
+useful.useful_tension = (value(drive_tension.of(torque=m.torque_carried, diameter=m.sprocket_diameter_1), **NUMBERS[0]), "F_t", "N",
+    "Useful tension", "statics")
+useful.useful_tension = value(pulled("acceleration", "moving"), **NUMBERS[1]), "F_t", "N", "Useful tension", "statics"
 
 tension = Chapter("Tension of the strands",
     text="In addition to the useful tension a strand carries its weight, the centrifugal force, the polygon shocks and its pretension. The static "
         "tension excludes application factor and shocks.")
-tension.value("centrifugal_tension", "F_c", "N", "Centrifugal tension, at the maximum velocity", centrifugal, source="dynamics")
-tension.value("sag_tension", "F_s", "N", "Tension due to sag, at the upper end of the strand", bind(sag_tension), source="statics (parabola)")
-tension.value("chordal_tension", "F_ch", "N", "Polygon shock force on the free strand, at the maximum velocity",
-    bind(chordal, step="chordal_acceleration"), source="this method")
-tension.value("centrifugal_over", "F_cφ", "N", "Centrifugal tension", bind(centrifugal, velocity="velocity_over"), source="dynamics", output=False,
-    **VELOCITY)
-tension.value("angular_speed_over", "ω_φ", "rad/s", "Angular speed of the driving sprocket",
-    lambda velocity_over, sprocket_diameter_1: as_angle(velocity_over / (sprocket_diameter_1 / 2)), source="kinematics", output=False, **VELOCITY)
-tension.value("chordal_step_over", "a_chφ", "m/s**2", "Jump in the acceleration where a joint meets the sprocket",
-    bind(chordal_step, angular_speed="angular_speed_over"), source="geometry", output=False, **VELOCITY)
-tension.value("chordal_over", "F_chφ", "N", "Polygon shock force on the free strand", bind(chordal, step="chordal_step_over"), source="this method",
-    output=False, **VELOCITY)
+tension.centrifugal_tension = centrifugal, "F_c", "N", "Centrifugal tension, at the maximum velocity", "dynamics"
+tension.sag_tension = sag_tension.of(), "F_s", "N", "Tension due to sag, at the upper end of the strand", "statics (parabola)"
+tension.chordal_tension = (chordal.of(step=m.chordal_acceleration), "F_ch", "N", "Polygon shock force on the free strand, at the maximum velocity",
+    "this method")
+tension.centrifugal_over = inner(centrifugal.of(velocity=m.velocity_over), **VELOCITY), "F_cφ", "N", "Centrifugal tension", "dynamics"
+tension.angular_speed_over = (inner(as_angle(m.velocity_over / (m.sprocket_diameter_1 / 2)), **VELOCITY), "ω_φ", "rad/s",
+    "Angular speed of the driving sprocket", "kinematics")
+tension.chordal_step_over = (inner(chordal_step.of(angular_speed=m.angular_speed_over), **VELOCITY), "a_chφ", "m/s**2",
+    "Jump in the acceleration where a joint meets the sprocket", "geometry")
+tension.chordal_over = inner(chordal.of(step=m.chordal_step_over), **VELOCITY), "F_chφ", "N", "Polygon shock force on the free strand", "this method"
 SAME = {"centrifugal": "centrifugal_tension", "chordal": "chordal_tension"}
 OVER = {"centrifugal": "centrifugal_over", "chordal": "chordal_over"}
 
 
 def whole(useful_tension: str, parts: dict[str, str]) -> Any:
     """Whole tension of the tight strand, of these parts."""
-    return bind(whole_tension, application="application", useful=useful_tension, sag="sag_tension", **parts)
+    return whole_tension.of(useful=m[useful_tension], sag=m.sag_tension, centrifugal=m[parts["centrifugal"]], chordal=m[parts["chordal"]])
 
 
 def quiet(useful_tension: str, parts: dict[str, str]) -> Any:
     """Tension without shocks, of these parts."""
-    return bind(quiet_tension, useful=useful_tension, sag="sag_tension", centrifugal=parts["centrifugal"])
+    return quiet_tension.of(useful=m[useful_tension], sag=m.sag_tension, centrifugal=m[parts["centrifugal"]])
 
 
 for way, parts in ((TORQUE, SAME), (VELOCITY, OVER), (ACCELERATION, SAME)):
-    tension.value("strand_tension", "F_φ", "N", "Tension of the tight strand", whole("useful_tension_curve", parts), source="statics", **way)
-    tension.value("static_tension_curve", "F_0φ", "N", "Tension of the tight strand without shocks", quiet("useful_tension_curve", parts),
-        source="statics", output=False, **way)
-    tension.reduction("tension_peak", "F", "N", "Maximum tension over the cycle", "max", of="strand_tension", **way)
-    tension.value("tension_peak_angle", "φ_F", "deg", "Cycle angle of this maximum", lambda tension_peak_at: tension_peak_at, source="this method",
-        **way)
-    tension.reduction("tension_static", "F_0", "N", "Maximum static tension over the cycle", "max", of="static_tension_curve", **way)
+    tension.strand_tension = value(whole("useful_tension_curve", parts), **way), "F_φ", "N", "Tension of the tight strand", "statics"
+    tension.static_tension_curve = (inner(quiet("useful_tension_curve", parts), **way), "F_0φ", "N", "Tension of the tight strand without shocks",
+        "statics")
+    tension.tension_peak = reduction("max", of="strand_tension", **way), "F", "N", "Maximum tension over the cycle"
+    tension.tension_peak_angle = value(m.tension_peak_at, **way), "φ_F", "deg", "Cycle angle of this maximum", "this method"
+    tension.tension_static = reduction("max", of="static_tension_curve", **way), "F_0", "N", "Maximum static tension over the cycle"
 for way in NUMBERS:
-    tension.value("tension_peak", "F", "N", "Tension of the tight strand", whole("useful_tension", SAME), source="statics", **way)
-    tension.value("tension_static", "F_0", "N", "Static tension of the tight strand", quiet("useful_tension", SAME), source="statics", **way)
-tension.value("shaft_load", "F_a", "N", "Shaft load from all strands",
-    lambda strands, application, useful_tension, sag_tension, pretension: strands * (application * useful_tension + 2 * sag_tension + 2 * pretension),
-    source="statics", **DRIVEN)
+    tension.tension_peak = value(whole("useful_tension", SAME), **way), "F", "N", "Tension of the tight strand", "statics"
+    tension.tension_static = value(quiet("useful_tension", SAME), **way), "F_0", "N", "Static tension of the tight strand", "statics"
+tension.shaft_load = (value(m.strands * (m.application * m.useful_tension + 2 * m.sag_tension + 2 * m.pretension), **DRIVEN), "F_a", "N",
+    "Shaft load from all strands", "statics")
 
 
 USUAL_PITCHES = (30, 50)
@@ -381,45 +381,31 @@ safety = Chapter("Safety factor against breaking",
     text="No standard gives required safety factors; the defaults are manufacturers' values. iwis takes 7 against the breaking load by rule of "
         "thumb, since fatigue governs in most cases. Diamond Chain limits the working load to a sixth of the breaking load, with slip-fit or "
         "cranked connecting links to a ninth: required_safety_dynamic is then 9.")
-safety.value("safety_dynamic", "S_dyn", "1", "Safety factor against breaking under all tensions",
-    lambda breaking_load, tension_peak: breaking_load / tension_peak, source="Diamond Chain")
-safety.value("safety_static", "S_stat", "1", "Safety factor against breaking under the static tensions",
-    lambda breaking_load, tension_static: breaking_load / tension_static, source="iwis")
-safety.value("bearing_pressure", "p_r", "MPa", "Pressure of the joints", lambda tension_peak, bearing_area: tension_peak / bearing_area,
-    source="statics")
-safety.value("breaking_load_needed", "F_B,min", "kN", "Breaking load required by both safety factors",
-    lambda required_safety_dynamic, tension_peak, required_safety_static, tension_static:
-        np.maximum(required_safety_dynamic * tension_peak, required_safety_static * tension_static), source="Diamond Chain, iwis", output=False)
-safety.value("bearing_area_needed", "A_min", "mm**2", "Bearing area required by the allowable pressure",
-    lambda tension_peak, allowable_bearing_pressure: tension_peak / allowable_bearing_pressure, needs=("allowable_bearing_pressure",),
-    source="statics", output=False)
+safety.safety_dynamic = m.breaking_load / m.tension_peak, "S_dyn", "1", "Safety factor against breaking under all tensions", "Diamond Chain"
+safety.safety_static = m.breaking_load / m.tension_static, "S_stat", "1", "Safety factor against breaking under the static tensions", "iwis"
+safety.bearing_pressure = m.tension_peak / m.bearing_area, "p_r", "MPa", "Pressure of the joints", "statics"
+safety.breaking_load_needed = (inner(np.maximum(m.required_safety_dynamic * m.tension_peak, m.required_safety_static * m.tension_static)), "F_B,min",
+    "kN", "Breaking load required by both safety factors", "Diamond Chain, iwis")
+safety.bearing_area_needed = (inner(m.tension_peak / m.allowable_bearing_pressure, needs=("allowable_bearing_pressure",)), "A_min", "mm**2",
+    "Bearing area required by the allowable pressure", "statics")
 
 rating = Chapter("Power rating", needs=(DRIVE, *RATED), absent="not calculated: power_rating is not given, or the chain conveys",
     text="Rating of ANSI B29.1 chains, taken for series B of the same pitch: 15 000 h, a chain of 100 links, lubricated as recommended. It holds "
         "for the smaller sprocket.")
-rating.require("teeth_rated",
-    bind(lambda teeth_small, least, most: (teeth_small >= least) & (teeth_small <= most), least=RATED_TEETH[0], most=RATED_TEETH[1]), key="teeth_1",
+rating.require("teeth_rated", (m.teeth_small >= RATED_TEETH[0]) & (m.teeth_small <= RATED_TEETH[1]), key="teeth_1",
     message="leaves the smaller sprocket {teeth_small} teeth, and the rating holds for 11 to 45; change the teeth, or leave out power_rating")
-rating.value("speed_small", "n_s", "rpm", "Speed of the smaller sprocket", lambda speed, teeth_1, teeth_small: speed * teeth_1 / teeth_small,
-    source="kinematics", output=False)
-rating.value("plate_power", "P_1", "kW", "Power limit of the plates of one strand", bind(plate_power, teeth="teeth_small", speed="speed_small"),
-    source="ANSI B29.1")
-rating.value("roller_power", "P_2", "kW", "Power limit of the rollers of one strand", bind(roller_power, teeth="teeth_small", speed="speed_small"),
-    source="ANSI B29.1")
-rating.choice("strand_factor", "k_s", "1", "Strand factor",
-    *(case((lambda: 1.0, lambda: 1.7, lambda: 2.5)[count - 1], f"{count} strand{'s' * (count > 1)}",
-           bind(lambda strands, count: strands == count, count=count)) for count in (1, 2, 3)), case(lambda: 3.3, "4 strands"), source="ANSI B29.1",
-    output=False)
-rating.value("rated_power", "P_zul", "kW", "Rated power",
-    lambda plate_power, roller_power, strand_factor: strand_factor * np.minimum(plate_power, roller_power), source="ANSI B29.1")
-rating.choice("rating_governing", "G", "1", "Governing criterion of the rating",
-    case("plate", "the power limit of the plates is lower than that of the rollers", lambda plate_power, roller_power: plate_power <= roller_power),
-    case("roller", "the power limit of the rollers is lower than that of the plates"), source="ANSI B29.1")
-rating.value("design_power", "P_d", "kW", "Power with the application factor",
-    lambda application, torque_carried, angular_speed: application * torque_carried * angular_speed, source="power", output=False)
+rating.speed_small = inner(m.speed * m.teeth_1 / m.teeth_small), "n_s", "rpm", "Speed of the smaller sprocket", "kinematics"
+rating.plate_power = plate_power.of(teeth=m.teeth_small, speed=m.speed_small), "P_1", "kW", "Power limit of the plates of one strand", "ANSI B29.1"
+rating.roller_power = roller_power.of(teeth=m.teeth_small, speed=m.speed_small), "P_2", "kW", "Power limit of the rollers of one strand", "ANSI B29.1"
+rating.strand_factor = (choice(*(case(factor, f"{count} strand{'s' * (count > 1)}", m.strands == count)
+    for count, factor in ((1, 1.0), (2, 1.7), (3, 2.5))), case(3.3, "4 strands"), output=False), "k_s", "1",
+    "Strand factor", "ANSI B29.1")
+rating.rated_power = m.strand_factor * np.minimum(m.plate_power, m.roller_power), "P_zul", "kW", "Rated power", "ANSI B29.1"
+rating.rating_governing = (choice(case("plate", "the power limit of the plates is lower than that of the rollers", m.plate_power <= m.roller_power),
+    case("roller", "the power limit of the rollers is lower than that of the plates")), "G", "1", "Governing criterion of the rating", "ANSI B29.1")
+rating.design_power = inner(m.application * m.torque_carried * m.angular_speed), "P_d", "kW", "Power with the application factor", "power"
 
 limits = Chapter("Practical limits")
-limits.value("teeth_usual", "z_u", "1", "Minimum usual number of teeth of a drive", lambda: 17, needs=(DRIVE,), source="practice", output=False)
-limits.value("teeth_usual", "z_u", "1", "Minimum usual number of teeth of a conveyor", lambda: 12, needs=(CONVEYOR,), source="practice", output=False)
-limits.value("slack_tension", "F_l", "N", "Static tension of the returning strand", lambda sag_tension, pretension: sag_tension + pretension,
-    needs=(CONVEYOR,), source="statics", output=False)
+limits.teeth_usual = inner(17, needs=(DRIVE,)), "z_u", "1", "Minimum usual number of teeth of a drive", "practice"
+limits.teeth_usual = inner(12, needs=(CONVEYOR,)), "z_u", "1", "Minimum usual number of teeth of a conveyor", "practice"
+limits.slack_tension = inner(m.sag_tension + m.pretension, needs=(CONVEYOR,)), "F_l", "N", "Static tension of the returning strand", "statics"

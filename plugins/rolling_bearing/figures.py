@@ -19,7 +19,7 @@ CHOICE = (
 SHOWN = ("d", "D", "B", "C", "C0")
 
 
-def choice(given: Mapping[str, Any]) -> Iterator[tuple[Cell, ...]]:
+def neighbours(given: Mapping[str, Any]) -> Iterator[tuple[Cell, ...]]:
     """Yield each bearing of the table that is taken, between the next smaller and the next larger one of its series."""
     known: Bearings = given["all_bearings"]
     for name, taken in zip(known.names, known.taken, strict=True):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Interpolated, Steps, formula, own_table, pi
+from diecut_report.api import Interpolated, Steps, formula, interpolated, own_table, pi
 
 # fmt: off
 
@@ -71,10 +71,10 @@ FACTORS = own_table(
 RATIOS = FACTORS.columns[0].values
 
 between = Steps()
-between.interpolated("table_e", "e_t", "1", "Limit of F_a/F_r, from the table (deep groove)", FACTORS, of="held_axial", column="e", key="bearings",
-    source="ISO 281, table 3", output=False)
-between.interpolated("table_y", "Y_t", "1", "Axial factor, from the table (deep groove)", FACTORS, of="held_axial", column="Y", key="bearings",
-    source="ISO 281, table 3", output=False)
+between.table_e = (interpolated(FACTORS, of="held_axial", column="e", key="bearings", output=False), "e_t", "1",
+    "Limit of F_a/F_r, from the table (deep groove)", "ISO 281, table 3")
+between.table_y = (interpolated(FACTORS, of="held_axial", column="Y", key="bearings", output=False), "Y_t", "1",
+    "Axial factor, from the table (deep groove)", "ISO 281, table 3")
 
 
 def table_factors(axial: Array, static_rating: Array, f0: Array) -> tuple[Array, Array]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Chapter, ListedColumn, Phrase, Refusal, joined, phrase, si, standard_series
+from diecut_report.api import Chapter, ListedColumn, Phrase, Refusal, computed, joined, m, phrase, si, standard_series
 from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
@@ -185,13 +185,13 @@ diameters = Chapter("Diameters",
         "against fatigue and yield, the slope at the bearings and, where they are given, deflection, twist and critical speed: first one size for "
         "all selected sections, then each as thin as the others permit.")
 diameters.prepared("sizes", sizes, TAKES, for_many=True, again=True)
-diameters.computed("section_diameter", "d_k", "mm", "Diameter of the section", lambda sizes: sizes.diameter.T, ("sizes",),
-    "as given, or the smallest sufficient one of the preferred numbers R40", over="sections", source="ISO 3")
-diameters.computed("diameters_found", "k_d", "1", "Sufficient diameters exist", lambda sizes: sizes.is_found, ("sizes",),
-    "each size of the series is calculated", output=False)
-diameters.require("diameter_exists", lambda diameters_found: diameters_found > 0, key="sections",
+diameters.section_diameter = (computed(lambda sizes: sizes.diameter.T, ("sizes",),
+    "as given, or the smallest sufficient one of the preferred numbers R40", over="sections"), "d_k", "mm", "Diameter of the section", "ISO 3")
+diameters.diameters_found = (computed(lambda sizes: sizes.is_found, ("sizes",), "each size of the series is calculated", output=False), "k_d", "1",
+    "Sufficient diameters exist")
+diameters.require("diameter_exists", m.diameters_found > 0, key="sections",
     message="leave diameters out, but no preferred one up to 250 mm is enough for them; take a stronger steel, move the bearings nearer to the "
-        "loads, or give the diameters to see what is missed")
+    "loads, or give the diameters to see what is missed")
 diameters.listing("size_neighbours", "Selected diameters, with their neighbours in the series", (
         ListedColumn("section", "Section"),
         ListedColumn("diameter", "Diameter", "d_k", "mm"),

@@ -6,7 +6,22 @@ from typing import Annotated
 
 import numpy as np
 
-from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, as_number, bind, pi
+from diecut_report.api import (
+    Block,
+    Chapter,
+    ExampleBlock,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Text,
+    as_number,
+    bind,
+    inner,
+    m,
+    pi,
+    total,
+    value,
+)
 
 # fmt: off
 
@@ -41,24 +56,21 @@ OF_DISC = {key: f"discs.{key}" for key in ("diameter", "bore", "width", "density
 BODIES = ("bodies",)
 
 body = Chapter("Mass and moment of inertia")
-body.require("bored", bind(lambda bore, diameter: bore < diameter, bore="discs.bore", diameter="discs.diameter"), key="discs.{index}.bore",
+body.require("bored", m.discs.bore < m.discs.diameter, key="discs.{index}.bore",
     message="is not smaller than the diameter of {part}; take a smaller bore")
-body.value("disc_mass", "m_k", "kg", "Mass of the section or part",
-    bind(lambda fill, density, diameter, bore, width: fill * density * as_number(pi) / 4 * (diameter ** 2 - bore ** 2) * width, **OF_DISC),
-    source="geometry", output=False, named_by="discs.name")
-body.value("disc_inertia", "J_k", "kg*m**2", "Moment of inertia of the section or part",
-    bind(lambda disc_mass, diameter, bore: disc_mass * (diameter ** 2 + bore ** 2) / 8, diameter="discs.diameter", bore="discs.bore"),
-    source="geometry", output=False, named_by="discs.name")
+body.disc_mass = (inner(m.discs.fill * m.discs.density * as_number(pi) / 4 * (m.discs.diameter ** 2 - m.discs.bore ** 2) * m.discs.width,
+    named_by="discs.name"), "m_k", "kg", "Mass of the section or part", "geometry")
+body.disc_inertia = (inner(m.disc_mass * (m.discs.diameter ** 2 + m.discs.bore ** 2) / 8, named_by="discs.name"), "J_k", "kg*m**2",
+    "Moment of inertia of the section or part", "geometry")
 body.part_table("discs_table", "Sections and parts", "discs", ("disc_mass", "disc_inertia"))
-body.total("discs_mass", "m_d", "kg", "Mass of the sections and parts that are discs", "sum", of="disc_mass", output=False)
-body.total("discs_inertia", "J_d", "kg*m**2", "Moment of inertia of the sections and parts that are discs", "sum", of="disc_inertia", output=False)
-body.total("bodies_mass", "m_B", "kg", "Mass of the other parts", "sum", of="bodies.mass", output=False, needs=BODIES)
-body.total("bodies_inertia", "J_B", "kg*m**2", "Moment of inertia of the other parts", "sum", of="bodies.inertia", output=False, needs=BODIES)
-body.value("mass", "m", "kg", "Mass of the shaft with its parts", lambda discs_mass, bodies_mass: discs_mass + bodies_mass, needs=BODIES)
-body.value("mass", "m", "kg", "Mass of the shaft with its parts", lambda discs_mass: discs_mass, lacks=BODIES)
-body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its parts",
-    lambda discs_inertia, bodies_inertia: discs_inertia + bodies_inertia, needs=BODIES)
-body.value("inertia", "J", "kg*m**2", "Moment of inertia of the shaft with its parts", lambda discs_inertia: discs_inertia, lacks=BODIES)
+body.discs_mass = total("sum", of="disc_mass", output=False), "m_d", "kg", "Mass of the sections and parts that are discs"
+body.discs_inertia = total("sum", of="disc_inertia", output=False), "J_d", "kg*m**2", "Moment of inertia of the sections and parts that are discs"
+body.bodies_mass = total("sum", of="bodies.mass", output=False, needs=BODIES), "m_B", "kg", "Mass of the other parts"
+body.bodies_inertia = total("sum", of="bodies.inertia", output=False, needs=BODIES), "J_B", "kg*m**2", "Moment of inertia of the other parts"
+body.mass = value(m.discs_mass + m.bodies_mass, needs=BODIES), "m", "kg", "Mass of the shaft with its parts"
+body.mass = value(m.discs_mass, lacks=BODIES), "m", "kg", "Mass of the shaft with its parts"
+body.inertia = value(m.discs_inertia + m.bodies_inertia, needs=BODIES), "J", "kg*m**2", "Moment of inertia of the shaft with its parts"
+body.inertia = value(m.discs_inertia, lacks=BODIES), "J", "kg*m**2", "Moment of inertia of the shaft with its parts"
 
 EXAMPLE = ExampleBlock("shaft_body", {
     "discs": [{"name": "journal", "diameter": "50 mm", "width": "40 mm"}, {"name": "seat", "diameter": "60 mm", "width": "320 mm"},

@@ -26,6 +26,10 @@ from diecut_report.api import (
     Refusal,
     Text,
     Wired,
+    abscissa,
+    computed_curve,
+    inner,
+    m,
     pi,
 )
 from diecut_report.mechanics.timing.engagement import motor_response
@@ -313,20 +317,19 @@ cycle = Chapter("Loads over the cycle",
     text="The cycle is a whole number of revolutions of the main shaft and of this one. A torque passes a mesh or a chain with its efficiency: more "
         "where it drives, less where it is given back. A torque of an inertia is that inertia times the angular acceleration.")
 cycle.prepared(OBJECT, curves_of, KEYS, for_many=True)
-cycle.value("cycle_length", "Φ", "deg", "Length of the cycle, as an angle of the main shaft", lambda main_turns: 2 * pi * main_turns, output=False)
-cycle.abscissa("main_angle", "φ_m", "deg", "Angle of the main shaft", "cycle_length")
-cycle.computed_curve("torque", "T", "N*m", "Torque on the shaft", values("torques"), OBJECT, "main_angle",
-    "from the curve of the mechanism, at the angle of the main shaft", joints=lambda curves: curves.joints, named_by="torques.name",
-    needs=("torques",))
-cycle.computed_curve("balance", "T_0", "N*m", "Torque that balances the others", balance, OBJECT, "main_angle", "the negative sum of the others",
-    joints=lambda curves: curves.joints, needs=("torques",), source="statics")
-cycle.computed_curve("hub", "T_h", "N*m", "Torque through the joint of the part with the shaft", hub, OBJECT, "main_angle",
-    "the torque at its teeth or chain, with that of its own inertia", joints=lambda curves: curves.joints, named_by="hubs.name",
-    needs=("hubs",), source="statics")
-cycle.computed_curve("force", "F", "N", "Force on the shaft", values("forces"), OBJECT, "main_angle",
-    "from the curve of the mechanism, at the angle of the main shaft", joints=lambda curves: curves.joints, named_by="forces.name", needs=("forces",))
-cycle.computed_curve("shaft_angle", "θ", "deg", "Angle of the shaft", angle, OBJECT, "main_angle",
-    "from the curve of the mechanism, at the angle of the main shaft", joints=lambda curves: curves.joints, needs=("motion",))
+cycle.cycle_length = inner(2 * pi * m.main_turns), "Φ", "deg", "Length of the cycle, as an angle of the main shaft"
+cycle.main_angle = abscissa("cycle_length"), "φ_m", "deg", "Angle of the main shaft"
+cycle.torque = (computed_curve(values("torques"), OBJECT, "main_angle", "from the curve of the mechanism, at the angle of the main shaft",
+    joints=lambda curves: curves.joints, named_by="torques.name", needs=("torques",)), "T", "N*m", "Torque on the shaft")
+cycle.balance = (computed_curve(balance, OBJECT, "main_angle", "the negative sum of the others", joints=lambda curves: curves.joints,
+    needs=("torques",)), "T_0", "N*m", "Torque that balances the others", "statics")
+cycle.hub = (computed_curve(hub, OBJECT, "main_angle", "the torque at its teeth or chain, with that of its own inertia",
+    joints=lambda curves: curves.joints, named_by="hubs.name", needs=("hubs",)), "T_h", "N*m", "Torque through the joint of the part with the shaft",
+    "statics")
+cycle.force = (computed_curve(values("forces"), OBJECT, "main_angle", "from the curve of the mechanism, at the angle of the main shaft",
+    joints=lambda curves: curves.joints, named_by="forces.name", needs=("forces",)), "F", "N", "Force on the shaft")
+cycle.shaft_angle = (computed_curve(angle, OBJECT, "main_angle", "from the curve of the mechanism, at the angle of the main shaft",
+    joints=lambda curves: curves.joints, needs=("motion",)), "θ", "deg", "Angle of the shaft")
 
 EXAMPLE = ExampleBlock("shaft_loads", {
     "main_turns": 2,

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Unpack
 
-from diecut_report.mechanism.names import Misdeclared
+from diecut_report.mechanism.names import Misdeclared, Written
 from diecut_report.mechanism.steps.abscissa import Abscissa, Breakpoints
-from diecut_report.mechanism.steps.base import Options, ResultName, SilentStep, Step, StepCondition, form
+from diecut_report.mechanism.steps.base import Options, Recipe, ResultName, SilentStep, Step, StepCondition, form, recipe
 from diecut_report.mechanism.steps.choice import Case, Choice, case
 from diecut_report.mechanism.steps.code_curves import ComputedCurve, PartCurves
 from diecut_report.mechanism.steps.computed import Computed, Words
@@ -61,20 +61,26 @@ class Steps:
             else:
                 self.add(*step)
 
-    value = form(Value)
-    choice = form(Choice.of)
-    root = form(Root)
-    abscissa = form(Abscissa)
+    def __setattr__(self, name: str, declared: Any) -> None:
+        """Declare a quantity: what gives it, its symbol, its unit, its description and, if it is not the last step's, its source."""
+        is_quantity = isinstance(declared, tuple) and declared and not isinstance(declared[0], str | Step)
+        if name in self.__dataclass_fields__ and not is_quantity:
+            object.__setattr__(self, name, declared)
+        else:
+            self[name] = declared
+
+    def __setitem__(self, name: str, declared: Any) -> None:
+        """Declare a quantity whose id is made of other names: ``chapter[f"force_{side}"] = …``."""
+        if not isinstance(declared, tuple) or not 4 <= len(declared) <= 5:
+            template = (
+                "{id} = {given}; write what gives it, its symbol, its unit, its description and its source: "
+                '… = m.radius / 2, "h", "mm", "Height", "geometry"'
+            )
+            raise Misdeclared(Phrase(template, id=name, given=repr(declared)))
+        gives, *told = declared
+        self.add((gives if isinstance(gives, Recipe) else value(gives)).step(name, *told))
+
     breakpoints = form(Breakpoints.of)
-    crossings = form(Crossings)
-    reduction = form(Reduction)
-    accumulated = form(Accumulated)
-    derivative = form(Derivative)
-    computed = form(Computed)
-    curve_period = form(CurvePeriod)
-    from_curve = form(FromCurve)
-    made_curve = form(MadeCurve)
-    computed_curve = form(ComputedCurve)
     part_names = form(PartNames)
     part_table = form(PartTable)
     part_curves = form(PartCurves)
@@ -85,10 +91,31 @@ class Steps:
     clash = form(Clash)
     words = form(Words)
     phase = form(Phase.of)
-    total = form(Total)
-    neighbour = form(Neighbour)
-    running = form(Running)
-    part = form(Part)
-    lookup = form(Lookup)
-    interpolated = form(Interpolated)
-    pick = form(Pick)
+
+
+value = recipe(Value)
+choice = recipe(Choice.of)
+root = recipe(Root)
+abscissa = recipe(Abscissa)
+crossings = recipe(Crossings)
+reduction = recipe(Reduction)
+accumulated = recipe(Accumulated)
+derivative = recipe(Derivative)
+computed = recipe(Computed)
+curve_period = recipe(CurvePeriod)
+from_curve = recipe(FromCurve)
+made_curve = recipe(MadeCurve)
+computed_curve = recipe(ComputedCurve)
+total = recipe(Total)
+neighbour = recipe(Neighbour)
+running = recipe(Running)
+part = recipe(Part)
+lookup = recipe(Lookup)
+interpolated = recipe(Interpolated)
+pick = recipe(Pick)
+
+
+def inner(gives: Written, **options: Unpack[Options]) -> Recipe:
+    """Say how a formula gives a quantity that is printed, but is no output in the results file."""
+    options.setdefault("output", False)
+    return value(gives, **options)

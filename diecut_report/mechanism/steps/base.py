@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from inspect import Parameter, Signature, signature
-from typing import Any, ClassVar, Concatenate, Literal, ParamSpec, Protocol, TypedDict
+from typing import Any, ClassVar, Concatenate, Literal, NamedTuple, ParamSpec, Protocol, TypedDict
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
@@ -41,44 +42,93 @@ class StepHolder(Protocol):
         """Add steps."""
 
 
+class Recipe(NamedTuple):
+    """Hold what gives a quantity, before it is said which: the type of step with all that it takes beside id, symbol, unit and description."""
+
+    make: Callable[..., Step]
+    args: tuple[Any, ...]
+    options: dict[str, Any]
+
+    def step(self, id: str, symbol: str, unit: str, description: str, source: str = "") -> Step:
+        """Return the step that gives a quantity so."""
+        options = self.options | ({"source": source} if source else {})
+        return made(self.make, (id, symbol, unit, description, *self.args), options)
+
+
+def recipe(make: Callable[Concatenate[str, str, str, str, P], Step]) -> Callable[P, Recipe]:
+    """Return the call that says how a type of step gives a quantity: ``chapter.ID = reduction("max", of="force"), "F", "N", "Greatest force"``."""
+
+    def given(*args: P.args, **options: P.kwargs) -> Recipe:
+        return Recipe(make, args, options)
+
+    step_type = _step_type(make)
+    given.__name__, given.__doc__ = name_of_call(step_type), make.__doc__
+    own = [each for name, each in _own(make, step_type).items() if name not in HEAD]
+    given.__signature__ = _signature(own, Options)  # type: ignore[attr-defined]
+    return given
+
+
 def form(make: Callable[P, Step]) -> Callable[Concatenate[StepHolder, P], None]:
-    """Return the call of a chapter that declares a step of a type: it takes what the type takes."""
-    step_type: type[Step] = make if isinstance(make, type) else make.__self__  # type: ignore[attr-defined]
-    own, shared = _options(make, step_type)
+    """Return the call of a chapter that declares a step of a type that gives no single quantity: it takes what the type takes."""
 
     def declare(self: StepHolder, /, *args: P.args, **options: P.kwargs) -> None:
-        for name in options.keys() - own.keys() - shared.__annotations__.keys():
-            known = (*own, *shared.__annotations__)
-            template = "{id} has no option {name}{near}"
-            raise Misdeclared(Phrase(template, id=[*args, ""][0], name=name, near=nearest(name, known)))
-        try:
-            step = make(*args, **options)
-        except Misdeclared:
-            raise
-        except TypeError as wrong:  # what is missing, or too much
-            raise TypeError(str(wrong).replace(f"{step_type.__name__}.__init__()", f"{name_of_call}()")) from None
-        self.add(step)
+        self.add(made(make, args, options))
 
-    name_of_call = "".join(f"_{each.lower()}" if each.isupper() else each for each in step_type.__name__).lstrip("_")
-    taken = [Parameter("self", Parameter.POSITIONAL_ONLY), *sorted(own.values(), key=lambda each: each.kind)]
-    more = Parameter("options", Parameter.VAR_KEYWORD, annotation=f"Unpack[{shared.__name__}]")
-    declare.__name__, declare.__doc__ = name_of_call, make.__doc__
-    declare.__signature__ = Signature([*taken, more])  # type: ignore[attr-defined]
+    step_type = _step_type(make)
+    declare.__name__, declare.__doc__ = name_of_call(step_type), make.__doc__
+    taken = [Parameter("self", Parameter.POSITIONAL_ONLY), *_own(make, step_type).values()]
+    declare.__signature__ = _signature(taken, _shared(step_type))  # type: ignore[attr-defined]
     return declare
 
 
-def _options(make: Callable[..., Step], step_type: type[Step]) -> tuple[dict[str, Parameter], type]:
-    """What a type takes of its own, and the options that it shares with others."""
+HEAD = ("id", "symbol", "unit", "description")
+
+
+def made(make: Callable[..., Step], args: tuple[Any, ...], options: Mapping[str, Any]) -> Step:
+    """Return a step; Misdeclared where an option is unknown, TypeError where something is missing or too much."""
+    step_type = _step_type(make)
+    known = (*_own(make, step_type), *_shared(step_type).__annotations__)
+    for name in options.keys() - set(known):
+        template = "{id} has no option {name}{near}"
+        raise Misdeclared(Phrase(template, id=[*args, ""][0], name=name, near=nearest(name, known)))
+    try:
+        return make(*args, **options)
+    except Misdeclared:
+        raise
+    except TypeError as wrong:
+        raise TypeError(str(wrong).replace(f"{step_type.__name__}.__init__()", f"{name_of_call(step_type)}()")) from None
+
+
+def name_of_call(step_type: type[Step]) -> str:
+    """Return the name by which authors call a type of step."""
+    return "".join(f"_{each.lower()}" if each.isupper() else each for each in step_type.__name__).lstrip("_")
+
+
+def _step_type(make: Any) -> type[Step]:
+    found: type[Step] = make if isinstance(make, type) else make.__self__
+    return found
+
+
+def _signature(own: Iterable[Parameter], shared: type) -> Signature:
+    more = Parameter("options", Parameter.VAR_KEYWORD, annotation=f"Unpack[{shared.__name__}]")
+    return Signature([*sorted(own, key=lambda each: each.kind), more])
+
+
+def _shared(step_type: type[Step]) -> type:
+    return StepCondition if issubclass(step_type, SilentStep) else Options
+
+
+@cache
+def _own(make: Callable[..., Step], step_type: type[Step]) -> dict[str, Parameter]:
+    """What a type takes of its own, beside the options that it shares with others."""
     declared = {
         name for base in step_type.__mro__ if base not in Step.__mro__ for name in vars(base).get("__annotations__", ())
     }
-    found = signature(make).parameters
-    own = {
+    return {
         n: each
-        for n, each in found.items()
+        for n, each in signature(make).parameters.items()
         if n == "id" or n in declared or (make is not step_type and each.kind is not each.VAR_KEYWORD)
     }
-    return own, StepCondition if issubclass(step_type, SilentStep) else Options
 
 
 def tuple_faults(declared: Any, *names: str) -> Iterator[str]:
