@@ -22,7 +22,7 @@ from diecut_report.mechanism.chapters import MISSING, taken
 from diecut_report.mechanism.checks import Check, Vary
 from diecut_report.mechanism.inputs import Key, Quantity, keys
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import ByText, When, bound
+from diecut_report.mechanism.names import ByText, When, formula_of
 from diecut_report.mechanism.steps import Require, ResultName, Step, Value, has_own_names, names_ahead, read
 from diecut_report.mechanism.steps.from_curve import CurveOverAbscissa
 from diecut_report.mechanism.steps.require import Obstacle
@@ -105,18 +105,16 @@ def _expanded(names: DeclaredNames, name: str, giver: Giver, deep: int) -> Node:
     step = giver.step
     if type(step) is not Value or isinstance(step.formula, ByText) or not deep:
         return Node("sym", (name,))
-    link = bound(step.formula)
+    formula = formula_of(step.formula)
     try:
-        tree = link.formula.tree
+        tree = formula.tree
     except FormulaError:  # which is reported as a fault of the formula
         return Node("sym", (name,))
-    return substitute(tree, {own: _part(names, taken, deep - 1) for own, taken in link.names.items()})
+    return substitute(tree, {name: _part(names, name, deep - 1) for name in formula.parameters})
 
 
-def _part(names: DeclaredNames, taken: str | float, deep: int) -> Node:
+def _part(names: DeclaredNames, taken: str, deep: int) -> Node:
     """What a formula takes; a name that several steps give stands for itself."""
-    if not isinstance(taken, str):
-        return Node("num", (repr(float(taken)),))
     givers = names.givers(taken)
     return _expanded(names, taken, givers[0], deep) if len(givers) == 1 else Node("sym", (taken,))
 

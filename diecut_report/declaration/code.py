@@ -542,7 +542,6 @@ def _places(mechanism: Mechanism) -> Iterator[str]:
         yield from (
             f"{each.file}:" for each in tables if isinstance(each, StandardTable | StandardSeries) and each.file
         )
-        links = (link for each in step.formulas() for link in each.options)
-        yield from (f"{link.formula.function.__code__.co_filename}:" for link in links)
+        yield from (formula.place for each in step.formulas() for formula in each.options)
     for comparison in mechanism.comparisons:
         yield from _places(comparison.mechanism)

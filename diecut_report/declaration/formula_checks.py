@@ -32,7 +32,7 @@ from diecut_report.formulas.tree import APPLY, AS_ANGLE, AS_NUMBER, PI, Node, sy
 from diecut_report.mechanism.chapters import Chapter, form_keys, in_form, in_unit, taken
 from diecut_report.mechanism.inputs import Block, Inputs, fields, keys
 from diecut_report.mechanism.mechanism import Mechanism, axes
-from diecut_report.mechanism.names import Bound, Text
+from diecut_report.mechanism.names import Text
 from diecut_report.mechanism.steps import SilentStep, Step, Value, names_ahead
 from diecut_report.mechanism.steps.protocols import StepFormula
 from diecut_report.quantities.formatting import NAMED
@@ -141,14 +141,14 @@ def _in_form(chapter: Chapter, given: frozenset[str], absent: frozenset[str]) ->
 def printing(mechanism: Mechanism) -> Iterator[str]:
     """Yield formulas whose printed expression does not compute what the function computes."""
     random = np.random.default_rng(1)
-    for step, part, link in formulas(mechanism):
-        taken = dict(zip(link.formula.parameters, random.uniform(0.1, 0.9, len(link.formula.parameters)), strict=True))
-        values = taken | link.formula.constants
+    for step, part, formula in formulas(mechanism):
+        taken = dict(zip(formula.parameters, random.uniform(0.1, 0.9, len(formula.parameters)), strict=True))
+        values = taken | formula.constants
         with np.errstate(all="ignore"):
-            printed = evaluate(link.formula.tree, lambda leaf, known=values: known[leaf.args[0]])  # type: ignore[misc]
-            computed = link.formula(**taken)
+            printed = evaluate(formula.tree, lambda leaf, known=values: known[leaf.args[0]])  # type: ignore[misc]
+            computed = formula(**taken)
         if not np.allclose(printed, computed, rtol=1e-12, equal_nan=True):
-            filling = {"id": step.id, "part": part.part, "formula": link.formula.__name__}
+            filling = {"id": step.id, "part": part.part, "formula": formula.__name__}
             template = "{id}: the {part} {formula} prints {printed}, computes {computed}"
             yield Phrase(template, filling, printed=printed, computed=computed)
 
@@ -190,8 +190,8 @@ AS_TYPED = 1e-3  # relative: 57.3 is 180/π, and 9.8 the acceleration of gravity
 
 def doubts(mechanism: Mechanism) -> Iterator[str]:
     """Yield what may be a mistake, each with its place."""
-    for step, _, link in formulas(mechanism):
-        for number in _converting(link.formula.tree):
+    for step, _, formula in formulas(mechanism):
+        for number in _converting(formula.tree):
             template = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
             yield Phrase(template, place=short(step.at), id=step.id, number=number)
     for citing, name in unlisted(mechanism, PAPER):
@@ -427,10 +427,10 @@ def _shortened(node: Node) -> str:
     return text if len(text) <= TEXT_LENGTH else text[: TEXT_LENGTH - 1] + "…"
 
 
-def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, StepFormula, Bound]]:
+def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, StepFormula, Formula]]:
     """Yield every bound formula with its step and its part in it; of a choice by a text all of them."""
     for _, step in mechanism.steps:
-        yield from ((step, each, link) for each in step.formulas() for link in each.options)
+        yield from ((step, each, formula) for each in step.formulas() for formula in each.options)
 
 
 def units_of(mechanism: Mechanism) -> dict[str, str]:
@@ -451,15 +451,15 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
 def dimensions(mechanism: Mechanism) -> Iterator[str]:
     """Yield formulas whose dimensions do not balance, or do not give what their step declares."""
     units = units_of(mechanism)
-    for step, part, link in formulas(mechanism):
+    for step, part, formula in formulas(mechanism):
         try:
-            given = _given(link, units)
+            given = _given(formula, units)
         except KindError as error:
-            yield f"{step.id}: {link.formula.__name__}: {error}"
+            yield f"{step.id}: {formula.__name__}: {error}"
             continue
         wanted = unit(step.unit).si
         if part.is_of_unit and not alike(given, unit(wanted).kind):
-            filling = {"id": step.id, "name": link.formula.__name__, "given": kind_text(given), "wanted": wanted}
+            filling = {"id": step.id, "name": formula.__name__, "given": kind_text(given), "wanted": wanted}
             yield Phrase("{id}: {name} gives {given}, declared is {wanted}", filling) + angle_hint(
                 given, unit(wanted).kind
             )
@@ -484,19 +484,17 @@ def relations(mechanism: Mechanism) -> Iterator[str]:
     """Yield roots that are proved by a relation between quantities of unlike dimensions."""
     units = units_of(mechanism)
     sides: dict[str, list[Found]] = {}
-    for step, part, link in formulas(mechanism):
+    for step, part, formula in formulas(mechanism):
         if part.part in ("left", "right"):
-            sides.setdefault(step.id, []).append(_given(link, units))
+            sides.setdefault(step.id, []).append(_given(formula, units))
     for name, (a, b) in sides.items():
         if not alike(a, b):
             template = "{name}: the relation equals {one} with {other}"
             yield Phrase(template, name=name, one=kind_text(a), other=kind_text(b))
 
 
-def _given(link: Bound, units: dict[str, str]) -> Found:
-    taken = zip(link.names, link.takes, strict=True)
-    kinds = {parameter: unit(units[name]).kind if isinstance(name, str) else name for parameter, name in taken}
-    return kind_given(link.formula, kinds)
+def _given(formula: Formula, units: dict[str, str]) -> Found:
+    return kind_given(formula, {name: unit(units[name]).kind for name in formula.parameters})
 
 
 # Where a mechanism declares what a fault is told of.

@@ -10,7 +10,7 @@ from typing import Any
 from diecut_report.declaration.names import DeclaredNames, Fault, fault, kinds_told, short, unknown, where
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import taken
-from diecut_report.mechanism.names import Bound, ByText, When, bound
+from diecut_report.mechanism.names import ByText, When, formula_of
 from diecut_report.mechanism.steps import SilentStep, Step
 from diecut_report.mechanism.steps.protocols import TakenName
 from diecut_report.quantities.units import unit
@@ -104,24 +104,20 @@ def faults(names: DeclaredNames) -> Iterator[Fault]:
     seen: set[Formula] = set()
     for step, when in names.steps:
         for each in step.formulas():
-            for link in each.options:
-                if link.formula not in seen:
-                    seen.add(link.formula)
-                    yield from _unreadable(step, each.part, link)
+            for formula in each.options:
+                if formula not in seen:
+                    seen.add(formula)
+                    yield from _unreadable(step, each.part, formula)
         by_text = [each.formula for each in step.formulas() if isinstance(each.formula, ByText)]
         wrong = (names.incomplete(own.key, own.formulas, when, phrase("no formula")) for own in by_text)
         yield from (fault(step, text) for text in chain(*wrong, step.faults(names, when), _function_faults(step)))
 
 
-def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
-    """A formula whose body cannot be read: whatever reading it raises is the author's to mend."""
-    code = getattr(link.formula.function, "__code__", None)
-    place = f"{code.co_filename}:{code.co_firstlineno}" if code else step.at
+def _unreadable(step: Step, part: str, formula: Formula) -> Iterator[Fault]:
+    """A formula that cannot be made into an expression: whatever this raises is the author's to mend."""
+    place = formula.place or step.at
     try:
-        _ = link.formula.tree
-    except RecursionError:
-        template = "the {part} {formula} calls itself; name it otherwise than what it calls"
-        yield fault(step, Phrase(template, part=part, formula=link.formula.__name__), place)
+        _ = formula.constants
     except Exception as why:
         yield fault(step, Phrase("the {part} cannot be printed: {why}", part=part, why=why), place)
 
@@ -179,7 +175,7 @@ def _taken(step: Step) -> Iterator[TakenName]:
     """What a step takes, by its formulas and its other fields."""
     for part in step.formulas():
         if part.takes:
-            taken = (name for name in bound(part.formula).names.values() if isinstance(name, str))
+            taken = formula_of(part.formula).parameters
             yield from (TakenName(part.field, name, part.takes) for name in taken)
     yield from step.takes_ids()
 

@@ -20,11 +20,12 @@ from diecut_report.declaration.formulas import kind_of
 from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, fault
 from diecut_report.errors import nearest
 from diecut_report.formulas.expression import FormulaError
+from diecut_report.formulas.formula import Formula
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import BOUNDS, Block, Key, Meta, Quantity, Referred, allowed, meta_of, nested
 from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Wired, kinds_named
-from diecut_report.mechanism.names import Bound, ByText, Text, bound
+from diecut_report.mechanism.names import ByText, Text, formula_of
 from diecut_report.mechanism.steps import Root, Step
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.quantities.units import unit
@@ -324,7 +325,7 @@ def conditions_faults(names: DeclaredNames) -> Iterator[Fault]:
     for _, step in names.mechanism.steps:
         for each in step.formulas():
             if each.is_condition:
-                strange = [link.formula.__name__ for link in each.options if not _decides(link, names)]
+                strange = [formula.__name__ for formula in each.options if not _decides(formula, names)]
                 template = "the {part} gives a number, not yes or no; compare it with something ({formula} > 0)"
                 part = phrase("condition exists") if each.part == "exists" else each.part
                 yield from (fault(step, Phrase(template, part=part, formula=name)) for name in strange[:1])
@@ -334,24 +335,24 @@ def conditions_faults(names: DeclaredNames) -> Iterator[Fault]:
         yield from (fault(step, text) for text in _flag(step, names))
 
 
-def _decides(link: Bound, names: DeclaredNames, *, unread: bool = True) -> bool:
+def _decides(formula: Formula, names: DeclaredNames, *, unread: bool = True) -> bool:
     """Whether a formula gives yes or no; ``unread`` of one that cannot be read, which is told elsewhere."""
     try:
-        return _is_condition(link.formula.tree, link, names, unread)
+        return _is_condition(formula.tree, names, unread)
     except (FormulaError, RecursionError):
         return unread
 
 
-def _is_condition(node: Node, link: Bound, names: DeclaredNames, unread: bool) -> bool:
+def _is_condition(node: Node, names: DeclaredNames, unread: bool) -> bool:
     match node:
         case Node("cases", branches):
-            return all(_is_condition(branch[0], link, names, unread) for branch in branches)
+            return all(_is_condition(branch[0], names, unread) for branch in branches)
         case Node("apply", (called, *_)):
-            return _is_condition(called.formula.tree, bound(called.formula), names, unread)
-        case Node("sym", (parameter,)):
-            steps = [giver.step for giver in names.givers(str(link.names.get(parameter)))]
+            return _is_condition(called.formula.tree, names, unread)
+        case Node("sym", (name,)):
+            steps = [giver.step for giver in names.givers(name)]
             formulas = [getattr(step, "formula", None) for step in steps]
-            found = (each is not None and _decides(bound(each), names, unread=unread) for each in formulas)
+            found = (each is not None and _decides(formula_of(each), names, unread=unread) for each in formulas)
             return bool(steps) and all(found)
     return node.op in YES_OR_NO
 
@@ -359,7 +360,7 @@ def _is_condition(node: Node, link: Bound, names: DeclaredNames, unread: bool) -
 def _flag(step: Step, names: DeclaredNames) -> Iterator[str]:
     """A comparison that stands as a quantity with a unit."""
     formula = getattr(step, "formula", None)
-    if formula is not None and not isinstance(formula, ByText) and _decides(bound(formula), names, unread=False):
+    if formula is not None and not isinstance(formula, ByText) and _decides(formula_of(formula), names, unread=False):
         wrong = [each for each in (step.unit, *(other for _, other in step.units)) if kind_of(each) != kind_of("1")]
         if wrong:
             yield Phrase("gives yes or no (1 or 0), but has the unit {wrong}; a flag has the unit 1", wrong=wrong[0])

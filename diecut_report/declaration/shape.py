@@ -19,7 +19,6 @@ from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.figures import Bars, Drawing, Figure, Plot, Polar
 from diecut_report.mechanism.inputs import Inputs, fields
 from diecut_report.mechanism.mechanism import Erratum, Mechanism, Profile, Source
-from diecut_report.mechanism.names import Bound
 from diecut_report.mechanism.steps import Step
 from diecut_report.mechanism.steps.base import tuple_faults
 from diecut_report.quantities.units import unit
@@ -89,17 +88,11 @@ def _of_step(step: Step) -> Iterator[str]:
 
 
 def _of_formula(part: object) -> Iterator[str]:
-    if isinstance(part, Bound):
-        taken: dict[str, Any] = dict(part.names)
-        strange = [name for name, value in taken.items() if not isinstance(value, str | int | float)]
-        template = "binds {name} to {taken}; give an id or a number"
-        yield from (Phrase(template, name=name, taken=repr(taken[name])) for name in strange)
-    formula = part.formula if isinstance(part, Bound) else part
-    if isinstance(formula, Formula) and formula.function.__defaults__:
+    if isinstance(part, Formula) and part.function.__defaults__:
         template = (
             "takes the formula {formula}, whose parameters have a default; each takes a quantity: remove the default"
         )
-        yield Phrase(template, formula=formula.__name__)
+        yield Phrase(template, formula=part.__name__)
 
 
 # What a plugin's files define twice under one name: Python keeps the last and says nothing.

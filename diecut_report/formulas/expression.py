@@ -47,7 +47,9 @@ def author_line() -> tuple[str, str]:
         frame = frame.f_back
         while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "numpy":
             frame = frame.f_back
-    return f"{frame.f_code.co_filename}:{frame.f_lineno}", linecache.getline(frame.f_code.co_filename, frame.f_lineno).strip()
+    return f"{frame.f_code.co_filename}:{frame.f_lineno}", linecache.getline(
+        frame.f_code.co_filename, frame.f_lineno
+    ).strip()
 
 
 def refuse(text: str) -> NoReturn:
@@ -74,7 +76,9 @@ class Expression:
 
     def __getitem__(self, name: str | int) -> Expression:
         if self._node.op != "sym":
-            refuse(Phrase("{expression} is no quantity and has no {name}", expression=_text(self._node), name=str(name)))
+            refuse(
+                Phrase("{expression} is no quantity and has no {name}", expression=_text(self._node), name=str(name))
+            )
         return Expression(Node("sym", (f"{self._node.args[0]}.{name}",)))
 
     # Arithmetic.
@@ -196,9 +200,7 @@ class Expression:
 
 
 def _unprinted(function: Any) -> NoReturn:
-    template = (
-        "a formula cannot print {function}; it holds arithmetic, conditions, numbers, constants and these functions of NumPy: {known}"
-    )
+    template = "a formula cannot print {function}; it holds arithmetic, conditions, numbers, constants and these functions of NumPy: {known}"
     names = ", ".join(sorted({*FUNCTIONS.values(), "where", "hypot", "clip"}))
     refuse(Phrase(template, function=f"np.{function.__name__}", known=names))
 
@@ -220,7 +222,9 @@ def call(name: str, *args: Any) -> Expression:
 def where(condition: Any, value: Any, otherwise: Any) -> Expression:
     """Return a value where a condition holds, another one elsewhere."""
     last = node_of(otherwise)
-    return Expression(Node("cases", ((node_of(value), node_of(condition)), *(last.args if last.op == "cases" else ((last,),)))))
+    return Expression(
+        Node("cases", ((node_of(value), node_of(condition)), *(last.args if last.op == "cases" else ((last,),))))
+    )
 
 
 def node_of(operand: Any) -> Node:
@@ -246,7 +250,7 @@ def _number(value: float) -> Node:
     if not math.isfinite(value):
         refuse(Phrase("{value} is no number that can be printed", value=repr(value)))
     turns = value / math.pi * OF_TURNS
-    if value and isinstance(value, float) and abs(turns - round(turns)) < 1e-12 * abs(turns) and round(turns):
+    if round(turns) and not value.is_integer() and abs(turns - round(turns)) < 1e-12 * abs(turns):
         template = "holds {value}, a multiple of π that would be printed as a number; write pi of diecut_report.api in place of np.pi"
         refuse(Phrase(template, value=f"{value:.6g}"))
     return Node("neg", (Node("num", (_literal(-value),)),)) if value < 0 else Node("num", (_literal(value),))
@@ -350,7 +354,7 @@ GRAVITY = Constant(9.80665, "g", "m/s**2")
 
 
 class Quantities:
-    """Give quantities by their ids: ``m.radius``, ``m["rods.0.length"]``, ``m.inputs.torque``."""
+    """Give quantities by their ids: ``m.radius``, ``m.rods[0].length``, ``m.inputs.torque``; ``m[f"force_{side}"]`` where an id is made."""
 
     def __getattr__(self, name: str) -> Expression:
         if name.startswith("__"):
@@ -361,7 +365,7 @@ class Quantities:
         return Expression(Node("sym", (name,)))
 
 
-m = Quantities()
+m: Any = Quantities()  # NumPy says of its functions that they take arrays alone
 
 
 def arccos(cosine: Any) -> Any:

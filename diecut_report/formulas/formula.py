@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import inspect
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cached_property
 from typing import Any, overload
 
 import numpy as np
 
-from diecut_report.formulas.expression import Constant, Expression, FormulaError, Number, Symbol, m, node_of
-from diecut_report.formulas.tree import APPLY, LEAVES, NUMERIC, SAID, Node, substitute, symbols, unsaid, walk
+from diecut_report.formulas.expression import Constant, Expression, FormulaError, Symbol, m, node_of
+from diecut_report.formulas.tree import APPLY, LEAVES, NUMERIC, PI, SAID, Node, substitute, symbols, unsaid, walk
 from diecut_report.text.phrases import Phrase, phrase
-
-LAMBDA = "<lambda>"
 
 
 class Formula:
@@ -48,10 +46,18 @@ class Formula:
         """Return the expression of other quantities; a parameter that is not given takes the quantity of its own name."""
         if unknown := sorted(set(given) - set(self.parameters)):
             template = "formula {name} has no parameter {unknown}; it has {known}"
-            named = {"name": self.__name__, "unknown": ", ".join(unknown), "known": ", ".join(self.parameters) or "none"}
+            named = {
+                "name": self.__name__,
+                "unknown": ", ".join(unknown),
+                "known": ", ".join(self.parameters) or "none",
+            }
             raise FormulaError(Phrase(template, named))
         found: Expression = self(**{name: given.get(name, m[name]) for name in self.parameters})
         return found
+
+    def renamed(self, rename: Callable[[str], str]) -> Formula:
+        """Return the formula of quantities with other ids."""
+        return WrittenFormula(Expression(renamed(self.spoken, rename)), self.__name__, self.place)
 
     def _traced(self, *args: Any, **given: Any) -> Any:
         if self._is_traced:
@@ -102,13 +108,20 @@ class Formula:
     @cached_property
     def full_tree(self) -> Node:
         """The expression with all that is said, and with the expressions of named formulas in place of their calls."""
-        return written_out(self.spoken)
+        tree: Node = written_out(self.spoken)
+        return tree
 
     @cached_property
     def constants(self) -> dict[str, Constant]:
         """The physical constants in it, by the symbol they print with."""
         own = (leaf.args[0] for leaf in walk(self.full_tree) if leaf.op == "sym")
-        return {str(symbol): symbol.constant for symbol in own if isinstance(symbol, Symbol)}
+        found = {str(symbol): symbol.constant for symbol in own if isinstance(symbol, Symbol)}
+        if double := found.keys() & {*self.parameters}:
+            template = (
+                "{place}: {name} takes a quantity {symbol} and a constant of this symbol; give the constant another one"
+            )
+            raise FormulaError(Phrase(template, place=self.place, name=self.__name__, symbol=", ".join(sorted(double))))
+        return found
 
 
 def whole(written: Any) -> Node:
@@ -156,6 +169,16 @@ def formula(
     return Formula(function) if function is not None else lambda own: Formula(own, printed_as=printed_as)
 
 
+def renamed(node: Node, rename: Callable[[str], str]) -> Node:
+    """Return a tree with other ids for its quantities."""
+    return substitute(node, {name: Node("sym", (rename(name),)) for name in symbols(node) if is_id(name)})
+
+
+def is_id(name: str) -> bool:
+    """Return whether a name in a tree is that of a quantity, not a constant's symbol."""
+    return name != PI.args[0] and not isinstance(name, Symbol)
+
+
 class WrittenFormula(Formula):
     """Hold an expression of quantities as a formula: it takes them by their ids, and the function that computes is made of its tree."""
 
@@ -169,7 +192,7 @@ class WrittenFormula(Formula):
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
-        return tuple(name for name in symbols(self.spoken) if name != "π" and not isinstance(name, Symbol))
+        return tuple(filter(is_id, symbols(self.spoken)))
 
     @cached_property
     def function(self) -> Callable[..., Any]:
@@ -187,7 +210,7 @@ def compiled(tree: Node, parameters: tuple[str, ...]) -> Callable[..., Any]:
     writer = _Writer(tree, parameters)
     space: dict[str, Any] = {f"_{name}": function for name, function in NUMERIC.items()}
     space |= {"_where": np.where, "_not": np.logical_not, "_of": writer.called}
-    exec(compile(writer.source, "<formula>", "exec"), space)  # noqa: S102 (of numbers, names of ours and operations alone)
+    exec(compile(writer.source, "<formula>", "exec"), space)
     function: Callable[..., Any] = space["computed"]
     return function
 

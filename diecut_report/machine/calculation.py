@@ -22,7 +22,7 @@ from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import InOtherUnit, TakenWhole
 from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, texts_given
 from diecut_report.mechanism.mechanism import Machines, Mechanism
-from diecut_report.mechanism.names import Misdeclared, Written, bound
+from diecut_report.mechanism.names import Misdeclared, Written, formula_of
 from diecut_report.mechanism.steps import Abscissa, FromCurve, ResultName, Step, named, names_ahead, numbered_symbol
 from diecut_report.mechanism.steps.protocols import Impossible as Impossible
 from diecut_report.mechanism.steps.protocols import ImpossibleTogether as ImpossibleTogether
@@ -392,8 +392,8 @@ class Calculation:
 
     def apply(self, part: Written) -> Array:
         """Return what a formula of numbers (or rows over repeated parts) gives, for all variants."""
-        link = bound(part)
-        result: Array = link.formula.function(*[self[n] if isinstance(n, str) else n for n in link.takes])
+        formula = formula_of(part)
+        result: Array = formula.function(*map(self.__getitem__, formula.parameters))
         if np.ndim(result) == 2 and len(result) == self.count:
             return result
         return np.broadcast_to(result, (self.count, *np.shape(result)[1:]) if np.ndim(result) == 2 else (self.count, 1))

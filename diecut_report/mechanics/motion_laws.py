@@ -16,8 +16,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from diecut_report.formulas.formula import Formula, formula
 from diecut_report.formulas.expression import as_number, number, pi
+from diecut_report.formulas.formula import Formula, formula
 
 # The modified laws join sine waves and straight lines.
 
@@ -68,7 +68,9 @@ def sine_jerk(k: Any) -> Any:
     """Jerk of the modified sine."""
     plain_pi = as_number(pi)
     peak = 16 * plain_pi**3 / (4 + plain_pi)
-    return np.where((k < number(1) / 8) | (k > number(7) / 8), peak * np.cos(4 * pi * k), peak / 3 * np.cos(slow_angle(k)))
+    return np.where(
+        (k < number(1) / 8) | (k > number(7) / 8), peak * np.cos(4 * pi * k), peak / 3 * np.cos(slow_angle(k))
+    )
 
 
 def trapezoidal_position(k: Any) -> Any:
@@ -227,7 +229,8 @@ _add("harmonic", "Harmonic (cosine acceleration)",
     acceleration=lambda k: as_number(pi**2 / 2) * np.cos(pi * k), jerk=lambda k: as_number(-(pi**3) / 2) * np.sin(pi * k),
     peak_velocity=lambda: as_number(pi / 2), peak_acceleration=lambda: as_number(pi**2 / 2))
 _add("parabolic", "Parabolic (constant acceleration)", 1 / 2,
-    position=lambda k: np.where(k < number(1) / 2, 2 * k**2, 1 - 2 * (1 - k) ** 2), velocity=lambda k: np.where(k < number(1) / 2, 4 * k, 4 * (1 - k)),
+    position=lambda k: np.where(k < number(1) / 2, 2 * k**2, 1 - 2 * (1 - k) ** 2), velocity=lambda k: np.where(k < number(1) / 2, 4 * k,
+    4 * (1 - k)),
     acceleration=lambda k: np.where(k < number(1) / 2, 4, -4), jerk=lambda k: 0 * k,
     peak_velocity=lambda: 2, peak_acceleration=lambda: 4, joint=lambda k: k - number(1) / 2)
 _add("modified_trapezoidal", "Modified trapezoidal acceleration", 1 / 8, 3 / 8, 5 / 8, 7 / 8,

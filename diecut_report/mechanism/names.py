@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
 from inspect import signature
 from types import FunctionType
 from typing import Any, NamedTuple, Protocol
@@ -16,7 +15,7 @@ from pydantic_core import CoreSchema, core_schema
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.formulas.expression import Expression
-from diecut_report.formulas.formula import LAMBDA, Formula, WrittenFormula
+from diecut_report.formulas.formula import Formula, WrittenFormula
 from diecut_report.text.phrases import Phrase
 
 OWN = "diecut_report.mechanism"
@@ -208,95 +207,65 @@ def listed(keys: Sequence[str]) -> str:
     return Phrase("{first} and {next}", first=", ".join(keys[:-1]), next=keys[-1]) if len(keys) > 1 else "".join(keys)
 
 
-# Formulas bound to the quantities of a mechanism: one formula serves many, each with its own letters.
-
-
-@dataclass(frozen=True, eq=False)
-class Bound:
-    """Bind a formula to quantities: each parameter's quantity id, or a plain number."""
-
-    formula: Formula
-    names: Mapping[str, str | float]
-
-    @cached_property
-    def takes(self) -> tuple[str | float, ...]:
-        """Return what the parameters take, in their order: ids, or plain numbers as floats."""
-        return tuple(name if isinstance(name, str) else float(name) for name in self.names.values())
-
-
-def bind(formula: Formula | Callable[..., Any], **names: str | float) -> Bound:
-    """Bind a formula (or a lambda) to quantities; a parameter that is not named takes the quantity of its own name."""
-    if not callable(formula):
-        raise Misdeclared(Phrase("bind takes a formula, and {formula} is none; write a lambda, or a def with @formula above it",
-                                 formula=repr(formula)))  # fmt: skip
-    formula = formula if isinstance(formula, Formula) else Formula(formula)
-    unknown = sorted(set(names) - set(formula.parameters))
-    if unknown:
-        known = ", ".join(formula.parameters) or "none"
-        template = "formula {name} has no parameter {unknown}; it has {known}"
-        raise Misdeclared(Phrase(template, name=formula.__name__, unknown=", ".join(unknown), known=known))
-    return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
+# Formulas of the quantities of a mechanism: the parameters of each are the ids of what it takes.
 
 
 class ByText:
-    """Choose a formula by a text input: ``formulas[text]``, bound to quantities as by ``bind(formula, **names)``.
+    """Choose a formula by a text input: the expression ``formulas[text]``, or that of a function of these quantities (``formula.of(**given)``).
 
     ``formulas`` may be a live view of a registry; all its formulas have the same parameters.
     """
 
-    def __init__(self, key: str, formulas: Mapping[str, Formula], /, **names: str | float) -> None:
-        self.key, self.formulas, self.names = key, formulas, names
+    def __init__(self, key: str, formulas: Mapping[str, Formula | Expression], /, **given: Expression | float) -> None:
+        self.key, self.formulas, self.given, self.at = key, formulas, given, here()
+        self._made: dict[str, Formula] = {}
 
-    def of(self, text: str) -> Bound:
-        """Return the bound formula for a value of the text input."""
-        return bind(self.formulas[text], **self.names)
+    def of(self, text: str) -> Formula:
+        """Return the formula for a value of the text input."""
+        if text not in self._made:
+            chosen = self.formulas[text]
+            if isinstance(chosen, Formula):
+                self._made[text] = WrittenFormula(chosen.of(**self.given), chosen.__name__, chosen.place)
+            else:
+                self._made[text] = WrittenFormula(chosen, text, self.at)
+        return self._made[text]
 
-    def options(self) -> tuple[Bound, ...]:
-        """Return the bound formulas of all values."""
+    def options(self) -> tuple[Formula, ...]:
+        """Return the formulas of all values."""
         return tuple(map(self.of, self.formulas))
 
-    def renamed(self, rename: Callable[[str | float], str | float]) -> ByText:
+    def renamed(self, rename: Callable[[str], str]) -> ByText:
         """Return the same choice with other ids for its quantities."""
-        own = self.options()[0].names
-        return ByText(self.key, self.formulas, **{parameter: rename(name) for parameter, name in own.items()})
+        return ByText(self.key, {text: Expression(self.of(text).renamed(rename).spoken) for text in self.formulas})
 
 
-Binding = Bound | Formula | ByText
-Written = Binding | Expression | float | Callable[..., Any]
-"""A formula as an author writes it: an expression of quantities, a number, a function whose parameters are quantities, one chosen by a text."""
+Written = Formula | ByText | Expression | float | Callable[..., Any] | Array
+"""A formula as an author writes it: an expression of quantities (of which NumPy's types say that it is an array), a number, a function whose
+parameters are quantities, one chosen by a text."""
 
 
-def as_binding(part: Written, name: str) -> Binding:
-    """Return what an author wrote as a formula of the engine, called ``name`` in messages where it has no name of its own."""
+def as_formula(part: Written, name: str) -> Formula | ByText:
+    """Return what an author wrote as a formula, called ``name`` in messages where it has no name of its own."""
     if isinstance(part, Expression | int | float):
-        return bind(WrittenFormula(part, name, here()))
-    if isinstance(part, Bound) and part.formula.__name__ == LAMBDA:
-        part.formula.__name__ = name
-    return part if isinstance(part, Binding) else _formula(part, name)
-
-
-def _formula(function: Any, name: str) -> Formula:
-    if not isinstance(function, FunctionType):
-        template = "{name} needs a formula, and {function} is none; write a lambda, or a def with @formula above it"
-        raise Misdeclared(Phrase(template, name=name, function=repr(function)))
-    optional = [p.name for p in signature(function).parameters.values() if p.default is not p.empty]
+        return WrittenFormula(part, name, here())
+    if isinstance(part, Formula | ByText):
+        return part
+    if not isinstance(part, FunctionType):
+        template = "{name} needs a formula, and {part} is none; write an expression of quantities, as m.radius / 2"
+        raise Misdeclared(Phrase(template, name=name, part=repr(part)))
+    optional = [p.name for p in signature(part).parameters.values() if p.default is not p.empty]
     if optional:
         template = (
             "the formula of {name} has a default for {optional}, which is never used: each parameter takes "
-            "a quantity; remove it, or bind a number: bind(…, {first}=2)"
+            "a quantity; remove it"
         )
-        raise Misdeclared(Phrase(template, name=name, optional=", ".join(optional), first=optional[0]))
-    return Formula(function, name)
+        raise Misdeclared(Phrase(template, name=name, optional=", ".join(optional)))
+    return Formula(part, name)
 
 
-def bound(part: Written) -> Bound:
-    """Let a formula that is not bound yet take the quantities of its parameters' own names.
-
-    A choice by a text stands here for its first formula: what it takes does not depend on the text.
-    """
+def formula_of(part: Written) -> Formula:
+    """Return a formula of a step; a choice by a text stands here for its first one, as what it takes does not depend on the text."""
     if isinstance(part, ByText):
         return part.options()[0]
-    return part if isinstance(part, Bound) else _by_names(part)  # type: ignore[arg-type]
-
-
-_by_names: Callable[[Formula | Callable[..., Any]], Bound] = cache(bind)
+    assert isinstance(part, Formula), "steps hold what as_formula gives"
+    return part

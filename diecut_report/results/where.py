@@ -17,7 +17,7 @@ from diecut_report.machine.steps.needed import giver_of
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import Quantity
-from diecut_report.mechanism.names import Binding, bound
+from diecut_report.mechanism.names import formula_of
 from diecut_report.mechanism.steps import Step, named
 from diecut_report.quantities.formatting import told
 from diecut_report.results.checks import checks_of
@@ -94,7 +94,7 @@ class _PlaceFinder:
     def quantity(self, step: Step, name: str, **more: tuple[FoundPlace, ...]) -> FoundPlace:
         """Return the place of what a step gives."""
         own = getattr(step, "formula", None)
-        function = bound(own).formula.place if isinstance(own, Binding) else ""
+        function = formula_of(own).place if own is not None else ""
         formula = "" if function == step.at else function
         whole, value = f"{self.instance.name}.{name}", self._value(step, name)
         return FoundPlace(whole, value, step.symbol, step.description, step.at, formula, step.source, **more)

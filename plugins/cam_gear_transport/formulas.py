@@ -66,7 +66,9 @@ def time_return(time_dwell: Any, time_stop: Any) -> Any:
 @formula
 def is_symmetric(middle_position: Any, middle_velocity: Any, peak_velocity: Any) -> Any:
     """Whether a law is half way, and fastest, in the middle of its time."""
-    return (abs(middle_position - number(1) / 2) <= 1e-9) & (abs(middle_velocity - peak_velocity) <= 1e-9 * peak_velocity)
+    return (abs(middle_position - number(1) / 2) <= 1e-9) & (
+        abs(middle_velocity - peak_velocity) <= 1e-9 * peak_velocity
+    )
 
 
 @formula

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from diecut_report.api import (
-    Binding,
     ByText,
     Case,
     Chapter,
@@ -111,7 +112,7 @@ phases.stop_sweep_limit = ((1 - m.time_dwell) * m.sector_speed_dwell / m.law_pea
     "Sweep of stop and start that leaves no time for the return, with this dwell", "003 eq. 4, solved")
 phases.stop_sweep_recommended = ((1 - m.min_return_time - m.time_dwell) * m.sector_speed_dwell / m.law_peak_velocity, "γ_rec", "deg",
     "Sweep of stop and start that leaves the required time for the return, with this dwell", "003 eq. 4, solved")
-phases.require("return_exists", LEAST_RETURN < m.time_return, key="dwell_angle",
+phases.require("return_exists", m.time_return > LEAST_RETURN, key="dwell_angle",
     message="is {dwell_angle}; with a sector_stop_sweep of {sector_stop_sweep} dwell, stop and start take the whole turn and leave T₄ = 1 − T₂ − "
     "T₍₃₊₁₎ = {time_return} for the sector's return", advise=("dwell_angle", "sector_stop_sweep"))
 phases.angle_dwell = inner(0), "φ_II", "deg", "Disc angle where the dwell begins, phase II", "this method"
@@ -124,12 +125,12 @@ phases.sector_speed_return_peak = (value(formulas.return_peak.of(peak_velocity=m
 phases.disc_speed = inner(2 * pi * m.cycles_per_hour), "ω_2", "rad/s", "Angular speed of the disc", "kinematics"
 
 
-def _before(place: str) -> Binding:
+def _before(place: str) -> Any:
     """Whether the disc is in a phase before a place."""
     return m.piece_middle < m[place]
 
 
-def by_phase(dwell: Binding, stopping: Binding, returning: Binding, starting: Binding) -> tuple[Case, ...]:
+def by_phase(dwell: Any, stopping: Any, returning: Any, starting: Any) -> tuple[Case, ...]:
     """What holds in the phases II, III, IV and I."""
     return (
         case(dwell, "the disc is in phase II, the gear dwells", _before("dwell_angle")),
@@ -159,18 +160,18 @@ sector.piece_middle = (inner(m.disc_angle, per_piece=True), "φ_m", "deg", "Disc
 sector.law_share = (choice(*by_phase(0.5, number(1) / 2 + (m.disc_angle - m.dwell_angle) / (2 * pi * m.time_stop),
     (m.disc_angle - m.angle_stop) / (2 * pi * m.time_return), (m.disc_angle - m.angle_start) / (2 * pi * m.time_stop)), output=False), "k", "1",
     "Elapsed fraction of the rise or return", "003 eq. 2")
-sector.law_joint = (inner(ByText("motion_law", JOINT, k="law_share"), printed=False), "j", "1",
+sector.law_joint = (inner(ByText("motion_law", JOINT, k=m.law_share), printed=False), "j", "1",
     "Junction of the law: changes its sign where the law's formula changes", "motion laws")
 sector.law_break = (crossings(of="law_joint", output=False, printed=False), "φ_j", "deg",
     "Disc angle at which the law's formula changes, or a phase begins")
 sector.breakpoints("law_breaks", "disc_angle", "law_break")
-sector.law_position = inner(ByText("motion_law", POSITION, k="law_share")), "f", "1", "Law of motion: position at k", "motion laws"
-sector.law_velocity = inner(ByText("motion_law", VELOCITY, k="law_share")), "f′", "1", "Law of motion: velocity at k", "motion laws"
+sector.law_position = inner(ByText("motion_law", POSITION, k=m.law_share)), "f", "1", "Law of motion: position at k", "motion laws"
+sector.law_velocity = inner(ByText("motion_law", VELOCITY, k=m.law_share)), "f′", "1", "Law of motion: velocity at k", "motion laws"
 sector.law_middle = (inner(m.law_share, per_piece=True, printed=False), "k_m", "1", "Fraction k in the middle of the current phase (or part of it)",
     "this method")
 sector.law_side = (inner(m.law_share + 1e-12 * (m.law_middle - m.law_share), printed=False), "k", "1",
     "Fraction k just inside its piece: selects the side where the law's acceleration jumps", "this method")
-sector.law_acceleration = inner(ByText("motion_law", ACCELERATION, k="law_side")), "f″", "1", "Law of motion: acceleration at k", "motion laws"
+sector.law_acceleration = inner(ByText("motion_law", ACCELERATION, k=m.law_side)), "f″", "1", "Law of motion: acceleration at k", "motion laws"
 sector.sector_angle = (choice(*by_phase(m.sector_dwell_sweep * m.disc_angle / m.dwell_angle,
     m.sector_dwell_sweep + formulas.starting_angle(m.sector_stop_sweep, m.law_position), formulas.returning_angle.of(),
     formulas.starting_angle.of())), "γ", "deg", "Angle of the sector relative to the disc", "003, Fig. 4")

@@ -9,7 +9,6 @@ import numpy as np
 from diecut_report.api import (
     POINTS,
     Annotated,
-    Binding,
     Chapter,
     Inputs,
     Quantity,
@@ -233,7 +232,7 @@ INSIDE, OUTSIDE = "the knife is in its cut", "the knife is outside its cut"
 
 def _in_cut(
     chapter: Steps,
-    name: str, symbol: str, unit: str, description: str, formula: Binding, *, source: str = OWN, output: bool = True
+    name: str, symbol: str, unit: str, description: str, formula: Any, *, source: str = OWN, output: bool = True
 ) -> None:
     """A curve that is zero outside the cut."""
     chapter[name] = choice(case(formula, INSIDE, CUTTING), case(0, OUTSIDE), output=output), symbol, unit, description, source

@@ -8,8 +8,8 @@ import numpy as np
 
 from diecut_report.api import (
     GRAVITY,
-    Bound,
     Chapter,
+    Expression,
     Formula,
     Steps,
     abscissa,
@@ -96,7 +96,7 @@ def moves_at_all(standstill_swing: Any, swing_angle: Any) -> Any:
     return standstill_swing < swing_angle
 
 
-def _cutting_edge(chapter: Steps, name: str, symbol: str, description: str, dead_center: Bound, inverse: Formula, edge: str) -> None:
+def _cutting_edge(chapter: Steps, name: str, symbol: str, description: str, dead_center: Expression, inverse: Formula, edge: str) -> None:
     """A crank angle where cutting begins or ends: a dead centre where the whole stroke cuts.
 
     There the general formula is left out, for its root turns the last digit of a cosine into 1e-8 rad beside the dead centre.
@@ -206,11 +206,11 @@ def _at_swing(chapter: Steps, name: str, mark: str, place: str, swing: str) -> N
         f"Distance of the rocker's joint from the crank's pivot where {place}, in crank lengths")
 
 
-def _forward(name: str) -> Bound:
+def _forward(name: str) -> Expression:
     return four_bar.crank_angle_forward.of(rocker_direction=m[f"{name}_direction"], joint_distance=m[f"{name}_distance"])
 
 
-def _return(name: str) -> Bound:
+def _return(name: str) -> Expression:
     return four_bar.crank_angle_return.of(rocker_direction=m[f"{name}_direction"], joint_distance=m[f"{name}_distance"])
 
 

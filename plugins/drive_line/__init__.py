@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
-import numpy as np
-
 from diecut_report.api import (
     Block,
     Chapter,
@@ -17,7 +15,6 @@ from diecut_report.api import (
     Quantity,
     Source,
     Text,
-    bind,
     formula,
     inner,
     m,

@@ -82,7 +82,7 @@ flywheel.synchronous_speed = (value(m.inputs.synchronous_speed, needs=("synchron
 flywheel.synchronous_speed = (pick("above", of="shaft_1_speed", series=SYNCHRONOUS, beyond="last", lacks=("synchronous_speed",)), "n_s", "rpm",
     "Synchronous speed of the motor, at 50 Hz", "practice")
 flywheel.rated_slip = inner(m.synchronous_speed - m.shaft_1_speed), "s_n", "rpm", "Slip of the motor at its rated speed", "mechanics"
-SLIPS = 0 < m.rated_slip
+SLIPS = m.rated_slip > 0
 flywheel.loaded_motor_speed = (value(m.synchronous_speed - m.rated_slip * m.shaft_1_torque / m.motor_rated_torque, exists=SLIPS), "n_L", "rpm",
     "Speed of the motor under the mean torque, with linear slip", "this method")
 flywheel.loaded_output_speed = (value(m.output_speed * m.loaded_motor_speed / m.shaft_1_speed, exists=SLIPS), "n_oL", "rpm",

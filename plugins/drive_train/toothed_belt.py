@@ -118,8 +118,8 @@ listed.cylinder_direction_before = (total("sum", of="direction_before", among="i
 listed.cylinder_wrap = total("sum", of="wraps", among="is_cylinder_pulley", output=False), "α_c", "deg", "Its wrap"
 listed.cylinder_wrap_height = (inner(-m.cylinder_pulley_side * np.cos(m.cylinder_direction_before + m.cylinder_pulley_side * m.cylinder_wrap / 2),
     exists=IS_MARKED), "h_c", "1", "Height of the middle of its wrap above the axis, relative to the radius", "geometry")
-listed.engagement_angle = (inner(ByText("toothed_belt.engagement", {"away": formula(lambda height: arccos(height)),
-    "die": formula(lambda height: arccos(-height))}, height="cylinder_wrap_height"), exists=IS_MARKED), "γ", "deg",
+listed.engagement_angle = (inner(ByText("toothed_belt.engagement", {"away": arccos(m.cylinder_wrap_height),
+    "die": arccos(-m.cylinder_wrap_height)}), exists=IS_MARKED), "γ", "deg",
     "Angle of the middle of the wrap from the side of engagement", "geometry")
 MARKS = Steps()
 MARKS.is_cylinder_pulley = (lookup({"cylinder": 1.0, "other": -1.0}, by=f"{PULLEYS}.role", output=False), "κ", "1",
@@ -192,11 +192,6 @@ def alone(x: Any) -> Any:
 
 
 PULLEY = PULLEYS + ".{index}"
-ROLLING = {
-    "velocity": "toothed_belt.cylinder_velocity",
-    "driven_radius": "toothed_belt.driven_radius",
-    "cylinder_radius": "toothed_belt.cylinder_radius",
-}
 PLACES = {"x": f"{PULLEYS}.x", "y": f"{PULLEYS}.y", "next_x": "next_pulley_x", "next_y": "next_pulley_y"}
 RADII = {"radius": "signed_radius", "next_radius": "next_signed_radius"}
 LAYOUT = (f"{PULLEYS}.x", f"{PULLEYS}.y", "signed_radius")
@@ -205,9 +200,9 @@ speed = Chapter("Toothed belt: speed and driving pulley",
     text="The carriage moves at V while the pulley fixed to the rolling cylinder turns with it: the belt is faster than the carriage by V·r_d/R on "
         "the side away from the die, and slower by as much on the die side.", needs=("toothed_belt",),
     absent="not calculated: toothed_belt is not given")
-speed.belt_speed = (ByText("toothed_belt.engagement", {"away": formula(lambda velocity, driven_radius,
-    cylinder_radius: velocity * (1 + driven_radius / cylinder_radius)), "die": formula(lambda velocity, driven_radius,
-    cylinder_radius: velocity * (1 - driven_radius / cylinder_radius))}, **ROLLING), "V_b", "m/s", "Speed of the toothed belt", "002 eq. 7–9")
+RADIUS_RATIO = m.toothed_belt.driven_radius / m.toothed_belt.cylinder_radius
+speed.belt_speed = (ByText("toothed_belt.engagement", {"away": m.toothed_belt.cylinder_velocity * (1 + RADIUS_RATIO),
+    "die": m.toothed_belt.cylinder_velocity * (1 - RADIUS_RATIO)}), "V_b", "m/s", "Speed of the toothed belt", "002 eq. 7–9")
 speed.require("belt_moves", m.belt_speed > 0, key="toothed_belt.driven_radius",
     message="gives a belt speed of {belt_speed} with engagement: die; there the driven pulley must be smaller than the cylinder (or take "
     "engagement: away)")
@@ -239,7 +234,9 @@ path.next_signed_radius = neighbour(of="signed_radius", digits=6, output=False),
 path.pulley_distance = (inner(belt_path.center_distance.of(x=m.toothed_belt.pulleys.x, y=m.toothed_belt.pulleys.y, next_x=m.next_pulley_x,
     next_y=m.next_pulley_y), digits=6), "d", "mm", "Distance to the next pulley", "geometry")
 path.require("tangents", belt_path.has_tangent.of(center_distance=m.pulley_distance, radius=m.signed_radius, next_radius=m.next_signed_radius),
-    key=PULLEY, message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch or overlap, or one lies " "within the other; move them apart or make them smaller")
+    key=PULLEY,
+    message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch or overlap, or one lies "
+    "within the other; move them apart or make them smaller")
 path.clash("toothed_pulleys_apart", belt_path.overlapping, LAYOUT, key=PULLEY,
     message="pulleys {part} and {other} overlap; move them apart or make them smaller")
 path.clash("pulleys_counter_clockwise", belt_path.clockwise, LAYOUT, key=PULLEYS,

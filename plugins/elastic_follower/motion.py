@@ -71,7 +71,8 @@ times.curve_rate = (computed(function=lambda motion_curve: motion_curve.rate / (
     "Rate at which the curve comes again; 0 where nothing tells it", "kinematics")
 times.require("one_rate", (m.curve_rate <= 0) | (abs(m.cycles_per_hour - m.curve_rate) <= ONE_RATE * m.curve_rate), key="cycles_per_hour",
     needs=(*CURVE, *RATE),
-    message="is {cycles_per_hour}, but the curve that motion_curve refers to comes again at {curve_rate}; refer to the rate with which that curve is " "calculated")
+    message="is {cycles_per_hour}, but the curve that motion_curve refers to comes again at {curve_rate}; refer to the rate with which that curve is "
+    "calculated")
 times.motion_start = (computed(function=lambda curve: rests.moving(curve)[0], takes=CURVE,
     method="the end of the longest rest among the curve's smooth pieces", needs=CURVE, output=False), "s_0", "1",
     "Fraction of the cycle at which the motion begins", "this method")
@@ -113,15 +114,15 @@ MOVING = m.piece_middle < m.rise_duration
 
 by_law = Chapter("Motion of the input", text="One rise by a law of motion; k is the elapsed fraction of the rise time.", needs=LAW)
 by_law.law_share = inner(np.minimum(m.time / m.rise_duration, 1)), "k", "1", "Elapsed fraction of the rise time", "motion laws"
-by_law.law_joint = (inner(ByText("motion_law", JOINT, k="law_share"), printed=False), "j", "1",
+by_law.law_joint = (inner(ByText("motion_law", JOINT, k=m.law_share), printed=False), "j", "1",
     "Junction of the law: changes its sign where the law's formula changes", "motion laws")
 by_law.law_break = crossings(of="law_joint", output=False, printed=False), "t_j", "ms", "Time at which the law's formula changes"
 by_law.breakpoints("law_breaks", "time", "law_break")
 by_law.law_middle = inner(m.law_share, per_piece=True, printed=False), "k_m", "1", "Fraction k in the middle of the current piece", "this method"
 by_law.law_side = (inner(m.law_share + 1e-12 * (m.law_middle - m.law_share), printed=False), "k", "1",
     "Fraction k just inside its piece: selects the side where the law's acceleration jumps", "this method")
-by_law.law_position = inner(ByText("motion_law", POSITION, k="law_share")), "s", "1", "Law of motion: position at k", "motion laws"
-by_law.law_acceleration = inner(ByText("motion_law", ACCELERATION, k="law_side")), "s″", "1", "Law of motion: acceleration at k", "motion laws"
+by_law.law_position = inner(ByText("motion_law", POSITION, k=m.law_share)), "s", "1", "Law of motion: position at k", "motion laws"
+by_law.law_acceleration = inner(ByText("motion_law", ACCELERATION, k=m.law_side)), "s″", "1", "Law of motion: acceleration at k", "motion laws"
 by_law.law_peak = inner(ByText("motion_law", PEAK_ACCELERATION)), "A", "1", "Law of motion: maximum acceleration", "motion laws"
 by_law.input = value(m.rise * m.law_position, units=STRAIGHT), "y", "deg", "Position of the input", "motion laws"
 by_law.rigid_acceleration = (choice(case(law_acceleration.of(acceleration=m.law_acceleration), "the input rises", MOVING),

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
-    Binding,
     Case,
     Chapter,
     Spectrum,
@@ -171,7 +170,7 @@ def _least(name: str, *, is_last: bool = False) -> Case:
     return case(name, f"{LAWS[name].title} has the lowest", held)
 
 
-def recommended(chapter: Steps, description: str, needs: tuple[str, ...], exists: Binding | None) -> None:
+def recommended(chapter: Steps, description: str, needs: tuple[str, ...], exists: Any | None) -> None:
     """The law to take; it has a meaning for a motion in one direction only, and of a curve only where that is a single rise."""
     chapter.recommended_law = (choice(*(_least(name) for name in list(LAWS)[:-1]), _least(list(LAWS)[-1], is_last=True), needs=needs, exists=exists),
         "L", "1", description, "this method")

@@ -179,7 +179,8 @@ dynamic.fact(DYNAMIC_KNOWN, m.speed_parameter <= METHOD_C,
     "not calculated: so fast teeth come near their resonance, where method C does not hold; give dynamic_factor", lacks=KEYS[1:2])
 dynamic.k_1 = (inner(f.of_overlap.of(spur=m.k_1_spur, helical=m.k_1_helical), lacks=KEYS[1:2]), "K_1", "N/mm",
     "Coefficient of the dynamic factor, of the grade", f"{ISO}, 6")
-dynamic.k_2 = (inner(f.of_overlap.of(spur=number(0.0193), helical=number(0.0087)), lacks=KEYS[1:2]), "K_2", "1", "Coefficient of the dynamic factor, of the speed",
+dynamic.k_2 = (inner(f.of_overlap.of(spur=number(0.0193), helical=number(0.0087)), lacks=KEYS[1:2]), "K_2", "1",
+    "Coefficient of the dynamic factor, of the speed",
     f"{ISO}, 6")
 dynamic.dynamic_factor = value(f.dynamic_factor, needs=(DYNAMIC_KNOWN,), lacks=KEYS[1:2]), "K_V", "1", "Dynamic factor", f"{ISO}, 6"
 dynamic.mesh_stiffness = f.mesh_stiffness.of(stiffness=m.tooth_stiffness), "c_γα", "N/(mm*um)", "Mesh stiffness", f"{ISO}, 9"

@@ -55,7 +55,8 @@ for g, teeth in TEETH.items():
     mesh[f"tip_height_{g}"] = (inner(m.addendum + m[f"shift_{g}"] + m.tip_alteration), f"h_a{g}", "1",
         f"Height of tip {g} above the reference circle, in modules", ISO_21771)
     mesh.require(f"tip_above_base_{g}", f.tip_above_base.of(teeth=m[teeth], tip_height=m[f"tip_height_{g}"], alpha=m.transverse_angle),
-        key="addendum", message=f"is {{addendum}}, with which the tip {g} lies within its base circle and has no flank; take a greater addendum or shift")
+        key="addendum", message=f"is {{addendum}}, with which the tip {g} lies within its base circle and has no flank; take a greater "
+        "addendum or shift")
     mesh[f"tip_angle_{g}"] = (inner(involute.tip_pressure_angle.of(teeth=m[teeth], tip_height=m[f"tip_height_{g}"], alpha=m.transverse_angle),
         digits=6), f"α_at{g}", "deg", f"Transverse pressure angle at tip {g}", ISO_21771)
     mesh[f"tip_half_angle_{g}"] = (inner(involute.half_thickness.of(teeth=m[teeth], shift=m[f"shift_{g}"], alpha_there=m[f"tip_angle_{g}"],

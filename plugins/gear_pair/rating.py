@@ -42,8 +42,10 @@ for g, teeth in TEETH.items():
         left=m[f"virtual_teeth_{g}"] * as_number(m[f"root_angle_{g}"] + m[f"tangent_offset_{g}"]) * np.cos(m[f"root_angle_{g}"]),
         right=2 * m[f"rounding_height_{g}"] * np.sin(m[f"root_angle_{g}"]), output=False, digits=6, tolerance=1e-9), f"θ_{g}", "rad",
         f"Angle of the tangent's contact on gear {g}", FORM)
-    root_form[f"chord_{g}"] = (inner(f.root_chord.of(**own), digits=6), f"s_n{g}", "1", f"Tooth root chord of gear {g} at the critical section, in modules", FORM)
-    root_form[f"fillet_{g}"] = (inner(f.fillet_radius.of(**own), digits=6), f"r_n{g}", "1", f"Root fillet radius of gear {g} at the critical section, in modules", FORM)
+    root_form[f"chord_{g}"] = (inner(f.root_chord.of(**own), digits=6), f"s_n{g}", "1",
+        f"Tooth root chord of gear {g} at the critical section, in modules", FORM)
+    root_form[f"fillet_{g}"] = (inner(f.fillet_radius.of(**own), digits=6), f"r_n{g}", "1",
+        f"Root fillet radius of gear {g} at the critical section, in modules", FORM)
     root_form[f"load_diameter_{g}"] = (inner(f.single_contact_diameter.of(virtual_teeth=m[f"virtual_teeth_{g}"], tip_height=m[f"tip_height_{g}"]),
         digits=6), f"d_en{g}", "1", f"Diameter at the outer point of single pair tooth contact of gear {g}, in modules", FORM)
     root_form[f"load_pressure_angle_{g}"] = (inner(np.arccos(m[f"virtual_teeth_{g}"] * np.cos(m.pressure_angle) / m[f"load_diameter_{g}"]),

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
-    Bound,
     Chapter,
     Formula,
     Value,
@@ -50,7 +49,7 @@ def _rating() -> tuple[tuple[frozenset[str], Value], ...]:
     ]
     wanted = set(SAFETIES)
     for _, step in reversed(steps):
-        wanted |= {name for name in step.takes() if isinstance(name, str)} if step.id in wanted else set()
+        wanted |= set(step.takes()) if step.id in wanted else set()
     return tuple((needs.union(step.needs) - known, step) for needs, step in steps if step.id in wanted)
 
 
@@ -59,9 +58,7 @@ RATING = _rating()
 
 def _taken() -> tuple[str, ...]:
     """What the rating takes beside the module, of which there is more or less by what is given; the factors where they do not follow from it."""
-    names = {
-        name: None for needs, step in RATING for name in (*step.takes(), *needs, *step.lacks) if isinstance(name, str)
-    }
+    names = {name: None for needs, step in RATING for name in (*step.takes(), *needs, *step.lacks)}
     made = {"module", *GIVEN_DISTANCE, *(step.id for _, step in RATING)} - {*KEYS, "transverse_load_root"}
     return (*(name for name in names if name not in made), *dict.fromkeys(SAFETIES.values()))
 
@@ -82,9 +79,8 @@ def least_module(given: Mapping[str, Any]) -> Any:
 
 
 def _value(step: Value, known: dict[str, Any]) -> Any:
-    formula = step.formula.formula if isinstance(step.formula, Bound) else step.formula
-    assert isinstance(formula, Formula), phrase("the rating has no formula that a text chooses")
-    return formula(*(known[name] if isinstance(name, str) else name for name in step.takes()))
+    assert isinstance(step.formula, Formula), phrase("the rating has no formula that a text chooses")
+    return step.formula(*(known[name] for name in step.formula.parameters))
 
 
 # fmt: off

@@ -10,7 +10,6 @@ import numpy as np
 
 from diecut_report.api import (
     Chapter,
-    Expression,
     Phrase,
     Shape,
     Steps,
@@ -123,7 +122,7 @@ def _indexed(symbol: str, index: str) -> str:
     return f"{symbol}{',' if '_' in symbol else '_'}{index}"
 
 
-def _is_best(drive: DriveKind, *, allowed: bool = False) -> Expression:
+def _is_best(drive: DriveKind, *, allowed: bool = False) -> Any:
     """The condition that a drive's peak is the least one (and one that the paper stands)."""
     own, best = m[f"{drive.key}_{PEAK}"], m[f"best_{PEAK}"]
     if allowed:
@@ -131,7 +130,7 @@ def _is_best(drive: DriveKind, *, allowed: bool = False) -> Expression:
     return own <= best
 
 
-def _least(drives: Drives) -> Expression:
+def _least(drives: Drives) -> Any:
     return reduce(np.minimum, [m[f"{drive.key}_{PEAK}"] for drive in drives])
 
 
@@ -166,7 +165,8 @@ def _with_another(drive: DriveKind) -> list[tuple[Drives, tuple[str, ...]]]:
 
 def _verdict(chapter: Steps, drives: Drives) -> None:
     """In words: which drive, and whether the paper stands it."""
-    kept = [case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed", f"the {d.name} has the lowest acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
+    kept = [case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed",
+    f"the {d.name} has the lowest acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
     broken = [(f"the {d.name} is gentlest on the paper, but its acceleration, too, is above the allowed one",
                f"the {d.name} has the lowest acceleration, but it is above the allowed one", d) for d in drives]  # fmt: skip
     text, words, _ = broken[-1]

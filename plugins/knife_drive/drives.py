@@ -190,7 +190,8 @@ PLACES.dead_transmission_angle = (common.enclosed_angle.of(one_side=m.dead_span,
     "deg", "Transmission angle at the lowest point", "law of cosines")
 _either(PLACES, "acceleration_end", "a_0", "m/s**2", "Acceleration of the edge at its lowest point",
         m[ARM] * m.crank_speed**2 * (1 + 1 / m.coupler_ratio) / (m.rocker_ratio * np.sin(m.dead_transmission_angle)),
-        m[ARM] * m.crank_speed**2 * (1 - 1 / m.coupler_ratio) / (m.rocker_ratio * np.sin(m.dead_transmission_angle)), source="004 eq. 3 at the dead centre", source_symbol="W_0")
+        m[ARM] * m.crank_speed**2 * (1 - 1 / m.coupler_ratio) / (m.rocker_ratio * np.sin(m.dead_transmission_angle)),
+        source="004 eq. 3 at the dead centre", source_symbol="W_0")
 PLACES.add(GRIP)
 _speed_ratio(PLACES, "grip_begin", "grip_", "g", " when gripping begins", NO_SPEED)
 _rate(PLACES, "grip_rate", "v_g", "Velocity of the edge when gripping begins", "grip_rocker_speed_ratio", output=False, lacks=NO_SPEED)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, bind, m, total, value
+from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, m, total, value
 
 # fmt: off
 

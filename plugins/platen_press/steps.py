@@ -11,7 +11,6 @@ from diecut_report.api import (
     GRAVITY,
     POINTS,
     Annotated,
-    Bound,
     Case,
     Chapter,
     Inputs,
@@ -195,12 +194,12 @@ ADOPTED = (
 )
 
 
-def in_phase(number: int) -> Bound:
+def in_phase(number: int) -> Any:
     """Whether the crank is in a phase: 1 the rods relax, 2 free travel, 3 cutting."""
     return m.phase == number
 
 
-def by_phase(relaxing: Bound, free: Bound, cutting: Bound) -> tuple[Case, ...]:
+def by_phase(relaxing: Any, free: Any, cutting: Any) -> tuple[Case, ...]:
     """A quantity's value in each of the three phases."""
     return (case(relaxing, "the platen stands on the die and the rods relax", in_phase(1)),
             case(cutting, "the board is cut and the rods elongate", in_phase(3)),

@@ -172,7 +172,8 @@ engagement.require("one_position", 0 >= 1, key="engagement_angle", needs=("engag
     "leave the key out")
 engagement.clutch_ratio = (inner(m.clutch_turns, needs=("clutch_turns",)), *RATIO, "Revolutions of the clutch per revolution of the crank: as given",
     "input")
-ON_CRANK = case(1, "it is on the crank's shaft: its driving side is at most a tenth faster or slower", abs(m.clutch_speed - m.crank_speed) <= relations.ONE_SHAFT * m.crank_speed)
+ON_CRANK = case(1, "it is on the crank's shaft: its driving side is at most a tenth faster or slower",
+    abs(m.clutch_speed - m.crank_speed) <= relations.ONE_SHAFT * m.crank_speed)
 ELSEWHERE = case(m.clutch_speed / m.crank_speed, "it is on another shaft")
 engagement.clutch_ratio = (choice(ON_CRANK, case(m.output_turns_per_sheet * m.productivity * as_number(2 * pi) / as_number(m.crank_speed),
     "it is on the drive train's output", abs(m.clutch_speed - m.output_speed) <= relations.SAME * m.output_speed), ELSEWHERE, needs=ON_OUTPUT,

@@ -90,7 +90,8 @@ notches.fillet_root = value(np.sqrt(m.fillet_ratio), **AT_FILLETS), "w", "1", "I
 notches.fillet_share = value(2 * m.place_step / m.place_greater, **AT_FILLETS), "z", "1", "Ratio of both steps to the larger diameter", "Peterson"
 for index, (low, high) in enumerate(formulas.BENDING, 1):
     notches[f"bending_{index}"] = (value(np.where(m.fillet_ratio <= 2, formulas.quadratic(*low, m.fillet_root),
-        formulas.quadratic(*high, m.fillet_root)), **AT_FILLETS), f"C_{index}", "1", f"Coefficient {index} of the chart for bending", "Peterson, chart 3.10")
+        formulas.quadratic(*high, m.fillet_root)), **AT_FILLETS), f"C_{index}", "1", f"Coefficient {index} of the chart for bending",
+        "Peterson, chart 3.10")
 for index, terms in enumerate(formulas.TORSION, 1):
     notches[f"torsion_{index}"] = (value(formulas.quadratic(*terms, m.fillet_root), **AT_FILLETS), f"C_s{index}", "1",
         f"Coefficient {index} of the chart for torsion", "Peterson, chart 3.12")

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import numpy as np
-
 from diecut_report.api import (
     Block,
     Chapter,
@@ -15,7 +13,6 @@ from diecut_report.api import (
     Quantity,
     Text,
     as_number,
-    bind,
     inner,
     m,
     pi,

@@ -7,12 +7,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.formulas.formula import Formula
-from diecut_report.formulas.tree import FUNCTIONS, OF_TWO, SAID, Node, arccos, as_angle, as_number, transform
+from diecut_report.formulas.expression import as_angle, as_number, m, node_of
+from diecut_report.formulas.formula import is_id
+from diecut_report.formulas.tree import FUNCTIONS, OF_TWO, Node, arccos_of, transform
 from diecut_report.machine.printing.page import definitions
 from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import Bound, ByText, Written, bound
+from diecut_report.mechanism.names import ByText, Written, formula_of
 from diecut_report.mechanism.steps import (
     Accumulated,
     Choice,
@@ -101,15 +102,12 @@ class Formulas:
                 yield self._taken(step)
 
     def _tree(self, step: Step, part: Written) -> Node:
-        """A formula with the mechanism's symbols in place of its parameters."""
-        link = bound(part)
-        return transform(link.formula.tree, lambda leaf: self._leaf(leaf, link, step))
+        """A formula with the mechanism's symbols in place of its quantities."""
+        return transform(formula_of(part).tree, lambda leaf: self._leaf(leaf, step))
 
-    def _leaf(self, leaf: Node, link: Bound, step: Step) -> Node:
-        name = link.names.get(leaf.args[0]) if leaf.op == "sym" else None
-        if name is None:
-            return leaf
-        return Node("sym", (self.symbol(name, step),)) if isinstance(name, str) else Node("num", (f"{name:g}",))
+    def _leaf(self, leaf: Node, step: Step) -> Node:
+        is_quantity = leaf.op == "sym" and is_id(leaf.args[0])
+        return Node("sym", (self.symbol(leaf.args[0], step),)) if is_quantity else leaf
 
     def _branches(self, step: Choice, cases: tuple[object, ...]) -> Iterator[tuple[Node, ...]]:
         for each in step.cases:
@@ -188,15 +186,15 @@ MEANINGS = {
 }  # fmt: skip
 MADE_OF_OTHERS = {  # what prints as others do
     "np.where(x > y, x, 2 * y)": (
-        Formula(lambda x, y: np.where(x > y, x, 2 * y)),
+        np.where(m.x > m.y, m.x, 2 * m.y),
         Meaning("one or the other, by a condition", ONE_KIND, "the same kind"),
     ),
     "np.hypot(x, y)": (
-        Formula(lambda x, y: np.hypot(x, y)),
+        np.hypot(m.x, m.y),
         Meaning("length of the hypotenuse", ONE_KIND, "the same kind"),
     ),
     "np.clip(x, a, b)": (
-        Formula(lambda x, a, b: np.clip(x, a, b)),
+        np.clip(m.x, m.a, m.b),
         Meaning("x, not below a and not above b", ONE_KIND, "the same kind"),
     ),
 }
@@ -207,10 +205,11 @@ SAYING = {
 WRITTEN_OPERATORS = (
     ("x + y, x - y", "sum and difference, of one kind"),
     ("x * y, x / y, -x", "product, quotient, negative"),
-    ("x**2, x**(1/3)", "power; of what has a unit the exponent is a number of the formula itself"),
+    ("x**2, x**(number(1) / 3)", "power; of what has a unit the exponent is a number of the formula itself"),
     ("x < y, <=, >, >=, ==, !=", "a condition, of two of one kind; one comparison at a time"),
     ("(x < y) & (y < z), |, ~", "and, or, not: of conditions, each in brackets"),
-    ("np.pi", "π, half a turn: an angle; as_number(np.pi) is the mere number"),
+    ("pi", "π, half a turn: an angle; as_number(pi) is the mere number"),
+    ("number(1) / 3", "1/3 as it is written; 1 / 3 is 0.3333"),
     ("Constant(value, symbol, unit)", "a constant, printed by its symbol and with its value"),
     ("other(x, y)", "another formula: its expression stands in place of the call, or its name with printed_as"),
 )
@@ -220,8 +219,8 @@ def functions_page() -> Iterator[str]:
     """Yield the page of what a formula may hold."""
     yield from ("# What a formula may hold", "")
     yield (
-        "A formula is a lambda, or a `def` with `@formula` that holds assignments and one `return`. What it may hold is here; all else is refused "
-        "with its place when the plugin is loaded. It computes on numbers and arrays alike, prints from its own body, and is checked for its "
+        "A formula is an expression of quantities, `m.ID`, or a function that is given such. What it may hold is here; all else is refused "
+        "with its line when the plugin is loaded. The same expression is printed, computes on numbers and arrays, and is checked for its "
         "dimensions: what a function takes and gives says so. [Angles, percent and units](units.md) has the rules."
     )
     yield from ("", "## Functions", "")
@@ -238,16 +237,22 @@ def _rows() -> Iterator[tuple[str, ...]]:
         tree = Node("call", (name, Y, X) if name == "arctan2" else (name, X, Y) if name in OF_TWO else (name, X))
         arguments = "y, x" if name == "arctan2" else "x, y" if name in OF_TWO else "x"
         yield code(f"{written}({arguments})"), _printed(tree), *map(plain, MEANINGS[name])
-    for written, (formula, meaning) in MADE_OF_OTHERS.items():
-        yield code(written), _printed(formula.tree), *map(plain, meaning)
-    for function in SAID:
+    for written, (expression, meaning) in MADE_OF_OTHERS.items():
+        yield code(written), _printed(node_of(expression)), *map(plain, meaning)
+    for function in SAYING:
         yield code(f"{function.__name__}(x)"), _printed(X), *map(plain, SAYING[function])
 
 
 def _written(function: object) -> str:
     """How it is called: NumPy's with ``np``, Python's own and those of the interface by their names."""
     name = getattr(function, "__name__", "")
-    return name if function in (abs, arccos) else f"np.{'abs' if name == 'absolute' else name}"
+    return (
+        "arccos"
+        if function is arccos_of
+        else name
+        if function is abs
+        else f"np.{'abs' if name == 'absolute' else name}"
+    )
 
 
 def _printed(tree: Node) -> str:

@@ -11,10 +11,10 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.formulas.expression import FormulaError
-from diecut_report.formulas.formula import evaluate
-from diecut_report.formulas.tree import APPLY, Node, substitute, symbols, walk
+from diecut_report.formulas.formula import Formula, evaluate, is_id
+from diecut_report.formulas.tree import APPLY, Node, symbols, unsaid, walk
 from diecut_report.mechanism.chapters import taken
-from diecut_report.mechanism.names import Bound, bound
+from diecut_report.mechanism.names import formula_of
 from diecut_report.mechanism.steps import Accumulated, Choice, Derivative, Step, Value
 
 STEPWISE = {
@@ -34,20 +34,18 @@ class BranchCondition:
     """Hold a part of a formula that decides between branches. Each is one object."""
 
     step: Formulas
-    link: Bound
+    formula: Formula
     node: Node
 
     @cached_property
     def names(self) -> tuple[str, ...]:
         """Return the quantities that it takes."""
-        found = (self.link.names.get(symbol) for symbol in symbols(self.node))
-        return tuple(dict.fromkeys(name for name in found if isinstance(name, str)))
+        return tuple(filter(is_id, symbols(self.node)))
 
     @cached_property
     def meaning(self) -> Hashable:
         """Return what conditions of several formulas that change together have in common."""
-        known = {**self.link.formula.constants, **self.link.names}
-        return type(self), self.node, tuple(known.get(symbol) for symbol in symbols(self.node))
+        return type(self), self.node, tuple(map(self.formula.constants.get, symbols(self.node)))
 
     @cached_property
     def gap(self) -> Node:
@@ -64,7 +62,7 @@ class BranchCondition:
             (str(part.args[0]) if part.op == "call" else part.op, inner)
             for part in walk(self.node)[1:]
             for inner in _taken_by(part)
-            if any(varies(str(self.link.names.get(symbol))) for symbol in symbols(inner))
+            if any(varies(symbol) for symbol in symbols(inner))
         ]
         levels_off = FLATTENING.intersection(op for op, _ in found)
         return tuple(dict.fromkeys(inner for _, inner in found)) if levels_off else ()
@@ -82,10 +80,8 @@ class BranchCondition:
         return np.broadcast_to(evaluate(part, partial(self._leaf, known)), x.shape).astype(float, copy=False)
 
     def _leaf(self, known: Known, leaf: Node) -> Any:
-        name = self.link.names.get(leaf.args[0])
-        if name is None:
-            return float(self.link.formula.constants[leaf.args[0]])
-        return known(name) if isinstance(name, str) else name
+        name = leaf.args[0]
+        return known(name) if is_id(name) else float(self.formula.constants[name])
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +146,7 @@ def conditions_of(curves: tuple[tuple[str, Step], ...], axis: str, curve: str) -
     names, by_flag, is_opaque = set[str](), False, False
     for name, by in _followed(steps, curve):
         step = steps[name]
-        is_read = isinstance(step, Formulas) and all(_tree(link) is not None for link in _links(step))
+        is_read = isinstance(step, Formulas) and all(_tree(formula) is not None for formula in _formulas(step))
         is_opaque |= not (by or is_read or isinstance(step, Accumulated | Derivative))
         if isinstance(step, Formulas):
             own = [each for each in _conditions(step) if varying.intersection(each.names)]
@@ -196,43 +192,32 @@ def _followed(steps: dict[str, Step], curve: str) -> Iterator[tuple[str, bool]]:
             pending += [(each, by_flag) for each in sorted(taken(step), reverse=True)]
 
 
-def _links(step: Formulas) -> list[Bound]:
-    bindings = [step.formula] if isinstance(step, Value) else [p for c in step.cases for p in (c.condition, c.value)]
-    return [bound(part) for part in bindings if part is not None and not isinstance(part, str)]
+def _formulas(step: Formulas) -> list[Formula]:
+    written = [step.formula] if isinstance(step, Value) else [p for c in step.cases for p in (c.condition, c.value)]
+    return [formula_of(part) for part in written if part is not None and not isinstance(part, str)]
 
 
-def _tree(link: Bound) -> Node | None:
-    """A formula with the expressions of others in the place of the names by which they are printed; None where it cannot be read."""
+def _tree(formula: Formula) -> Node | None:
+    """A formula with the expressions of others in the place of the names by which they are printed; None where it cannot be made."""
     try:
-        tree: Node = _expanded(link.formula.tree)
-        return tree
+        return unsaid(formula.full_tree)
     except FormulaError:
         return None
 
 
-def _expanded(part: Any) -> Any:
-    if isinstance(part, Node) and part.op == "apply":
-        called, *args = part.args
-        known = dict(zip(called.formula.parameters, map(_expanded, args), strict=True))
-        return substitute(_expanded(called.formula.tree), known)
-    if isinstance(part, Node):
-        return Node(part.op, tuple(map(_expanded, part.args)))
-    return tuple(map(_expanded, part)) if isinstance(part, tuple) else part
-
-
 @lru_cache(maxsize=4096)
 def _conditions(step: Formulas) -> tuple[BranchCondition, ...]:
-    trees = ((link, _tree(link)) for link in _links(step))
+    trees = ((formula, _tree(formula)) for formula in _formulas(step))
     return tuple(
-        BranchCondition(step, link, node) for link, tree in trees if tree for node in walk(tree) if _decides(node)
+        BranchCondition(step, formula, node) for formula, tree in trees if tree for node in walk(tree) if _decides(node)
     )
 
 
 @lru_cache(maxsize=4096)
 def _singular(step: Formulas) -> tuple[Singularity, ...]:
-    trees = ((link, _tree(link)) for link in _links(step))
-    found = ((link, part) for link, tree in trees if tree for node in walk(tree) for part in _zeros(node))
-    return tuple(Singularity(step, link, part) for link, part in dict.fromkeys(found) if symbols(part))
+    trees = ((formula, _tree(formula)) for formula in _formulas(step))
+    found = ((formula, part) for formula, tree in trees if tree for node in walk(tree) for part in _zeros(node))
+    return tuple(Singularity(step, formula, part) for formula, part in dict.fromkeys(found) if symbols(part))
 
 
 def _zeros(node: Node) -> Iterator[Node]:
@@ -275,10 +260,9 @@ def _factors(node: Node) -> Iterator[Node]:
 def _beside_conditions(step: Formulas) -> frozenset[str]:
     """What a step takes otherwise than in a condition."""
     found = set[str]()
-    for link in _links(step):
-        tree = _tree(link)
-        own = link.names if tree is None else _symbols_beside(tree)
-        found.update(name for name in map(link.names.get, own) if isinstance(name, str))
+    for formula in _formulas(step):
+        tree = _tree(formula)
+        found.update(formula.parameters if tree is None else filter(is_id, _symbols_beside(tree)))
     return frozenset(found)
 
 

@@ -14,7 +14,7 @@ from diecut_report.formulas.expression import FormulaError
 from diecut_report.formulas.formula import Formula, FormulaName
 from diecut_report.formulas.tree import NUMERIC, Node
 from diecut_report.machine.numerics.domain import CalculatedMachines, Inside
-from diecut_report.mechanism.names import Bound, Written, bound
+from diecut_report.mechanism.names import Written, formula_of
 from diecut_report.mechanism.steps import Choice, Step, Value
 
 
@@ -86,10 +86,8 @@ class CurveSampler:
 
     def apply(self, part: Written) -> Array:
         """Return what a formula gives at the places."""
-        link = part if type(part) is Bound else bound(part)
-        known = self.known
-        taken = [n if isinstance(n, float) else known[n] if n in known else self[n] for n in link.takes]
-        found: Array = link.formula.function(*taken)
+        formula, known = formula_of(part), self.known
+        found: Array = formula.function(*[known[n] if n in known else self[n] for n in formula.parameters])
         return found
 
 
@@ -174,9 +172,7 @@ class Program:
 
     # Joining the trees.
 
-    def _quantity(self, name: str | float) -> str:
-        if not isinstance(name, str):
-            return self._constant(name)
+    def _quantity(self, name: str) -> str:
         if name not in self._quantities:
             self._quantities[name] = self._declared(name)
         return self._quantities[name]
@@ -201,9 +197,8 @@ class Program:
         return self._leaf("curve", name)
 
     def _formula(self, part: Any) -> str:
-        link = bound(part)
-        known = {parameter: self._quantity(name) for parameter, name in link.names.items()}
-        return self._tree(link.formula, known)
+        formula = formula_of(part)
+        return self._tree(formula, {name: self._quantity(name) for name in formula.parameters})
 
     def _tree(self, formula: Formula, known: Mapping[str, str]) -> str:
         """The term that a formula gives, its parameters being known."""
@@ -325,7 +320,7 @@ class Program:
 def _has_tree(part: Any) -> bool:
     """Whether a formula can be read; one that cannot is called as it is."""
     try:
-        return bound(part).formula.tree is not None
+        return formula_of(part).tree is not None
     except FormulaError:
         return False
 

@@ -10,7 +10,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.numerics.domain import SMALLEST, PieceSeries, grid_weights, nodes_of
 from diecut_report.mechanics import numerics
 from diecut_report.mechanism.chapters import taken
-from diecut_report.mechanism.names import bound
+from diecut_report.mechanism.names import formula_of
 from diecut_report.mechanism.steps import Accumulated, Derivative, Root
 from diecut_report.quantities.units import unit
 
@@ -38,11 +38,10 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
 
     The difference is infinite where the equation has a pole there, and no root.
     """
-    equation = bound(step.equation)
+    equation = formula_of(step.equation)
 
     def residual(x: Array, rows: Array) -> Array:
-        names = (x if n == step.unknown else n for n in equation.names.values())
-        result: Array = equation.formula(*(calc[n][rows, 0] if isinstance(n, str) else n for n in names))
+        result: Array = equation(*(x if name == step.unknown else calc[name][rows, 0] for name in equation.parameters))
         return result
 
     low, high = (calc.apply(end)[:, 0] for end in (step.low, step.high))

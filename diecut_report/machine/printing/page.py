@@ -24,7 +24,7 @@ from diecut_report.machine.printing.substitution import (
     formula_unit,
     printed,
 )
-from diecut_report.mechanism.names import Bound, bound
+from diecut_report.mechanism.names import formula_of
 from diecut_report.mechanism.steps import Abscissa, Choice, Interpolated, PartNames, PartTable, Step, part_result
 from diecut_report.mechanism.steps.protocols import Item
 from diecut_report.mechanism.steps.value import FormulaStep
@@ -119,7 +119,7 @@ class Page:
         """For which parts a row and all that it takes have values; None of a text."""
         calc = self.calc
         formula = getattr(calc.steps.get(name), "formula", None)
-        taken = [] if formula is None else [each for each in bound(formula).names.values() if isinstance(each, str)]
+        taken = () if formula is None else formula_of(formula).parameters
         alike = (n for n in (name, *taken) if n in calc.values and calc.axis.get(n) == calc.axis.get(name))
         rows = [calc.values[n][0] for n in alike]
         known = [~np.isnan(row.astype(float)) for row in rows if row.dtype != object]
@@ -156,9 +156,10 @@ class Page:
         here, there = (step.shown_formula(self, flag) for flag in (False, True))
         if here is not there:
             return True
-        link = bound(here)
-        taken = (self.value_at(name, axis) if isinstance(name, str) else name for name in link.takes)
-        return bool(link.formula(*taken) != self.value_at(step.id, axis))
+        formula = formula_of(here)
+        return bool(
+            formula(*(self.value_at(name, axis) for name in formula.parameters)) != self.value_at(step.id, axis)
+        )
 
     def case_taken(self, step: Choice, elsewhere: bool) -> int:
         """Return which case of a choice is taken where formulas are shown."""
@@ -168,9 +169,8 @@ class Page:
         for index, case in enumerate(step.cases):
             if case.condition is None:
                 return index
-            link = bound(case.condition)
-            taken = (self.value_at(n, axis, flag=elsewhere) if isinstance(n, str) else n for n in link.names.values())
-            if link.formula(*taken):
+            condition = formula_of(case.condition)
+            if condition(*(self.value_at(name, axis, flag=elsewhere) for name in condition.parameters)):
                 return index
         return len(step.cases) - 1
 
@@ -190,11 +190,11 @@ class Page:
 
     # Formulas.
 
-    def symbolic(self, part: Bound) -> Node:
+    def symbolic(self, part: Formula) -> Node:
         """Return a formula in symbols."""
         return Substitution(self.calc, part, lambda name: self.value_at(name, None)).symbolic()
 
-    def sides(self, part: Bound, held: bool, axis: str | None = None, elsewhere: bool = False) -> tuple[Any, Any]:
+    def sides(self, part: Formula, held: bool, axis: str | None = None, elsewhere: bool = False) -> tuple[Any, Any]:
         """Return the condition that holds, this one or its opposite, in symbols and with numbers."""
         marked = self._marks(axis, elsewhere)
         substitution = Substitution(self.calc, part, lambda name: self.value_at(name, axis, flag=elsewhere), marked)
@@ -202,7 +202,7 @@ class Page:
         symbolic, numeric = (side and (side if held else negated(side)).to_json() for side in sides)
         return symbolic, numeric
 
-    def formula(self, step: Step, part: Bound, elsewhere: bool = False) -> Item:
+    def formula(self, step: Step, part: Formula, elsewhere: bool = False) -> Item:
         """Return a formula in symbols, with numbers in, and its result."""
         calc, axis = self.calc, self.calc.axis.get(step.id)
         target = self.value_at(step.id, axis)
@@ -215,16 +215,15 @@ class Page:
 
         between = BetweenRows(calc, step, value_of, marked) if isinstance(step, Interpolated) else None
         substitution = between or Substitution(calc, part, value_of, marked)
-        takes = [name for name in part.names.values() if isinstance(name, str)]
         try:
-            numeric = substitution.numeric(target, result["unit"], step.digits) if takes else None
+            numeric = substitution.numeric(target, result["unit"], step.digits) if part.parameters else None
         except Contradiction as found:
             raise Unproven(contradicted(step, part, found), step.at) from None
         symbolic = substitution.symbolic()
         item: Item = {"equation": symbolic.to_json(), "substituted": numeric and numeric.to_json()}
         if defined := definitions(symbolic):
             item["where"] = defined
-        if takes and numeric is None:
+        if part.parameters and numeric is None:
             item["note"] = EQUAL_TERMS
         item = (between.told() if between else {}) | item | bridged(substitution, numeric, target, result)
         return item | conversions(substitution, numeric) | {"result": result}
@@ -400,7 +399,7 @@ def bridged(substitution: Substitution, numeric: Node | None, target: float, res
     inside = formula_unit(result["unit"])
     if inside == result["unit"] or substitution.is_copy or substitution.in_degrees:
         return {}
-    calls = {node.args[0] for node in walk(substitution.part.formula.tree) if node.op == "call"}
+    calls = {node.args[0] for node in walk(substitution.part.tree) if node.op == "call"}
     in_rad = numeric is not None and any(node.op == "qty" and node.args[1] == "rad" for node in walk(numeric))
     if unit(inside).si == "rad" and not calls.isdisjoint(GIVES_ANGLES) and not in_rad:
         return {}

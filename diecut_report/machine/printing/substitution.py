@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.formulas.formula import evaluate
+from diecut_report.formulas.formula import Formula, evaluate
 from diecut_report.formulas.tree import APPLY, COMPARE, LEAVES, NUMERIC, Node, transform, walk
 from diecut_report.machine.calculation import declared_unit, number_unit, unit_for
-from diecut_report.mechanism.names import Bound, bound
+from diecut_report.mechanism.names import formula_of
 from diecut_report.mechanism.steps import Interpolated, Step, Words, plain_code
 from diecut_report.quantities.formatting import (
     DIGITS,
@@ -259,25 +259,25 @@ class Substitution:
     """Hold a formula with numbers in, so precise that computing what is printed gives the printed result."""
 
     def __init__(
-        self, calc: Calculation, part: Bound, value_of: Callable[[str], float], elsewhere: Elsewhere | None = None
+        self, calc: Calculation, part: Formula, value_of: Callable[[str], float], elsewhere: Elsewhere | None = None
     ) -> None:
         self.calc, self.part, self.value_of, self.elsewhere = calc, part, cache(value_of), elsewhere
-        self.constants: Mapping[str, Any] = part.formula.constants
-        self.is_copy = part.formula.tree.op == "sym"  # whether it takes a quantity over as it is
+        self.constants: Mapping[str, Any] = part.constants
+        self.is_copy = part.tree.op == "sym"  # whether it takes a quantity over as it is
         self.numbers: dict[str, Node] = {}  # as what each quantity was put in
         self._displays: dict[str, str] = {}
         self.in_degrees = False  # whether angles stand in degrees in all of it
-        self.shares = {name for node in walk(part.formula.tree) for name in _beside_a_number(node)}
+        self.shares = {name for node in walk(part.tree) for name in _beside_a_number(node)}
 
     def symbolic(self) -> Node:
         """Return the expression in the plugin's symbols."""
-        return transform(self.part.formula.tree, self._symbol)
+        return transform(self.part.tree, self._symbol)
 
     def _symbol(self, leaf: Node) -> Node:
-        name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
-        if name is None:
-            return _quantity(leaf.args[0]) or leaf if leaf.op == "sym" else leaf
-        return self._marked(name) if isinstance(name, str) else Node("num", (f"{name:g}",))
+        if leaf.op != "sym":
+            return leaf
+        name = leaf.args[0]
+        return self._marked(name) if name in self.part.parameters else _quantity(name) or leaf
 
     def _marked(self, name: str) -> Node:
         """A quantity's symbol; where it is taken at another place than the chapter's, marked with that place."""
@@ -298,7 +298,7 @@ class Substitution:
         asked = result_digits
         result_digits = shown_digits(target, display, author_digits(target, display, asked))
         wanted = rounded(target, display, result_digits)
-        self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
+        self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.tree)
         tree = self._at(DIGITS)
         again, error = bounded(tree, self._printed_value)
         if self._shows(again, display, result_digits, wanted):
@@ -326,7 +326,7 @@ class Substitution:
         return "deg" if angle and unit(declared).si == "rad" else formula_unit(declared)
 
     def _at(self, digits: int) -> Node:
-        return self._with_numbers(self.part.formula.tree, digits, angle=self.in_degrees)
+        return self._with_numbers(self.part.tree, digits, angle=self.in_degrees)
 
     def is_angle(self, node: Node) -> bool:
         """Return whether an expression is an angle in whatever unit the angles in it stand: φ_2 − φ_1, 2·φ, but not φ + π."""
@@ -346,10 +346,9 @@ class Substitution:
         return node.op != "apply" and all(leaf.op == "sym" and self._si_of(leaf.args[0]) == "1" for leaf in leaves)
 
     def _si_of(self, name: str) -> str:
-        """The SI unit of what a parameter or a constant of the formula stands for."""
-        taken = self.part.names.get(name)
-        if isinstance(taken, str):
-            return unit(self.calc.step_or_input(taken).unit).si
+        """The SI unit of what a quantity or a constant of the formula stands for."""
+        if name in self.part.parameters:
+            return unit(self.calc.step_or_input(name).unit).si
         constant = self.constants.get(name)
         return "1" if constant is None else unit(constant.unit).si
 
@@ -387,10 +386,8 @@ class Substitution:
         return Node("cases", tuple(branches))  # none holds: there is no value
 
     def _true_value(self, leaf: Node) -> float:
-        name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
-        if name is None:
-            return self._printed_value(leaf)
-        return self.value_of(name) if isinstance(name, str) else float(name)
+        is_quantity = leaf.op == "sym" and leaf.args[0] in self.part.parameters
+        return self.value_of(leaf.args[0]) if is_quantity else self._printed_value(leaf)
 
     def _parts(self, parts: tuple[Any, ...], digits: int, *, angle: bool) -> tuple[Any, ...]:
         return tuple([
@@ -401,16 +398,14 @@ class Substitution:
         ])  # fmt: skip
 
     def _number(self, leaf: Node, digits: int, *, angle: bool) -> Node:
-        name = self.part.names.get(leaf.args[0])
-        if name is None:
-            constant = self.constants.get(leaf.args[0])
-            return leaf if constant is None else _constant(leaf.args[0], float(constant), self._beside(constant.unit))
-        if not isinstance(name, str):
-            return Node("num", (f"{name:g}",))
+        name = leaf.args[0]
+        if name not in self.part.parameters:
+            constant = self.constants.get(name)
+            return leaf if constant is None else _constant(name, float(constant), self._beside(constant.unit))
         declared, value = self.calc.step_or_input(name), self.value_of(name)
         own = self.display(name)
         display = own if self.is_copy else self.unit_of(own, angle=angle)
-        display = "1" if leaf.args[0] in self.shares and unit(display).si == "1" else display
+        display = "1" if name in self.shares and unit(display).si == "1" else display
         text = self._text(name, unit(display).from_si(value), digits)
         is_zero = digits <= TRUSTED and is_nothing(value, declared.unit)
         self.numbers[name] = Node("qty", ("0" if is_zero else text, display))
@@ -418,8 +413,11 @@ class Substitution:
 
     def _beside(self, declared: str) -> str:
         """The unit in which quantities of the same kind stand in the formula; a constant's own where there are none."""
-        taken = [name for name in self.part.names.values() if isinstance(name, str)]
-        alike = (name for name in taken if unit(self.calc.step_or_input(name).unit).kind == unit(declared).kind)
+        alike = (
+            name
+            for name in self.part.parameters
+            if unit(self.calc.step_or_input(name).unit).kind == unit(declared).kind
+        )
         return next((formula_unit(self.display(name)) for name in alike), declared)
 
     def _text(self, name: str, number: float, digits: int) -> str:
@@ -459,7 +457,7 @@ def _constant(symbol: str, value: float, display: str) -> Node:
 # What is wrong with a formula that does not give what is printed of it.
 
 
-def contradicted(step: Step, part: Bound, found: Contradiction) -> str:
+def contradicted(step: Step, part: Formula, found: Contradiction) -> str:
     """Return what is wrong with a formula whose expression does not give its result, with so many digits as show it."""
     factor, said = unit(step.unit).factor, ("", "")
     for digits in range(step.digits, MOST_DIGITS + 1):
@@ -467,7 +465,7 @@ def contradicted(step: Step, part: Bound, found: Contradiction) -> str:
         if said[0] != said[1]:
             break
     result, again = (with_unit(text, step.unit) for text in said)
-    formula = part.formula
+    formula = part
     template = (
         "{description} ({id}) is {result}, but its formula {name} as it is printed gives {again}, which "
         "is more than rounding; it must compute by its parameters and constants alone ({place})"
@@ -496,7 +494,7 @@ class BetweenRows(Substitution):
         value_of: Callable[[str], float],
         elsewhere: Elsewhere | None = None,
     ) -> None:
-        super().__init__(calc, bound(step.formula), value_of, elsewhere)
+        super().__init__(calc, formula_of(step.formula), value_of, elsewhere)
         self.step = step
         row = int(step.between.piece(value_of(step.of)))
         self.rows = [
@@ -521,7 +519,7 @@ class BetweenRows(Substitution):
 
     def _at(self, digits: int) -> Node:
         rows = [Node("qty", (text, own.unit)) for row in self.rows for own, text in row]
-        return self._with_numbers(self.step.between.through(Node("sym", ("x",)), *rows), digits, angle=False)
+        return self._with_numbers(self.step.between.through(Node("sym", (self.step.of,)), *rows), digits, angle=False)
 
     def _symbols(self, number: int) -> tuple[str, str]:
         own = self.calc.step_or_input(self.step.of).symbol, self.step.symbol

@@ -9,15 +9,14 @@ from pathlib import Path
 import numpy as np
 
 from diecut_report.formulas import Array
+from diecut_report.formulas.expression import Expression, m
 from diecut_report.formulas.tree import Node, substitute, written
 from diecut_report.machine.calculation import Calculation, Side, Unproven
 from diecut_report.machine.numerics import extremes, jumps
 from diecut_report.machine.numerics.conditions import BranchCondition, Singularity
 from diecut_report.machine.numerics.domain import shares
 from diecut_report.machine.numerics.jumps import JumpFault
-from diecut_report.mechanics.common import difference
 from diecut_report.mechanism.checks import Check
-from diecut_report.mechanism.names import bind
 from diecut_report.mechanism.steps import Choice, Fact, Step, Value, read
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
@@ -52,9 +51,9 @@ def _words(calc: Calculation, found: JumpFault) -> str:
     if found.condition is None:
         return (Phrase("{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at "
 "{place}: it would be that of the middle of the piece; {fix}, or take per_piece away", where=where, place=place, fix=fix))  # fmt: skip
-    step, link = found.condition.step, found.condition.link
+    step, formula = found.condition.step, found.condition.formula
     is_formula = hasattr(step, "formula")
-    name = Phrase("the formula {name}", name=link.formula.__name__) if is_formula else phrase("the choice")
+    name = Phrase("the formula {name}", name=formula.__name__) if is_formula else phrase("the choice")
     decided = written(_in_symbols(calc, found.condition))
     of: str = Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
     of = phrase("its formula") if step.id == curve.id else of
@@ -71,12 +70,9 @@ def _words(calc: Calculation, found: JumpFault) -> str:
 
 def _in_symbols(calc: Calculation, condition: BranchCondition) -> Node:
     """What decides, with the symbols of the quantities."""
-    names = condition.link.names
-    shown = {
-        parameter: Node("sym", (calc.step_or_input(name).symbol,)) if isinstance(name, str) else Node("num", (f"{name:g}",))
-        for parameter, name in names.items()
-    }  # fmt: skip
-    return substitute(condition.node, shown)
+    return substitute(
+        condition.node, {name: Node("sym", (calc.step_or_input(name).symbol,)) for name in condition.names}
+    )
 
 
 # Where a curve is not smooth inside a smooth piece though no condition tells it: an angle that wraps, a pole, a corner.
@@ -208,7 +204,7 @@ def _scale(calc: Calculation, curve: str, x: Array, middles: Array) -> float:
     assert isinstance(step, Value | Choice)
     own = unit(step.unit).kind
     scale = 1.0 if own in (unit("1").kind, unit("rad").kind) else 0.0
-    for name in {curve, *(each for each in step.takes() if isinstance(each, str))}:
+    for name in {curve, *step.takes()}:
         if name == curve or unit(calc.step_or_input(name).unit).kind == own:
             values = x
             if name not in calc.domains:
@@ -251,12 +247,12 @@ def _stand_ins(check: Check) -> tuple[Value, ...]:
     """A curve for each pair of a check's sides: the one less the other. The same for all calculations, as programs are kept for it."""
     factor = unit(check.unit).factor
 
-    def sides(pair: tuple[str | float, ...]) -> dict[str, str | float]:
-        in_si = (side if isinstance(side, str) else side * factor for side in pair)
-        return dict(zip(("quantity", "less"), in_si, strict=True))
+    def gap(*sides: str | float) -> Expression | float:
+        demand, limit = (m[side] if isinstance(side, str) else side * factor for side in sides)
+        return demand - limit
 
     return tuple(
-        Value(f"checks.{check.id}.{i}", "", "1", check.title, bind(difference, **sides(pair)), output=False)
+        Value(f"checks.{check.id}.{i}", "", "1", check.title, gap(*pair), output=False)
         for i, pair in enumerate(check.pairs)
     )
 

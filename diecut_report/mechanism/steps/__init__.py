@@ -1,4 +1,4 @@
-"""The types of steps, each in one file, and their register: an import for each, and the call of a chapter by which authors declare it."""
+"""The types of steps, each in one file, and their register: an import for each; what gives no single quantity is a call of a chapter."""
 # mypy: implicit-reexport
 # ruff: noqa: F401
 
@@ -6,11 +6,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Unpack
+from typing import Any
 
-from diecut_report.mechanism.names import Misdeclared, Written
+from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps.abscissa import Abscissa, Breakpoints
-from diecut_report.mechanism.steps.base import Options, Recipe, ResultName, SilentStep, Step, StepCondition, form, recipe
+from diecut_report.mechanism.steps.base import (
+    Options,
+    Recipe,
+    ResultName,
+    SilentStep,
+    Step,
+    StepCondition,
+    form,
+    recipe,
+)
 from diecut_report.mechanism.steps.choice import Case, Choice, case
 from diecut_report.mechanism.steps.code_curves import ComputedCurve, PartCurves
 from diecut_report.mechanism.steps.computed import Computed, Words
@@ -78,7 +87,7 @@ class Steps:
             )
             raise Misdeclared(Phrase(template, id=name, given=repr(declared)))
         gives, *told = declared
-        self.add((gives if isinstance(gives, Recipe) else value(gives)).step(name, *told))
+        self.add((gives if isinstance(gives, Recipe) else Recipe(Value, (gives,), {})).step(name, *told))
 
     breakpoints = form(Breakpoints.of)
     part_names = form(PartNames)
@@ -91,31 +100,3 @@ class Steps:
     clash = form(Clash)
     words = form(Words)
     phase = form(Phase.of)
-
-
-value = recipe(Value)
-choice = recipe(Choice.of)
-root = recipe(Root)
-abscissa = recipe(Abscissa)
-crossings = recipe(Crossings)
-reduction = recipe(Reduction)
-accumulated = recipe(Accumulated)
-derivative = recipe(Derivative)
-computed = recipe(Computed)
-curve_period = recipe(CurvePeriod)
-from_curve = recipe(FromCurve)
-made_curve = recipe(MadeCurve)
-computed_curve = recipe(ComputedCurve)
-total = recipe(Total)
-neighbour = recipe(Neighbour)
-running = recipe(Running)
-part = recipe(Part)
-lookup = recipe(Lookup)
-interpolated = recipe(Interpolated)
-pick = recipe(Pick)
-
-
-def inner(gives: Written, **options: Unpack[Options]) -> Recipe:
-    """Say how a formula gives a quantity that is printed, but is no output in the results file."""
-    options.setdefault("output", False)
-    return value(gives, **options)

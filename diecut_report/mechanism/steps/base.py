@@ -15,7 +15,7 @@ from typing import Any, ClassVar, Concatenate, Literal, NamedTuple, ParamSpec, P
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.mechanism.names import Misdeclared, Written, as_binding, here
+from diecut_report.mechanism.names import Misdeclared, Written, as_formula, here
 from diecut_report.mechanism.steps.protocols import (
     LABELS,
     OF_UNIT,
@@ -63,7 +63,7 @@ def recipe(make: Callable[Concatenate[str, str, str, str, P], Step]) -> Callable
 
     step_type = _step_type(make)
     given.__name__, given.__doc__ = name_of_call(step_type), make.__doc__
-    own = [each for name, each in _own(make, step_type).items() if name not in HEAD]
+    own = [each for name, each in _own(make).items() if name not in HEAD]
     given.__signature__ = _signature(own, Options)  # type: ignore[attr-defined]
     return given
 
@@ -76,7 +76,7 @@ def form(make: Callable[P, Step]) -> Callable[Concatenate[StepHolder, P], None]:
 
     step_type = _step_type(make)
     declare.__name__, declare.__doc__ = name_of_call(step_type), make.__doc__
-    taken = [Parameter("self", Parameter.POSITIONAL_ONLY), *_own(make, step_type).values()]
+    taken = [Parameter("self", Parameter.POSITIONAL_ONLY), *_own(make).values()]
     declare.__signature__ = _signature(taken, _shared(step_type))  # type: ignore[attr-defined]
     return declare
 
@@ -87,7 +87,7 @@ HEAD = ("id", "symbol", "unit", "description")
 def made(make: Callable[..., Step], args: tuple[Any, ...], options: Mapping[str, Any]) -> Step:
     """Return a step; Misdeclared where an option is unknown, TypeError where something is missing or too much."""
     step_type = _step_type(make)
-    known = (*_own(make, step_type), *_shared(step_type).__annotations__)
+    known = (*_own(make), *_shared(step_type).__annotations__)
     for name in options.keys() - set(known):
         template = "{id} has no option {name}{near}"
         raise Misdeclared(Phrase(template, id=[*args, ""][0], name=name, near=nearest(name, known)))
@@ -96,7 +96,9 @@ def made(make: Callable[..., Step], args: tuple[Any, ...], options: Mapping[str,
     except Misdeclared:
         raise
     except TypeError as wrong:
-        raise TypeError(str(wrong).replace(f"{step_type.__name__}.__init__()", f"{name_of_call(step_type)}()")) from None
+        raise TypeError(
+            str(wrong).replace(f"{step_type.__name__}.__init__()", f"{name_of_call(step_type)}()")
+        ) from None
 
 
 def name_of_call(step_type: type[Step]) -> str:
@@ -119,8 +121,9 @@ def _shared(step_type: type[Step]) -> type:
 
 
 @cache
-def _own(make: Callable[..., Step], step_type: type[Step]) -> dict[str, Parameter]:
+def _own(make: Callable[..., Step]) -> dict[str, Parameter]:
     """What a type takes of its own, beside the options that it shares with others."""
+    step_type = _step_type(make)
     declared = {
         name for base in step_type.__mro__ if base not in Step.__mro__ for name in vars(base).get("__annotations__", ())
     }
@@ -241,7 +244,7 @@ class Step:
         for name in ("exists", *self.FORMULAS):
             if (written := getattr(self, name)) is not None:
                 called = self.id if name in ("formula", "condition") else f"{self.id} ({name})"
-                object.__setattr__(self, name, as_binding(written, called))
+                object.__setattr__(self, name, as_formula(written, called))
 
     # What it is made of.
 

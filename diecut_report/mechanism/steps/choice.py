@@ -9,7 +9,8 @@ from typing import Any, ClassVar, Unpack
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.mechanism.names import Binding, Written, as_binding, bound
+from diecut_report.formulas.formula import Formula
+from diecut_report.mechanism.names import ByText, Written, as_formula, formula_of
 from diecut_report.mechanism.steps.base import Options, Over
 from diecut_report.mechanism.steps.protocols import ANY, CURVE, Item, Kinds, Names, StepEngine, StepFormula, StepPrinter
 from diecut_report.mechanism.steps.value import FormulaStep
@@ -20,9 +21,9 @@ from diecut_report.text.phrases import Phrase, phrase
 class Case:
     """Declare one branch of a choice: taken where the condition holds (the last one has none), and why, in words."""
 
-    value: Binding | str
+    value: Formula | ByText | str
     words: str
-    condition: Binding | None = None
+    condition: Formula | ByText | None = None
 
     def mapped(self, function: Callable[[Any], Any]) -> Case:
         """Return the same with what a function makes of its formulas."""
@@ -38,8 +39,8 @@ class Case:
 
 def case(value: Written | str, words: str, condition: Written | None = None) -> Case:
     """Return one branch of a choice: its value (formula or text), why in words, and when it is taken; the last one has no condition."""
-    taken = value if isinstance(value, str) else as_binding(value, words)
-    return Case(taken, words, None if condition is None else as_binding(condition, words))
+    taken = value if isinstance(value, str) else as_formula(value, words)
+    return Case(taken, words, None if condition is None else as_formula(condition, words))
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,8 +79,8 @@ class Choice(FormulaStep):
         return {("text", axis) for _, axis in found} if self.is_text else found
 
     def takes_over(self) -> set[str]:
-        links = [bound(case.value) for case in self.cases if not isinstance(case.value, str)]
-        return {str(name) for link in links if link.formula.tree.op == "sym" for name in link.names.values()}
+        links = [formula_of(case.value) for case in self.cases if not isinstance(case.value, str)]
+        return {name for link in links if link.tree.op == "sym" for name in link.parameters}
 
     def shape_faults(self) -> Iterator[str]:
         cases: tuple[Any, ...] = self.cases
@@ -92,8 +93,8 @@ class Choice(FormulaStep):
         for each in cases:
             if not isinstance(each.words, str):
                 yield phrase('has a case whose words are not a text; write case(value, "why it is taken", condition)')
-            if not isinstance(each.value, str | Binding):
-                template = "has a case of the value {value}; write a text, or a lambda that gives a number"
+            if not isinstance(each.value, str | Formula | ByText):
+                template = "has a case of the value {value}; write a text, or an expression of quantities"
                 yield Phrase(template, value=repr(each.value))
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
@@ -139,11 +140,11 @@ class Choice(FormulaStep):
         item = self.head() | {"type": "choice", "words": taken.words}
         held = taken.condition if taken.condition is not None else self.cases[index - 1].condition
         if held is not None:
-            symbolic, numeric = page.sides(bound(held), taken.condition is not None, axis, elsewhere)
+            symbolic, numeric = page.sides(formula_of(held), taken.condition is not None, axis, elsewhere)
             item |= {"condition": symbolic, "condition_substituted": numeric}
         item |= place
         if isinstance(taken.value, str):
             item |= {"equation": None, "substituted": None, "result": {"text": taken.value, "unit": "1"}}
         else:
-            item |= page.formula(self, bound(taken.value), elsewhere)
+            item |= page.formula(self, formula_of(taken.value), elsewhere)
         return [item] if axis is None or axis in calc.domains else [item, page.table(self, [self.id])]

@@ -5,7 +5,7 @@ Its formula computes by the whole table and prints one piece of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, ClassVar, Literal
@@ -14,11 +14,10 @@ import numpy as np
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.formulas.expression import Constant
+from diecut_report.formulas.expression import Constant, m
 from diecut_report.formulas.formula import Formula, formula
 from diecut_report.formulas.tree import Node, substitute
-from diecut_report.mechanics.common import difference
-from diecut_report.mechanism.names import Misdeclared, Written, bind, bound
+from diecut_report.mechanism.names import Misdeclared, Written
 from diecut_report.mechanism.steps.protocols import ANY, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.table_steps import (
     SAME,
@@ -66,12 +65,14 @@ LOGARITHMIC: dict[Interpolation, tuple[int, ...]] = {"linear": (), "log-x": (0,)
 
 
 class Between(Formula):
-    """Declare the value of a column at ``x``, which the table's rows go by; beyond its ends it goes on as in the last piece.
+    """Declare the value of a column at the quantity ``of``, which the table's rows go by; beyond its ends it goes on as in the last piece.
 
     ``x`` and ``y`` are the two columns in SI.
     """
 
-    def __init__(self, table: StandardTable, column: str, name: str, interpolation: Interpolation = "linear") -> None:
+    def __init__(
+        self, table: StandardTable, column: str, of: str, name: str, interpolation: Interpolation = "linear"
+    ) -> None:
         try:
             self.columns = _columns(table, column)
             self.line = _line(table, self.columns, interpolation)
@@ -85,6 +86,11 @@ class Between(Formula):
             return through(x, self.x[k], self.y[k], self.x[k + 1], self.y[k + 1])
 
         super().__init__(between, name)
+        self.across = of
+
+    @cached_property
+    def parameters(self) -> tuple[str, ...]:
+        return (self.across,)
 
     def piece(self, x: Any) -> Array:
         """Return between which row and the next one each x lies."""
@@ -102,7 +108,7 @@ class Between(Formula):
     @cached_property
     def spoken(self) -> Node:
         """All pieces as cases, with the table's numbers as constants."""
-        sought = Node("sym", ("x",))
+        sought = Node("sym", (self.across,))
         numbers = {
             f"{name}_{k}": Constant(float(value), f"{name}_{k}", unit(own.unit).si).node
             for name, own, values in zip("xy", self.columns, (self.x, self.y), strict=True)
@@ -163,14 +169,13 @@ class Interpolated(Value):
     TAKES: ClassVar[dict[str, Kinds]] = {"of": ANY}
 
     def __post_init__(self) -> None:
-        between = Between(self.table, self.column, self.id, self.interpolation)
-        object.__setattr__(self, "formula", bind(between, x=self.of))
+        object.__setattr__(self, "formula", Between(self.table, self.column, self.of, self.id, self.interpolation))
         super().__post_init__()
 
     @property
     def between(self) -> Between:
         """Return the formula that goes through the table."""
-        own = bound(self.formula).formula
+        own = self.formula
         assert isinstance(own, Between)
         return own
 
@@ -178,7 +183,7 @@ class Interpolated(Value):
     def corners(self) -> tuple[Value, ...]:
         """Return curves that cross zero where ``of`` crosses an inner row of the table, so that this one has a corner there."""
         return tuple(
-            Value(f"{self.id}@{number}", "", self.unit, "", bind(difference, quantity=self.of, less=float(row)))
+            Value(f"{self.id}@{number}", "", self.unit, "", m[self.of] - float(row))
             for number, row in enumerate(self.between.x[1:-1], 1)
         )
 

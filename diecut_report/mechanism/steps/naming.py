@@ -8,12 +8,12 @@ from functools import cache
 from typing import Any
 
 from diecut_report.formulas.formula import Formula
-from diecut_report.mechanism.names import Bound, ByText, bind
+from diecut_report.mechanism.names import ByText
 from diecut_report.mechanism.steps.base import Step
 from diecut_report.mechanism.steps.choice import Case
 from diecut_report.mechanism.steps.result_names import names_ahead
 
-Rename = Callable[[str | float], str | float]
+Rename = Callable[[str], str]
 
 
 def prefixed(prefix: str, steps: Iterable[Step], shared: tuple[str, ...], symbol_suffix: str = "") -> tuple[Step, ...]:
@@ -24,13 +24,13 @@ def prefixed(prefix: str, steps: Iterable[Step], shared: tuple[str, ...], symbol
         e.name for step in own_steps if not step.numbered for e in names_ahead(step)
     }
 
-    def rename(name: str | float) -> str | float:
+    def rename(name: str) -> str:
         return f"{prefix}{name}" if name in own else name
 
     return tuple(
         replace(
             step,
-            id=str(rename(step.id)),
+            id=rename(step.id),
             symbol=step.symbol + symbol_suffix,
             source_symbol=step.source_symbol and step.source_symbol + symbol_suffix,
             **_renamed(step, rename),
@@ -77,8 +77,8 @@ def taken(step: Step) -> frozenset[str]:
     """Return the ids that a step names: inputs, and what earlier steps gave."""
     names: set[str] = set()
 
-    def note(name: str | float) -> str | float:
-        if isinstance(name, str) and name:
+    def note(name: str) -> str:
+        if name:
             names.add(name)
         return name
 
@@ -91,10 +91,8 @@ def _renamed(step: Step, rename: Rename) -> dict[str, Any]:
         match part:
             case str():
                 return rename(part)
-            case Bound(formula=formula, names=names):
-                return Bound(formula, {parameter: rename(name) for parameter, name in names.items()})
             case Formula():
-                return walk(bind(part))
+                return part if all(rename(name) == name for name in part.parameters) else part.renamed(rename)
             case ByText():
                 return part.renamed(rename)
             case Case():

@@ -10,7 +10,7 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.checks import AdviceWay
-from diecut_report.mechanism.names import Written, bound
+from diecut_report.mechanism.names import Written, formula_of
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import SilentStep
 from diecut_report.mechanism.steps.protocols import ROW, Kinds, StepEngine
@@ -47,7 +47,7 @@ class Require(Obstacle):
     message_places = ("part", "next", "index")
 
     def can_be_judged(self, known: Collection[str]) -> bool:
-        return all(name in known for name in bound(self.condition).takes if isinstance(name, str))
+        return all(name in known for name in formula_of(self.condition).parameters)
 
     def run(self, calc: StepEngine) -> None:
         held = calc.apply(self.condition).astype(bool)

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from diecut_report.formulas.tree import Node
-from diecut_report.mechanism.names import Written, bound
+from diecut_report.mechanism.names import Written, formula_of
 from diecut_report.mechanism.steps.base import QuantityStep
 from diecut_report.mechanism.steps.protocols import ANY, NUMBER, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.quantities.formatting import told
@@ -59,7 +59,7 @@ class Root(QuantityStep):
         return frozenset((self.unknown, self.id))
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
-        takes = bound(self.equation).names.values()
+        takes = formula_of(self.equation).parameters
         if self.unknown not in takes:
             template = "the unknown {unknown} is nothing that the equation takes; it takes {asked}"
             yield Phrase(template, unknown=self.unknown, asked=", ".join(map(str, takes)))
@@ -80,7 +80,7 @@ class Root(QuantityStep):
         return Phrase(template, where=where, low=low, high=high)
 
     def items(self, page: StepPrinter) -> list[Item]:
-        sides = (page.symbolic(bound(side)) for side in (self.left, self.right))
+        sides = (page.symbolic(formula_of(side)) for side in (self.left, self.right))
         found = {"type": "found", "relation": Node("cmp", ("==", *sides)).to_json(), "method": METHOD}
         result = page.result(self, page.value_at(self.id, None))
         return [self.head() | found | {"result": result, "residual": page.residual(self)}]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 from diecut_report.formulas import Array
-from diecut_report.mechanism.names import Written, bound
+from diecut_report.mechanism.names import Written, formula_of
 from diecut_report.mechanism.steps.base import Over, QuantityStep
 from diecut_report.mechanism.steps.protocols import CURVE, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.text.phrases import Phrase, joined, named
@@ -34,31 +34,26 @@ class FormulaStep(QuantityStep):
     is_shown_at_place = True
     may_be_absent = True
 
-    def takes(self) -> tuple[str | float, ...]:
-        """Return the ids (or plain numbers) that the formulas take."""
-        own = (each.formula for each in self.formulas() if each.field != "exists")
-        return tuple(name for formula in own for name in bound(formula).names.values())
-
-    @property
-    def names(self) -> list[str]:
+    def takes(self) -> tuple[str, ...]:
         """Return the ids that the formulas take."""
-        return [name for name in self.takes() if isinstance(name, str)]
+        own = (each.formula for each in self.formulas() if each.field != "exists")
+        return tuple(name for formula in own for name in formula_of(formula).parameters)
 
     @abstractmethod
     def values(self, apply: Callable[[Written], Array]) -> Array:
         """Return what it gives, by a function that computes a formula."""
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
-        return over(*self.names) or {("number", "")}
+        return over(*self.takes()) or {("number", "")}
 
     def runs_over(self, known: Mapping[str, str]) -> str | None:
-        own = {known[name] for name in self.names if name in known}
+        own = {known[name] for name in self.takes() if name in known}
         if len(own) > 1:
             raise ValueError(Phrase("{id} mixes {axes}", id=self.id, axes=named(sorted(own), " and ")))
         return own.pop() if own else None
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
-        own = {name: names.axes(name) for name in self.names}
+        own = {name: names.axes(name) for name in self.takes()}
         sole = {name: next(iter(axes)) for name, axes in own.items() if len(axes) == 1}
         if len(set(sole.values())) > 1:
             told = joined(
@@ -109,11 +104,11 @@ class Value(FormulaStep):
 
     @property
     def is_condition(self) -> bool:
-        return bound(self.formula).formula.tree.op in ("cmp", "and", "or", "not")
+        return formula_of(self.formula).tree.op in ("cmp", "and", "or", "not")
 
     def takes_over(self) -> set[str]:
-        link = bound(self.formula)
-        return {str(name) for name in link.names.values()} if link.formula.tree.op == "sym" else set()
+        formula = formula_of(self.formula)
+        return {*formula.parameters} if formula.tree.op == "sym" else set()
 
     def values(self, apply: Callable[[Written], Array]) -> Array:
         return apply(self.formula)
@@ -125,10 +120,10 @@ class Value(FormulaStep):
         return calc.apply(self.formula)
 
     def items(self, page: StepPrinter) -> list[Item]:
-        calc, part, axis = page.calc, bound(self.formula), page.calc.axis.get(self.id)
+        calc, part, axis = page.calc, formula_of(self.formula), page.calc.axis.get(self.id)
         if self.id in calc.values and calc.values[self.id].dtype == bool:
             held = bool(calc[self.id][0, 0])
             return [self.head() | answer(*page.sides(part, held), held=held)]
         elsewhere, place = page.over_axis(self)
         item = self.head() | {"type": "formula"} | page.formula(self, part, elsewhere) | place
-        return [item] if axis is None or axis in calc.domains else page.parts_shown(self, item, self.names)
+        return [item] if axis is None or axis in calc.domains else page.parts_shown(self, item, self.takes())
