@@ -18,6 +18,9 @@ from diecut_report.api import (
     Text,
     View,
     circle,
+    m,
+    total,
+    value,
 )
 
 
@@ -55,9 +58,9 @@ def draw(view: View) -> list[Any]:
 
 def many(*figures: Any) -> Mechanism:
     chapter = Chapter("Chapter")
-    chapter.value("sum", "S", "mm", "Sum", lambda taken, formed, first, second: taken + formed + first + second)
-    chapter.value("other", "O", "mm", "Other", lambda taken: 2 * taken, needs=("switch",))
-    chapter.total("widths", "W", "mm", "Widths", "sum", of="parts.width")
+    chapter.sum = m.taken + m.formed + m.first + m.second, "S", "mm", "Sum"
+    chapter.other = value(2 * m.taken, needs=("switch",)), "O", "mm", "Other"
+    chapter.widths = total("sum", of="parts.width"), "W", "mm", "Widths"
     check = Check(id="c", check_class="strength", title="C", demand="sum", limit="limited", unit="mm", demand_label="is", limit_label="may be",
                   consequence="make it less than {said}")  # fmt: skip
     return Mechanism(kind="many", version="1", title="Many", summary="Many.", inputs=Many, chapters=(chapter,), checks=(check,),

@@ -250,7 +250,7 @@ def _number(value: float) -> Node:
     if not math.isfinite(value):
         refuse(Phrase("{value} is no number that can be printed", value=repr(value)))
     turns = value / math.pi * OF_TURNS
-    if round(turns) and not value.is_integer() and abs(turns - round(turns)) < 1e-12 * abs(turns):
+    if round(turns) and value % 1 and abs(turns - round(turns)) < 1e-12 * abs(turns):
         template = "holds {value}, a multiple of π that would be printed as a number; write pi of diecut_report.api in place of np.pi"
         refuse(Phrase(template, value=f"{value:.6g}"))
     return Node("neg", (Node("num", (_literal(-value),)),)) if value < 0 else Node("num", (_literal(value),))

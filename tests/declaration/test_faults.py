@@ -54,8 +54,8 @@ from diecut_report.api import (
     Value,
     Vary,
     Words,
-    bind,
     formula,
+    m,
 )
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import Fault, faults
@@ -162,15 +162,15 @@ class Needed(Inputs):
 
 
 PARTNER = Mechanism(kind="both", version="1", title="", summary="", inputs=Needed, chapters=())
-LATE = value("late", formula=bind(product, force="moment", arm="arm"), unit="N*m*mm")
+LATE = value("late", formula=product.of(force=m.moment, arm=m.arm), unit="N*m*mm")
 SOURCES = (Source("002", "A paper"),)
 
 SOUND = {
     "as it is": made(checks=(check(),), figures=(plot(),), key_results=("moment", "peak")),
     "steps that exclude each other": made(value("other", "Q", needs=("width",)), value("other", "Q", lacks=("width",))),
     "a choice by texts": made(value("other", "Q", needs=("mode=near",)), value("other", "Q", needs=("mode=away",))),
-    "an optional input behind its need": made(value("other", formula=bind(product, arm="width"), needs=("width",))),
-    "an input that a step takes over": made(value("arm", "a", unit="mm", formula=bind(same, value="inputs.arm"))),
+    "an optional input behind its need": made(value("other", formula=product.of(arm=m.width), needs=("width",))),
+    "an input that a step takes over": made(value("arm", "a", unit="mm", formula=same.of(value=m.inputs.arm))),
     "a two-sided check": made(checks=(check(at_least=1.0),)),
     "a check on a row": made(checks=(check(demand="bars.length", unit="mm", consequence="shorten bar {part}"),)),
     "a check on a curve": made(checks=(check(demand="torque"),)),
@@ -202,7 +202,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "compares moment with other, which is the same expression: it can never fail",
     ),
     "a check of a quantity with its copy": (
-        made(value("copy", "Q", formula=bind(same, value="moment")), checks=(check(demand="copy", limit="moment"),)),
+        made(value("copy", "Q", formula=same.of(value=m.moment)), checks=(check(demand="copy", limit="moment"),)),
         "compares copy with moment, which is the same expression: it can never fail",
     ),
     "a check of one formula written another way": (
@@ -210,7 +210,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "compares moment with other, which is the same expression: it can never fail",
     ),
     "a check of a constant with a constant": (
-        made(value("fixed", "Q", formula=bind(same, value=2.0)), checks=(check(demand="fixed"),)),
+        made(value("fixed", "Q", formula=same.of(value=2.0)), checks=(check(demand="fixed"),)),
         "compares fixed with 3, neither of which depends on an input: its verdict is always the same",
     ),
     "a check of what is bounded by its own limit": (
@@ -222,7 +222,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     # ids and order
     "an id that nothing gives": (
-        made(value("x", formula=bind(product, arm="arms"))),
+        made(value("x", formula=product.of(arm=m.arms))),
         "step x: takes arms, which nothing gives (did you mean 'arm'?)",
     ),
     "an id before it is calculated": (
@@ -230,11 +230,11 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "step late: takes moment before it is calculated (at test_faults.py:",
     ),
     "an optional input without its need": (
-        made(value("x", formula=bind(product, arm="width"))),
+        made(value("x", formula=product.of(arm=m.width))),
         "step x: takes width, which nothing gives without width",
     ),
     "a step that is there in one mode only": (
-        made(value("x", needs=("mode=near",)), value("y", formula=bind(same, value="x"))),
+        made(value("x", needs=("mode=near",)), value("y", formula=same.of(value=m.x))),
         "step y: takes x, which nothing gives with mode=away",
     ),
     "two steps of one id": (made(value("moment", "Q")), "step moment: has the id of another step (at test_faults.py:"),
@@ -404,13 +404,13 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(replace(PEAK, id="x", symbol="X", of="moment")),
         "of is moment, a number; a curve over an abscissa is wanted",
     ),
-    "a formula of a text": (made(value("x", formula=bind(same, value="mode"))), "the formula is mode, a text"),
+    "a formula of a text": (made(value("x", formula=same.of(value=m.mode))), "the formula is mode, a text"),
     "a curve input taken directly": (
-        made(value("x", formula=bind(same, value="motion"), needs=("motion",))),
+        made(value("x", formula=same.of(value=m.motion), needs=("motion",))),
         "motion, a curve input",
     ),
     "rows and curves mixed": (
-        made(value("x", formula=bind(product, force="torque", arm="bars.length"), needs=("bars",))),
+        made(value("x", formula=product.of(force=m.torque, arm=m.bars.length), needs=("bars",))),
         "mixes what runs over",
     ),
     "a curve over no abscissa": (
@@ -443,12 +443,12 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
                 id="x",
                 symbol="x",
                 description="x",
-                equation=bind(same, value="y"),
+                equation=same.of(value=m.y),
                 unknown="x",
-                low=bind(same, value=0),
-                high=bind(same, value=1),
-                left=bind(same, value="x"),
-                right=bind(same, value=1),
+                low=same.of(value=0),
+                high=same.of(value=1),
+                left=same.of(value=m.x),
+                right=same.of(value=1),
             )
         ),
         "the unknown x is nothing that the equation takes",
@@ -585,21 +585,21 @@ def pick(**changes: Any) -> Pick:
 
 
 def root(**changes: Any) -> Root:
-    ends = {"low": bind(same, value=0.0), "high": bind(same, value="moment")}
+    ends = {"low": same.of(value=0.0), "high": same.of(value=m.moment)}
     sides = {
         "equation": lambda x, moment: x / moment,
-        "left": bind(same, value="x"),
-        "right": bind(same, value="moment"),
+        "left": same.of(value=m.x),
+        "right": same.of(value=m.moment),
     }
     return Root(**{"id": "x", "symbol": "x", "unit": "N*m", "description": "x", **ends, **sides, **changes})
 
 
-TWO = bind(doubled)
-LONG = bind(is_long)
+TWO = doubled.of()
+LONG = is_long.of()
 
 SOUND |= {
     "a flag of a flag": made(value("long", "λ", unit="1", formula=is_long),
-                             chosen(Case(TWO, "long", bind(same, value="long")), Case(TWO, "short"), unit="mm")),
+                             chosen(Case(TWO, "long", same.of(value=m.long)), Case(TWO, "short"), unit="mm")),
     "a condition with branches": made(require(condition=lambda arm: np.where(arm > 1, arm > 2, arm > 3))),
     "a quantity that exists": made(value("x", exists=LONG)),
     "a neighbour in other millimetres": made(of_bars(Neighbour, "m")),
@@ -631,7 +631,7 @@ FAULTS |= {
              checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
         "check strong: compares x with 1e-06, neither of which depends on an input: its verdict is always the same"),
     "a self-test of what cancels by another name": (
-        made(value("copy", "Q", formula=bind(same, value="moment")), value("x", unit="1", formula=lambda moment, copy: abs(moment - copy) / moment),
+        made(value("copy", "Q", formula=same.of(value=m.moment)), value("x", unit="1", formula=lambda moment, copy: abs(moment - copy) / moment),
              checks=(check(check_class="numerical", demand="x", unit="1", limit=1e-6),)),
         "check strong: compares x with 1e-06, neither of which depends on an input"),
     "a quotient of what is the same": (
@@ -693,7 +693,7 @@ FAULTS |= {
         "step w: its function has the parameters force, arm, and takes names arm, force: each is given by its position; where",
     ),
     "a field of a block without its need": (
-        made(value("x", formula=bind(same, value="extra.rate")), inputs=with_input(Annotated[Spring | None, Text("Spring")], None)),
+        made(value("x", formula=same.of(value=m.extra.rate)), inputs=with_input(Annotated[Spring | None, Text("Spring")], None)),
         "step x: takes extra.rate",
     ),
     "a need of a figure": (made(figures=(replace(plot(), needs=("widht",)),)), "figure turn: needs names widht"),
@@ -714,7 +714,7 @@ FAULTS |= {
 
 
 def copy(name: str, of: str, **changes: Any) -> Value:
-    return value(name, f"C_{name}", unit="mm", formula=bind(same, value=of), **changes)
+    return value(name, f"C_{name}", unit="mm", formula=same.of(value=m[of]), **changes)
 
 
 ZEROS = Crossings(id="zero", symbol="φ_0", unit="deg", description="Zeros", of="torque")
@@ -754,13 +754,13 @@ FAULTS |= {
     "a count of crossings": (made(ZEROS, value("zero_count", "n")), "step zero: gives zero_count as the number of its crossings"),
     "a crossing": (made(ZEROS, value("zero_2", "n")), "step zero: gives zero_2 as one of its crossings"),
     "a part": (
-        made(value("bar", "B", formula=bind(same, value="bars.length"), unit="mm", needs=("bars",), numbered="bar_{}_length"),
+        made(value("bar", "B", formula=same.of(value=m.bars.length), unit="mm", needs=("bars",), numbered="bar_{}_length"),
              value("bar_7_length", "Q")),
         "step bar: gives bar_7_length as one of its parts",
     ),
     "places of one name": (
         made(Reduction(id="zero", symbol="Z", unit="N*m", description="Z", of="torque", operation="max"),
-             value("bar", "B", formula=bind(same, value="bars.length"), unit="mm", needs=("bars",), numbered="zero_at{}", first=1),
+             value("bar", "B", formula=same.of(value=m.bars.length), unit="mm", needs=("bars",), numbered="zero_at{}", first=1),
              value("zero_at1", "Q")),
         "step bar: gives zero_at1 as one of its parts",
     ),
@@ -879,7 +879,7 @@ class Sheets(Inputs):
 
 def test_an_input_with_the_symbol_of_the_samples_is_told_at_its_own_line() -> None:
     chapter = Chapter("All")
-    chapter.value("pairs", "n_p", "1", "Pairs", lambda sheets: sheets / 2)
+    chapter.pairs = m.sheets / 2, "n_p", "1", "Pairs"
     own = Mechanism(kind="sheets", version="1", title="Sheets", summary="", inputs=Sheets, chapters=(chapter,))
     (fault,) = faults(own)
     lines = Path(__file__).read_text("utf-8").splitlines()

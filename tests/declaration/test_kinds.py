@@ -35,8 +35,10 @@ from diecut_report.api import (
     arccos,
     as_angle,
     as_number,
-    bind,
     formula,
+    m,
+    number,
+    pi,
 )
 from diecut_report.declaration.formula_checks import (
     ANGLE,
@@ -102,11 +104,11 @@ SOUND = {
     "M = c·φ": value(lambda stiffness, angle: stiffness * angle, "N*m"),
     "ω said of v/r": value(lambda velocity, radius: as_angle(velocity / radius), "rpm"),
     "ω said of sqrt(c/J)": value(lambda stiffness, inertia: as_angle(np.sqrt(stiffness / inertia)), "rad/s"),
-    "n = ω/2π": value(lambda speed: speed / (2 * np.pi), "Hz"),
-    "ω = 2π·n": value(lambda rate: 2 * np.pi * rate, "rpm"),
-    "T = 2π/ω": value(lambda speed: 2 * np.pi / speed, "s"),
-    "π − φ": value(lambda angle: np.pi - angle, "deg"),
-    "φ < 2π": value(lambda angle: angle < 2 * np.pi, "1"),
+    "n = ω/2π": value(lambda speed: speed / (2 * pi), "Hz"),
+    "ω = 2π·n": value(lambda rate: 2 * pi * rate, "rpm"),
+    "T = 2π/ω": value(lambda speed: 2 * pi / speed, "s"),
+    "π − φ": value(lambda angle: pi - angle, "deg"),
+    "φ < 2π": value(lambda angle: angle < 2 * pi, "1"),
     "sin φ": value(lambda angle: np.sin(angle), "1"),
     "arccos k": value(lambda share: arccos(share), "deg"),
     "arctan2": value(lambda share: np.arctan2(share, 1), "deg"),
@@ -125,8 +127,8 @@ UNSOUND = {
                 "gives 1/s, declared is rad/s; if that counts radians, write as_angle.….$"),
     "ω = sqrt(c/J)": (value(lambda stiffness, inertia: np.sqrt(stiffness / inertia), "rad/s"), "declared is rad/s"),
     "T = 1/ω": (value(lambda speed: 1 / speed, "s"), "gives s/rad, declared is s"),
-    "ω/2π as rad/s": (value(lambda speed: speed / (2 * np.pi), "rad/s"), "gives 1/s, declared is rad/s"),
-    "2π·n as Hz": (value(lambda rate: 2 * np.pi * rate, "Hz"), "gives rad/s, declared is 1/s"),
+    "ω/2π as rad/s": (value(lambda speed: speed / (2 * pi), "rad/s"), "gives 1/s, declared is rad/s"),
+    "2π·n as Hz": (value(lambda rate: 2 * pi * rate, "Hz"), "gives rad/s, declared is 1/s"),
     "m·ω² as N/m": (value(lambda mass, speed: mass * speed**2, "N/m"), "declared is N/m"),
     "φ < 1": (value(lambda angle: angle < 1, "1"),
               "brings together rad .angle. and a pure number .1.; if that counts radians, write as_angle.1.$"),
@@ -190,7 +192,7 @@ def beyond(u: Any, share: Any) -> Any:
 
 def test_the_sides_of_a_relation_are_both_angles() -> None:
     root = Root(id="u", equation=beyond, unknown="u", low=common.zero, high=formula(lambda: 1),
-                left=bind(common.same, quantity="u"), right=bind(common.same, quantity="angle"), **REST)  # fmt: skip
+                left=m.u, right=m.angle, **REST)  # fmt: skip
     with pytest.raises(AssertionError, match="the relation equals a pure number with rad"):
         check_mechanism(wheel(root))
 
@@ -199,7 +201,7 @@ def test_a_check_compares_rpm_with_no_frequency() -> None:
     check = Check(id="c", check_class="strength", title="c",
                   demand="speed", limit=3.0, unit="1/min", demand_label="", limit_label="", consequence="")  # fmt: skip
     with pytest.raises(AssertionError, match="check c: is in 1/min, speed in rpm"):
-        check_mechanism(wheel(value(bind(common.same, quantity="speed"), "rpm"), checks=(check,)))
+        check_mechanism(wheel(value(m.speed, "rpm"), checks=(check,)))
 
 
 def test_what_is_said_computes_and_prints_nothing() -> None:
@@ -208,7 +210,7 @@ def test_what_is_said_computes_and_prints_nothing() -> None:
     assert quotient_as_angle(3.0, 2.0) == 1.5
     angles = np.linspace(0, 1, 5)
     assert as_angle(angles) is angles and as_number(angles) is angles
-    said = wheel(value(bind(quotient_as_angle, above="velocity", below="radius"), "rpm"))
+    said = wheel(value(quotient_as_angle.of(above=m.velocity, below=m.radius), "rpm"))
     assert calculate(said, Wheel().model_dump())["x"][0, 0] == pytest.approx(50)
 
 
@@ -228,7 +230,7 @@ def raised(base: Any, exponent: Any) -> Any:
 
 @formula
 def third_root(base: Any) -> Any:
-    return base ** (1 / 3)
+    return base ** (number(1) / 3)
 
 
 def test_a_power_with_a_unit_needs_a_plain_number_as_exponent() -> None:

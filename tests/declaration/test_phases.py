@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Annotated, Chapter, Constant, Inputs, Mechanism, Phase, Quantity
+from diecut_report.api import POINTS, Annotated, Chapter, Constant, Inputs, Mechanism, Phase, Quantity, abscissa, m
 from diecut_report.declaration import faults
 
 
@@ -27,8 +27,8 @@ Declare = Callable[[Chapter], None]
 def told(declare: Declare) -> list[str]:
     """What is said of a mechanism with these phases beside a sound one."""
     chapter = Chapter("Knife")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi, speed="speed")
-    chapter.value("edge_way", "s", "mm", "Way", lambda angle, blade: angle * blade)
+    chapter.angle = abscissa(2 * np.pi, speed="speed"), "φ", "deg", "Angle"
+    chapter.edge_way = m.angle * m.blade, "s", "mm", "Way"
     chapter.phase("cutting", "working", "Cutting", "angle", ("begins", "ends"))
     chapter.phase("guarded", "window", "Guarded", "angle", (0, "guard"), needs=("guard",))
     declare(chapter)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated, Any
 
-import numpy as np
 import pytest
 
-from diecut_report.api import ExampleBlock, FromPress, Inputs, Quantity, formula
+from diecut_report.api import ExampleBlock, FromPress, Inputs, Quantity, formula, pi
 from diecut_report.config.model import faults
 from diecut_report.config.plugins import Discovery
 from tests.declaration.test_faults import made
@@ -16,7 +15,7 @@ from tests.declaration.test_faults import made
 
 @formula
 def a_turn_each(productivity: Any) -> Any:
-    return 2 * np.pi * productivity
+    return 2 * pi * productivity
 
 
 def told(unit: str, press: FromPress) -> list[str]:

@@ -24,8 +24,13 @@ from diecut_report.api import (
     Quantity,
     Series,
     Text,
+    abscissa,
+    interpolated,
+    lookup,
+    m,
     own_series,
     own_table,
+    pick,
 )
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
@@ -78,30 +83,21 @@ def by_number(table: Any, by: str, **more: Any) -> Callable[[Chapter], None]:
     """A row by a number: an input, what is calculated, what is picked from the table and from elsewhere."""
 
     def declare(chapter: Chapter) -> None:
-        chapter.value("twice", "2z", "1", "Twice the teeth", lambda teeth: 2 * teeth)
-        chapter.pick("own_teeth", "z_o", "1", "Teeth of the table", "above", of="teeth", series=FACTORS.series("teeth"))
-        chapter.pick(
-            "given_teeth",
-            "z_g",
-            "1",
-            "Teeth, given or picked",
-            "above",
-            of="teeth",
-            series=FACTORS.series("teeth"),
-            given="count",
-        )
-        chapter.pick("other_teeth", "z_e", "1", "Teeth of elsewhere", "above", of="teeth", series=(12, 13))
+        chapter.twice = 2 * m.teeth, "2z", "1", "Twice the teeth"
+        chapter.own_teeth = pick("above", of="teeth", series=FACTORS.series("teeth")), "z_o", "1", "Teeth of the table"
+        chapter.given_teeth = pick("above", of="teeth", series=FACTORS.series("teeth"), given="count"), "z_g", "1", "Teeth, given or picked"
+        chapter.other_teeth = pick("above", of="teeth", series=(12, 13)), "z_e", "1", "Teeth of elsewhere"
         unit, column = ("1", "Y") if table is FACTORS else ("kN", "C")
-        chapter.lookup("found", "f", unit, "Found", table, by, column=column, **more)
+        chapter.found = lookup(table, by, column=column, **more), "f", unit, "Found"
 
     return declare
 
 
 def between(table: Any = FACTORS, of: str = "teeth", unit: str = "1", **more: Any) -> Callable[[Chapter], None]:
     def declare(chapter: Chapter) -> None:
-        chapter.value("twice", "2z", "1", "Twice the teeth", lambda teeth: 2 * teeth)
-        chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
-        chapter.interpolated("y", "Y", unit, "Factor", table, of, **more)
+        chapter.twice = 2 * m.teeth, "2z", "1", "Twice the teeth"
+        chapter.turn = abscissa(period=2 * np.pi), "φ", "deg", "Turn"
+        chapter.y = interpolated(table, of, **more), "Y", unit, "Factor"
 
     return declare
 
@@ -192,8 +188,8 @@ RANGES = {
 
 def turned(limits: Any) -> list[str]:
     def declare(chapter: Chapter) -> None:
-        chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
-        chapter.value("sine", "s", "1", "Sine", lambda turn: np.sin(turn))
+        chapter.turn = abscissa(period=2 * np.pi), "φ", "deg", "Turn"
+        chapter.sine = np.sin(m.turn), "s", "1", "Sine"
 
     panel = Panel(title="Sine", unit="1", series=(Series(curve="sine", label="s"),), range=limits)
     return told(declare, Plot(id="p", title="P", caption="", abscissa="turn", panels=(panel,)))
@@ -210,8 +206,8 @@ def test_a_sound_range_is_not_told() -> None:
 
 def test_ranges_of_polar_diagrams_and_of_bars_are_judged_too() -> None:
     def declare(chapter: Chapter) -> None:
-        chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
-        chapter.value("sine", "s", "1", "Sine", lambda turn: np.sin(turn))
+        chapter.turn = abscissa(period=2 * np.pi), "φ", "deg", "Turn"
+        chapter.sine = np.sin(m.turn), "s", "1", "Sine"
 
     def drawn(limits: Any) -> list[str]:
         series, bars = (Series(curve="sine", label="s"),), (("z", "teeth"),)

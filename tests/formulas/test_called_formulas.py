@@ -9,7 +9,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Abscissa, Annotated, Chapter, Constant, Inputs, Mechanism, Quantity, Value, bind, formula
+from diecut_report.api import (
+    Abscissa,
+    Annotated,
+    Chapter,
+    Constant,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Value,
+    bind,
+    formula,
+    pi,
+)
 from diecut_report.declaration.formula_checks import dimensions
 from diecut_report.formulas.formula import Formula, FormulaError, evaluate
 from diecut_report.formulas.tree import Node
@@ -198,7 +210,7 @@ def test_the_functions_print_as_one_writes_them() -> None:
 
 @formula
 def over_a_turn(angle: Any, radius: Any, depth: Any) -> Any:
-    share = angle / (7 * np.pi)
+    share = angle / (7 * pi)
     return radius * hyperbolic(0.1 + share) + notch(radius, depth + np.hypot(radius, radius * np.log10(1 + share)))
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from diecut_report.api import pi
 from diecut_report.formulas.formula import Formula, FormulaError, evaluate, formula
 from diecut_report.formulas.tree import GRAVITY, Constant, Node, arccos, substitute, symbols
 
@@ -38,7 +39,7 @@ def braking(torque: Any, efficiency: Any) -> Any:
 
 @formula
 def gent(mass: Any) -> Any:
-    return weight(mass) * GENT * np.pi
+    return weight(mass) * GENT * pi
 
 
 def leaf_values(**values: float) -> Any:

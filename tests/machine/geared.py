@@ -18,7 +18,12 @@ from diecut_report.api import (
     Quantity,
     Series,
     Text,
+    abscissa,
+    interpolated,
+    lookup,
+    m,
     own_table,
+    reduction,
 )
 
 BEARINGS = own_table(
@@ -60,29 +65,21 @@ class Geared(Inputs):
 
 
 shaft = Chapter("Shaft")
-shaft.lookup("bore", "d", "mm", "Bore of the bearing", BEARINGS, by="bearing", column="bore", given="bore_given")
-shaft.lookup("rating", "C", "N", "Rating of the bearing", BEARINGS, by="bearing", column="C", needs=("bearing",))
-shaft.interpolated("factor", "Y", "1", "Factor of the teeth", FACTORS, of="teeth")
+shaft.bore = lookup(BEARINGS, by="bearing", column="bore", given="bore_given"), "d", "mm", "Bore of the bearing"
+shaft.rating = lookup(BEARINGS, by="bearing", column="C", needs=("bearing",)), "C", "N", "Rating of the bearing"
+shaft.factor = interpolated(FACTORS, of="teeth"), "Y", "1", "Factor of the teeth"
 wheels = Chapter("Wheels", needs=("wheels",), absent="no wheels")
-wheels.interpolated("wheel_factor", "Y_i", "1", "Factor of a wheel", FACTORS, of="wheels.count")
-wheels.lookup(
-    "wheel_strength",
-    "[σ]",
-    "MPa",
-    "Strength taken",
-    {"soft": 100.0, "hard": 300.0},
-    by="wheels.grade",
-    given="wheels.strength",
-)
+wheels.wheel_factor = interpolated(FACTORS, of="wheels.count"), "Y_i", "1", "Factor of a wheel"
+wheels.wheel_strength = lookup({"soft": 100.0, "hard": 300.0}, by="wheels.grade", given="wheels.strength"), "[σ]", "MPa", "Strength taken"
 turning = Chapter("Turning")
-turning.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
-turning.interpolated("lift", "h", "mm", "Lift", LIFTS, of="turn")
-turning.reduction("lift_mean", "h_m", "mm", "Mean lift", "mean", of="lift")
-turning.reduction("lift_max", "h_max", "mm", "Greatest lift", "max", of="lift")
-turning.value("swung", "z_s", "1", "Teeth at a place", lambda turn, reach: 17 + reach * np.sin(turn))
-turning.interpolated("swung_factor", "Y_s", "1", "Factor at a place", FACTORS, of="swung", key="reach")
-turning.reduction("swung_mean", "Y_m", "1", "Mean factor", "mean", of="swung_factor")
-turning.reduction("swung_max", "Y_max", "1", "Greatest factor", "max", of="swung_factor")
+turning.turn = abscissa(period=2 * np.pi), "φ", "deg", "Turn"
+turning.lift = interpolated(LIFTS, of="turn"), "h", "mm", "Lift"
+turning.lift_mean = reduction("mean", of="lift"), "h_m", "mm", "Mean lift"
+turning.lift_max = reduction("max", of="lift"), "h_max", "mm", "Greatest lift"
+turning.swung = 17 + m.reach * np.sin(m.turn), "z_s", "1", "Teeth at a place"
+turning.swung_factor = interpolated(FACTORS, of="swung", key="reach"), "Y_s", "1", "Factor at a place"
+turning.swung_mean = reduction("mean", of="swung_factor"), "Y_m", "1", "Mean factor"
+turning.swung_max = reduction("max", of="swung_factor"), "Y_max", "1", "Greatest factor"
 
 MECHANISM = Mechanism(
     kind="geared",

@@ -37,13 +37,12 @@ from diecut_report.api import (
     Value,
     View,
     Words,
-    bind,
     chart_panel,
     formula,
     line,
+    m,
     own_table,
 )
-from diecut_report.mechanics import common
 
 SERIES = {
     "rope": StandardSeries("rope", "Rope lengths", "m", (5, 10, 20), ("Table one", "Table two")),
@@ -111,7 +110,7 @@ POSTS = Chapter(
     absent="no fence is given",
     steps=(
         Neighbour(id="x_next", symbol="x_n", unit="m", description="Place of the next post", of="fence.posts.x"),
-        Value(id="gap", symbol="d", unit="m", description="Gap", formula=bind(gap, x="fence.posts.x")),
+        Value(id="gap", symbol="d", unit="m", description="Gap", formula=gap.of(x=m.fence.posts.x)),
         Require(id="apart", condition=is_apart, key="fence.posts.{index}.x",
                 message="post {part} stands at {fence.posts.x}, where post {next} stands"),
         Clash(id="crowd", function=crowded, takes=("fence.posts.x",), key="fence.posts.{index}",
@@ -133,10 +132,10 @@ ROPE = Chapter(
     "Rope",
     steps=(
         Lookup(id="weight", symbol="m_1", unit="g", description="Weight of the stuff", by="material", table=WEIGHTS),
-        Value(id="force", symbol="F_1", unit="N", description="Force", needs=("pull",), formula=bind(common.same, quantity="pull")),
+        Value(id="force", symbol="F_1", unit="N", description="Force", needs=("pull",), formula=m.pull),
         Value(id="force", symbol="F_1", unit="N", description="Force", lacks=("pull",), formula=weight),
-        Value(unit="1", id="chained", symbol="c", description="Only of chains", needs=("material=chain",), formula=bind(common.zero)),
-        Value(id="visited", symbol="n_1", unit="1/h", description="Visits", needs=("visits",), formula=bind(common.same, quantity="visits")),
+        Value(unit="1", id="chained", symbol="c", description="Only of chains", needs=("material=chain",), formula=0),
+        Value(id="visited", symbol="n_1", unit="1/h", description="Visits", needs=("visits",), formula=m.visits),
         Abscissa(id="turn", symbol="φ", unit="deg", description="Turn", period=2 * np.pi),
         Value(id="height", symbol="h", unit="m", description="Height", formula=ByText("material", FORMS)),
         Accumulated(id="area", symbol="A", unit="m", description="Area under the height", of="height"),
@@ -157,8 +156,8 @@ class Two(Inputs):
 COMPARED = Mechanism(
     kind="loop_comparison", version="1", title="Comparison of loops", summary="Which is longer.", inputs=Two,
     chapters=(Chapter("Both", steps=(
-        Value(id="ratio", symbol="r", description="Ratio", needs=("one",), formula=bind(gap, x="one", x_next="other"), unit="m"),
-        Value(id="height", symbol="h", unit="m", description="Height", formula=bind(common.same, quantity="other")))),),
+        Value(id="ratio", symbol="r", description="Ratio", needs=("one",), formula=gap.of(x=m.one, x_next=m.other), unit="m"),
+        Value(id="height", symbol="h", unit="m", description="Height", formula=m.other))),),
 )  # fmt: skip
 
 MECHANISM = Mechanism(

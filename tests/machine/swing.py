@@ -31,10 +31,11 @@ from diecut_report.api import (
     SpectrumLine,
     Text,
     Value,
-    bind,
     formula,
+    m,
+    number,
+    pi,
 )
-from diecut_report.mechanics import common
 
 LENGTH, SPEED = (("mass", "mm"),), (("mass", "m/s"),)
 RATIOS = np.linspace(0.5, 2, 4)
@@ -60,7 +61,7 @@ class Swing(Inputs):
 
 passed = formula(lambda time, duration: time / duration)
 rising = formula(lambda lift, passed: 64 * lift * passed**3)
-falling = formula(lambda lift, passed: lift * np.cos(2 * np.pi / 3 * (passed - 1 / 4)))
+falling = formula(lambda lift, passed: lift * np.cos(2 * pi / 3 * (passed - number(1) / 4)))
 quarter = formula(lambda duration: duration / 4)
 is_calm = formula(lambda duration, ripple: duration < 1000 * ripple)
 inverse = formula(lambda rate: 1 / rate)
@@ -95,9 +96,9 @@ OWN = Chapter(
         Breakpoints(id="joints", abscissa="time", places=("quarter",), every="ripple"),
         Value(unit="1", id="passed", symbol="k", description="Share of the time", formula=passed),
         Value(id="middle", symbol="t_m", unit="s", description="Middle of the piece", per_piece=True, output=False,
-              formula=bind(common.same, quantity="time")),
+              formula=m.time),
         Choice(id="position", symbol="y", unit="deg", units=LENGTH, description="Position",
-               cases=(Case(rising, "it rises", bind(common.is_below, smaller="middle", greater="quarter")),
+               cases=(Case(rising, "it rises", m.middle < m.quarter),
                       Case(falling, "it falls"))),
         Value(id="turned", symbol="φ", unit="deg", units=LENGTH, description="Position that grows", formula=turned),
         Value(id="level", symbol="y_l", unit="deg", units=LENGTH, description="Position above half the lift", output=False, formula=level),

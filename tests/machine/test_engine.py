@@ -9,7 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Annotated, Chapter, CurveInput, Inputs, Mechanism, Require, Value, as_angle, bind, formula
+from diecut_report.api import (
+    Annotated,
+    Chapter,
+    CurveInput,
+    Inputs,
+    Mechanism,
+    Require,
+    Value,
+    as_angle,
+    formula,
+    m,
+)
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import Discovery
@@ -194,8 +205,8 @@ is_between = formula(lambda root: root > 0.5)
 
 def test_what_follows_from_an_impossible_number_makes_no_message() -> None:
     steps = (
-        Require(id="positive", condition=bind(common.is_positive, quantity="arm"), key="arm", message="is {arm}"),
-        Value(id="root", symbol="r", unit="m", description="Root", formula=bind(root_of)),
+        Require(id="positive", condition=common.is_positive.of(quantity=m.arm), key="arm", message="is {arm}"),
+        Value(id="root", symbol="r", unit="m", description="Root", formula=root_of.of()),
         Require(id="long", condition=is_between, key="arm", message="has a root of {root}"),
     )
     mechanism = Mechanism(
@@ -252,7 +263,7 @@ def test_each_crossing_can_be_referred_to() -> None:
 
 def test_a_root_without_a_change_of_sign_names_its_bracket() -> None:
     step = ROOTED.chapters[0].steps[0]
-    shifted = replace(ROOTED, chapters=(Chapter("Root", steps=(replace(step, low=bind(same, quantity="target")),)),))
+    shifted = replace(ROOTED, chapters=(Chapter("Root", steps=(replace(step, low=same.of(quantity=m.target)),)),))
     template = r"Cube root \(x, toy\.py:\d+\): the equation does not change its sign between low = 2000 and high = 2001"
     with pytest.raises(Unproven, match=template):
         calculate(shifted, {"target": 2000.0})
@@ -270,7 +281,7 @@ NO_PROOF = {
     ),
     "one side twice": ({"left": cubed, "right": cubed}, "left and right are equal everywhere"),
     "a pole, which the relation proves": (
-        {"equation": lambda x, target: 1 / (x - target / 3), "left": lambda x: 3 * x, "right": bind(same, quantity="target")},
+        {"equation": lambda x, target: 1 / (x - target / 3), "left": lambda x: 3 * x, "right": same.of(quantity=m.target)},
         "the equation has a pole between low = 0 and high = 2001, where it changes its sign without a root",
     ),
     "a pole of the tangent": (
@@ -299,8 +310,8 @@ def test_a_root_in_any_bracket_is_proved(low: float, high: float) -> None:
 
 def test_a_number_may_have_the_name_of_a_place_that_no_extreme_gives() -> None:
     steps = Chapter("Toy")
-    steps.value("twice_at", "y", "m", "At", lambda arm: 3 * arm)
-    steps.value("twice", "z", "m", "Twice", lambda arm: 2 * arm)
+    steps.twice_at = 3 * m.arm, "y", "m", "At"
+    steps.twice = 2 * m.arm, "z", "m", "Twice"
     found = mechanism_results(
         calculate(replace(MECHANISM, chapters=(steps,), checks=(), figures=(), exports=()), {"arm": 1.0}), {}
     )

@@ -20,7 +20,14 @@ from diecut_report.api import (
     Quantity,
     Text,
     case,
+    choice,
+    computed,
+    lookup,
+    m,
     own_table,
+    part,
+    pick,
+    value,
 )
 from diecut_report.declaration import faults
 from diecut_report.declaration.formula_checks import check_mechanism
@@ -65,7 +72,7 @@ def made(*declare: Callable[[Chapter], None]) -> Mechanism:
 
 
 def looked_up(chapter: Chapter) -> None:
-    chapter.lookup("bore", "d", "mm", "Bore", BEARINGS, by="bearing", column="bore")
+    chapter.bore = lookup(BEARINGS, by="bearing", column="bore"), "d", "mm", "Bore"
 
 
 def computed(function: Callable[..., Any] = found) -> Callable[[Chapter], None]:
@@ -80,7 +87,7 @@ def chosen(light: str = "small") -> Callable[[Chapter], None]:
         "B",
         "1",
         "Bearing that is taken",
-        case(light, "the load is light", lambda load, factor: load * factor < 13.9 * load),
+        case(light, "the load is light", m.load * m.factor < 13.9 * m.load),
         case("big", "it is not"),
     )
 
@@ -108,8 +115,8 @@ def test_the_row_of_a_text_that_a_choice_gives_is_taken() -> None:
 
 def test_a_machine_without_the_text_has_no_row() -> None:
     def declare(chapter: Chapter) -> None:
-        all_cases = case("small", "it is light", lambda load: load < 14e3 * load / load), case("big", "it is not")
-        chapter.choice("bearing", "B", "1", "Bearing", *all_cases, exists=lambda factor: factor > 1)
+        all_cases = case("small", "it is light", m.load < 14e3 * m.load / m.load), case("big", "it is not")
+        chapter.bearing = choice(*all_cases, exists=m.factor > 1), "B", "1", "Bearing"
 
     mechanism = made(declare, looked_up)
     many = calculate(mechanism, {**flatten(Place()), "factor": np.array([1.0, 2.0])}, 2)
@@ -118,8 +125,8 @@ def test_a_machine_without_the_text_has_no_row() -> None:
 
 def test_what_is_sought_in_the_place_of_an_input_is_marked_as_chosen() -> None:
     def sought(chapter: Chapter) -> None:
-        chapter.computed("size", "s", "1", "Size", lambda load: load / 1e3, ("load",), "tried", lacks=("given",))
-        chapter.computed("other", "o", "1", "Other", lambda load: load / 2e3, ("load",), "halved")
+        chapter.size = computed(lambda load: load / 1e3, ("load",), "tried", lacks=("given",)), "s", "1", "Size"
+        chapter.other = computed(lambda load: load / 2e3, ("load",), "halved"), "o", "1", "Other"
 
     items = [item for section in section_items(run(made(sought))) for item in section["items"]]
     assert [item.get("chosen") for item in items] == [True, None]
@@ -138,7 +145,7 @@ def test_names_that_are_no_rows_are_told() -> None:
 
 def test_a_text_that_all_machines_share_is_that_of_each() -> None:
     def given(chapter: Chapter) -> None:
-        chapter.computed("bearing", "B", "1", "Bearing", lambda: "big", (), "as given", is_text=True)
+        chapter.bearing = computed(lambda: "big", (), "as given", is_text=True), "B", "1", "Bearing"
 
     found = calculate(made(given, looked_up), {"load": np.array([1e3, 2e3, 3e3]), "factor": 1.0, "speed": 1.0}, 3)
     assert found["bearing"].tolist() == [["big"]] * 3
@@ -184,9 +191,9 @@ def again(*asked: Any) -> Callable[[Chapter], None]:
 
     def declare(chapter: Chapter) -> None:
         chapter.prepared("sought", sought, ("load",), for_many=True, again=True, lacks=("given",))
-        chapter.lookup("bore", "d", "mm", "Bore", BEARINGS, by="given", column="bore", needs=("given",))
-        chapter.value("twice", "d_2", "mm", "Twice the bore", lambda bore, factor: 2 * bore * factor, needs=("given",))
-        chapter.value("wet", "w", "1", "Wet factor", lambda factor: 3 * factor, needs=("is_wet=true",))
+        chapter.bore = lookup(BEARINGS, by="given", column="bore", needs=("given",)), "d", "mm", "Bore"
+        chapter.twice = value(2 * m.bore * m.factor, needs=("given",)), "d_2", "mm", "Twice the bore"
+        chapter.wet = value(3 * m.factor, needs=("is_wet=true",)), "w", "1", "Wet factor"
 
     return declare
 
@@ -207,9 +214,7 @@ def test_numbers_of_parts_are_tried_where_some_have_none() -> None:
     mechanism = made(again({"bars.length": (np.array([1.0, 2.0]), None), "given": "big"}, ("first",)))
     chapter = Chapter("More", needs=("bars",), absent="none")
     chapter.prepared("lengths", lambda known: known["bars.length"], ("bars.length",), for_many=True)
-    chapter.computed(
-        "first", "L", "m", "First length", lambda lengths: np.reshape(lengths[0], (-1, 1)), ("lengths",), "the first"
-    )
+    chapter.first = computed(lambda lengths: np.reshape(lengths[0], (-1, 1)), ("lengths",), "the first"), "L", "m", "First length"
     whole = replace(mechanism, inputs=Bars, chapters=(*mechanism.chapters, chapter))
     given = flatten(Bars(bars=[Bar(length=1), Bar()]))
     assert calculate(whole, given).inputs["sought"]["first"].tolist() == [1.0, 2.0]
@@ -253,10 +258,10 @@ class Lift(Inputs):
 
 def lift(rule: Any = "above", index: int = 1, *, whole: bool = False, **options: Any) -> Mechanism:
     chapter = Chapter("Lift")
-    chapter.value("needed", "P_n", "kW", "Needed power", lambda power: 1.0 * power)
-    chapter.pick("motor", "P_m", "kW", "Motor", rule, of="needed", series=SERIES, **options)
-    chapter.part("second", "b_2", "mm", "Second drum", of="drums.width", index=index, needs=("drums",))
-    chapter.value("count", "n", "1", "Number of belts", lambda power, motor: power / motor, whole=whole)
+    chapter.needed = 1.0 * m.power, "P_n", "kW", "Needed power"
+    chapter.motor = pick(rule, of="needed", series=SERIES, **options), "P_m", "kW", "Motor"
+    chapter.second = part(of="drums.width", index=index, needs=("drums",)), "b_2", "mm", "Second drum"
+    chapter.count = value(m.power / m.motor, whole=whole), "n", "1", "Number of belts"
     return Mechanism(kind="lift", version="1", title="", summary="", inputs=Lift, chapters=(chapter,))
 
 

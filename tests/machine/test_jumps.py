@@ -17,10 +17,16 @@ from diecut_report.api import (
     Inputs,
     Mechanism,
     Quantity,
+    abscissa,
     as_number,
-    bind,
     case,
+    choice,
+    derivative,
     formula,
+    inner,
+    m,
+    reduction,
+    value,
 )
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
@@ -113,13 +119,13 @@ def wheel(
     torque: Any, *places: str, per_piece: bool = False, checks: tuple[Check, ...] = (), last: Any = None
 ) -> Mechanism:
     chapter = Chapter("Turn")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
     chapter.breakpoints("edges", "angle", *places)
-    chapter.value("lift", "h", "1", "Lift", lambda angle: np.cos(angle - 1))
-    chapter.value("inner", "T_i", "N*m", "Inner torque", torque, per_piece=per_piece)
-    chapter.value("torque", "T", "N*m", "Torque", last or bind(lambda inner: inner))
+    chapter.lift = np.cos(m.angle - 1), "h", "1", "Lift"
+    chapter.inner = value(torque, per_piece=per_piece), "T_i", "N*m", "Inner torque"
+    chapter.torque = last or m.inner, "T", "N*m", "Torque"
     if not checks:
-        chapter.reduction("peak", "T_max", "N*m", "Maximum torque", "max", "torque")
+        chapter.peak = reduction("max", "torque"), "T_max", "N*m", "Maximum torque"
     return Mechanism(kind="wheel", version="1", title="", summary="", inputs=Wheel, chapters=(chapter,), checks=checks)
 
 
@@ -190,10 +196,9 @@ def test_a_choice_and_a_check_on_a_curve_are_searched_too() -> None:
     with pytest.raises(Unproven, match="jumps inside a smooth piece"):
         run(wheel(FORMULAS["a narrow window"], checks=(check,)))
     chapter = Chapter("Turn")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-    chapter.choice("torque", "T", "N*m", "Torque", case(lambda moment: 3 * moment, "within", lambda angle, start: angle < start),
-                   case(lambda moment: moment, "beyond"))  # fmt: skip
-    chapter.reduction("mean", "T_m", "N*m", "Mean torque", "mean", "torque")
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+    chapter.torque = choice(case(3 * m.moment, "within", m.angle < m.start), case(m.moment, "beyond")), "T", "N*m", "Torque"  # fmt: skip
+    chapter.mean = reduction("mean", "torque"), "T_m", "N*m", "Mean torque"
     of_choice = Mechanism(kind="wheel", version="1", title="", summary="", inputs=Wheel, chapters=(chapter,))
     with pytest.raises(Unproven, match="at φ = 100°, where φ < φ_1 changes in its formula"):
         run(of_choice)
@@ -231,11 +236,11 @@ def test_each_variant_among_many_is_judged_as_alone(count: int, per_piece: bool)
 def by_middle(*places: str) -> Mechanism:
     """A torque that a condition on the middle of its piece decides, which varies from piece to piece."""
     chapter = Chapter("Turn")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
     chapter.breakpoints("edges", "angle", *places)
-    chapter.value("middle", "φ_m", "deg", "Middle", lambda angle: angle, per_piece=True)
-    chapter.value("torque", "T", "N*m", "Torque", lambda middle, start, moment: moment * np.where(middle < start, 1, 3))
-    chapter.reduction("peak", "T_max", "N*m", "Maximum torque", "max", "torque")
+    chapter.middle = value(m.angle, per_piece=True), "φ_m", "deg", "Middle"
+    chapter.torque = m.moment * np.where(m.middle < m.start, 1, 3), "T", "N*m", "Torque"
+    chapter.peak = reduction("max", "torque"), "T_max", "N*m", "Maximum torque"
     return Mechanism(kind="wheel", version="1", title="", summary="", inputs=Wheel, chapters=(chapter,))
 
 
@@ -341,10 +346,10 @@ SMOOTH: dict[str, tuple[str, Any]] = {
 
 def calculated(unit: str, formula: Any, place: float, *, breakpoint: bool = False) -> Calculation:
     chapter = Chapter("Turn")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
     if breakpoint:
         chapter.breakpoints("there", "angle", "place")
-    chapter.value("rough", "R", unit, "Rough", formula)
+    chapter.rough = formula, "R", unit, "Rough"
     mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
     return calculate(mechanism, {"arm": 0.05, "place": place, "n_points": 36})
 
@@ -374,12 +379,12 @@ def test_what_is_whole_passes(name: str, place: float) -> None:
 
 def test_a_pole_of_what_is_not_printed_is_refused_where_its_extreme_is_asked() -> None:
     chapter = Chapter("Turn")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-    chapter.value("rough", "R", "mm", "Rough", ROUGH["a pole of one sign"][1], output=False)
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+    chapter.rough = inner(ROUGH["a pole of one sign"][1]), "R", "mm", "Rough"
     mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
     given = {"arm": 0.05, "place": 2.0, "n_points": 36}
     curves(calculate(mechanism, given))  # it may be masked by what takes it
-    chapter.reduction("most", "R_m", "mm", "Most", "max", of="rough")
+    chapter.most = reduction("max", of="rough"), "R_m", "mm", "Most"
     asked = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
     with pytest.raises(Unproven, match="pole"):
         curves(calculate(asked, given))
@@ -416,11 +421,11 @@ WHOLE: dict[str, tuple[str, Any]] = {
 
 def reduced(reduction: str, formula: Any, places: list[float], *, breakpoint: bool = False) -> Calculation:
     chapter = Chapter("Turn")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
     if breakpoint:
         chapter.breakpoints("there", "angle", "place")
-    chapter.value("rough", "R", "mm", "Rough", formula)
-    chapter.reduction("most", "R_m", "mm", "Most", reduction, of="rough")
+    chapter.rough = formula, "R", "mm", "Rough"
+    chapter.most = reduction(reduction, of="rough"), "R_m", "mm", "Most"
     mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
     given = {"arm": 0.05, "place": np.array(places) if len(places) > 1 else places[0], "n_points": 36}
     return calculate(mechanism, given, len(places))
@@ -462,9 +467,9 @@ def test_of_many_machines_those_whose_curve_has_no_value_somewhere_are_in_error(
 
 def test_what_is_not_proved_tells_where_the_curve_bends() -> None:
     chapter = Chapter("Turn")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-    chapter.value("rough", "R", "mm", "Rough", SMOOTH["a corner"][1])
-    chapter.derivative("slope", "R′", "mm", "Slope", of="rough")
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+    chapter.rough = SMOOTH["a corner"][1], "R", "mm", "Rough"
+    chapter.slope = derivative(of="rough"), "R′", "mm", "Slope"
     mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
     with pytest.raises(
         Unproven,

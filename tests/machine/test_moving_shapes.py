@@ -21,10 +21,13 @@ from diecut_report.api import (
     Plot,
     Quantity,
     Series,
+    abscissa,
     circle,
     label,
+    m,
     point,
     polyline,
+    reduction,
     rigid,
 )
 from diecut_report.machine.numerics.domain import Domain
@@ -41,10 +44,10 @@ class Wave(Inputs):
 def wave(drawn: str = "height") -> Mechanism:
     """A sine about a shift, and its opposite."""
     chapter = Chapter("Wave")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-    chapter.value("height", "h", "m", "Height", lambda shift, angle: shift + np.sin(angle))
-    chapter.value("depth", "d", "m", "Depth", lambda height: -height)
-    chapter.reduction("size", "h_m", "m", "Greatest size", "abs_max", of="height")
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+    chapter.height = m.shift + np.sin(m.angle), "h", "m", "Height"
+    chapter.depth = -m.height, "d", "m", "Depth"
+    chapter.size = reduction("abs_max", of="height"), "h_m", "m", "Greatest size"
     marks = (Mark(x="size_at", y="size", label="greatest"),)
     panel = Panel(title="Height", unit="m", series=(Series(curve=drawn, label="h"),), marks=marks)
     plot = Plot(id="wave", title="Wave", caption="", abscissa="angle", panels=(panel,))

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Block, Chapter, Inputs, Mechanism, Quantity, Text
+from diecut_report.api import POINTS, Block, Chapter, Inputs, Mechanism, Quantity, Text, abscissa, crossings, m, running
 from diecut_report.declaration import faults
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.calculation import Calculation
@@ -83,11 +83,11 @@ class Wave(Inputs):
 
 
 wave = Chapter("Wave")
-wave.abscissa("angle", "φ", "deg", "Angle", period=2 * np.pi)
-wave.value("rise", "y", "mm", "Rise", lambda angle, height: height * np.cos(angle))
-wave.crossings("zero", "φ_0", "deg", "Where it is level", of="rise")
-wave.value("doubled", "z_2", "1", "Twice as many", lambda zero_count: 2 * zero_count)
-wave.value("between", "Δφ", "deg", "Angle between them", lambda zero_1, zero_2: zero_2 - zero_1)
+wave.angle = abscissa(period=2 * np.pi), "φ", "deg", "Angle"
+wave.rise = m.height * np.cos(m.angle), "y", "mm", "Rise"
+wave.zero = crossings(of="rise"), "φ_0", "deg", "Where it is level"
+wave.doubled = 2 * m.zero_count, "z_2", "1", "Twice as many"
+wave.between = m.zero_2 - m.zero_1, "Δφ", "deg", "Angle between them"
 
 MECHANISM = Mechanism(kind="wave", version="1", title="Wave", summary="Wave.", inputs=Wave, chapters=(wave,))
 
@@ -130,10 +130,10 @@ class Shafts(Inputs):
 
 
 train = Chapter("Train")
-train.running("speed", "ω_k", "1", "Speed", "product", of="shafts.ratio", numbered="shaft_{}_speed", first=3)
-train.running("sum", "F_t", "1", "Sum", "sum", of="shafts.ratio", numbered="sum_{}")
-train.value("slip", "s", "1", "Slip", lambda shaft_3_speed, shaft_4_speed: shaft_3_speed - shaft_4_speed)
-train.value("more", "q", "1", "More", lambda sum_1, sum_2: sum_2 / sum_1)
+train.speed = running("product", of="shafts.ratio", numbered="shaft_{}_speed", first=3), "ω_k", "1", "Speed"
+train.sum = running("sum", of="shafts.ratio", numbered="sum_{}"), "F_t", "1", "Sum"
+train.slip = m.shaft_3_speed - m.shaft_4_speed, "s", "1", "Slip"
+train.more = m.sum_2 / m.sum_1, "q", "1", "More"
 
 TRAIN = Mechanism(kind="train", version="1", title="Train", summary="Train.", inputs=Shafts, chapters=(train,))
 
@@ -149,9 +149,9 @@ def test_formulas_of_several_parts_are_printed_with_the_number_of_each() -> None
 
 def test_a_part_with_the_symbol_of_another_quantity_is_a_fault() -> None:
     alike = Chapter("Alike")
-    alike.running("sum", "F_k", "1", "Sum", "sum", of="shafts.ratio", numbered="sum_{}")
-    alike.value("third", "F_3", "1", "Third", lambda sum_1: 3 * sum_1)
-    alike.running("product", "F_i", "1", "Product", "product", of="shafts.ratio", numbered="product_{}", first=9)
+    alike.sum = running("sum", of="shafts.ratio", numbered="sum_{}"), "F_k", "1", "Sum"
+    alike.third = 3 * m.sum_1, "F_3", "1", "Third"
+    alike.product = running("product", of="shafts.ratio", numbered="product_{}", first=9), "F_i", "1", "Product"
     found = faults(replace(TRAIN, chapters=(alike,)))
     assert [(each.subject, each.text.split(" (at ")[0]) for each in found] == [
         ("step sum_3", "has the symbol F_3 of third"), ("step product_9", "has the symbol F_9 of sum_9"),

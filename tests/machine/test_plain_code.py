@@ -20,6 +20,11 @@ from diecut_report.api import (
     Quantity,
     Refusal,
     Varying,
+    abscissa,
+    computed,
+    computed_curve,
+    m,
+    reduction,
 )
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.machine.calculation import Calculation, Impossible
@@ -42,7 +47,7 @@ class Row(Inputs):
 
 def calculated(number: Any = 1.0, clash: Any = None, machines: int = 1) -> Calculation:
     chapter = Chapter("Row")
-    chapter.computed("found", "f", "mm", "Found", lambda width: number, takes=("width",), method="plain code")
+    chapter.found = computed(lambda width: number, takes=("width",), method="plain code"), "f", "mm", "Found"
     chapter.clash("meet", lambda x: -np.ones(x.shape) if clash is None else clash, takes=("pegs.place",), key="pegs",
                   message="peg {part} meets peg {other}")  # fmt: skip
     mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
@@ -76,7 +81,7 @@ def test_what_plain_code_is_given_cannot_be_changed_by_it() -> None:
         return width
 
     chapter = Chapter("Row")
-    chapter.computed("found", "f", "mm", "Found", doubled, takes=("width",), method="plain code")
+    chapter.found = computed(doubled, takes=("width",), method="plain code"), "f", "mm", "Found"
     mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
     with pytest.raises(ValueError, match="read-only"):
         calculate(mechanism, {"width": 0.5, "pegs": True, "pegs.place": (0.1,)})
@@ -96,7 +101,7 @@ def test_several_machines_have_a_number_each() -> None:
 def test_a_row_has_a_number_for_each_part(made: Any) -> None:
     """One that is left out would be judged by nothing."""
     chapter = Chapter("Row")
-    chapter.computed("row", "r", "mm", "Row", made, takes=("pegs.place",), method="plain code", over="pegs")
+    chapter.row = computed(made, takes=("pegs.place",), method="plain code", over="pegs"), "r", "mm", "Row"
     mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
     with pytest.raises(Misdeclared, match="it must return a number for each of the 3 parts of pegs"):
         calculate(mechanism, {"width": 0.5, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)})
@@ -122,16 +127,7 @@ class Asking(Inputs):
 def test_what_a_mechanism_tells_of_one_machine_is_asked_for_each(in_list: bool) -> None:
     """Three machines, and three parts in each: the numbers of the first machine are as many as the machines."""
     own = Chapter("Row")
-    own.computed(
-        "row",
-        "r",
-        "mm",
-        "Row",
-        lambda x, width: x * width / 1e-3,
-        takes=("pegs.place", "width"),
-        method="m",
-        over="pegs",
-    )
+    own.row = computed(lambda x, width: x * width / 1e-3, takes=("pegs.place", "width"), method="m", over="pegs"), "r", "mm", "Row"
     row = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(own,))
     widths = np.array([1e-3, 2e-3, 3e-3])
     told = calculate(row, {"width": widths, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)}, 3)
@@ -141,9 +137,7 @@ def test_what_a_mechanism_tells_of_one_machine_is_asked_for_each(in_list: bool) 
     def asked(given: Any) -> Any:
         return (given[0] if in_list else given).parts("row")
 
-    asks.computed(
-        "taken", "t", "m", "Taken", asked, takes=("others.other" if in_list else "other",), method="m", over="pegs"
-    )
+    asks.taken = computed(asked, takes=("others.other" if in_list else "other",), method="m", over="pegs"), "t", "m", "Taken"
     inputs = Asking if in_list else AskingOne
     mechanism = Mechanism(kind="asks", version="1", title="Asks", summary="Asks.", inputs=inputs, chapters=(asks,))
     given: dict[str, Any] = {"others": True, "others.other": (handle,)} if in_list else {"other": handle}
@@ -165,13 +159,11 @@ def test_an_index_is_needed_for_each_part(clash: Any, words: str) -> None:
 def test_a_truth_value_is_printed_as_yes_or_no_and_what_serves_others_alone_is_not() -> None:
     chapter = Chapter("Row")
     for id, answer in (("held", True), ("lost", False)):
-        chapter.computed(id, id[0], "1", f"Whether it is {id}", lambda width, answer=answer: width > 0.1 if answer else width > 1,
-                         takes=("width",), method="compared")  # fmt: skip
-    chapter.computed(
-        "place", "i", "1", "Number of the place", lambda width: 2.0, takes=("width",), method="counted", printed=False
-    )
-    chapter.computed("wide", "w", "1", "Whether each is wide", lambda place: np.asarray(place) > 0.15, takes=("pegs.place",),
-                     method="compared", over="pegs")  # fmt: skip
+        chapter[id] = (computed(lambda width, answer=answer: width > 0.1 if answer else width > 1, takes=("width",), method="compared"), id[0], "1",
+            f"Whether it is {id}")  # fmt: skip
+    chapter.place = computed(lambda width: 2.0, takes=("width",), method="counted", printed=False), "i", "1", "Number of the place"
+    chapter.wide = (computed(lambda place: np.asarray(place) > 0.15, takes=("pegs.place",), method="compared", over="pegs"), "w", "1",
+        "Whether each is wide")  # fmt: skip
     mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
     calc = calculate(mechanism, {"width": 0.5, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)})
     (section,) = section_items(calc)
@@ -209,53 +201,16 @@ class Bar:
 
 chapter = Chapter("Bar")
 chapter.prepared("bar", Bar, ("force", "jump"), for_many=True)
-chapter.abscissa("x", "x", "m", "Place", Constant(10.0, "l", "m"))
-chapter.computed_curve(
-    "along",
-    "F(x)",
-    "N",
-    "Force along the bar",
-    Bar.at,
-    "bar",
-    "x",
-    "as it is laid out",
-    joints=lambda bar: bar.jump,
-)
-chapter.value("twice", "2F", "N", "Twice the force", lambda along: 2 * along)
-chapter.reduction("greatest", "F_max", "N", "Greatest force", "max", of="along")
-chapter.reduction("mean", "F_m", "N", "Mean force", "mean", of="along")
+chapter.x = abscissa(Constant(10.0, "l", "m")), "x", "m", "Place"
+chapter.along = computed_curve(Bar.at, "bar", "x", "as it is laid out", joints=lambda bar: bar.jump), "F(x)", "N", "Force along the bar"
+chapter.twice = 2 * m.along, "2F", "N", "Twice the force"
+chapter.greatest = reduction("max", of="along"), "F_max", "N", "Greatest force"
+chapter.mean = reduction("mean", of="along"), "F_m", "N", "Mean force"
 chapter.part_names("points", "Points", lambda grade: ["left", "right"], ("grade",), shown_at="worst")
-chapter.computed(
-    "at_point",
-    "F_p",
-    "N",
-    "Force there",
-    lambda bar: bar.force * np.array([[1.0, 2.0]]),
-    ("bar",),
-    "by the bar",
-    over="points",
-)
-chapter.value("doubled", "D_p", "N", "Twice the force there", lambda at_point, grade: 2 * at_point * grade)
-chapter.computed(
-    "worst",
-    "i_w",
-    "1",
-    "Worst point",
-    lambda row: np.argmax(row, axis=1)[:, None],
-    ("doubled",),
-    "the greatest",
-    whole=True,
-)
-chapter.computed(
-    "word",
-    "w",
-    "1",
-    "Its name",
-    lambda index: [f"point {int(i)}" for i in index[:, 0]],
-    ("worst",),
-    "the greatest",
-    is_text=True,
-)
+chapter.at_point = computed(lambda bar: bar.force * np.array([[1.0, 2.0]]), ("bar",), "by the bar", over="points"), "F_p", "N", "Force there"
+chapter.doubled = 2 * m.at_point * m.grade, "D_p", "N", "Twice the force there"
+chapter.worst = computed(lambda row: np.argmax(row, axis=1)[:, None], ("doubled",), "the greatest", whole=True), "i_w", "1", "Worst point"
+chapter.word = computed(lambda index: [f"point {int(i)}" for i in index[:, 0]], ("worst",), "the greatest", is_text=True), "w", "1", "Its name"
 chapter.part_table("table", "All points", "points", ("at_point", "doubled"))
 
 MECHANISM = Mechanism(

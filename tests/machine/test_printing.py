@@ -13,7 +13,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.api import POINTS, Annotated, Chapter, Constant, Inputs, Mechanism, Quantity, Value, bind, formula
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Chapter,
+    Constant,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Value,
+    abscissa,
+    formula,
+    m,
+)
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.formulas.formula import Formula, evaluate
@@ -112,7 +124,7 @@ class Bar(Inputs):
 
 def item(rule: Formula, **lengths: float) -> dict[str, Any]:
     """The printed item of a length that a formula gives (inputs in metres)."""
-    step = Value(id="found", symbol="x", unit="mm", description="What is found", formula=bind(rule))
+    step = Value(id="found", symbol="x", unit="mm", description="What is found", formula=rule.of())
     mechanism = Mechanism(
         kind="bar", version="1", title="Bar", summary="", inputs=Bar, chapters=(Chapter("All", steps=(step,)),)
     )
@@ -310,8 +322,8 @@ class Turned(Inputs):
 @pytest.mark.parametrize(("shown", "printed"), [(30, "30"), (390, "30")])
 def test_curves_are_shown_at_any_number_that_an_abscissa_names(shown: float, printed: str) -> None:
     motion = Chapter("Motion")
-    motion.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi, shown_at="shown")
-    motion.value("height", "y", "mm", "Height", lambda radius, angle: radius * np.sin(angle))
+    motion.angle = abscissa(2 * np.pi, shown_at="shown"), "φ", "deg", "Angle"
+    motion.height = m.radius * np.sin(m.angle), "y", "mm", "Height"
     crank = Mechanism(kind="crank", version="1", title="Crank", summary="", inputs=Turned, chapters=(motion,))
     calc = calculate(crank, flatten(Turned.model_validate({"shown": shown})))
     assert places(chapters(calc)["Motion"]) == {printed}
@@ -365,8 +377,7 @@ class InCases(Inputs):
 
 KPSI = Constant(6.894757e6, "1 kpsi", "Pa")
 IN_CASES = Chapter("Cases")
-IN_CASES.value("factor", "K", "1", "Factor",
-               lambda strength, given: np.where(given > 0, given, 2 + 0.001 * strength / KPSI))  # fmt: skip
+IN_CASES.factor = np.where(m.given > 0, m.given, 2 + 0.001 * m.strength / KPSI), "K", "1", "Factor"  # fmt: skip
 
 
 @pytest.mark.parametrize(("given", "printed"), [(0.0, ["900", "MPa", "6.894757"]), (1.5, ["1.5"])])

@@ -25,10 +25,16 @@ from diecut_report.api import (
     Quantity,
     Series,
     Text,
+    abscissa,
     chart_panel,
+    interpolated,
     level,
     line,
+    lookup,
+    m,
     own_table,
+    pick,
+    reduction,
 )
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
@@ -350,12 +356,12 @@ class Bearing(Inputs):
 chapter = Chapter("Bearing")
 for kind, symbol in KINDS.items():
     name = kind.replace("-", "_")
-    chapter.interpolated(name, f"F_{symbol}", "kN", "Force", LIFE, of="speed", interpolation=kind)  # type: ignore[arg-type]
-chapter.abscissa("turn", "φ", "deg", "Turn", period=2 * np.pi)
-chapter.value("here", "n_φ", "rpm", "Speed at a place", lambda turn, speed, swing: speed + swing * np.sin(turn))
-chapter.interpolated("force", "F", "kN", "Force there", LIFE, of="here", key="swing", interpolation="log-log")
-chapter.reduction("mean", "F_m", "kN", "Mean force", "mean", of="force")
-chapter.reduction("greatest", "F_max", "kN", "Greatest force", "max", of="force")
+    chapter[name] = interpolated(LIFE, of="speed", interpolation=kind), f"F_{symbol}", "kN", "Force"  # type: ignore[arg-type]
+chapter.turn = abscissa(period=2 * np.pi), "φ", "deg", "Turn"
+chapter.here = m.speed + m.swing * np.sin(m.turn), "n_φ", "rpm", "Speed at a place"
+chapter.force = interpolated(LIFE, of="here", key="swing", interpolation="log-log"), "F", "kN", "Force there"
+chapter.mean = reduction("mean", of="force"), "F_m", "kN", "Mean force"
+chapter.greatest = reduction("max", of="force"), "F_max", "kN", "Greatest force"
 BEARING = Mechanism(kind="bearing", version="1", title="Bearing", summary="Of a table.", inputs=Bearing, chapters=(chapter,))  # fmt: skip
 
 
@@ -423,7 +429,7 @@ WRONG: dict[str, tuple[Any, str, str]] = {
 def test_what_cannot_be_interpolated_is_told_where_it_is_declared(rows: Any, kind: Any, told: str) -> None:
     table = own_table(title="Own", columns={"x": "1", "y": "1"}, rows=rows, sources=("A",), only_source="own")
     with pytest.raises(Misdeclared) as fault:
-        Chapter("Own").interpolated("own", "Y", "1", "Own", table, of="x", interpolation=kind)
+        Chapter("Own").own = interpolated(table, of="x", interpolation=kind), "Y", "1", "Own"
     assert told in str(fault.value)
 
 
@@ -431,7 +437,7 @@ def test_a_column_whose_axis_is_not_logarithmic_may_have_any_numbers() -> None:
     table = own_table(
         title="Own", columns={"x": "1", "y": "1"}, rows=((1, -1), (2, 0)), sources=("A",), only_source="own"
     )
-    Chapter("Own").interpolated("own", "Y", "1", "Own", table, of="x", interpolation="log-x")
+    Chapter("Own").own = interpolated(table, of="x", interpolation="log-x"), "Y", "1", "Own"
 
 
 RODS = own_table(
@@ -460,13 +466,13 @@ class Lift(Inputs):
 
 
 sizes = Chapter("Sizes")
-sizes.pick("bore", "D", "mm", "Bore", "above", of="needed", series=RODS.series("bore"))
-sizes.lookup("rod", "d", "mm", "Rod", RODS, by="bore", column="rod")
-sizes.lookup("own_rod", "d_o", "mm", "Rod of another", RODS, by="bore_given", column="rod", needs=("bore_given",))
-sizes.pick("rating", "P", "kW", "Rating", "above", of="power", series=MOTORS.series("P"))
-sizes.lookup("mass", "m", "kg", "Mass of the motor", MOTORS, by="rating", sought_in="P", column="m")
+sizes.bore = pick("above", of="needed", series=RODS.series("bore")), "D", "mm", "Bore"
+sizes.rod = lookup(RODS, by="bore", column="rod"), "d", "mm", "Rod"
+sizes.own_rod = lookup(RODS, by="bore_given", column="rod", needs=("bore_given",)), "d_o", "mm", "Rod of another"
+sizes.rating = pick("above", of="power", series=MOTORS.series("P")), "P", "kW", "Rating"
+sizes.mass = lookup(MOTORS, by="rating", sought_in="P", column="m"), "m", "kg", "Mass of the motor"
 several = Chapter("Columns", needs=("columns",), absent="no columns")
-several.lookup("rods", "d_i", "mm", "Rods of the columns", RODS, by="columns.bore", column="rod")
+several.rods = lookup(RODS, by="columns.bore", column="rod"), "d_i", "mm", "Rods of the columns"
 
 LIFT = Mechanism(kind="lift", version="1", title="Lift", summary="A lift.", inputs=Lift, chapters=(sizes, several))
 

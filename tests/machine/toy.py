@@ -30,8 +30,8 @@ from diecut_report.api import (
     Total,
     Value,
     Words,
-    bind,
     formula,
+    m,
     prefixed,
 )
 
@@ -80,8 +80,8 @@ shorter = formula(lambda arm: arm < LONG)
 
 
 FAMILY = (
-    Value(id="load", symbol="P", unit="kN", description="Load of the variant", formula=bind(same, quantity="force")),
-    Value(id="load_moment", symbol="M_P", unit="N*m", description="Its moment", formula=bind(moment, force="load")),
+    Value(id="load", symbol="P", unit="kN", description="Load of the variant", formula=same.of(quantity=m.force)),
+    Value(id="load_moment", symbol="M_P", unit="N*m", description="Its moment", formula=moment.of(force=m.load)),
 )
 
 MECHANISM = Mechanism(
@@ -111,13 +111,13 @@ MECHANISM = Mechanism(
             absent="no gears are given",
             steps=(
                 Value(unit="1", id="pair_ratio", symbol="i", description="Ratio of the pair",
-                      formula=bind(ratio, driver_teeth="gears.driver_teeth", driven_teeth="gears.driven_teeth")),
+                      formula=ratio.of(driver_teeth=m.gears.driver_teeth, driven_teeth=m.gears.driven_teeth)),
                 Total(unit="1", id="total_ratio", symbol="i_Σ", description="Total ratio", of="pair_ratio", operation="product"),
                 Total(unit="1", id="total_teeth", symbol="z_Σ", description="Teeth of all drivers", of="gears.driver_teeth", operation="sum"),
             ),
         ),
         Chapter("Spring", needs=("spring",), absent="no spring is given",
-                steps=(Value(id="sag", symbol="f", unit="mm", description="Sag", formula=bind(sag, stiffness="spring.stiffness")),)),
+                steps=(Value(id="sag", symbol="f", unit="mm", description="Sag", formula=sag.of(stiffness=m.spring.stiffness)),)),
         Chapter(
             "Curve",
             steps=(
@@ -160,8 +160,8 @@ ROOTED = Mechanism(
         Chapter(
             "Root",
             steps=(
-                Root(unit="1", id="x", symbol="x", description="Cube root", equation=cube, unknown="x", low=bind(zero), high=plus_one,
-                     left=cubed, right=bind(same, quantity="target")),
+                Root(unit="1", id="x", symbol="x", description="Cube root", equation=cube, unknown="x", low=zero.of(), high=plus_one,
+                     left=cubed, right=same.of(quantity=m.target)),
                 READ,
             ),
         ),

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline, make_interp_spline
 
+from diecut_report.api import number, pi
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, evaluate, formula
 from diecut_report.mechanics import followers as follower
@@ -188,17 +189,17 @@ def test_a_stiff_drive_of_great_damping_does_not_overflow(name: str) -> None:
 # --- laws of a user --------------------------------------------------------------------------------------------------
 
 
-stepping_position = formula(lambda k: k - np.sin(24 * np.pi * k) / (24 * np.pi))
-stepping_velocity = formula(lambda k: 1 - np.cos(24 * np.pi * k))
-stepping_acceleration = formula(lambda k: 24 * np.pi * np.sin(24 * np.pi * k))
-stepping_jerk = formula(lambda k: 576 * np.pi**2 * np.cos(24 * np.pi * k))
-stepping_peak = formula(lambda: 24 * np.pi)
-hasty_position = formula(lambda k: np.where(k < 3 / 10, k**2 / 0.3, 1 - (1 - k) ** 2 / 0.7))
-hasty_velocity = formula(lambda k: np.where(k < 3 / 10, 2 * k / 0.3, 2 * (1 - k) / 0.7))
-hasty_acceleration = formula(lambda k: np.where(k < 3 / 10, 2 / 0.3, -2 / 0.7))
+stepping_position = formula(lambda k: k - np.sin(24 * pi * k) / (24 * pi))
+stepping_velocity = formula(lambda k: 1 - np.cos(24 * pi * k))
+stepping_acceleration = formula(lambda k: 24 * pi * np.sin(24 * pi * k))
+stepping_jerk = formula(lambda k: 576 * pi**2 * np.cos(24 * pi * k))
+stepping_peak = formula(lambda: 24 * pi)
+hasty_position = formula(lambda k: np.where(k < number(3) / 10, k**2 / 0.3, 1 - (1 - k) ** 2 / 0.7))
+hasty_velocity = formula(lambda k: np.where(k < number(3) / 10, 2 * k / 0.3, 2 * (1 - k) / 0.7))
+hasty_acceleration = formula(lambda k: np.where(k < number(3) / 10, number(2) / 0.3, -number(2) / 0.7))
 nothing = formula(lambda k: 0 * k)
-hasty_joint = formula(lambda k: k - 3 / 10)
-hasty_peak = formula(lambda: 2 / 0.3)
+hasty_joint = formula(lambda k: k - number(3) / 10)
+hasty_peak = formula(lambda: number(2) / 0.3)
 two = formula(lambda: 2)
 
 

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from diecut_report.api import Annotated, Inputs, Text, formula
+from diecut_report.api import Annotated, Inputs, Text, formula, number
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, evaluate
 from diecut_report.mechanics import motion_laws
@@ -157,7 +157,7 @@ straight = formula(lambda k: k)
 even = formula(lambda k: 1 + 0 * k)
 nothing = formula(lambda k: 0 * k)
 one = formula(lambda: 1)
-shifted = formula(lambda k: k + 1 / 10)
+shifted = formula(lambda k: k + number(1) / 10)
 of_two = formula(lambda k, h: h * k)
 
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity, abscissa, m
 from diecut_report.declaration import faults
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.machine.printing.page import section_items
@@ -77,10 +77,10 @@ class Wave(Inputs):
 
 def wave(unit: str = "mm", of: str = "height", level: float = 1.0) -> Mechanism:
     chapter = WiderChapter("Wave")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-    chapter.value("height", "h", "mm", "Height", lambda size, angle: size * (3 + np.sin(angle)))
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+    chapter.height = m.size * (3 + np.sin(m.angle)), "h", "mm", "Height"
     chapter.swing("swing", "s", unit, "Swing", of, level)
-    chapter.value("doubled", "s_2", "mm", "Twice the swing", lambda swing: 2 * swing)
+    chapter.doubled = 2 * m.swing, "s_2", "mm", "Twice the swing"
     return Mechanism(kind="wave", version="1", title="Wave", summary="", inputs=Wave, chapters=(chapter,))
 
 

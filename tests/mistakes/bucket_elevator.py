@@ -31,18 +31,33 @@ from diecut_report.api import (
     Source,
     Text,
     View,
+    abscissa,
+    accumulated,
     as_angle,
     as_number,
-    bind,
     case,
+    choice,
     circle,
+    computed,
+    crossings,
+    derivative,
     formula,
+    inner,
+    lookup,
+    m,
+    part,
+    pi,
+    pick,
     point,
     polyline,
+    reduction,
+    root,
+    running,
     standard_series,
     told,
+    total,
+    value,
 )
-from diecut_report.mechanics import common
 
 # fmt: off
 
@@ -98,21 +113,15 @@ class Elevator(Inputs):
 # --- calculation
 
 conveying = Chapter("Conveying")
-conveying.value("mass_rate", "Q_m", "t/h", "Mass rate: as given", bind(common.same, quantity="capacity"), needs=("capacity",), source="input")
-conveying.value("mass_rate", "Q_m", "t/h", "Mass rate: of the volume", lambda volume_rate, bulk_density: volume_rate * bulk_density,
-                lacks=("capacity",))
-conveying.value("belt_speed", "v", "m/s", "Speed of the belt", lambda head_speed, head_diameter: head_speed * head_diameter / 2,
-                source="S1 eq. 1")
-conveying.value("bucket_load", "m_w", "kg", "Waste in a bucket",
-                lambda filling, bucket_volume, bulk_density: filling * bucket_volume * bulk_density, source="S1 eq. 2")
-conveying.value("filling_needed", "ψ_n", "%", "Filling that the mass rate needs",
-                lambda mass_rate, bucket_pitch, bulk_density, bucket_volume, belt_speed:
-                    mass_rate * bucket_pitch / (bulk_density * bucket_volume * belt_speed))
-conveying.value("waste_line_mass", "q_w", "kg/m", "Waste on the belt", lambda mass_rate, belt_speed: mass_rate / belt_speed)
-conveying.value("strand_line_mass", "q_s", "kg/m", "Belt with empty buckets",
-                lambda belt_mass, bucket_mass, bucket_pitch: belt_mass + bucket_mass / bucket_pitch)
-conveying.value("bucket_count", "z", "1", "Buckets on the belt",
-                lambda height, head_diameter, bucket_pitch: np.ceil((2 * height + np.pi * head_diameter) / bucket_pitch), whole=True)
+conveying.mass_rate = value(m.capacity, needs=("capacity",)), "Q_m", "t/h", "Mass rate: as given", "input"
+conveying.mass_rate = value(m.volume_rate * m.bulk_density, lacks=("capacity",)), "Q_m", "t/h", "Mass rate: of the volume"
+conveying.belt_speed = m.head_speed * m.head_diameter / 2, "v", "m/s", "Speed of the belt", "S1 eq. 1"
+conveying.bucket_load = m.filling * m.bucket_volume * m.bulk_density, "m_w", "kg", "Waste in a bucket", "S1 eq. 2"
+conveying.filling_needed = (m.mass_rate * m.bucket_pitch / (m.bulk_density * m.bucket_volume * m.belt_speed), "ψ_n", "%",
+    "Filling that the mass rate needs")
+conveying.waste_line_mass = m.mass_rate / m.belt_speed, "q_w", "kg/m", "Waste on the belt"
+conveying.strand_line_mass = m.belt_mass + m.bucket_mass / m.bucket_pitch, "q_s", "kg/m", "Belt with empty buckets"
+conveying.bucket_count = value(np.ceil((2 * m.height + pi * m.head_diameter) / m.bucket_pitch), whole=True), "z", "1", "Buckets on the belt"
 
 
 def against_overfilling(filling: float, needed: float) -> str:
@@ -122,17 +131,14 @@ def against_overfilling(filling: float, needed: float) -> str:
 conveying.words("filling_advice", against_overfilling, takes=("filling", "filling_needed"))
 
 discharge = Chapter("Discharge", text="The waste stays in the bucket as long as the bucket presses on it.")
-discharge.value("froude_number", "Fr", "1", "Froude number of the head drum",
-                lambda head_speed, head_diameter: as_number(head_speed) ** 2 * head_diameter / (2 * GRAVITY), source="S2 eq. 4")
-discharge.value("speed_limit", "ω_lim", "rad/s", "Speed from which waste is thrown at once",
-                lambda head_diameter: as_angle(np.sqrt(2 * GRAVITY / head_diameter)), output=False)
-discharge.require("not_thrown", lambda froude_number: froude_number < 1, key="head_speed",
-                  message="is {head_speed}, but from {speed_limit:down} on the waste is thrown before it is at the top; turn slower")
-discharge.value("pole_distance", "h_p", "mm", "Distance of the pole of discharge", lambda head_speed: GRAVITY / as_number(head_speed) ** 2)
-discharge.choice("discharge", "K", "1", "Discharge is",
-                 case("by gravity", "the pole is above the buckets", lambda head_diameter, pole_distance: head_diameter < pole_distance),
-                 case("mixed", "the pole is among the buckets"), source="S2 table 1")
-discharge.abscissa("angle", "φ", "deg", "Turn of the head drum from the top", period=2 * np.pi)
+discharge.froude_number = as_number(m.head_speed) ** 2 * m.head_diameter / (2 * GRAVITY), "Fr", "1", "Froude number of the head drum", "S2 eq. 4"
+discharge.speed_limit = inner(as_angle(np.sqrt(2 * GRAVITY / m.head_diameter))), "ω_lim", "rad/s", "Speed from which waste is thrown at once"
+discharge.require("not_thrown", m.froude_number < 1, key="head_speed",
+    message="is {head_speed}, but from {speed_limit:down} on the waste is thrown before it is at the top; turn slower")
+discharge.pole_distance = GRAVITY / as_number(m.head_speed) ** 2, "h_p", "mm", "Distance of the pole of discharge"
+discharge.discharge = (choice(case("by gravity", "the pole is above the buckets", m.head_diameter < m.pole_distance),
+    case("mixed", "the pole is among the buckets")), "K", "1", "Discharge is", "S2 table 1")
+discharge.angle = abscissa(period=2 * np.pi), "φ", "deg", "Turn of the head drum from the top"
 
 
 @formula
@@ -146,15 +152,15 @@ def falling_time(speed: Any, drop: Any) -> Any:
     return np.sqrt(2 * drop / GRAVITY) + 0 * speed
 
 
-discharge.value("normal_force", "N_w", "N", "Force of the bucket on the waste", normal_force)
-discharge.crossings("release", "φ_r", "deg", "Where the waste leaves the bucket", of="normal_force")
-discharge.derivative("force_slope", "N_w′", "N/rad", "Change of that force", of="normal_force")
-discharge.reduction("press_max", "N_max", "N", "Greatest force on the waste", "max", of="normal_force")
-discharge.value("rim_x", "x", "mm", "Rim of the drum, across", lambda head_diameter, angle: head_diameter / 2 * np.sin(angle))
-discharge.value("rim_y", "y", "mm", "Rim of the drum, upwards", lambda head_diameter, angle: head_diameter / 2 * np.cos(angle))
-discharge.computed("fall_time", "t_f", "s", "Fall of the waste to the chute", falling_time, takes=("belt_speed", "chute_drop"),
-                   method="the root of the free fall's parabola")
-discharge.value("throw", "s_f", "mm", "How far the waste flies meanwhile", lambda belt_speed, fall_time: belt_speed * fall_time)
+discharge.normal_force = normal_force, "N_w", "N", "Force of the bucket on the waste"
+discharge.release = crossings(of="normal_force"), "φ_r", "deg", "Where the waste leaves the bucket"
+discharge.force_slope = derivative(of="normal_force"), "N_w′", "N/rad", "Change of that force"
+discharge.press_max = reduction("max", of="normal_force"), "N_max", "N", "Greatest force on the waste"
+discharge.rim_x = m.head_diameter / 2 * np.sin(m.angle), "x", "mm", "Rim of the drum, across"
+discharge.rim_y = m.head_diameter / 2 * np.cos(m.angle), "y", "mm", "Rim of the drum, upwards"
+discharge.fall_time = (computed(falling_time, takes=("belt_speed", "chute_drop"), method="the root of the free fall's parabola"), "t_f", "s",
+    "Fall of the waste to the chute")
+discharge.throw = m.belt_speed * m.fall_time, "s_f", "mm", "How far the waste flies meanwhile"
 
 
 @formula
@@ -163,56 +169,42 @@ def hanging_weight(line_mass: Any, height: Any) -> Any:
 
 
 pull = Chapter("Pull")
-pull.lookup("scoop_height", "h_s", "m", "Height that scooping counts for", {"board": 4, "paper": 3, "foil": 6}, by="material",
-            source="S1 table 3")
-pull.lookup("head_friction", "f", "1", "Friction of the belt on the drum", {"bare": 0.2, "rubber": 0.3}, by="lagging", source="S1 table 5")
-pull.value("lift_force", "F_l", "N", "Weight of the waste that is lifted", bind(hanging_weight, line_mass="waste_line_mass"))
-pull.value("scoop_force", "F_s", "N", "Mean force of scooping",
-           bind(hanging_weight, line_mass="waste_line_mass", height="scoop_height"))
-pull.value("strand_weight", "G_s", "N", "Weight of a strand", bind(hanging_weight, line_mass="strand_line_mass"))
-pull.value("pulley_load", "F_i", "N", "Load of a pulley's shaft",
-           bind(lambda strand_weight, wrap: 2 * strand_weight * np.sin(wrap / 2), wrap="pulleys.wrap"), source="S1 eq. 7")
-pull.value("journal_loss", "U_i", "N", "Pull that a pulley's journals take",
-           bind(lambda pulley_load, friction, journal, diameter: pulley_load * friction * journal / diameter,
-                friction="pulleys.journal_friction", journal="pulleys.journal_diameter", diameter="pulleys.diameter"))
-pull.total("journal_losses", "U_j", "N", "Pull that all journals take", "sum", of="journal_loss")
-pull.running("losses_so_far", "ΣU_i", "N", "Losses up to each pulley", "sum", of="journal_loss")
-pull.part("foot_load", "F_f", "N", "Load of the first pulley's shaft", of="pulley_load", index=0)
-pull.value("circumferential_pull", "U", "N", "Pull at the head drum",
-           lambda lift_force, scoop_force, journal_losses: lift_force + scoop_force + journal_losses)
-pull.value("euler_ratio", "k_e", "1", "Ratio of pulls that friction holds",
-           lambda head_friction, head_wrap: np.exp(head_friction * as_number(head_wrap)))
-pull.value("slack_needed", "T_n", "N", "Pull of the slack strand that is needed",
-           lambda circumferential_pull, euler_ratio: circumferential_pull / (euler_ratio - 1))
-pull.value("slack_pull", "T_2", "N", "Pull of the slack strand: its weight", bind(common.same, quantity="strand_weight"),
-           lacks=("pretension",))
-pull.value("slack_pull", "T_2", "N", "Pull of the slack strand: weight and take-up",
-           lambda strand_weight, pretension: strand_weight + pretension, needs=("pretension",))
-pull.value("tight_pull", "T_1", "N", "Pull of the tight strand",
-           lambda slack_pull, circumferential_pull: slack_pull + circumferential_pull)
-pull.value("lagging_pressure", "p_L", "MPa", "Pressure on the rubber",
-           lambda tight_pull, slack_pull, head_diameter, belt_width: (tight_pull + slack_pull) / (head_diameter * belt_width),
-           needs=("lagging=rubber",))
+pull.scoop_height = lookup({"board": 4, "paper": 3, "foil": 6}, by="material"), "h_s", "m", "Height that scooping counts for", "S1 table 3"
+pull.head_friction = lookup({"bare": 0.2, "rubber": 0.3}, by="lagging"), "f", "1", "Friction of the belt on the drum", "S1 table 5"
+pull.lift_force = hanging_weight.of(line_mass=m.waste_line_mass), "F_l", "N", "Weight of the waste that is lifted"
+pull.scoop_force = hanging_weight.of(line_mass=m.waste_line_mass, height=m.scoop_height), "F_s", "N", "Mean force of scooping"
+pull.strand_weight = hanging_weight.of(line_mass=m.strand_line_mass), "G_s", "N", "Weight of a strand"
+pull.pulley_load = 2 * m.strand_weight * np.sin(m.pulleys.wrap / 2), "F_i", "N", "Load of a pulley's shaft", "S1 eq. 7"
+pull.journal_loss = (m.pulley_load * m.pulleys.journal_friction * m.pulleys.journal_diameter / m.pulleys.diameter, "U_i", "N",
+    "Pull that a pulley's journals take")
+pull.journal_losses = total("sum", of="journal_loss"), "U_j", "N", "Pull that all journals take"
+pull.losses_so_far = running("sum", of="journal_loss"), "ΣU_i", "N", "Losses up to each pulley"
+pull.foot_load = part(of="pulley_load", index=0), "F_f", "N", "Load of the first pulley's shaft"
+pull.circumferential_pull = m.lift_force + m.scoop_force + m.journal_losses, "U", "N", "Pull at the head drum"
+pull.euler_ratio = np.exp(m.head_friction * as_number(m.head_wrap)), "k_e", "1", "Ratio of pulls that friction holds"
+pull.slack_needed = m.circumferential_pull / (m.euler_ratio - 1), "T_n", "N", "Pull of the slack strand that is needed"
+pull.slack_pull = value(m.strand_weight, lacks=("pretension",)), "T_2", "N", "Pull of the slack strand: its weight"
+pull.slack_pull = value(m.strand_weight + m.pretension, needs=("pretension",)), "T_2", "N", "Pull of the slack strand: weight and take-up"
+pull.tight_pull = m.slack_pull + m.circumferential_pull, "T_1", "N", "Pull of the tight strand"
+pull.lagging_pressure = (value((m.tight_pull + m.slack_pull) / (m.head_diameter * m.belt_width), needs=("lagging=rubber",)), "p_L", "MPa",
+    "Pressure on the rubber")
 
 shaft = Chapter("Head shaft")
 shaft.breakpoints("scooping", "angle", "scoop_start", "scoop_end")
-shaft.value("is_scooping", "S", "1", "Whether a bucket scoops",
-            lambda angle, scoop_start, scoop_end: (angle > scoop_start) & (angle < scoop_end), per_piece=True, output=False)
-shaft.value("scoop_pull", "U_s", "N", "Force of scooping",
-            lambda is_scooping, scoop_force, scoop_start, scoop_end:
-                np.where(is_scooping > 0, scoop_force * 2 * np.pi / (scoop_end - scoop_start), 0 * scoop_force))
-shaft.value("shaft_torque", "M", "N*m", "Torque of the head shaft",
-            lambda lift_force, scoop_pull, head_diameter: (lift_force + scoop_pull) * head_diameter / 2)
-shaft.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="shaft_torque")
-shaft.reduction("torque_mean", "M_m", "N*m", "Mean torque", "mean", of="shaft_torque")
-shaft.accumulated("work", "W", "J", "Work since the top", of="shaft_torque")
+shaft.is_scooping = inner((m.angle > m.scoop_start) & (m.angle < m.scoop_end), per_piece=True), "S", "1", "Whether a bucket scoops"
+shaft.scoop_pull = (np.where(m.is_scooping > 0, m.scoop_force * 2 * pi / (m.scoop_end - m.scoop_start), 0 * m.scoop_force), "U_s", "N",
+    "Force of scooping")
+shaft.shaft_torque = (m.lift_force + m.scoop_pull) * m.head_diameter / 2, "M", "N*m", "Torque of the head shaft"
+shaft.torque_max = reduction("max", of="shaft_torque"), "M_max", "N*m", "Maximum torque"
+shaft.torque_mean = reduction("mean", of="shaft_torque"), "M_m", "N*m", "Mean torque"
+shaft.work = accumulated(of="shaft_torque"), "W", "J", "Work since the top"
 
 
 @formula
 def length_mismatch(centre: Any, small_pulley: Any, large_pulley: Any, belt_length: Any) -> Any:
     slope = np.arcsin((large_pulley - small_pulley) / (2 * centre))
     straight = 2 * centre * np.cos(slope)
-    around = np.pi / 2 * (large_pulley + small_pulley) + (large_pulley - small_pulley) * slope
+    around = pi / 2 * (large_pulley + small_pulley) + (large_pulley - small_pulley) * slope
     return straight + around - belt_length
 
 
@@ -220,27 +212,22 @@ def length_mismatch(centre: Any, small_pulley: Any, large_pulley: Any, belt_leng
 def length_by_wraps(centre: Any, small_pulley: Any, large_pulley: Any) -> Any:
     half_wrap = np.arccos((large_pulley - small_pulley) / (2 * centre))
     straight = np.sqrt(4 * centre**2 - (large_pulley - small_pulley) ** 2)
-    return straight + large_pulley * (np.pi - half_wrap) + small_pulley * half_wrap
+    return straight + large_pulley * (pi - half_wrap) + small_pulley * half_wrap
 
 
 drive = Chapter("Drive")
-drive.value("power", "P", "kW", "Power at the motor",
-            lambda circumferential_pull, belt_speed, efficiency: circumferential_pull * belt_speed / efficiency, source="S1 eq. 9")
-drive.pick("motor_power", "P_m", "kW", "Power of the motor", "above", of="power", series=standard_series("iec_60072_ratings"))
-drive.value("length_wanted", "L_w", "mm", "Length for the wanted distance",
-            lambda wanted_centre, small_pulley, large_pulley:
-                2 * wanted_centre + np.pi / 2 * (large_pulley + small_pulley) + (large_pulley - small_pulley) ** 2 / (4 * wanted_centre))
-drive.pick("belt_length", "L", "mm", "Length of the belt", "nearest", of="length_wanted", series=(1400, 1600, 1800, 2000))
-drive.root("centre", "C", "mm", "Distance of the shafts", length_mismatch,
-           low=lambda small_pulley, large_pulley: (large_pulley - small_pulley) / 2, high=lambda belt_length: belt_length / 2,
-           left=bind(common.same, quantity="belt_length"), right=length_by_wraps)
-drive.value("small_wrap", "α_1", "deg", "Wrap of the smaller pulley",
-            lambda centre, small_pulley, large_pulley: 2 * np.arccos((large_pulley - small_pulley) / (2 * centre)))
-drive.value("ratio_of_speeds", "i", "1", "Ratio of the belt drive", lambda small_pulley, large_pulley: large_pulley / small_pulley)
+drive.power = m.circumferential_pull * m.belt_speed / m.efficiency, "P", "kW", "Power at the motor", "S1 eq. 9"
+drive.motor_power = pick("above", of="power", series=standard_series("iec_60072_ratings")), "P_m", "kW", "Power of the motor"
+drive.length_wanted = (2 * m.wanted_centre + pi / 2 * (m.large_pulley + m.small_pulley) + (m.large_pulley - m.small_pulley) ** 2
+    / (4 * m.wanted_centre), "L_w", "mm", "Length for the wanted distance")
+drive.belt_length = pick("nearest", of="length_wanted", series=(1400, 1600, 1800, 2000)), "L", "mm", "Length of the belt"
+drive.centre = (root(length_mismatch, low=(m.large_pulley - m.small_pulley) / 2, high=m.belt_length / 2, left=m.belt_length, right=length_by_wraps),
+    "C", "mm", "Distance of the shafts")
+drive.small_wrap = 2 * np.arccos((m.large_pulley - m.small_pulley) / (2 * m.centre)), "α_1", "deg", "Wrap of the smaller pulley"
+drive.ratio_of_speeds = m.large_pulley / m.small_pulley, "i", "1", "Ratio of the belt drive"
 
 holding = Chapter("Backstop", needs=("backstop",), absent="no backstop is given")
-holding.value("pawl_force", "F_p", "N", "Force of the pawl",
-              bind(lambda lift_force, head_diameter, arm: lift_force * head_diameter / (2 * arm), arm="backstop.radius"))
+holding.pawl_force = m.lift_force * m.head_diameter / (2 * m.backstop.radius), "F_p", "N", "Force of the pawl"
 
 
 # --- report

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline, make_interp_spline
 
-from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
+from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, formula, m, pi
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible
 from diecut_report.machine.steps.run import calculate
@@ -363,17 +363,17 @@ class Moved(Inputs):
     n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 90
 
 
-begins = formula(lambda begin: 2 * np.pi * begin)
-ends = formula(lambda begin, lasts: 2 * np.pi * (begin + lasts))
+begins = formula(lambda begin: 2 * pi * begin)
+ends = formula(lambda begin, lasts: 2 * pi * (begin + lasts))
 same = formula(lambda angle: angle)
 
 
 @formula
 def moved(angle: Any, middle: Any, begin: Any, lasts: Any) -> Any:
     """One cycloidal rise of 1.2 a turn, that may go on over the turn's end."""
-    late = np.where(middle < 2 * np.pi * (begin + lasts - 1), 1, 0)
-    k = np.clip((angle / (2 * np.pi) + late - begin) / lasts, 0, 1)
-    return 1.2 * (k - np.sin(2 * np.pi * k) / (2 * np.pi) - late)
+    late = np.where(middle < 2 * pi * (begin + lasts - 1), 1, 0)
+    k = np.clip((angle / (2 * pi) + late - begin) / lasts, 0, 1)
+    return 1.2 * (k - np.sin(2 * pi * k) / (2 * pi) - late)
 
 
 TOY = Mechanism(
@@ -382,7 +382,7 @@ TOY = Mechanism(
         Value(id="stop", symbol="e", unit="rad", description="End", formula=ends),
         Abscissa(id="angle", symbol="φ", unit="rad", description="Angle", period=2 * np.pi),
         Breakpoints(id="joints", abscissa="angle", places=("start", "stop")),
-        Value(id="middle", symbol="m", unit="rad", description="Middle", per_piece=True, formula=bind(same, angle="angle")),
+        Value(id="middle", symbol="m", unit="rad", description="Middle", per_piece=True, formula=same.of(angle=m.angle)),
         Value(id="place", symbol="y", unit="rad", description="Place", formula=moved),
     )),),
 )  # fmt: skip

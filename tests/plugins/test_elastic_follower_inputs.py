@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
+from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, formula, m
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.machine.calculation import Calculation, Impossible
@@ -186,7 +186,7 @@ def shaped(shape: Any) -> Calculation:
         Value(id="four", symbol="b", unit="rad", description="Four", formula=at_four),
         Abscissa(id="angle", symbol="φ", unit="rad", description="Angle", period=2 * np.pi),
         Breakpoints(id="joints", abscissa="angle", places=("two", "four")),
-        Value(id="middle", symbol="m", unit="rad", description="Middle", per_piece=True, formula=bind(same, angle="angle")),
+        Value(id="middle", symbol="m", unit="rad", description="Middle", per_piece=True, formula=same.of(angle=m.angle)),
         Value(id="place", symbol="y", unit="rad", description="Place", formula=shape),
     )  # fmt: skip
     toy = Mechanism(

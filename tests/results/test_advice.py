@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text, Vary
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text, Vary, lookup, m, number, value
 from diecut_report.machine.calculation import Calculation, Impossible, Unproven
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.checks import AdviceWay
@@ -149,10 +149,10 @@ class Pin(Inputs):
 def pin(*checks: Check, advise: tuple[AdviceWay, ...]) -> Mechanism:
     """A pin that gives way when it is soft, and breaks when it is hard."""
     chapter = Chapter("Pin")
-    chapter.lookup("strength", "σ", "MPa", "Strength", {"soft": 1.0, "hard": 4.0}, by="grade")
-    chapter.value("notch", "k", "1", "Notch sensitivity", lambda: 1, needs=("grade=soft",))
-    chapter.value("notch", "k", "1", "Notch sensitivity", lambda: 3, needs=("grade=hard",))
-    chapter.value("pressure", "p", "MPa", "Pressure", lambda bore: 2e6 * 0.01 / bore)
+    chapter.strength = lookup({"soft": 1.0, "hard": 4.0}, by="grade"), "σ", "MPa", "Strength"
+    chapter.notch = value(1, needs=("grade=soft",)), "k", "1", "Notch sensitivity"
+    chapter.notch = value(3, needs=("grade=hard",)), "k", "1", "Notch sensitivity"
+    chapter.pressure = number(2e6) * 0.01 / m.bore, "p", "MPa", "Pressure"
     strong = check("strong", "pressure", "strength", unit="MPa", advise=advise)
     return Mechanism(
         kind="pin", version="1", title="", summary="", inputs=Pin, chapters=(chapter,), checks=(strong, *checks)
@@ -184,8 +184,8 @@ class Spring(Inputs):
 def spring(advise: tuple[AdviceWay, ...]) -> Mechanism:
     """A spring that bears from 20 mm on, and without damping swings too far within 10 % of 100 mm squared."""
     chapter = Chapter("Spring")
-    chapter.value("load", "p", "1", "Load", lambda width: 0.02 / width)
-    chapter.value("swing", "s", "1", "Swing", lambda width, damping: 1 / (damping + abs(1 - (width / 0.1) ** 2)))
+    chapter.load = 0.02 / m.width, "p", "1", "Load"
+    chapter.swing = 1 / (m.damping + abs(1 - (m.width / 0.1) ** 2)), "s", "1", "Swing"
     checks = (
         check("load", "load", 1.0, advise=advise),
         check("swing", "swing", 10.0),

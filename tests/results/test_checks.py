@@ -22,8 +22,9 @@ from diecut_report.api import (
     Quantity,
     Text,
     Value,
-    bind,
     formula,
+    m,
+    value,
 )
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
@@ -79,7 +80,7 @@ def check(demand: Any, limit: Any, **changes: Any) -> Check:
 
 def rack(*checks: Check) -> Mechanism:
     steps = (
-        Value(id="force", symbol="S", unit="N", description="Force", formula=bind(doubled, load="bars.load")),
+        Value(id="force", symbol="S", unit="N", description="Force", formula=doubled.of(load=m.bars.load)),
         Abscissa(id="angle", symbol="φ", unit="deg", description="Angle", period=2 * np.pi),
         Value(id="torque", symbol="T", unit="N", description="Wave", formula=wave),
         Value(id="bound", symbol="B", unit="N", description="Bound", formula=bound_of),
@@ -261,11 +262,11 @@ bar_check = partial(check, title="Bar")
 
 def bar(*checks: Check) -> Mechanism:
     chapter = Chapter("All")
-    chapter.value("doubled", "D", "N", "Doubled", lambda force: 2 * force)
-    chapter.value("slack", "Δ", "N", "Slack", lambda force: 10 - force, exists=lambda force: force < 10)
-    chapter.value("spread", "S", "N", "Spread", lambda force, width: force + width, needs=("width",))
-    chapter.value("bent", "B", "N", "Bent", lambda force: 3 * force, needs=("material=steel",))
-    chapter.value("weighed", "G", "N", "Weighed", lambda weight, tare: weight - tare, needs=("weight", "tare"))
+    chapter.doubled = 2 * m.force, "D", "N", "Doubled"
+    chapter.slack = value(10 - m.force, exists=m.force < 10), "Δ", "N", "Slack"
+    chapter.spread = value(m.force + m.width, needs=("width",)), "S", "N", "Spread"
+    chapter.bent = value(3 * m.force, needs=("material=steel",)), "B", "N", "Bent"
+    chapter.weighed = value(m.weight - m.tare, needs=("weight", "tare")), "G", "N", "Weighed"
     return Mechanism(kind="bar", version="1", title="Bar", summary="", inputs=Bar, chapters=(chapter,), checks=checks)
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Chapter, Erratum, Inputs, Mechanism, Quantity, Source
+from diecut_report.api import POINTS, Chapter, Erratum, Inputs, Mechanism, Quantity, Source, abscissa, computed, m
 from diecut_report.machine.calculation import Calculation, Unproven
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
@@ -60,9 +60,9 @@ class Cam(Inputs):
 
 def cam(rise: float | list[float], start: float, way: float = 1.0) -> Calculation:
     chapter = Chapter("Turn")
-    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-    chapter.computed("start", "φ_1", "deg", "Start", lambda rise: 0 * rise + start, ("rise",), "it is so")
-    chapter.value("end", "φ_2", "deg", "End", lambda start, rise: start + way * rise)
+    chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+    chapter.start = computed(lambda rise: 0 * rise + start, ("rise",), "it is so"), "φ_1", "deg", "Start"
+    chapter.end = m.start + way * m.rise, "φ_2", "deg", "End"
     chapter.phase("rising", "working", "The follower rises", "angle", ("start", "end"))
     mechanism = Mechanism(kind="cam", version="1", title="Cam", summary="", inputs=Cam, chapters=(chapter,))
     count = len(rise) if isinstance(rise, list) else 1

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, Formula, Mechanism, Step, Value, bind, formula
+from diecut_report.api import Chapter, Formula, Mechanism, Step, Value, formula, m
 from diecut_report.config.loader import load_config
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.errors import PluginError
@@ -227,8 +227,8 @@ FLAWS = {
     ),
     "another unit than declared": (mechanism(value(unit="N")), "declared is N"),
     "a print that is not what is computed": (mechanism(value(formula=Lying(moment.function))), "prints"),
-    "a bracket in another unit than the root": (rooted(low=bind(same, quantity="force")), "gives"),
-    "a relation between unlike quantities": (rooted(right=bind(same, quantity="force")), "the relation equals"),
+    "a bracket in another unit than the root": (rooted(low=same.of(quantity=m.force)), "gives"),
+    "a relation between unlike quantities": (rooted(right=same.of(quantity=m.force)), "the relation equals"),
 }
 
 

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import GRAVITY, Chapter, Check, Inputs, Mechanism, Quantity, Source
+from diecut_report.api import GRAVITY, Chapter, Check, Inputs, Mechanism, Quantity, Source, m
 from diecut_report.cli.main import main
 from diecut_report.declaration.formula_checks import doubts
 from tests.testing.test_check_plugin import toggle
@@ -99,9 +99,9 @@ BOTH = ("found", "twi" + "ce")  # the file itself names it once, at its step: co
 
 def made(formula: Any, key_results: tuple[str, ...] = ("found",)) -> Mechanism:
     first, other = Chapter("First"), Chapter("Other")
-    first.value("found", "f", "1/s", "Found", formula)
-    other.value("weight", "G", "N", "Weight", lambda mass: mass * GRAVITY)
-    other.value("twice", "H", "N", "Twice", lambda weight: 2 * weight)
+    first.found = formula, "f", "1/s", "Found"
+    other.weight = m.mass * GRAVITY, "G", "N", "Weight"
+    other.twice = 2 * m.weight, "H", "N", "Twice"
     return Mechanism(
         kind="drum",
         version="1",
@@ -197,7 +197,7 @@ def test_a_chapter_that_nothing_depends_on_is_noted() -> None:
 )
 def test_a_paper_that_is_not_among_the_sources_is_noted(source: str, name: str | None) -> None:
     step = Chapter("Cited")
-    step.value("cited", "G", "N", "Weight", lambda mass: mass * GRAVITY, source=source)
+    step.cited = m.mass * GRAVITY, "G", "N", "Weight", source
     mechanism = replace(made(lambda rate: 2 * rate, BOTH), chapters=(step,), key_results=("cited",))
     listed = replace(mechanism, sources=(Source("001", "A paper."),))
     for each in (listed,) if name is None else (mechanism, listed):

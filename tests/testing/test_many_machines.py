@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Chapter, Check, Computed, Inputs, Mechanism, Quantity
+from diecut_report.api import POINTS, Chapter, Check, Computed, Inputs, Mechanism, Quantity, abscissa, computed, m
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.checks import CheckClass
 from diecut_report.testing.contract import constant
@@ -24,9 +24,7 @@ class Rounded(Inputs):
 def differences(check_class: CheckClass, each: float) -> list[str]:
     """The checks that differ between three machines together and one alone; their error grows with their number."""
     chapter = Chapter("Error")
-    chapter.computed(
-        "error", "e", "1", "Error", lambda length: np.full(length.shape, each * len(length)), ("length",), "made up"
-    )
+    chapter.error = computed(lambda length: np.full(length.shape, each * len(length)), ("length",), "made up"), "e", "1", "Error"
     check = Check(id="error", check_class=check_class, title="Error", demand="error", limit=1e-9, unit="1", demand_label="error",
                   limit_label="accepted", consequence="it is wrong.")  # fmt: skip
     rounded = Mechanism(
@@ -59,11 +57,9 @@ class Turned(Inputs):
 def test_a_curve_that_is_rounding_beside_its_quantities_may_be_another_one(size: float, found: list[str]) -> None:
     """As the difference of a formula and its derivative; the one here grows with the number of machines."""
     chapter = Chapter("A turn")
-    chapter.abscissa("turn", "φ", "deg", "Turn", 2 * np.pi)
-    chapter.computed(
-        "offset", "o", "mm", "Offset", lambda length: np.full(length.shape, size * len(length)), ("length",), "made up"
-    )
-    chapter.value("apart", "Δ", "mm", "Difference", lambda turn, offset: offset * np.cos(turn))
+    chapter.turn = abscissa(2 * np.pi), "φ", "deg", "Turn"
+    chapter.offset = computed(lambda length: np.full(length.shape, size * len(length)), ("length",), "made up"), "o", "mm", "Offset"
+    chapter.apart = m.offset * np.cos(m.turn), "Δ", "mm", "Difference"
     turned = Mechanism(kind="turned", version="1", title="", summary="", inputs=Turned, chapters=(chapter,))
     many = calculate(turned, {"length": np.array([0.01, 0.02, 0.03]), "n_points": 36}, 3)
     alone = calculate(turned, {"length": 0.01, "n_points": 36})

@@ -9,8 +9,7 @@ from typing import Any, ClassVar, Unpack
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.formula import Formula
-from diecut_report.mechanism.names import ByText, Written, as_formula, formula_of
+from diecut_report.mechanism.names import Written, as_formula, formula_of
 from diecut_report.mechanism.steps.base import Options, Over
 from diecut_report.mechanism.steps.protocols import ANY, CURVE, Item, Kinds, Names, StepEngine, StepFormula, StepPrinter
 from diecut_report.mechanism.steps.value import FormulaStep
@@ -19,16 +18,21 @@ from diecut_report.text.phrases import Phrase, phrase
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """Declare one branch of a choice: taken where the condition holds (the last one has none), and why, in words."""
+    """Declare one branch of a choice: its value (formula or text), why in words, and when it is taken; the last one has no condition."""
 
-    value: Formula | ByText | str
+    value: Any
     words: str
-    condition: Formula | ByText | None = None
+    condition: Any = None
+
+    def __post_init__(self) -> None:
+        for name in ("value", "condition"):
+            if not isinstance(written := getattr(self, name), str | None):
+                object.__setattr__(self, name, as_formula(written, self.words))
 
     def mapped(self, function: Callable[[Any], Any]) -> Case:
         """Return the same with what a function makes of its formulas."""
         value = self.value if isinstance(self.value, str) else function(self.value)
-        return replace(self, value=value, condition=function(self.condition))
+        return replace(self, value=value, condition=self.condition and function(self.condition))
 
     def formulas(self) -> Iterator[StepFormula]:
         if not isinstance(self.value, str):
@@ -37,10 +41,7 @@ class Case:
             yield StepFormula(phrase("condition of a case"), phrase("a condition"), self.condition, False, CURVE, True)
 
 
-def case(value: Written | str, words: str, condition: Written | None = None) -> Case:
-    """Return one branch of a choice: its value (formula or text), why in words, and when it is taken; the last one has no condition."""
-    taken = value if isinstance(value, str) else as_formula(value, words)
-    return Case(taken, words, None if condition is None else as_formula(condition, words))
+case = Case
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,9 +94,6 @@ class Choice(FormulaStep):
         for each in cases:
             if not isinstance(each.words, str):
                 yield phrase('has a case whose words are not a text; write case(value, "why it is taken", condition)')
-            if not isinstance(each.value, str | Formula | ByText):
-                template = "has a case of the value {value}; write a text, or an expression of quantities"
-                yield Phrase(template, value=repr(each.value))
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
         yield from super().faults(names, when)

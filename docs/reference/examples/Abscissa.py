@@ -17,6 +17,13 @@ from diecut_report.api import (
     Quantity,
     Series,
     Span,
+    abscissa,
+    accumulated,
+    crossings,
+    derivative,
+    m,
+    pi,
+    reduction,
 )
 
 
@@ -28,20 +35,18 @@ class Slide(Inputs):
 
 
 motion = Chapter("Motion")
-motion.require("meets", lambda pad, stroke: pad < stroke, key="pad", message="is {pad}, beyond the stroke {stroke}")
-motion.value("meets_at", "φ_1", "deg", "Where the pad is met", lambda pad, stroke: np.arccos(1 - 2 * pad / stroke))
-motion.value("leaves_at", "φ_2", "deg", "Where the pad is left", lambda meets_at: 2 * np.pi - meets_at)
-motion.abscissa("angle", "φ", "deg", "Angle of the crank", 2 * np.pi)
+motion.require("meets", m.pad < m.stroke, key="pad", message="is {pad}, beyond the stroke {stroke}")
+motion.meets_at = np.arccos(1 - 2 * m.pad / m.stroke), "φ_1", "deg", "Where the pad is met"
+motion.leaves_at = 2 * pi - m.meets_at, "φ_2", "deg", "Where the pad is left"
+motion.angle = abscissa(2 * np.pi), "φ", "deg", "Angle of the crank"
 motion.breakpoints("pad_ends", "angle", "meets_at", "leaves_at")
-motion.value("position", "x", "mm", "Position", lambda stroke, angle: stroke / 2 * (1 - np.cos(angle)))
-motion.derivative("slope", "x_1", "mm/rad", "Change of position by the angle", of="position")
-motion.crossings("turning", "φ_t", "deg", "Where the slide turns back", of="slope")
-motion.value(
-    "force", "F", "N", "Force on the pad", lambda stiffness, position, pad: stiffness * np.maximum(position - pad, 0 * pad),
-)  # fmt: skip
-motion.reduction("force_max", "F_max", "N", "Greatest force", operation="max", of="force")
-motion.reduction("force_mean", "F_m", "N", "Mean force", operation="mean", of="force")
-motion.accumulated("impulse", "S", "N*rad", "Force that has been, over the angle", of="force")
+motion.position = m.stroke / 2 * (1 - np.cos(m.angle)), "x", "mm", "Position"
+motion.slope = derivative(of="position"), "x_1", "mm/rad", "Change of position by the angle"
+motion.turning = crossings(of="slope"), "φ_t", "deg", "Where the slide turns back"
+motion.force = m.stiffness * np.maximum(m.position - m.pad, 0 * m.pad), "F", "N", "Force on the pad"  # fmt: skip
+motion.force_max = reduction(operation="max", of="force"), "F_max", "N", "Greatest force"
+motion.force_mean = reduction(operation="mean", of="force"), "F_m", "N", "Mean force"
+motion.impulse = accumulated(of="force"), "S", "N*rad", "Force that has been, over the angle"
 
 MECHANISM = Mechanism(
     kind="slide",

@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Block, Chapter, Inputs, Mechanism, Quantity, Text, bind
+from diecut_report.api import (
+    Annotated,
+    Block,
+    Chapter,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Text,
+    m,
+    neighbour,
+    part,
+    running,
+    total,
+)
 
 
 class Section(Block):
@@ -15,14 +28,12 @@ class Spindle(Inputs):
 
 
 rows = Chapter("Sections")
-rows.neighbour("next_diameter", "d_n,k", "mm", "Diameter of the next section", of="sections.diameter")
-rows.value(
-    "step", "Δd_k", "mm", "Step to the next section", bind(lambda n, d: n - d, n="next_diameter", d="sections.diameter")
-)
-rows.running("end", "x_k", "mm", "Right end of the section", operation="sum", of="sections.length")
-rows.total("length", "L", "mm", "Length of the spindle", operation="sum", of="sections.length")
-rows.total("thickest", "d_max", "mm", "Greatest diameter", operation="max", of="sections.diameter")
-rows.part("last_end", "x_e", "mm", "Right end of the last section", of="end", index=-1)
+rows.next_diameter = neighbour(of="sections.diameter"), "d_n,k", "mm", "Diameter of the next section"
+rows.step = m.next_diameter - m.sections.diameter, "Δd_k", "mm", "Step to the next section"
+rows.end = running(operation="sum", of="sections.length"), "x_k", "mm", "Right end of the section"
+rows.length = total(operation="sum", of="sections.length"), "L", "mm", "Length of the spindle"
+rows.thickest = total(operation="max", of="sections.diameter"), "d_max", "mm", "Greatest diameter"
+rows.last_end = part(of="end", index=-1), "x_e", "mm", "Right end of the last section"
 
 MECHANISM = Mechanism(
     kind="spindle",

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Literal
 
-import numpy as np
-
 from diecut_report.api import (
     Annotated,
     Binding,
@@ -18,6 +16,7 @@ from diecut_report.api import (
     Quantity,
     Text,
     formula,
+    pi,
 )
 
 
@@ -30,7 +29,7 @@ def rectangle(width):
 @formula
 def disc(width):
     """Area of a round bar."""
-    return np.pi / 4 * width**2
+    return pi / 4 * width**2
 
 
 AREAS: dict[str, Formula] = {"square": rectangle, "round": disc}
@@ -45,7 +44,7 @@ class Bar(Inputs):
 
 
 areas = Chapter("Area")
-areas.value("area", "A", "mm**2", "Area of the section", area)
+areas.area = area, "A", "mm**2", "Area of the section"
 
 MECHANISM = Mechanism(kind="bar", version="1.0", title="Bar", summary="Area of a bar.", inputs=Bar, chapters=(areas,))
 

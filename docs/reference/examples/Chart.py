@@ -17,6 +17,7 @@ from diecut_report.api import (
     fill,
     level,
     line,
+    m,
     mark,
     vertical,
 )  # fmt: skip
@@ -28,7 +29,7 @@ class Wedge(Inputs):
 
 
 spread = Chapter("Spreading")
-spread.value("normal", "N", "N", "Spreading force", lambda force, wedge_angle: force / (2 * np.tan(wedge_angle / 2)))
+spread.normal = m.force / (2 * np.tan(m.wedge_angle / 2)), "N", "N", "Spreading force"
 
 
 def panels(view: View) -> list[Shape]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Block, Chapter, Inputs, Mechanism, Quantity, Text
+from diecut_report.api import Annotated, Block, Chapter, Inputs, Mechanism, Quantity, Text, total
 
 
 class Cam(Block):
@@ -28,7 +28,7 @@ room.clash(
     "apart", overlapping, ("cams.place", "cams.width"), key="cams.{index}.place",
     message="puts cam {part} into cam {other}; move one of them",
 )  # fmt: skip
-room.total("width", "w_Σ", "mm", "Widths of all cams", operation="sum", of="cams.width")
+room.width = total(operation="sum", of="cams.width"), "w_Σ", "mm", "Widths of all cams"
 
 MECHANISM = Mechanism(
     kind="camshaft", version="1.0", title="Camshaft", summary="Room on a camshaft.", inputs=Camshaft, chapters=(room,)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Refusal
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Refusal, computed, m
 
 
 class Gears(Inputs):
@@ -23,13 +23,9 @@ def driver_teeth(ratio, most):
 
 
 search = Chapter("Teeth")
-search.computed(
-    "driver_teeth", "z_1", "1", "Teeth of the driver", driver_teeth, ("ratio", "most"),
-    "all drivers of 17 to 30 teeth are tried, and the one is taken whose ratio is nearest", whole=True,
-)  # fmt: skip
-search.value(
-    "driven_teeth", "z_2", "1", "Teeth of the driven wheel", lambda ratio, driver_teeth: np.round(ratio * driver_teeth)
-)
+search.driver_teeth = (computed(driver_teeth, ("ratio", "most"),
+    "all drivers of 17 to 30 teeth are tried, and the one is taken whose ratio is nearest", whole=True), "z_1", "1", "Teeth of the driver")  # fmt: skip
+search.driven_teeth = np.round(m.ratio * m.driver_teeth), "z_2", "1", "Teeth of the driven wheel"
 
 MECHANISM = Mechanism(
     kind="gears", version="1.0", title="Gears", summary="Teeth for a ratio.", inputs=Gears, chapters=(search,)

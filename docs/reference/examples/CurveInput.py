@@ -6,7 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Chapter, CurveInput, Inputs, Mechanism
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Chapter,
+    CurveInput,
+    Inputs,
+    Mechanism,
+    abscissa,
+    curve_period,
+    from_curve,
+    reduction,
+)
 
 
 class Press(Inputs):
@@ -20,17 +31,15 @@ class Follower(Inputs):
 
 
 turn = Chapter("Turn")
-turn.abscissa("angle", "φ", "deg", "Angle of the shaft", 2 * np.pi)
-turn.from_curve("force", "F_φ", "kN", "Load over the angle", given="load", abscissa="angle")
-turn.reduction("force_max", "F_max", "kN", "Greatest load", operation="max", of="force")
+turn.angle = abscissa(2 * np.pi), "φ", "deg", "Angle of the shaft"
+turn.force = from_curve(given="load", abscissa="angle"), "F_φ", "kN", "Load over the angle"
+turn.force_max = reduction(operation="max", of="force"), "F_max", "kN", "Greatest load"
 
 following = Chapter("Following")
-following.curve_period(
-    "period", "Φ", "deg", "Period of the force", given="force", otherwise="give a force over an angle",
-)  # fmt: skip
-following.abscissa("angle", "φ", "deg", "Angle of the shaft", period="period")
-following.from_curve("own_force", "F", "kN", "Force, taken over", given="force", abscissa="angle")
-following.reduction("force_range", "ΔF", "kN", "Range of the force", operation="range", of="own_force")
+following.period = curve_period(given="force", otherwise="give a force over an angle"), "Φ", "deg", "Period of the force"  # fmt: skip
+following.angle = abscissa(period="period"), "φ", "deg", "Angle of the shaft"
+following.own_force = from_curve(given="force", abscissa="angle"), "F", "kN", "Force, taken over"
+following.force_range = reduction(operation="range", of="own_force"), "ΔF", "kN", "Range of the force"
 
 PUNCH = Mechanism(
     kind="punch", version="1.0", title="Punch", summary="A load over a turn.", inputs=Press, chapters=(turn,)

@@ -15,12 +15,14 @@ from diecut_report.api import (
     Quantity,
     Shape,
     View,
+    abscissa,
     arc,
     arrow,
     box,
     circle,
     dimension,
     label,
+    m,
     point,
     polyline,
     radius_dimension,
@@ -36,14 +38,10 @@ class CrankSlider(Inputs):
 
 
 motion = Chapter("Motion")
-motion.require(
-    "turns", lambda crank, rod: crank < rod, key="rod", message="is {rod}; it must be longer than the crank {crank}"
-)
-motion.abscissa("angle", "φ", "deg", "Crank angle", 2 * np.pi)
-motion.value(
-    "position", "x", "mm", "Position", lambda crank, rod, angle: crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle)) ** 2),
-)  # fmt: skip
-motion.value("stroke", "s", "mm", "Stroke", lambda crank: 2 * crank)
+motion.require("turns", m.crank < m.rod, key="rod", message="is {rod}; it must be longer than the crank {crank}")
+motion.angle = abscissa(2 * np.pi), "φ", "deg", "Crank angle"
+motion.position = m.crank * np.cos(m.angle) + np.sqrt(m.rod**2 - (m.crank * np.sin(m.angle)) ** 2), "x", "mm", "Position"  # fmt: skip
+motion.stroke = 2 * m.crank, "s", "mm", "Stroke"
 
 
 def pose(view: View, angle: float) -> list[Shape]:

@@ -18,7 +18,10 @@ from diecut_report.api import (
     MechanismInput,
     Quantity,
     View,
+    abscissa,
     label,
+    m,
+    pi,
     polyline,
 )
 
@@ -32,8 +35,8 @@ class Line(Inputs):
 
 
 turn = Chapter("Turn")
-turn.abscissa("shaft", "Φ", "deg", "Shaft angle", TURN)
-turn.value("middle", "Φ_1", "deg", "Shaft angle of its half", lambda offset: offset + np.pi)
+turn.shaft = abscissa(TURN), "Φ", "deg", "Shaft angle"
+turn.middle = m.offset + pi, "Φ_1", "deg", "Shaft angle of its half"
 turn.prepared("name", lambda known: known["runs"].name, ("runs",))
 
 

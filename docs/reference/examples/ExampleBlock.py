@@ -16,6 +16,8 @@ from diecut_report.api import (
     Quantity,
     Text,
     Wired,
+    m,
+    total,
 )
 
 CONTRACT = 1  # the contract for which this module is written; a program with another one says so
@@ -32,8 +34,8 @@ class Hoist(Inputs):
 
 
 masses = Chapter("Masses")
-masses.total("load", "m_Σ", "kg", "Mass of all loads", operation="sum", of="loads.mass")
-masses.value("mass", "m", "kg", "Mass with the hook", lambda load, own_mass: load + own_mass)
+masses.load = total(operation="sum", of="loads.mass"), "m_Σ", "kg", "Mass of all loads"
+masses.mass = m.load + m.own_mass, "m", "kg", "Mass with the hook"
 
 MECHANISM = Mechanism(
     kind="hoist",

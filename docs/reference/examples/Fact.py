@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, m, value
 
 
 class Lines(Inputs):
@@ -12,9 +12,9 @@ class Lines(Inputs):
 
 
 rates = Chapter("Rates")
-rates.value("error", "δ", "%", "Difference of the rates", lambda one, other: abs(one - other) / one)
-rates.fact("rates_agree", lambda error: error <= 1e-6, "not calculated: the lines run at different rates")
-rates.value("speed", "v", "m/s", "Common speed", lambda one, length: one * length, needs=("rates_agree",))
+rates.error = abs(m.one - m.other) / m.one, "δ", "%", "Difference of the rates"
+rates.fact("rates_agree", m.error <= 1e-6, "not calculated: the lines run at different rates")
+rates.speed = value(m.one * m.length, needs=("rates_agree",)), "v", "m/s", "Common speed"
 
 MECHANISM = Mechanism(kind="lines", version="1.0", title="Lines", summary="Two lines.", inputs=Lines, chapters=(rates,))
 

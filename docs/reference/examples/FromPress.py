@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, FromPress, Inputs, Mechanism, Quantity, formula
+from diecut_report.api import Annotated, Chapter, FromPress, Inputs, Mechanism, Quantity, formula, m
 
 
 @formula
@@ -24,9 +24,7 @@ class Feeder(Inputs):
 
 
 motion = Chapter("Motion")
-motion.value(
-    "speed", "v", "m/s", "Mean speed of the sheet", lambda sheet_length, rate, share: sheet_length * rate / share
-)
+motion.speed = m.sheet_length * m.rate / m.share, "v", "m/s", "Mean speed of the sheet"
 
 MECHANISM = Mechanism(
     kind="sheet_feeder",

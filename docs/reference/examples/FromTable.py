@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from diecut_report.api import Annotated, Chapter, FromTable, Inputs, Mechanism, OneOf, Quantity, Text
+from diecut_report.api import Annotated, Chapter, FromTable, Inputs, Mechanism, OneOf, Quantity, Text, m, value
 
 
 class Sprocket(Inputs):
@@ -17,7 +17,7 @@ class Sprocket(Inputs):
 
 
 length = Chapter("Length")
-length.value("advance", "s", "mm", "Way of the chain in a turn", lambda pitch, teeth: pitch * teeth, needs=("pitch",))
+length.advance = value(m.pitch * m.teeth, needs=("pitch",)), "s", "mm", "Way of the chain in a turn"
 
 MECHANISM = Mechanism(
     kind="sprocket", version="1.0", title="Sprocket", summary="Way of a chain.", inputs=Sprocket, chapters=(length,)

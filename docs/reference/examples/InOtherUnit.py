@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Annotated, Chapter, InOtherUnit, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, InOtherUnit, Inputs, Mechanism, Quantity, computed
 
 
 class Valve(Inputs):
@@ -18,10 +18,8 @@ def delay_angle(delay, speed):
 
 
 timing = Chapter("Timing")
-timing.computed(
-    "delay_angle", "φ_d", "deg", "Angle by which the valve is late", delay_angle, ("delay", "speed"),
-    "a delay that is a time is multiplied by the speed",
-)  # fmt: skip
+timing.delay_angle = (computed(delay_angle, ("delay", "speed"), "a delay that is a time is multiplied by the speed"), "φ_d", "deg",
+    "Angle by which the valve is late")  # fmt: skip
 
 MECHANISM = Mechanism(
     kind="valve", version="1.0", title="Valve", summary="Delay of a valve.", inputs=Valve, chapters=(timing,)

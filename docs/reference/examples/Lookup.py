@@ -13,7 +13,10 @@ from diecut_report.api import (
     StandardFault,
     StandardTable,
     Text,
+    interpolated,
+    lookup,
     own_table,
+    pick,
     standard_table,
     table_beside,
 )  # fmt: skip
@@ -47,15 +50,11 @@ class Drive(Inputs):
 
 
 tables = Chapter("Tables")
-tables.lookup("bore", "d", "mm", "Bore", BEARINGS, by="bearing", column="bore")
-tables.lookup("pitch", "p", "mm", "Pitch", PITCHES, by="chain")
-tables.pick(
-    "second_rating", "C_2", "kN", "Rating of the second bearing", "above", of="load", series=BEARINGS.series("C")
-)
-tables.lookup(  # the row that has exactly this number, in the column C
-    "second_bore", "d_2", "mm", "Bore of the second bearing", BEARINGS, by="second_rating", sought_in="C", column="bore"
-)
-tables.interpolated("form_factor", "Y", "1", "Form factor", FACTORS, of="teeth")
+tables.bore = lookup(BEARINGS, by="bearing", column="bore"), "d", "mm", "Bore"
+tables.pitch = lookup(PITCHES, by="chain"), "p", "mm", "Pitch"
+tables.second_rating = pick("above", of="load", series=BEARINGS.series("C")), "C_2", "kN", "Rating of the second bearing"
+tables.second_bore = lookup(BEARINGS, by="second_rating", sought_in="C", column="bore"), "d_2", "mm", "Bore of the second bearing"
+tables.form_factor = interpolated(FACTORS, of="teeth"), "Y", "1", "Form factor"
 
 MECHANISM = Mechanism(
     kind="tabled_drive", version="1.0", title="Drive", summary="Numbers of tables.", inputs=Drive, chapters=(tables,)

@@ -6,7 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Chapter, Curve, Inputs, Mechanism, Quantity
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Chapter,
+    Curve,
+    Inputs,
+    Mechanism,
+    Quantity,
+    abscissa,
+    made_curve,
+    reduction,
+)
 
 
 class Cam(Inputs):
@@ -40,9 +51,9 @@ def ramp(lift) -> Curve:
 
 
 cam = Chapter("Cam")
-cam.abscissa("angle", "φ", "deg", "Angle of the cam", 2 * np.pi)
-cam.made_curve("path", "s", "mm", "Lift over the angle", ramp, ("lift",), "angle", "a ramp up and a ramp down")
-cam.reduction("mean", "s_m", "mm", "Mean lift", operation="mean", of="path")
+cam.angle = abscissa(2 * np.pi), "φ", "deg", "Angle of the cam"
+cam.path = made_curve(ramp, ("lift",), "angle", "a ramp up and a ramp down"), "s", "mm", "Lift over the angle"
+cam.mean = reduction(operation="mean", of="path"), "s_m", "mm", "Mean lift"
 
 MECHANISM = Mechanism(kind="ramp_cam", version="1.0", title="Cam", summary="A ramp.", inputs=Cam, chapters=(cam,))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Check, Erratum, Inputs, Mechanism, Quantity, Source
+from diecut_report.api import Annotated, Chapter, Check, Erratum, Inputs, Mechanism, Quantity, Source, m
 
 
 class Bracket(Inputs):
@@ -14,9 +14,9 @@ class Bracket(Inputs):
 
 
 bending = Chapter("Bending", text="The bar is clamped at the wall and loaded at its end.")
-bending.value("moment", "M", "N*m", "Bending moment at the wall", lambda force, arm: force * arm)
-bending.value("modulus", "W", "cm**3", "Section modulus", lambda width, height: width * height**2 / 6)
-bending.value("stress", "σ", "MPa", "Bending stress", lambda moment, modulus: moment / modulus, source="1")
+bending.moment = m.force * m.arm, "M", "N*m", "Bending moment at the wall"
+bending.modulus = m.width * m.height**2 / 6, "W", "cm**3", "Section modulus"
+bending.stress = m.moment / m.modulus, "σ", "MPa", "Bending stress", "1"
 
 MECHANISM = Mechanism(
     kind="bracket",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, OneOf, Quantity
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, OneOf, Quantity, m, value
 
 
 class Motor(Inputs):
@@ -17,11 +17,9 @@ class Motor(Inputs):
 
 
 torques = Chapter("Torques")
-torques.value("motor_torque", "M_m", "N*m", "Torque of the motor", lambda torque: torque, needs=("torque",))
-torques.value(
-    "motor_torque", "M_m", "N*m", "Torque of the motor", lambda power, speed: power / speed, needs=("power", "speed")
-)
-torques.value("gear_torque", "M_g", "N*m", "Torque behind the gear", lambda motor_torque, ratio: motor_torque * ratio)
+torques.motor_torque = value(m.torque, needs=("torque",)), "M_m", "N*m", "Torque of the motor"
+torques.motor_torque = value(m.power / m.speed, needs=("power", "speed")), "M_m", "N*m", "Torque of the motor"
+torques.gear_torque = m.motor_torque * m.ratio, "M_g", "N*m", "Torque behind the gear"
 
 MECHANISM = Mechanism(
     kind="motor", version="1.0", title="Motor", summary="Torque behind a gear.", inputs=Motor, chapters=(torques,)

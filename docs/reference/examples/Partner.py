@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Comparison, Inputs, Mechanism, Partner, Quantity, Text
+from diecut_report.api import Annotated, Chapter, Comparison, Inputs, Mechanism, Partner, Quantity, Text, m
 
 
 class Crank(Inputs):
@@ -20,11 +20,11 @@ class Both(Inputs):
 
 
 strokes = Chapter("Stroke")
-strokes.value("stroke", "h", "mm", "Stroke of the crank", lambda radius: 2 * radius)
+strokes.stroke = 2 * m.radius, "h", "mm", "Stroke of the crank"
 half = Chapter("Half")
-half.value("half", "s_h", "mm", "Half of the stroke", lambda stroke: stroke / 2)
+half.half = m.stroke / 2, "s_h", "mm", "Half of the stroke"
 ratio = Chapter("Ratio")
-ratio.value("ratio", "k", "1", "Stroke to radius", lambda rod_stroke, crank_radius: rod_stroke / crank_radius)
+ratio.ratio = m.rod_stroke / m.crank_radius, "k", "1", "Stroke to radius"
 
 COMPARED = Mechanism(
     kind="stroke_ratio", version="1.0", title="Stroke ratio", summary="Compares.", inputs=Both, chapters=(ratio,)

@@ -17,6 +17,9 @@ from diecut_report.api import (
     MechanismInput,
     PhaseInput,
     Quantity,
+    abscissa,
+    computed,
+    m,
 )  # fmt: skip
 
 
@@ -33,10 +36,10 @@ class Guard(Inputs):
 
 
 turn = Chapter("Turn")
-turn.abscissa("angle", "φ", "deg", "Angle of the knife", 2 * np.pi, speed="speed")
+turn.angle = abscissa(2 * np.pi, speed="speed"), "φ", "deg", "Angle of the knife"
 turn.phase("cutting", "working", "Cutting", "angle", ("begin", "end"))
 turn.phase("idle", "moving", "Without a cut", "angle", rest_of=("cutting",))
-turn.value("width", "Δφ", "deg", "Angle of the cut", lambda begin, end: end - begin)
+turn.width = m.end - m.begin, "Δφ", "deg", "Angle of the cut"
 
 
 def share(known):
@@ -49,9 +52,7 @@ def share(known):
 
 watching = Chapter("Watching")
 watching.prepared("found", share, ("watched", "mechanism"))
-watching.computed(
-    "share", "s", "%", "Share of the turn", lambda found: found, ("found",), "the sum of the phase's intervals"
-)
+watching.share = computed(lambda found: found, ("found",), "the sum of the phase's intervals"), "s", "%", "Share of the turn"
 
 KNIFE = Mechanism(kind="blade", version="1.0", title="Knife", summary="Cuts.", inputs=Knife, chapters=(turn,))
 GUARD = Mechanism(kind="guard", version="1.0", title="Guard", summary="Watches.", inputs=Guard, chapters=(watching,))

@@ -13,6 +13,7 @@ from diecut_report.api import (
     StandardSeries,
     Text,
     own_series,
+    pick,
     standard_series,
     standard_series_by,
 )  # fmt: skip
@@ -33,9 +34,9 @@ class Cylinder(Inputs):
 
 
 sizes = Chapter("Sizes")
-sizes.pick("rating", "P_n", "kW", "Rating of the motor", "above", of="power", series=RATINGS, given="rating_given")
-sizes.pick("stroke", "s_n", "mm", "Stroke of the cylinder", "above", of="travel", series=STROKES)
-sizes.pick("length", "L_n", "mm", "Length of the belt", "nearest", of="belt", series=LENGTHS, by="section")
+sizes.rating = pick("above", of="power", series=RATINGS, given="rating_given"), "P_n", "kW", "Rating of the motor"
+sizes.stroke = pick("above", of="travel", series=STROKES), "s_n", "mm", "Stroke of the cylinder"
+sizes.length = pick("nearest", of="belt", series=LENGTHS, by="section"), "L_n", "mm", "Length of the belt"
 
 MECHANISM = Mechanism(
     kind="sized_drive",

@@ -4,7 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, BarGroup, Bars, Chapter, Inputs, Mechanism, Polar, Quantity, Series
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    BarGroup,
+    Bars,
+    Chapter,
+    Inputs,
+    Mechanism,
+    Polar,
+    Quantity,
+    Series,
+    abscissa,
+    m,
+    reduction,
+)
 
 
 class Rotor(Inputs):
@@ -14,9 +28,9 @@ class Rotor(Inputs):
 
 
 torque = Chapter("Torque")
-torque.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-torque.value("torque", "M", "N*m", "Torque", lambda mean, ripple, angle: mean + ripple * np.cos(2 * angle))
-torque.reduction("torque_max", "M_max", "N*m", "Maximum torque", operation="max", of="torque")
+torque.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+torque.torque = m.mean + m.ripple * np.cos(2 * m.angle), "M", "N*m", "Torque"
+torque.torque_max = reduction(operation="max", of="torque"), "M_max", "N*m", "Maximum torque"
 
 MECHANISM = Mechanism(
     kind="rotor", version="1.0", title="Rotor", summary="Torque of a rotor.", inputs=Rotor, chapters=(torque,),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Port, Quantity
+from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Port, Quantity, abscissa, m, reduction
 
 
 class Stamp(Inputs):
@@ -15,16 +15,10 @@ class Stamp(Inputs):
 
 
 turn = Chapter("Turn")
-turn.abscissa("angle", "φ", "deg", "Angle of the crank", 2 * np.pi, speed="crank_speed")
-turn.value("pin_force", "F_z", "N", "Force on the pin", lambda force, angle: force * np.sin(angle))
-turn.value(
-    "torque",
-    "T",
-    "N*m",
-    "Torque that the crank takes",
-    lambda pin_force, radius, angle: pin_force * radius * np.sin(angle),
-)
-turn.reduction("mean_torque", "T_m", "N*m", "Mean torque", operation="mean", of="torque")
+turn.angle = abscissa(2 * np.pi, speed="crank_speed"), "φ", "deg", "Angle of the crank"
+turn.pin_force = m.force * np.sin(m.angle), "F_z", "N", "Force on the pin"
+turn.torque = m.pin_force * m.radius * np.sin(m.angle), "T", "N*m", "Torque that the crank takes"
+turn.mean_torque = reduction(operation="mean", of="torque"), "T_m", "N*m", "Mean torque"
 
 MECHANISM = Mechanism(
     kind="stamp", version="1.0", title="Stamp", summary="A stamp on a crank.", inputs=Stamp, chapters=(turn,),

@@ -6,7 +6,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Cell, Chapter, Inputs, ListedColumn, Mechanism, Quantity
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Cell,
+    Chapter,
+    Inputs,
+    ListedColumn,
+    Mechanism,
+    Quantity,
+    abscissa,
+    computed,
+    computed_curve,
+    m,
+    reduction,
+)
 
 PARTS = ["driver", "driven"]
 
@@ -47,22 +61,18 @@ def table(known) -> list[tuple[Cell, ...]]:
 
 
 pair = Chapter("Pair")
-pair.abscissa("angle", "φ", "deg", "Angle of the driver", 2 * np.pi)
+pair.angle = abscissa(2 * np.pi), "φ", "deg", "Angle of the driver"
 pair.prepared("torques", torques, ("torque", "ratio", "ripple"))
 pair.part_names("wheels", "Both wheels", lambda ratio: PARTS, ("ratio",), count=lambda length: 2)
-pair.computed(
-    "mean", "M_k", "N*m", "Mean torque", lambda torques: torques.mean, ("torques",), "driver, driven", over="wheels",
-)  # fmt: skip
-pair.value("halved", "H_k", "N*m", "Half of the mean torque", lambda mean: mean / 2)
+pair.mean = computed(lambda torques: torques.mean, ("torques",), "driver, driven", over="wheels"), "M_k", "N*m", "Mean torque"  # fmt: skip
+pair.halved = m.mean / 2, "H_k", "N*m", "Half of the mean torque"
 pair.part_table("wheel_table", "Torques of the wheels", "wheels", ("mean", "halved"))
-pair.computed_curve(
-    "sum", "M_Σ", "N*m", "Sum of both", lambda torques, angle, middle, rows: torques.over(0, angle) + torques.over(1, angle),
-    "torques", "angle", "both are added",
-)  # fmt: skip
+pair.sum = (computed_curve(lambda torques, angle, middle, rows: torques.over(0, angle) + torques.over(1, angle), "torques", "angle",
+    "both are added"), "M_Σ", "N*m", "Sum of both")  # fmt: skip
 pair.part_curves(
     "torque_over", "M_φ", "N*m", "Torque over the angle", lambda torques: PARTS, curve, "torques", "angle", "a cosine about its mean",
 )  # fmt: skip
-pair.reduction("sum_max", "M_max", "N*m", "Greatest sum", operation="max", of="sum")
+pair.sum_max = reduction(operation="max", of="sum"), "M_max", "N*m", "Greatest sum"
 pair.listing(
     "list", "Torques in a list", (ListedColumn("wheel", "Wheel"), ListedColumn("mean", "Mean", "M_m", "N*m")), table, ("torques",),
 )  # fmt: skip

@@ -4,7 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Chapter, CurveTable, Inputs, Mechanism, Profile, Quantity
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Chapter,
+    CurveTable,
+    Inputs,
+    Mechanism,
+    Profile,
+    Quantity,
+    abscissa,
+    m,
+    reduction,
+)
 
 
 class Disc(Inputs):
@@ -14,13 +26,11 @@ class Disc(Inputs):
 
 
 contour = Chapter("Contour")
-contour.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-contour.value(
-    "distance", "ρ", "mm", "Distance from the axis", lambda radius, lift, angle: radius + lift / 2 * (1 - np.cos(angle))
-)
-contour.value("x", "x", "mm", "Across", lambda distance, angle: distance * np.cos(angle))
-contour.value("y", "y", "mm", "Upwards", lambda distance, angle: distance * np.sin(angle))
-contour.reduction("greatest", "ρ_max", "mm", "Greatest distance", operation="max", of="distance")
+contour.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+contour.distance = m.radius + m.lift / 2 * (1 - np.cos(m.angle)), "ρ", "mm", "Distance from the axis"
+contour.x = m.distance * np.cos(m.angle), "x", "mm", "Across"
+contour.y = m.distance * np.sin(m.angle), "y", "mm", "Upwards"
+contour.greatest = reduction(operation="max", of="distance"), "ρ_max", "mm", "Greatest distance"
 
 MECHANISM = Mechanism(
     kind="disc", version="1.0", title="Disc", summary="A disc cam.", inputs=Disc, chapters=(contour,),

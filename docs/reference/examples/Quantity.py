@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Text
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Text, m, pi, value
 
 
 class Wheel(Inputs):
@@ -18,20 +18,9 @@ class Wheel(Inputs):
 
 
 meshing = Chapter("Meshing")
-meshing.value(
-    "mesh_rate", "f_z", "1/s", "Teeth that mesh in a second", lambda speed, teeth: teeth * speed / (2 * np.pi)
-)
-meshing.value(
-    "changes",
-    "f_r",
-    "1/s",
-    "Changes of load in a second",
-    lambda mesh_rate: 2 * mesh_rate,
-    needs=("reversing=true", "use=drive"),
-)
-meshing.value(
-    "undercut", "z_g", "1", "Least teeth without undercut", lambda pressure_angle: 2 / np.sin(pressure_angle) ** 2
-)
+meshing.mesh_rate = m.teeth * m.speed / (2 * pi), "f_z", "1/s", "Teeth that mesh in a second"
+meshing.changes = value(2 * m.mesh_rate, needs=("reversing=true", "use=drive")), "f_r", "1/s", "Changes of load in a second"
+meshing.undercut = 2 / np.sin(m.pressure_angle) ** 2, "z_g", "1", "Least teeth without undercut"
 
 MECHANISM = Mechanism(
     kind="wheel", version="1.0", title="Wheel", summary="Rate at which teeth mesh.", inputs=Wheel, chapters=(meshing,)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, m, root
 
 
 class Chain(Inputs):
@@ -13,18 +13,10 @@ class Chain(Inputs):
 
 
 catenary = Chapter("Catenary")
-catenary.require(
-    "hangs", lambda span, length: length > span, key="length", message="is {length}; a chain hangs where it is longer than {span}",
-)  # fmt: skip
-catenary.root(
-    "parameter", "c", "m", "Parameter of the catenary",
-    lambda parameter, span, length: 2 * parameter * np.sinh(span / (2 * parameter)) - length,
-    low=lambda span: 0.05 * span,
-    high=lambda span: 100 * span,
-    left=lambda parameter, span: np.sinh(span / (2 * parameter)),
-    right=lambda parameter, length: length / (2 * parameter),
-)  # fmt: skip
-catenary.value("sag", "f", "m", "Sag", lambda parameter, span: parameter * (np.cosh(span / (2 * parameter)) - 1))
+catenary.require("hangs", m.length > m.span, key="length", message="is {length}; a chain hangs where it is longer than {span}")  # fmt: skip
+catenary.parameter = (root(2 * m.parameter * np.sinh(m.span / (2 * m.parameter)) - m.length, low=0.05 * m.span, high=100 * m.span,
+    left=np.sinh(m.span / (2 * m.parameter)), right=m.length / (2 * m.parameter)), "c", "m", "Parameter of the catenary")  # fmt: skip
+catenary.sag = m.parameter * (np.cosh(m.span / (2 * m.parameter)) - 1), "f", "m", "Sag"
 
 MECHANISM = Mechanism(
     kind="chain", version="1.0", title="Chain", summary="Sag of a chain.", inputs=Chain, chapters=(catenary,)

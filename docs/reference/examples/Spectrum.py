@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Spectrum, SpectrumLine
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Spectrum, SpectrumLine, m
 
 RATIOS = np.linspace(0.1, 3, 30)
 
@@ -25,7 +25,7 @@ class Mount(Inputs):
 
 
 own = Chapter("Mount")
-own.value("distance", "Δη", "1", "Distance from resonance", lambda ratio: abs(ratio - 1))
+own.distance = abs(m.ratio - 1), "Δη", "1", "Distance from resonance"
 
 MECHANISM = Mechanism(
     kind="mount", version="1.0", title="Mount", summary="A mount near resonance.", inputs=Mount, chapters=(own,),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Step, Steps, prefixed
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Step, Steps, m, prefixed
 
 
 class Beam(Inputs):
@@ -12,8 +12,8 @@ class Beam(Inputs):
 
 
 family = Steps()
-family.value("arm", "b", "mm", "Arm of the load", lambda span, place: span - place)
-family.value("reaction", "R", "kN", "Reaction", lambda load, arm, span: load * arm / span)
+family.arm = m.span - m.place, "b", "mm", "Arm of the load"
+family.reaction = m.load * m.arm / m.span, "R", "kN", "Reaction"
 
 turned: tuple[Step, ...] = prefixed("right_", family, shared=(), symbol_suffix="_r")  # right_arm, right_reaction
 

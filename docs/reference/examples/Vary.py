@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import AdviceWay, Annotated, Chapter, Check, Inputs, Mechanism, Quantity, Vary
+from diecut_report.api import AdviceWay, Annotated, Chapter, Check, Inputs, Mechanism, Quantity, Vary, m
 
 
 class Bracket(Inputs):
@@ -14,7 +14,7 @@ class Bracket(Inputs):
 
 
 bending = Chapter("Bending")
-bending.value("stress", "σ", "MPa", "Stress", lambda force, arm, width, height: 6 * force * arm / (width * height**2))
+bending.stress = 6 * m.force * m.arm / (m.width * m.height**2), "σ", "MPa", "Stress"
 
 STRONGER: tuple[AdviceWay, ...] = (
     "arm",  # to whichever side helps

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Curve, Extremes, Inputs, Mechanism, Varying
+from diecut_report.api import Annotated, Chapter, Curve, Extremes, Inputs, Mechanism, Varying, computed
 
 
 class Bolt(Inputs):
@@ -30,9 +30,7 @@ def half_range(force: Curve) -> float:
 
 alternating = Chapter("Alternating force")
 alternating.prepared("half", amplitude, ("force",))
-alternating.computed(
-    "amplitude", "F_a", "kN", "Amplitude of the force", lambda half: half, ("half",), "half of the range"
-)
+alternating.amplitude = computed(lambda half: half, ("half",), "half of the range"), "F_a", "kN", "Amplitude of the force"
 
 MECHANISM = Mechanism(
     kind="bolt", version="1.0", title="Bolt", summary="Amplitude of a force.", inputs=Bolt, chapters=(alternating,)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, m
 
 
 class Spring(Inputs):
@@ -12,14 +12,9 @@ class Spring(Inputs):
 
 
 travel = Chapter("Travel")
-travel.value(
-    "travel", "s_c", "mm", "Travel until coils touch", lambda free_length, solid_length: free_length - solid_length
-)
+travel.travel = m.free_length - m.solid_length, "s_c", "mm", "Travel until coils touch"
 travel.words("share", lambda stroke, travel: f"{stroke / travel:.0%}", ("stroke", "travel"))
-travel.require(
-    "fits", lambda stroke, travel: stroke < travel, key="stroke",
-    message="is {stroke}, {share} of the travel; at most {travel:down} is possible",
-)  # fmt: skip
+travel.require("fits", m.stroke < m.travel, key="stroke", message="is {stroke}, {share} of the travel; at most {travel:down} is possible")  # fmt: skip
 
 MECHANISM = Mechanism(
     kind="spring", version="1.0", title="Spring", summary="Travel of a spring.", inputs=Spring, chapters=(travel,)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, arccos, as_angle, as_number
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, arccos, as_angle, as_number, m, pi
 
 
 class Belt(Inputs):
@@ -17,11 +17,11 @@ class Belt(Inputs):
 
 
 belt = Chapter("Belt")
-belt.value("ratio", "k", "1", "Ratio of the belt's tensions", lambda friction, wrap: np.exp(friction * as_number(wrap)))
-belt.value("force", "F", "N", "Centrifugal force", lambda mass, radius, speed: mass * radius * as_number(speed) ** 2)
-belt.value("turn", "φ", "deg", "Turn of the rim", lambda lift, radius: as_angle(lift / radius))
-belt.value("rise", "γ", "deg", "Angle from the top", lambda lift, radius: arccos(1 - lift / radius))
-belt.value("time", "T", "s", "Time of a turn: 2π is an angle", lambda speed: 2 * np.pi / speed)
+belt.ratio = np.exp(m.friction * as_number(m.wrap)), "k", "1", "Ratio of the belt's tensions"
+belt.force = m.mass * m.radius * as_number(m.speed) ** 2, "F", "N", "Centrifugal force"
+belt.turn = as_angle(m.lift / m.radius), "φ", "deg", "Turn of the rim"
+belt.rise = arccos(1 - m.lift / m.radius), "γ", "deg", "Angle from the top"
+belt.time = 2 * pi / m.speed, "T", "s", "Time of a turn: 2π is an angle"
 
 MECHANISM = Mechanism(
     kind="belt", version="1.0", title="Belt", summary="A belt on a pulley.", inputs=Belt, chapters=(belt,)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Case, Chapter, Inputs, Mechanism, Quantity, case
+from diecut_report.api import Annotated, Case, Chapter, Inputs, Mechanism, Quantity, case, choice, m
 
 
 class Column(Inputs):
@@ -11,14 +11,11 @@ class Column(Inputs):
 
 buckling = Chapter("Buckling")
 BRANCHES: tuple[Case, ...] = (
-    case(lambda slenderness: 1 + slenderness / 200, "of a short column", lambda slenderness: slenderness < 60),
-    case(lambda slenderness: (slenderness / 50) ** 2, "of a slender column"),
+    case(1 + m.slenderness / 200, "of a short column", m.slenderness < 60),
+    case((m.slenderness / 50) ** 2, "of a slender column"),
 )
-buckling.choice("factor", "ω", "1", "Factor of buckling", *BRANCHES)
-buckling.choice(
-    "kind", "K", "1", "Kind of column",
-    case("short", "below 60", lambda slenderness: slenderness < 60), case("slender", "60 and above"),
-)  # fmt: skip
+buckling.factor = choice(*BRANCHES), "ω", "1", "Factor of buckling"
+buckling.kind = choice(case("short", "below 60", m.slenderness < 60), case("slender", "60 and above")), "K", "1", "Kind of column"  # fmt: skip
 
 MECHANISM = Mechanism(
     kind="column", version="1.0", title="Column", summary="Buckling of a column.", inputs=Column, chapters=(buckling,)

@@ -14,8 +14,9 @@ from diecut_report.api import (
     Mechanism,
     Quantity,
     as_number,
-    bind,
     formula,
+    m,
+    pi,
 )  # fmt: skip
 
 DENSITY = Constant(7850, "ρ", "kg/m**3")
@@ -31,7 +32,7 @@ def triangle_angle(a, b, c):
 @formula(printed_as="A")
 def ring(outer, inner):
     """It prints as A(d_1, d_2), with its definition below; π is here a mere number, not an angle."""
-    return as_number(np.pi) / 4 * (outer**2 - inner**2)
+    return as_number(pi) / 4 * (outer**2 - inner**2)
 
 
 class Link(Inputs):
@@ -43,9 +44,9 @@ class Link(Inputs):
 
 
 angles = Chapter("Angles and weight")
-angles.value("swing", "ψ", "deg", "Angle between arm and base", bind(triangle_angle, a="rod", b="arm", c="base"))
-angles.value("mass", "m", "kg", "Mass of the rod", lambda rod, outer, inner: DENSITY * rod * ring(outer, inner))
-angles.value("weight", "G", "N", "Weight of the rod", lambda mass: mass * GRAVITY)
+angles.swing = triangle_angle.of(a=m.rod, b=m.arm, c=m.base), "ψ", "deg", "Angle between arm and base"
+angles.mass = DENSITY * m.rod * ring(m.outer, m.inner), "m", "kg", "Mass of the rod"
+angles.weight = m.mass * GRAVITY, "G", "N", "Weight of the rod"
 
 MECHANISM = Mechanism(
     kind="link", version="1.0", title="Link", summary="A triangle of links.", inputs=Link, chapters=(angles,)

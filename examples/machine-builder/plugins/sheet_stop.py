@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity, Source
+from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity, Source, m
 
 
 class SheetStop(Inputs):
@@ -19,23 +19,9 @@ class SheetStop(Inputs):
 impact = Chapter(
     "Impact", text="The sheet and the bar go on together (plastic impact); then the springs take their energy."
 )
-impact.value(
-    "speed_after",
-    "v_1",
-    "m/s",
-    "Speed of both after the impact",
-    lambda sheet_mass, stop_mass, speed: sheet_mass * speed / (sheet_mass + stop_mass),
-    source="momentum",
-)
-impact.value(
-    "way",
-    "x",
-    "mm",
-    "Way of the stop",
-    lambda speed_after, sheet_mass, stop_mass, stiffness: speed_after * np.sqrt((sheet_mass + stop_mass) / stiffness),
-    source="energy",
-)
-impact.value("force", "F", "N", "Force of the springs", lambda stiffness, way: stiffness * way)
+impact.speed_after = m.sheet_mass * m.speed / (m.sheet_mass + m.stop_mass), "v_1", "m/s", "Speed of both after the impact", "momentum"
+impact.way = m.speed_after * np.sqrt((m.sheet_mass + m.stop_mass) / m.stiffness), "x", "mm", "Way of the stop", "energy"
+impact.force = m.stiffness * m.way, "F", "N", "Force of the springs"
 
 MECHANISM = Mechanism(
     kind="sheet_stop",

@@ -13,8 +13,8 @@ from diecut_report.api import (
     Mechanism,
     Quantity,
     Value,
-    bind,
     formula,
+    m,
 )
 
 
@@ -58,7 +58,7 @@ COMPARISON = Mechanism(
         ),
     ),
 )
-LENGTH = Value(id="result", symbol="r", unit="mm", description="Result", formula=bind(same, length="length"))
+LENGTH = Value(id="result", symbol="r", unit="mm", description="Result", formula=same.of(length=m.length))
 MECHANISM = Mechanism(
     kind="breaks_in_comparison",
     version="1",

@@ -26,14 +26,15 @@ from diecut_report.api import (
     Text,
     Total,
     Value,
-    bind,
     formula,
+    m,
+    pi,
 )
 
 
 @formula
 def turn_for_each_sheet(productivity: Any) -> Any:
-    return 2 * np.pi * productivity
+    return 2 * pi * productivity
 
 
 class Part(Block):
@@ -108,7 +109,7 @@ MECHANISM = Mechanism(
                 ),
                 Value(id="moment", symbol="M", unit="N*m", description="Moment", formula=moment),
                 Value(
-                    id="arm", symbol="a", unit="mm", description="Arm as used", formula=bind(same, length="inputs.arm")
+                    id="arm", symbol="a", unit="mm", description="Arm as used", formula=same.of(length=m.inputs.arm)
                 ),
                 Value(
                     id="pressure", symbol="p", unit="MPa", description="Pressure", formula=quotient, needs=("width",)

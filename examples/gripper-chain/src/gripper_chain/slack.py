@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import GRAVITY, Chapter, formula
+from diecut_report.api import GRAVITY, Chapter, formula, inner, m, root
 
 
 @formula
@@ -28,92 +28,26 @@ slack = Chapter(
     "a catenary y = c·cosh(x/c); the parameter c is the horizontal pull divided by the weight per unit length. Running changes its pull, "
     "not its shape.",
 )
-slack.value(
-    "line_mass",
-    "q_t",
-    "kg/m",
-    "Mass per length of a chain with its half of the bars",
-    lambda mass_per_length, bar_mass, bar_spacing: mass_per_length + bar_mass / (2 * bar_spacing),
-)
-slack.value(
-    "slack_length",
-    "s",
-    "mm",
-    "Length of the slack strand",
-    lambda links, pitch, elongation, teeth, centre_distance: (
-        links * pitch * (1 + elongation) - teeth * pitch - centre_distance
-    ),
-    source="geometry",
-)
-slack.value(
-    "links_around",
-    "X_a",
-    "1",
-    "Links of two straight strands and the sprockets",
-    lambda centre_distance, pitch, teeth, elongation: (2.0001 * centre_distance / pitch + teeth) / (1 + elongation),
-    output=False,
-)
-slack.value(
-    "links_least",
-    "X_min",
-    "1",
-    "Minimum number of links with which the chain goes round",
-    lambda links_around, bar_links: bar_links * np.ceil(links_around / bar_links),
-    output=False,
-    whole=True,
-)
-slack.require(
-    "goes_round",
-    lambda slack_length, centre_distance: slack_length > 1.00001 * centre_distance,
-    key="links",
+slack.line_mass = m.mass_per_length + m.bar_mass / (2 * m.bar_spacing), "q_t", "kg/m", "Mass per length of a chain with its half of the bars"
+slack.slack_length = (m.links * m.pitch * (1 + m.elongation) - m.teeth * m.pitch - m.centre_distance, "s", "mm", "Length of the slack strand",
+    "geometry")
+slack.links_around = (inner((2.0001 * m.centre_distance / m.pitch + m.teeth) / (1 + m.elongation)), "X_a", "1",
+    "Links of two straight strands and the sprockets")
+slack.links_least = (inner(m.bar_links * np.ceil(m.links_around / m.bar_links), whole=True), "X_min", "1",
+    "Minimum number of links with which the chain goes round")
+slack.require("goes_round", m.slack_length > 1.00001 * m.centre_distance, key="links",
     message="is {links}, which leaves {slack_length} for a strand between axes {centre_distance} apart; take at least {links_least} links, or "
-    "move the sprockets together",
-)
-slack.require(
-    "does_not_fall",
-    lambda slack_length, centre_distance: slack_length < 1.3 * centre_distance,
-    key="links",
+    "move the sprockets together")
+slack.require("does_not_fall", m.slack_length < 1.3 * m.centre_distance, key="links",
     message="is {links}, which leaves {slack_length} for a strand between axes {centre_distance} apart: it would hang down by more than a third "
-    "of that; take fewer links, or move the sprockets apart",
-)
-slack.root(
-    "catenary",
-    "c",
-    "mm",
-    "Parameter of the catenary",
-    lambda catenary, centre_distance, slack_length: (
-        2 * catenary * np.sinh(centre_distance / (2 * catenary)) - slack_length
-    ),
-    low=lambda centre_distance, slack_length: centre_distance / (4 * np.sqrt(6 * (slack_length / centre_distance - 1))),
-    high=lambda centre_distance, slack_length: centre_distance / np.sqrt(6 * np.log(slack_length / centre_distance)),
-    left=lambda slack_length: slack_length,
-    right=length_by_sag,
-    source="statics",
-)
-slack.value("sag", "f", "mm", "Sag of the slack strand", catenary_sag, source="statics")
-slack.value(
-    "sag_share", "ζ", "%", "Ratio of the sag to the centre distance", lambda sag, centre_distance: sag / centre_distance
-)
-slack.value(
-    "slack_tension",
-    "F_s",
-    "N",
-    "Pull of the slack strand at the sprockets, of each chain",
-    lambda line_mass, catenary, sag: line_mass * GRAVITY * (catenary + sag),
-    source="statics",
-)
-slack.value(
-    "parabola_tension",
-    "F_p",
-    "N",
-    "Its horizontal component by the parabola formula",
-    lambda line_mass, centre_distance, sag: line_mass * GRAVITY * centre_distance**2 / (8 * sag),
-    source="Roloff/Matek",
-)
-slack.value(
-    "parabola_error",
-    "e_p",
-    "%",
-    "Error of the parabola formula",
-    lambda parabola_tension, line_mass, catenary: 1 - parabola_tension / (line_mass * GRAVITY * catenary),
-)
+    "of that; take fewer links, or move the sprockets apart")
+slack.catenary = (root(2 * m.catenary * np.sinh(m.centre_distance / (2 * m.catenary)) - m.slack_length,
+    low=m.centre_distance / (4 * np.sqrt(6 * (m.slack_length / m.centre_distance - 1))),
+    high=m.centre_distance / np.sqrt(6 * np.log(m.slack_length / m.centre_distance)), left=m.slack_length, right=length_by_sag), "c", "mm",
+    "Parameter of the catenary", "statics")
+slack.sag = catenary_sag, "f", "mm", "Sag of the slack strand", "statics"
+slack.sag_share = m.sag / m.centre_distance, "ζ", "%", "Ratio of the sag to the centre distance"
+slack.slack_tension = m.line_mass * GRAVITY * (m.catenary + m.sag), "F_s", "N", "Pull of the slack strand at the sprockets, of each chain", "statics"
+slack.parabola_tension = (m.line_mass * GRAVITY * m.centre_distance**2 / (8 * m.sag), "F_p", "N", "Its horizontal component by the parabola formula",
+    "Roloff/Matek")
+slack.parabola_error = 1 - m.parabola_tension / (m.line_mass * GRAVITY * m.catenary), "e_p", "%", "Error of the parabola formula"

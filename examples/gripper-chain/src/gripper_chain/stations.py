@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind
+from diecut_report.api import Chapter, abscissa, inner, m, part, pi, running
 
 
 def out_of_order(position: Any) -> Any:
@@ -26,63 +26,16 @@ stations.clash(
     message="is the place of station {part}, and station {other} is not nearer to the driving sprocket; list the stations as a sheet passes them, "
     "the farthest first",
 )
-stations.require(
-    "on_the_strand",
-    bind(lambda position, centre_distance: position <= centre_distance, position="stations.position"),
-    key="stations.{index}.position",
-    message="puts station {part} beyond the other sprocket, whose axis is {centre_distance} away; move it, or make centre_distance greater",
-)
-stations.part(
-    "first_position", "s_1", "mm", "Distance of the first station", of="stations.position", index=0, output=False
-)
-stations.value(
-    "transit_time",
-    "t_i",
-    "s",
-    "Time since the first station",
-    bind(
-        lambda first, position, chain_speed: (first - position) / chain_speed,
-        first="first_position",
-        position="stations.position",
-    ),
-    source="kinematics",
-)
-stations.running(
-    "drag_so_far", "D_Σi", "N", "Drag of the stations up to this one", "sum", of="stations.drag", output=False
-)
-stations.value(
-    "strand_pull",
-    "F_i",
-    "N",
-    "Mean pull of a chain behind the station",
-    bind(
-        lambda slack_tension, centrifugal_tension, drag_so_far, rail_drag, position, centre_distance: (
-            slack_tension
-            + centrifugal_tension
-            + drag_so_far / 2
-            + rail_drag * (centre_distance - position) / centre_distance
-        ),
-        position="stations.position",
-    ),
-    source="statics",
-)
-stations.value(
-    "shift",
-    "Δ_i",
-    "mm",
-    "Shift of the sheet's front edge by wear and polygon",
-    bind(lambda elongation, position, ripple_max: elongation * position + ripple_max, position="stations.position"),
-    source="geometry",
-)
-stations.value(
-    "elongation_allowed",
-    "ε_lim",
-    "%",
-    "Elongation at which the first station is still met",
-    lambda allowable_shift, ripple_max, first_position: np.maximum((allowable_shift - ripple_max) / first_position, 0),
-    needs=("allowable_shift",),
-    output=False,
-)
+stations.require("on_the_strand", m.stations.position <= m.centre_distance, key="stations.{index}.position",
+    message="puts station {part} beyond the other sprocket, whose axis is {centre_distance} away; move it, or make centre_distance greater")
+stations.first_position = part(of="stations.position", index=0, output=False), "s_1", "mm", "Distance of the first station"
+stations.transit_time = (m.first_position - m.stations.position) / m.chain_speed, "t_i", "s", "Time since the first station", "kinematics"
+stations.drag_so_far = running("sum", of="stations.drag", output=False), "D_Σi", "N", "Drag of the stations up to this one"
+stations.strand_pull = (m.slack_tension + m.centrifugal_tension + m.drag_so_far / 2 + m.rail_drag * (m.centre_distance - m.stations.position)
+    / m.centre_distance, "F_i", "N", "Mean pull of a chain behind the station", "statics")
+stations.shift = m.elongation * m.stations.position + m.ripple_max, "Δ_i", "mm", "Shift of the sheet's front edge by wear and polygon", "geometry"
+stations.elongation_allowed = (inner(np.maximum((m.allowable_shift - m.ripple_max) / m.first_position, 0), needs=("allowable_shift",)), "ε_lim", "%",
+    "Elongation at which the first station is still met")
 
 cycle = Chapter(
     "Cycle of a bar",
@@ -90,81 +43,21 @@ cycle = Chapter(
     absent="not calculated: cam is not given",
     text="One revolution of the main shaft moves the chain by one spacing of the bars; at φ = 0 a bar is at the pick-up point.",
 )
-cycle.require(
-    "cam_shorter",
-    bind(lambda before, after, bar_spacing: before + after < bar_spacing, before="cam.before", after="cam.after"),
-    key="cam.before",
-    message="is {cam.before}, with {cam.after} behind the pick-up point; together they must be less than the spacing of the bars {bar_spacing}",
-)
-cycle.value("main_speed", "ω_m", "rpm", "Speed of the main shaft", lambda sheet_rate: 2 * np.pi * sheet_rate)
-cycle.value(
-    "opening_begins",
-    "φ_1",
-    "deg",
-    "Main-shaft angle at which the grippers begin to open",
-    bind(lambda before, bar_spacing: 2 * np.pi * (1 - before / bar_spacing), before="cam.before"),
-)
-cycle.value(
-    "opening_ends",
-    "φ_2",
-    "deg",
-    "Main-shaft angle at which they are closed again",
-    bind(lambda after, bar_spacing: 2 * np.pi * after / bar_spacing, after="cam.after"),
-)
-cycle.abscissa("main_angle", "φ", "deg", "Main-shaft angle", 2 * np.pi, speed="main_speed", shown_at="opening_begins")
+cycle.require("cam_shorter", m.cam.before + m.cam.after < m.bar_spacing, key="cam.before",
+    message="is {cam.before}, with {cam.after} behind the pick-up point; together they must be less than the spacing of the bars {bar_spacing}")
+cycle.main_speed = 2 * pi * m.sheet_rate, "ω_m", "rpm", "Speed of the main shaft"
+cycle.opening_begins = 2 * pi * (1 - m.cam.before / m.bar_spacing), "φ_1", "deg", "Main-shaft angle at which the grippers begin to open"
+cycle.opening_ends = 2 * pi * m.cam.after / m.bar_spacing, "φ_2", "deg", "Main-shaft angle at which they are closed again"
+cycle.main_angle = abscissa(2 * np.pi, speed="main_speed", shown_at="opening_begins"), "φ", "deg", "Main-shaft angle"
 cycle.breakpoints("cam_ends", "main_angle", "opening_begins", "opening_ends")
 cycle.phase(
     "picking", "working", "The grippers are open and take a sheet", "main_angle", ("opening_begins", "opening_ends")
 )
 cycle.phase("carrying", "moving", "The bar carries its sheet", "main_angle", rest_of=("picking",))
-cycle.value(
-    "is_open",
-    "o",
-    "1",
-    "Whether the grippers are open",
-    lambda main_angle, opening_begins, opening_ends: (main_angle > opening_begins) | (main_angle < opening_ends),
-    per_piece=True,
-    output=False,
-)
-cycle.value(
-    "cam_angle",
-    "ψ",
-    "deg",
-    "Rotation of the main shaft since the grippers began to open",
-    lambda main_angle, opening_begins: np.where(
-        main_angle >= opening_begins, main_angle - opening_begins, main_angle + 2 * np.pi - opening_begins
-    ),
-    output=False,
-)
-cycle.value(
-    "cam_length",
-    "ψ_c",
-    "deg",
-    "Rotation of the main shaft over the whole cam",
-    bind(
-        lambda before, after, bar_spacing: 2 * np.pi * (before + after) / bar_spacing,
-        before="cam.before",
-        after="cam.after",
-    ),
-    output=False,
-)
-cycle.value(
-    "gripper_opening",
-    "h_φ",
-    "mm",
-    "Opening of the grippers",
-    bind(
-        lambda is_open, opening, cam_angle, cam_length: np.where(
-            is_open > 0, opening * np.sin(np.pi * cam_angle / cam_length) ** 2, 0
-        ),
-        opening="cam.opening",
-    ),
-    source="this method",
-)
-cycle.value(
-    "opening_time",
-    "t_o",
-    "ms",
-    "Time in which the grippers are open",
-    bind(lambda before, after, chain_speed: (before + after) / chain_speed, before="cam.before", after="cam.after"),
-)
+cycle.is_open = inner((m.main_angle > m.opening_begins) | (m.main_angle < m.opening_ends), per_piece=True), "o", "1", "Whether the grippers are open"
+cycle.cam_angle = (inner(np.where(m.main_angle >= m.opening_begins, m.main_angle - m.opening_begins, m.main_angle + 2 * pi - m.opening_begins)), "ψ",
+    "deg", "Rotation of the main shaft since the grippers began to open")
+cycle.cam_length = inner(2 * pi * (m.cam.before + m.cam.after) / m.bar_spacing), "ψ_c", "deg", "Rotation of the main shaft over the whole cam"
+cycle.gripper_opening = (np.where(m.is_open > 0, m.cam.opening * np.sin(pi * m.cam_angle / m.cam_length) ** 2, 0), "h_φ", "mm",
+    "Opening of the grippers", "this method")
+cycle.opening_time = (m.cam.before + m.cam.after) / m.chain_speed, "t_o", "ms", "Time in which the grippers are open"

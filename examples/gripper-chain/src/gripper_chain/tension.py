@@ -4,165 +4,51 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import GRAVITY, Chapter, standard_series
+from diecut_report.api import GRAVITY, Chapter, inner, m, pick, reduction, standard_series, total
 
 loads = Chapter(
     "Loads", text="Each chain carries half of everything that both move. On the upper strand a sheet hangs at each bar."
 )
-loads.value(
-    "sheet_mass",
-    "m_s",
-    "g",
-    "Mass of a sheet",
-    lambda grammage, sheet_length, sheet_width: grammage * sheet_length * sheet_width,
-)
-loads.value(
-    "strand_mass",
-    "m_t",
-    "kg",
-    "Mass of the upper strand of one chain, with bars and sheets",
-    lambda line_mass, centre_distance, sheet_mass, bar_spacing: (
-        line_mass * centre_distance + sheet_mass * centre_distance / (2 * bar_spacing)
-    ),
-)
-loads.total("drag_total", "D", "N", "Total drag of the stations, with a sheet at each", "sum", of="stations.drag")
-loads.total("drag_greatest", "D_max", "N", "Maximum drag of a station", "max", of="stations.drag")
-loads.value(
-    "rail_drag",
-    "F_r",
-    "N",
-    "Friction of a chain in its rails",
-    lambda rail_friction, strand_mass: rail_friction * strand_mass * GRAVITY,
-    source="Coulomb",
-)
-loads.value(
-    "useful_tension",
-    "F_u",
-    "N",
-    "Useful pull of a chain",
-    lambda drag_total, rail_drag: drag_total / 2 + rail_drag,
-)
-loads.value(
-    "centrifugal_tension",
-    "F_c",
-    "N",
-    "Centrifugal pull of a chain",
-    lambda line_mass, chain_speed: line_mass * chain_speed**2,
-    source="Roloff/Matek",
-)
+loads.sheet_mass = m.grammage * m.sheet_length * m.sheet_width, "m_s", "g", "Mass of a sheet"
+loads.strand_mass = (m.line_mass * m.centre_distance + m.sheet_mass * m.centre_distance / (2 * m.bar_spacing), "m_t", "kg",
+    "Mass of the upper strand of one chain, with bars and sheets")
+loads.drag_total = total("sum", of="stations.drag"), "D", "N", "Total drag of the stations, with a sheet at each"
+loads.drag_greatest = total("max", of="stations.drag"), "D_max", "N", "Maximum drag of a station"
+loads.rail_drag = m.rail_friction * m.strand_mass * GRAVITY, "F_r", "N", "Friction of a chain in its rails", "Coulomb"
+loads.useful_tension = m.drag_total / 2 + m.rail_drag, "F_u", "N", "Useful pull of a chain"
+loads.centrifugal_tension = m.line_mass * m.chain_speed**2, "F_c", "N", "Centrifugal pull of a chain", "Roloff/Matek"
 
 pull = Chapter(
     "Pull and torque over a tooth",
     text="The upper strand is assumed rigid: it follows the polygon as a whole. The slack strand yields and follows no polygon.",
 )
-pull.value(
-    "tension",
-    "F_θ",
-    "N",
-    "Pull of the upper strand at the driving sprocket",
-    lambda slack_tension, centrifugal_tension, useful_tension, strand_mass, acceleration: (
-        slack_tension + centrifugal_tension + useful_tension + strand_mass * acceleration
-    ),
-    source="dynamics",
-)
-pull.reduction("tension_max", "F_max", "N", "Maximum pull", "max", of="tension")
-pull.value(
-    "polygon_tension",
-    "F_a",
-    "N",
-    "Contribution of the polygon effect",
-    lambda strand_mass, acceleration_max: strand_mass * acceleration_max,
-    output=False,
-)
-pull.value(
-    "torque",
-    "M_θ",
-    "N*m",
-    "Torque of the driving shaft, of both chains",
-    lambda tension, slack_tension, centrifugal_tension, pitch_radius, sprocket_angle, half_tooth: (
-        2 * (tension - slack_tension - centrifugal_tension) * pitch_radius * np.cos(sprocket_angle - half_tooth)
-    ),
-    source="statics",
-)
-pull.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="torque")
-pull.reduction("torque_work", "W", "J", "Work of the torque over a tooth", "integral", of="torque")
-pull.value(
-    "work_needed",
-    "W_u",
-    "J",
-    "Work of the useful pull over a pitch",
-    lambda useful_tension, pitch: 2 * useful_tension * pitch,
-    source="energy",
-    output=False,
-)
-pull.value(
-    "work_error",
-    "e_W",
-    "1",
-    "Difference of the two, relative to the work of the maximum pull",
-    lambda torque_work, work_needed, tension_max, pitch: abs(torque_work - work_needed) / (2 * tension_max * pitch),
-    output=False,
-)
-pull.value("power", "P", "W", "Mean power", lambda useful_tension, chain_speed: 2 * useful_tension * chain_speed)
+pull.tension = (m.slack_tension + m.centrifugal_tension + m.useful_tension + m.strand_mass * m.acceleration, "F_θ", "N",
+    "Pull of the upper strand at the driving sprocket", "dynamics")
+pull.tension_max = reduction("max", of="tension"), "F_max", "N", "Maximum pull"
+pull.polygon_tension = inner(m.strand_mass * m.acceleration_max), "F_a", "N", "Contribution of the polygon effect"
+pull.torque = (2 * (m.tension - m.slack_tension - m.centrifugal_tension) * m.pitch_radius * np.cos(m.sprocket_angle - m.half_tooth), "M_θ", "N*m",
+    "Torque of the driving shaft, of both chains", "statics")
+pull.torque_max = reduction("max", of="torque"), "M_max", "N*m", "Maximum torque"
+pull.torque_work = reduction("integral", of="torque"), "W", "J", "Work of the torque over a tooth"
+pull.work_needed = inner(2 * m.useful_tension * m.pitch), "W_u", "J", "Work of the useful pull over a pitch", "energy"
+pull.work_error = (inner(abs(m.torque_work - m.work_needed) / (2 * m.tension_max * m.pitch)), "e_W", "1",
+    "Difference of the two, relative to the work of the maximum pull")
+pull.power = 2 * m.useful_tension * m.chain_speed, "P", "W", "Mean power"
 
 strength = Chapter("Strength of the chain")
-strength.value(
-    "safety", "S", "1", "Safety factor against breaking", lambda breaking_load, tension_max: breaking_load / tension_max
-)
-strength.value(
-    "breaking_load_needed",
-    "F_B,min",
-    "kN",
-    "Breaking load required by this safety factor",
-    lambda required_safety, tension_max: required_safety * tension_max,
-    output=False,
-)
-strength.value(
-    "joint_pressure",
-    "p_j",
-    "MPa",
-    "Pressure of the joints",
-    lambda tension_max, joint_area: tension_max / joint_area,
-    source="Roloff/Matek",
-)
+strength.safety = m.breaking_load / m.tension_max, "S", "1", "Safety factor against breaking"
+strength.breaking_load_needed = inner(m.required_safety * m.tension_max), "F_B,min", "kN", "Breaking load required by this safety factor"
+strength.joint_pressure = m.tension_max / m.joint_area, "p_j", "MPa", "Pressure of the joints", "Roloff/Matek"
 
 grip = Chapter(
     "Grip of the sheet", text="A sheet is held by friction on both its faces. It passes one station at a time."
 )
-grip.value(
-    "sheet_force",
-    "F_b",
-    "N",
-    "Force transmitted from a bar to its sheet",
-    lambda sheet_mass, acceleration_max, drag_greatest: sheet_mass * acceleration_max + drag_greatest,
-)
-grip.value(
-    "grip_total",
-    "F_h",
-    "N",
-    "Holding force of the grippers of a bar",
-    lambda grip_friction, grippers, grip_force: 2 * grip_friction * grippers * grip_force,
-    source="Coulomb",
-)
-grip.value(
-    "grip_force_needed",
-    "F_g,min",
-    "N",
-    "Clamping force per gripper required to hold the sheet",
-    lambda sheet_force, grip_friction, grippers: sheet_force / (2 * grip_friction * grippers),
-    output=False,
-)
+grip.sheet_force = m.sheet_mass * m.acceleration_max + m.drag_greatest, "F_b", "N", "Force transmitted from a bar to its sheet"
+grip.grip_total = 2 * m.grip_friction * m.grippers * m.grip_force, "F_h", "N", "Holding force of the grippers of a bar", "Coulomb"
+grip.grip_force_needed = (inner(m.sheet_force / (2 * m.grip_friction * m.grippers)), "F_g,min", "N",
+    "Clamping force per gripper required to hold the sheet")
 
 
 motor = Chapter("Motor", needs=("efficiency",), absent="not selected: efficiency is not given")
-motor.value("motor_load", "P_l", "W", "Power at the motor", lambda power, efficiency: power / efficiency)
-motor.pick(
-    "motor_power",
-    "P_m",
-    "kW",
-    "Rated power of the motor",
-    "above",
-    of="motor_load",
-    series=standard_series("iec_60072_ratings"),
-    source="IEC 60072",
-)
+motor.motor_load = m.power / m.efficiency, "P_l", "W", "Power at the motor"
+motor.motor_power = pick("above", of="motor_load", series=standard_series("iec_60072_ratings")), "P_m", "kW", "Rated power of the motor", "IEC 60072"
