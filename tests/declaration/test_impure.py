@@ -96,7 +96,7 @@ KEPT = {
 }
 ENDING = ("os._exit(0)", "os.abort()", "os.kill(os.getppid(), 9)")
 LOOPS = {
-    "a lambda": 'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")',
+    "a lambda": 'for k in (1, 2):\n    chapter[f"x{k}"] = computed(lambda arm: k * arm, takes=("arm",), method="m"), f"X_{k}", "mm", "X"',
     "a function": 'for k in (1, 2):\n    def many(arm):\n        return k * arm\n'
     '    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", many, takes=("arm",), method="m")',
     "of several": 'for k, _ in ((1, 2), (2, 3)):\n'
@@ -105,8 +105,8 @@ LOOPS = {
     '        chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")\n\n\ndeclare()',
 }  # fmt: skip
 SOUND_LOOPS = (
-    'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", partial(many, k), takes=("arm",), method="m")',
-    'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: sum(k * arm for k in (1, 2)), takes=("arm",), method="m")',
+    'for k in (1, 2):\n    chapter[f"x{k}"] = computed(partial(many, k), takes=("arm",), method="m"), f"X_{k}", "mm", "X"',
+    'for k in (1, 2):\n    chapter[f"x{k}"] = computed(lambda arm: sum(k * arm for k in (1, 2)), takes=("arm",), method="m"), f"X_{k}", "mm", "X"',
 )
 SOUND = (
     "arm = arm * random.Random(3).random()",

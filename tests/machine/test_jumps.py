@@ -320,7 +320,7 @@ ROUGH: dict[str, tuple[str, Any]] = {
     "a simple pole": ("mm", lambda arm, angle, place: arm / as_number(angle - place)),
     "a pole of one sign": ("mm", lambda arm, angle, place: arm / np.abs(as_number(angle - place))),
     "a double pole": ("mm", lambda arm, angle, place: arm / np.sin((angle - place) / 2) ** 2),
-    "a tangent": ("mm", lambda arm, angle, place: arm * np.tan((angle - place) / 2 + np.pi / 2)),
+    "a tangent": ("mm", lambda arm, angle, place: arm * np.tan((angle - place) / 2 + pi / 2)),
     "a logarithm": ("mm", lambda arm, angle, place: -arm * np.log(np.abs(np.sin((angle - place) / 2)))),
     "a logarithm beside much": (
         "mm",
@@ -419,13 +419,13 @@ WHOLE: dict[str, tuple[str, Any]] = {
 }  # fmt: skip
 
 
-def reduced(reduction: str, formula: Any, places: list[float], *, breakpoint: bool = False) -> Calculation:
+def reduced(operation: str, formula: Any, places: list[float], *, breakpoint: bool = False) -> Calculation:
     chapter = Chapter("Turn")
     chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
     if breakpoint:
         chapter.breakpoints("there", "angle", "place")
     chapter.rough = formula, "R", "mm", "Rough"
-    chapter.most = reduction(reduction, of="rough"), "R_m", "mm", "Most"
+    chapter.most = reduction(operation, of="rough"), "R_m", "mm", "Most"
     mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
     given = {"arm": 0.05, "place": np.array(places) if len(places) > 1 else places[0], "n_points": 36}
     return calculate(mechanism, given, len(places))
