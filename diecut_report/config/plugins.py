@@ -15,6 +15,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
+import reprlib
 import sys
 import tomllib
 import traceback
@@ -24,6 +25,7 @@ from functools import cached_property, partial
 from importlib import import_module, util
 from importlib.metadata import entry_points
 from pathlib import Path
+from traceback import walk_tb
 from types import ModuleType
 from typing import Any
 
@@ -374,17 +376,31 @@ def _judge_declarations(origin: Origin, mechanism: Mechanism) -> None:
 
 def said(cause: BaseException) -> str:
     """An exception of a plugin in one line: its type, its text, and the last file and line of the plugin that led to it."""
-    if isinstance(cause, Misdeclared):  # tells its own place
-        return str(cause)
+    if isinstance(cause, Misdeclared) or (isinstance(cause, FormulaError) and cause.place):  # tells its own place
+        return _text_of(cause)
     if isinstance(cause, Escaped) and cause.__cause__:
         cause = cause.__cause__
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
-    tells_place = isinstance(cause, SyntaxError | FormulaError) or getattr(cause, "tells_place", False)
+    tells_place = isinstance(cause, SyntaxError) or getattr(cause, "tells_place", False)
     declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
     place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
-    text = other_program(cause) or _text_of(cause)
+    text = (other_program(cause) or _text_of(cause)) + shadowed(cause)
     return f"{type(cause).__name__}{': ' if text else ''}{text}{place}"
+
+
+def shadowed(cause: BaseException) -> str:
+    """Return in words what to do where another value stands for ``m``, which gives the quantities; empty for other causes."""
+    if not isinstance(cause, AttributeError) or cause.obj is None or cause.__traceback__ is None:
+        return ""
+    *_, (frame, _line) = walk_tb(cause.__traceback__)
+    if (frame.f_globals | frame.f_locals).get(QUANTITIES) is not cause.obj:
+        return ""
+    template = "; {name} is {other} here, and gives no quantities any more: call that otherwise"
+    return Phrase(template, name=QUANTITIES, other=reprlib.repr(cause.obj))
+
+
+QUANTITIES = "m"  # the name by which authors take quantities
 
 
 def _text_of(cause: BaseException) -> str:

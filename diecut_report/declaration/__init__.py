@@ -51,8 +51,8 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return every mistake in what a mechanism declares, and in its comparisons; in the order of reading."""
-    found = shape.faults(mechanism) or list(shape.unknown_units_faults(mechanism))
-    if found:  # nothing can be asked of what is not a formula, or in a unit that is none
+    found = shape.faults(mechanism) or [*shape.unknown_units_faults(mechanism), *formulas.unreadable_faults(mechanism)]
+    if found:  # nothing can be asked of what is not a formula, cannot be printed, or in a unit that is none
         return found
     names = DeclaredNames(mechanism)
     found = [fault for rule in RULES for fault in rule(names)]

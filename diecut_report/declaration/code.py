@@ -25,6 +25,7 @@ from diecut_report import __version__, api
 from diecut_report.declaration.names import DeclaredNames, Fault, declared_in
 from diecut_report.declaration.texts import DeclaredText, own_files, parsed
 from diecut_report.files import cache_folder, code_of
+from diecut_report.formulas.expression import Quantities
 from diecut_report.mechanism.figures import Chart, Drawing
 from diecut_report.mechanism.inputs import fields, keys
 from diecut_report.mechanism.mechanism import Mechanism
@@ -123,6 +124,16 @@ def impure_faults(names: DeclaredNames) -> Iterator[Fault]:
         for node in _definitions(parsed(file), code.co_firstlineno):
             for where, what in _used(node, _scope(function)):
                 yield _fault(file, where, what, code.co_name)
+            for where in _quantities(node, _scope(function)):
+                template = "uses {quantity}, a quantity of formulas, which is no number in plain code; take its number: {takes}, in a drawing {view}"
+                told = {
+                    "quantity": ast.unparse(where),
+                    "takes": f'takes=("{where.attr}",)',
+                    "view": f'view["{where.attr}"]',
+                }
+                yield Fault(
+                    f"{file}:{where.lineno}", Phrase("function {name}", name=code.co_name), Phrase(template, told)
+                )
             for where in _of_loops(parsed(file), node):
                 template = "takes {name} of the loop around it, which is the last one when it is called; write functools.partial(function, {name})"
                 subject = Phrase("function {name}", name=code.co_name)
@@ -147,6 +158,16 @@ def _of_loops(tree: ast.Module, node: ast.AST) -> Iterator[ast.Name]:
     body = getattr(node, "body", node)
     for part in body if isinstance(body, list) else [body]:
         yield from (each for each in ast.walk(part) if isinstance(each, ast.Name) and each.id in given)
+
+
+def _quantities(node: ast.AST, scope: Scope) -> Iterator[ast.Attribute]:
+    """The quantities in a function, which are taken by the name that gives them; it may have that name for something of its own."""
+    own = {each.id for each in ast.walk(node) if isinstance(each, ast.Name) and not isinstance(each.ctx, ast.Load)}
+    own |= {each.arg for each in ast.walk(node) if isinstance(each, ast.arg)}
+    for each in ast.walk(node):
+        match each:
+            case ast.Attribute(value=ast.Name(id=name)) if name not in own and isinstance(scope.get(name), Quantities):
+                yield each
 
 
 def _fault(file: Path, where: ast.expr, what: str, name: str) -> Fault:

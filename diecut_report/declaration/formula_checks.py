@@ -146,7 +146,7 @@ def printing(mechanism: Mechanism) -> Iterator[str]:
         values = taken | formula.constants
         with np.errstate(all="ignore"):
             printed = evaluate(formula.tree, lambda leaf, known=values: known[leaf.args[0]])  # type: ignore[misc]
-            computed = formula(**taken)
+            computed = formula.function(*taken.values())
         if not np.allclose(printed, computed, rtol=1e-12, equal_nan=True):
             filling = {"id": step.id, "part": part.part, "formula": formula.__name__}
             template = "{id}: the {part} {formula} prints {printed}, computes {computed}"
@@ -192,7 +192,7 @@ def doubts(mechanism: Mechanism) -> Iterator[str]:
     """Yield what may be a mistake, each with its place."""
     for step, _, formula in formulas(mechanism):
         for number in _converting(formula.tree):
-            template = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
+            template = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write pi, GRAVITY or Constant(…)"  # noqa: E501
             yield Phrase(template, place=short(step.at), id=step.id, number=number)
     for citing, name in unlisted(mechanism, PAPER):
         template = "{place}: {subject} cites {name}, which is not a source; list it: sources=(Source({id}, …),)"

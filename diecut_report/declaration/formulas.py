@@ -8,8 +8,10 @@ from itertools import chain, combinations
 from typing import Any
 
 from diecut_report.declaration.names import DeclaredNames, Fault, fault, kinds_told, short, unknown, where
+from diecut_report.formulas.expression import FormulaError
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import taken
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import ByText, When, formula_of
 from diecut_report.mechanism.steps import SilentStep, Step
 from diecut_report.mechanism.steps.protocols import TakenName
@@ -100,26 +102,32 @@ def pairs(names: DeclaredNames, another: str, declared: Iterable[tuple[Any, When
 
 
 def faults(names: DeclaredNames) -> Iterator[Fault]:
-    """Yield the formulas that cannot be printed, texts without a formula, and what is wrong with what a step takes."""
-    seen: set[Formula] = set()
+    """Yield texts without a formula, and what is wrong with what a step takes."""
     for step, when in names.steps:
-        for each in step.formulas():
-            for formula in each.options:
-                if formula not in seen:
-                    seen.add(formula)
-                    yield from _unreadable(step, each.part, formula)
         by_text = [each.formula for each in step.formulas() if isinstance(each.formula, ByText)]
         wrong = (names.incomplete(own.key, own.formulas, when, phrase("no formula")) for own in by_text)
         yield from (fault(step, text) for text in chain(*wrong, step.faults(names, when), _function_faults(step)))
 
 
+def unreadable_faults(mechanism: Mechanism) -> Iterator[Fault]:
+    """Yield the formulas that cannot be made into an expression: whatever this raises is the author's to mend."""
+    seen: set[Formula] = set()
+    for _, step in mechanism.steps:
+        for each in step.formulas():
+            for formula in each.options:
+                if formula not in seen:
+                    seen.add(formula)
+                    yield from _unreadable(step, each.part, formula)
+
+
 def _unreadable(step: Step, part: str, formula: Formula) -> Iterator[Fault]:
-    """A formula that cannot be made into an expression: whatever this raises is the author's to mend."""
-    place = formula.place or step.at
+    template = "the {part} cannot be printed: {why}"
     try:
         _ = formula.constants
+    except FormulaError as why:
+        yield fault(step, Phrase(template, part=part, why=why.text), why.place)
     except Exception as why:
-        yield fault(step, Phrase("the {part} cannot be printed: {why}", part=part, why=why), place)
+        yield fault(step, Phrase(template, part=part, why=why), formula.place or step.at)
 
 
 def _function_faults(step: Step) -> Iterator[str]:

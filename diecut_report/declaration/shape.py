@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import reprlib
 from collections.abc import Iterable, Iterator
 from keyword import iskeyword
 from pathlib import Path
@@ -13,14 +14,13 @@ from diecut_report.declaration.code import files
 from diecut_report.declaration.inputs import of_class, of_input
 from diecut_report.declaration.names import DeclaredNames, Fault, fault, short
 from diecut_report.declaration.texts import parsed
-from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.figures import Bars, Drawing, Figure, Plot, Polar
 from diecut_report.mechanism.inputs import Inputs, fields
 from diecut_report.mechanism.mechanism import Erratum, Mechanism, Profile, Source
 from diecut_report.mechanism.steps import Step
-from diecut_report.mechanism.steps.base import tuple_faults
+from diecut_report.mechanism.steps.base import FOR_READERS, tuple_faults
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -80,19 +80,10 @@ def _of_step(step: Step) -> Iterator[str]:
     if step.digits < 1:
         yield Phrase("has digits={digits}; at least one digit is printed", digits=repr(step.digits))
     yield from tuple_faults(step, "needs", "lacks")
-
-    wrong = list(step.shape_faults())
-    yield from wrong
-    for each in () if wrong else step.formulas():
-        yield from _of_formula(each.formula)
-
-
-def _of_formula(part: object) -> Iterator[str]:
-    if isinstance(part, Formula) and part.function.__defaults__:
-        template = (
-            "takes the formula {formula}, whose parameters have a default; each takes a quantity: remove the default"
-        )
-        yield Phrase(template, formula=part.__name__)
+    for name in FOR_READERS:
+        if name != "unit" and not isinstance(given := getattr(step, name), str):  # units are told for themselves
+            yield Phrase("has {name}={given}; write a text in quotes", name=name, given=reprlib.repr(given))
+    yield from step.shape_faults()
 
 
 # What a plugin's files define twice under one name: Python keeps the last and says nothing.

@@ -9,19 +9,26 @@ from __future__ import annotations
 import linecache
 import math
 import operator
+import reprlib
 import sys
 from collections.abc import Callable
+from traceback import walk_tb
+from types import FrameType
 from typing import Any, NoReturn, Self
 
 import numpy as np
 
 from diecut_report.formulas.tree import AS_ANGLE, AS_NUMBER, FUNCTIONS, OF_TWO, PI, ROUNDING, Node, arccos_of, written
 from diecut_report.quantities.units import unit as known
-from diecut_report.text.phrases import Phrase, joined
+from diecut_report.text.phrases import Phrase, joined, phrase
 
 
 class FormulaError(TypeError):
-    """Report what a formula cannot hold: a mistake of the plugin's author."""
+    """Report what a formula cannot hold: a mistake of the plugin's author, with the place (``file:line``) where it stands."""
+
+    def __init__(self, text: str, place: str = "") -> None:
+        super().__init__(joined((place, text), ": ") if place else text)
+        self.text, self.place = text, place
 
 
 ARITHMETIC: dict[Any, str] = {
@@ -38,31 +45,41 @@ def _text(node: Node) -> str:
     return text if len(text) <= SHOWN else f"{text[:SHOWN]}…"
 
 
+OWN = ("numpy", "functools", "diecut_report.formulas", "diecut_report.mechanism")  # modules in which no author writes
+GENERATED = "<string>"  # the code of a dataclass
+
+
+def is_own(frame: FrameType) -> bool:
+    """Return whether code that is run stands in the program or a library, not in what an author writes."""
+    name = f"{frame.f_globals.get('__name__', '')}."
+    return frame.f_code.co_filename == GENERATED or any(name.startswith(f"{each}.") for each in OWN)
+
+
 def author_line() -> tuple[str, str]:
     """Return place (``file:line``) and code of the author's line that is being run."""
     frame = sys._getframe(1)
-    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in ("numpy", "functools"):
+    while frame.f_back and is_own(frame):
         frame = frame.f_back
-    while frame.f_back and frame.f_globals.get("__name__", "").startswith("diecut_report.formulas"):
-        frame = frame.f_back
-        while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "numpy":
-            frame = frame.f_back
-    return f"{frame.f_code.co_filename}:{frame.f_lineno}", linecache.getline(
-        frame.f_code.co_filename, frame.f_lineno
-    ).strip()
+    file, line = frame.f_code.co_filename, frame.f_lineno
+    return f"{file}:{line}", linecache.getline(file, line).strip()
+
+
+def failed_at(error: BaseException) -> str:
+    """Return the place of the author's line in which something was raised; empty where none led to it."""
+    frames = [(frame, line) for frame, line in walk_tb(error.__traceback__) if not is_own(frame)]
+    return f"{frames[-1][0].f_code.co_filename}:{frames[-1][1]}" if frames else ""
 
 
 def refuse(text: str) -> NoReturn:
     """Raise FormulaError with the author's line in front of the text."""
     place, line = author_line()
-    raise FormulaError(joined((place, Phrase("in “{line}”", line=line) if line else "", text), ": ")) from None
+    raise FormulaError(joined((Phrase("in “{line}”", line=line), text), ": ") if line else text, place) from None
 
 
 class Expression:
     """Hold what is to be calculated of quantities; see the module's text. A quantity's parts are attributes or stand in brackets."""
 
     __slots__ = ("_node",)
-    __hash__ = object.__hash__
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -74,12 +91,22 @@ class Expression:
             raise AttributeError(name)
         return self[name]
 
-    def __getitem__(self, name: str | int) -> Expression:
+    def __getitem__(self, name: Any) -> Expression:
         if self._node.op != "sym":
-            refuse(
-                Phrase("{expression} is no quantity and has no {name}", expression=_text(self._node), name=str(name))
+            template = (
+                "{expression} is not a quantity and has no part {name}; functions are those of NumPy, as np.clip(…)"
             )
+            refuse(Phrase(template, expression=_text(self._node), name=repr(name)))
+        if not isinstance(name, str | int):
+            template = "{expression}[{name}] is not a part of it; a part is counted from 0, and m[text] gives a quantity by its id"
+            refuse(Phrase(template, expression=_text(self._node), name=reprlib.repr(name)))
         return Expression(Node("sym", (f"{self._node.args[0]}.{name}",)))
+
+    @property
+    def id(self) -> str:
+        """Return the id where it is a quantity and nothing else; empty for all others."""
+        name = self._node.args[0]
+        return name if self._node.op == "sym" and isinstance(name, str) and not isinstance(name, Symbol) else ""
 
     # Arithmetic.
 
@@ -181,8 +208,9 @@ class Expression:
 
     def __bool__(self) -> bool:
         template = (
-            "whether {expression} holds is another matter for each machine; write np.where(condition, a, b) for a choice, (a) & (b), "
-            "(a) | (b), ~(a), each condition in brackets, and np.minimum and np.maximum, which take arrays too"
+            "whether {expression} holds is another matter for each machine, so that if, and, or, not, min, max and a < b < c cannot ask it; "
+            "write np.where(condition, a, b) for a choice, (a) & (b), (a) | (b), ~(a), (a < b) & (b < c), each condition in brackets, "
+            "and np.minimum and np.maximum"
         )
         refuse(Phrase(template, expression=_text(self._node)))
 
@@ -190,32 +218,116 @@ class Expression:
         template = "{expression} is no single number; write the function of NumPy, as np.sin for math.sin, which takes arrays too"
         refuse(Phrase(template, expression=_text(self._node)))
 
-    __float__ = __int__ = __index__ = __complex__ = __round__ = __ceil__ = __floor__ = __trunc__ = _single
+    __float__ = __int__ = __complex__ = __round__ = __ceil__ = __floor__ = __trunc__ = _single
+
+    def __index__(self) -> int:
+        template = (
+            "{expression} is another number for each machine, which takes nothing from a list and counts no loop; write lookup(…) for a row "
+            "of a table, np.where(condition, a, b) for a choice"
+        )
+        refuse(Phrase(template, expression=_text(self._node)))
 
     def __iter__(self) -> Any:
-        refuse(Phrase("{expression} is one quantity and cannot be gone through", expression=_text(self._node)))
+        template = (
+            "{expression} is one quantity, which cannot be gone through or taken apart; a formula of what a list has is taken for each of "
+            'its parts, and total("sum", of=…) adds them'
+        )
+        refuse(Phrase(template, expression=_text(self._node)))
+
+    def __call__(self, *_: Any, **__: Any) -> NoReturn:
+        template = (
+            "{expression} is a quantity, which is not called; functions are those of NumPy, as np.clip(m.length, 0, 1)"
+        )
+        refuse(Phrase(template, expression=_text(self._node)))
+
+    def __hash__(self) -> int:
+        template = "{expression} cannot be the key of a table or stand in a set; write its id as a text"
+        refuse(Phrase(template, expression=_text(self._node)))
+
+    # What a text would have.
+
+    def __str__(self) -> str:
+        template = (
+            "{expression} stands for a number of each machine and is not a text; a message names a quantity in braces, {braces}, and is "
+            'not an f"…"'
+        )
+        refuse(Phrase(template, expression=_text(self._node), braces=f"{{{self.id or 'id'}}}"))
+
+    def __format__(self, form: str) -> str:
+        return str(self)
 
     def __repr__(self) -> str:
         return f"<{_text(self._node)}>"
 
 
+# What Python has for numbers and a formula cannot print.
+
+
+WITHOUT = {
+    "xor": ("^", "a ** b for a power, (a) != (b) for either of two conditions"),
+    "floordiv": ("//", "np.floor(a / b)"),
+    "mod": ("%", "a - b * np.floor(a / b)"),
+    "matmul": ("@", "a * b, or the sum of the products"),
+    "lshift": ("<<", "a * 2**b"),
+    "rshift": (">>", "np.floor(a / 2**b)"),
+}
+
+
+def _without(sign: str, instead: str) -> Callable[[Expression, Any], NoReturn]:
+    def refused(self: Expression, other: Any) -> NoReturn:
+        template = "a formula cannot print {expression} {sign} …; write {instead}"
+        refuse(Phrase(template, expression=_text(self._node), sign=sign, instead=instead))
+
+    return refused
+
+
+for _name, (_sign, _instead) in WITHOUT.items():
+    for _side in ("", "r"):
+        setattr(Expression, f"__{_side}{_name}__", _without(_sign, _instead))
+
+
+OTHERS = {
+    "where": 3,
+    "hypot": 2,
+    "clip": 3,
+}  # functions of NumPy that are printed as others, with how many values they take
+
+
 def _unprinted(function: Any) -> NoReturn:
+    name = FUNCTIONS.get(function, function.__name__)
+    if name in OTHERS or function in FUNCTIONS:
+        _refuse_values(name, OTHERS.get(name, 2 if name in OF_TWO else 1))
     template = "a formula cannot print {function}; it holds arithmetic, conditions, numbers, constants and these functions of NumPy: {known}"
-    names = ", ".join(sorted({*FUNCTIONS.values(), "where", "hypot", "clip"}))
-    refuse(Phrase(template, function=f"np.{function.__name__}", known=names))
+    names = ", ".join(sorted({*FUNCTIONS.values(), *OTHERS}))
+    refuse(Phrase(template, function=f"np.{name}", known=names))
+
+
+def _refuse_values(name: str, wanted: int) -> NoReturn:
+    form = "np.where(condition, a, b)" if name == "where" else f"np.{name}({', '.join('abc'[:wanted])})"
+    template = "np.{name} is given more or fewer values than a formula prints, or keywords; write {form}"
+    refuse(Phrase(template, name=name, form=form))
 
 
 def _of(sign: str, *operands: Any) -> Expression:
     """Return an operation of two operands, of which one at least is an expression."""
+    if sign in ("==", "!=") and any(isinstance(each, str) for each in operands):
+        _refuse_text(*operands)
     nodes = tuple(map(node_of, operands))
     return Expression(Node("cmp", (sign, *nodes)) if sign in COMPARISONS else Node(sign, nodes))
+
+
+def _refuse_text(*operands: Any) -> NoReturn:
+    quantity = next((each.id for each in operands if isinstance(each, Expression) and each.id), "key")
+    text = next(each for each in operands if isinstance(each, str))
+    template = "{text} is a text, which no formula compares; with a text the whole quantity is given another way: needs=({token},)"
+    refuse(Phrase(template, text=repr(text), token=f'"{quantity}={text}"'))
 
 
 def call(name: str, *args: Any) -> Expression:
     """Return a function's value."""
     wanted = 2 if name in OF_TWO else 1
     if len(args) != wanted:
-        refuse(Phrase("np.{name} takes {wanted}, and is given {count}", name=name, wanted=wanted, count=len(args)))
+        _refuse_values(name, wanted)
     return Expression(Node("call", (name, *map(node_of, args))))
 
 
@@ -236,9 +348,14 @@ def node_of(operand: Any) -> Node:
             return operand.node
         case int() | float() | np.integer() | np.floating() if not isinstance(operand, bool):
             return _number(float(operand) if isinstance(operand, float | np.floating) else int(operand))
-        case str():
+        case str() if all(each.isidentifier() for each in operand.split(".")):
             refuse(Phrase("{text} is a text; a quantity is written m.{name}", text=repr(operand), name=operand))
-    refuse(Phrase("{operand} is neither a quantity nor a number", operand=repr(operand)))
+        case str():
+            refuse(Phrase("{text} is a text; a number stands without quotes", text=reprlib.repr(operand)))
+        case _ if callable(operand):
+            name = getattr(operand, "__name__", "function")
+            refuse(Phrase("{name} is a function that is not called; write {name}(…)", name=name))
+    refuse(Phrase("{operand} is neither a quantity nor a number", operand=reprlib.repr(operand)))
 
 
 OF_TURNS = 360  # the shares of π by which a formula is likely to multiply
@@ -362,7 +479,18 @@ class Quantities:
         return Expression(Node("sym", (name,)))
 
     def __getitem__(self, name: str) -> Expression:
+        if not isinstance(name, str):
+            refuse(Phrase("m[{name}] is not a quantity; in brackets stands the text of an id", name=reprlib.repr(name)))
         return Expression(Node("sym", (name,)))
+
+    def __setattr__(self, name: str, given: Any) -> None:
+        template = "m.{name} takes a quantity and declares none; write chapter.{name} = …, with the name of the chapter that it stands in"
+        refuse(Phrase(template, name=name))
+
+    __setitem__ = __setattr__
+
+    def __call__(self, *_: Any, **__: Any) -> NoReturn:
+        refuse(phrase("m is not called; m.height takes a quantity by its id, m[text] one whose id is made"))
 
 
 m: Any = Quantities()  # NumPy says of its functions that they take arrays alone

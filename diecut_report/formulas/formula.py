@@ -4,14 +4,28 @@ from __future__ import annotations
 
 import inspect
 import math
+import reprlib
 from collections.abc import Callable
 from functools import cached_property
 from typing import Any, overload
 
 import numpy as np
 
-from diecut_report.formulas.expression import Constant, Expression, FormulaError, Symbol, m, node_of
-from diecut_report.formulas.tree import APPLY, LEAVES, NUMERIC, PI, SAID, Node, substitute, symbols, unsaid, walk
+from diecut_report.errors import nearest
+from diecut_report.formulas.expression import Constant, Expression, FormulaError, Symbol, failed_at, m, node_of, refuse
+from diecut_report.formulas.tree import (
+    APPLY,
+    LEAVES,
+    NUMERIC,
+    PI,
+    SAID,
+    Node,
+    substitute,
+    symbols,
+    transform,
+    unsaid,
+    walk,
+)
 from diecut_report.text.phrases import Phrase, phrase
 
 
@@ -33,25 +47,30 @@ class Formula:
         """Return the value of numbers, or the expression of expressions."""
         if not any(isinstance(each, Expression) for each in (*args, *given.values())):
             return self.function(*args, **given)
-        if not self.printed_as:
-            return self._traced(*args, **given)
         try:
             taken = inspect.signature(self._function).bind(*args, **given)
         except TypeError as error:
-            raise FormulaError(f"{self.place}: {self.__name__}: {error}") from None
+            template = "{name} cannot be called so: {error}; it takes {known}"
+            refuse(Phrase(template, name=self.__name__, error=error, known=self._told_parameters))
+        for each in (*args, *given.values()):
+            if isinstance(each, str):
+                node_of(each)
+        _ = self.spoken
+        if not self.printed_as:
+            return self._traced(*args, **given)
         taken.apply_defaults()
         return Expression(Node("apply", (FormulaName(self), *map(node_of, taken.arguments.values()))))
 
     def of(self, **given: Any) -> Expression:
         """Return the expression of other quantities; a parameter that is not given takes the quantity of its own name."""
+        self._refuse_unlike_parameters()
         if unknown := sorted(set(given) - set(self.parameters)):
-            template = "formula {name} has no parameter {unknown}; it has {known}"
-            named = {
-                "name": self.__name__,
-                "unknown": ", ".join(unknown),
-                "known": ", ".join(self.parameters) or "none",
-            }
-            raise FormulaError(Phrase(template, named))
+            template = "formula {name} has no parameter {unknown}{near}; it takes {known}"
+            near = nearest(unknown[0], self.parameters)
+            named = {"name": self.__name__, "unknown": ", ".join(unknown), "near": near, "known": self._told_parameters}
+            refuse(Phrase(template, named))
+        for each in given.values():
+            node_of(each)
         found: Expression = self(**{name: given.get(name, m[name]) for name in self.parameters})
         return found
 
@@ -61,17 +80,44 @@ class Formula:
 
     def _traced(self, *args: Any, **given: Any) -> Any:
         if self._is_traced:
-            template = "{place}: formula {name} calls itself and would never end; give the formula another name than what it calls"
-            raise FormulaError(Phrase(template, place=self.place, name=self.__name__))
+            template = (
+                "formula {name} calls itself and would never end; give the formula another name than what it calls"
+            )
+            raise FormulaError(Phrase(template, name=self.__name__), self.place)
         self._is_traced = True
         try:
-            return self._function(*args, **given)
+            found = self._function(*args, **given)
         except FormulaError:
             raise
-        except (TypeError, ArithmeticError, ValueError, LookupError) as error:
-            raise FormulaError(f"{self.place}: {self.__name__}: {error}") from error
+        except Exception as error:
+            template = "formula {name} cannot be followed: {kind}: {error}"
+            told = {"name": self.__name__, "kind": type(error).__name__, "error": error}
+            raise FormulaError(Phrase(template, told), failed_at(error) or self.place) from error
         finally:
             self._is_traced = False
+        if not isinstance(found, Expression | int | float | np.number):
+            template = "formula {name} gives {found}, no expression; return one of what it takes"
+            raise FormulaError(Phrase(template, name=self.__name__, found=reprlib.repr(found)), self.place)
+        return found
+
+    @property
+    def _told_parameters(self) -> str:
+        return ", ".join(self.parameters) or phrase("nothing")
+
+    def _refuse_unlike_parameters(self) -> None:
+        """Raise FormulaError where a parameter does not take one quantity."""
+        unlike = [
+            f"*{each.name}"
+            if each.kind is each.VAR_POSITIONAL
+            else f"**{each.name}"
+            if each.kind is each.VAR_KEYWORD
+            else each.name
+            for each in inspect.signature(self._function).parameters.values()
+            if each.kind is not each.POSITIONAL_OR_KEYWORD or each.default is not each.empty
+        ]
+        if unlike:
+            template = "formula {name} has the parameter {unlike}; each takes one quantity: name it alone, without a star and without a default"
+            raise FormulaError(Phrase(template, name=self.__name__, unlike=", ".join(unlike)), self.place)
 
     @cached_property
     def function(self) -> Callable[..., Any]:
@@ -94,11 +140,17 @@ class Formula:
     @cached_property
     def spoken(self) -> Node:
         """The tree with all that is said by ``as_number`` and ``as_angle``, calls of named formulas as such."""
-        found = self._traced(**{name: m[name] for name in self.parameters})
-        if not isinstance(found, Expression | int | float):
-            template = "{place}: formula {name} gives {found}, no expression; return one of what it takes"
-            raise FormulaError(Phrase(template, place=self.place, name=self.__name__, found=repr(found)))
-        return whole(found)
+        self._refuse_unlike_parameters()
+        tree = whole(self._traced(**{name: Expression(Node("sym", (Parameter(name),))) for name in self.parameters}))
+        own = (leaf.args[0] for leaf in walk(tree) if leaf.op == "sym")
+        if others := [name for name in own if is_id(name) and not isinstance(name, Parameter)]:
+            template = "formula {name} takes {others} beside its parameters; make it one of them, or write an expression where it is used"
+            raise FormulaError(
+                Phrase(template, name=self.__name__, others=", ".join(f"m.{each}" for each in others)), self.place
+            )
+        return transform(
+            tree, lambda leaf: Node(leaf.op, (str(leaf.args[0]),)) if isinstance(leaf.args[0], Parameter) else leaf
+        )
 
     @cached_property
     def tree(self) -> Node:
@@ -114,13 +166,19 @@ class Formula:
     @cached_property
     def constants(self) -> dict[str, Constant]:
         """The physical constants in it, by the symbol they print with."""
-        own = (leaf.args[0] for leaf in walk(self.full_tree) if leaf.op == "sym")
+        own = [leaf.args[0] for leaf in walk(self.full_tree) if leaf.op == "sym"]
         found = {str(symbol): symbol.constant for symbol in own if isinstance(symbol, Symbol)}
-        if double := found.keys() & {*self.parameters}:
-            template = (
-                "{place}: {name} takes a quantity {symbol} and a constant of this symbol; give the constant another one"
-            )
-            raise FormulaError(Phrase(template, place=self.place, name=self.__name__, symbol=", ".join(sorted(double))))
+        if double := found.keys() & {*self.parameters, *filter(is_id, own)}:
+            template = "{name} takes a quantity {symbol} and a constant of this symbol; give the constant another one"
+            raise FormulaError(Phrase(template, name=self.__name__, symbol=", ".join(sorted(double))), self.place)
+        for symbol in filter(lambda each: isinstance(each, Symbol), own):
+            if (one := float(symbol.constant)) != (other := float(found[symbol])):
+                template = (
+                    "{name} has two constants with the symbol {symbol}, {one} and {other}; give one of them another"
+                )
+                raise FormulaError(
+                    Phrase(template, name=self.__name__, symbol=symbol, one=f"{one:g}", other=f"{other:g}"), self.place
+                )
         return found
 
 
@@ -129,6 +187,10 @@ def whole(written: Any) -> Node:
     if isinstance(written, bool):
         return Node("cmp", (">=", *(Node("num", (text,)) for text in (str(int(written)), "1"))))
     return node_of(written)
+
+
+class Parameter(str):
+    """Mark a name that a function takes, where it is followed, from those of quantities that it takes beside them."""
 
 
 class FormulaName(str):
@@ -192,7 +254,8 @@ class WrittenFormula(Formula):
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
-        return tuple(filter(is_id, symbols(self.spoken)))
+        own = (leaf.args[0] for leaf in walk(self.spoken) if leaf.op == "sym")
+        return tuple(dict.fromkeys(filter(is_id, own)))
 
     @cached_property
     def function(self) -> Callable[..., Any]:

@@ -16,7 +16,7 @@ from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit
 from diecut_report.mechanism.figures import Figure, Spectrum
 from diecut_report.mechanism.inputs import Inputs, fields, keys, list_inputs, rules
-from diecut_report.mechanism.names import Misdeclared, When, placed
+from diecut_report.mechanism.names import Misdeclared, When, ids, placed, with_ids
 from diecut_report.mechanism.steps import Fact, Phase, SilentStep, Step, names_ahead, read
 from diecut_report.mechanism.steps.naming import with_texts
 from diecut_report.quantities.units import unit
@@ -261,6 +261,20 @@ class Mechanism:
     spectra: tuple[Spectrum, ...] = ()
     example: ExampleBlock | None = None
     at: str = placed()
+
+    def __post_init__(self) -> None:
+        for name in (
+            "key_results",
+            "checks",
+            "figures",
+            "errata",
+            "exports",
+            "partners",
+            "ports",
+            "reactions",
+            "spectra",
+        ):
+            object.__setattr__(self, name, ids(with_ids(getattr(self, name))))
 
     @cached_property
     def steps(self) -> tuple[tuple[Chapter, Step], ...]:

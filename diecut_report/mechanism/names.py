@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import operator
+import reprlib
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from inspect import signature
 from types import FunctionType
 from typing import Any, NamedTuple, Protocol
@@ -42,6 +44,41 @@ class Misdeclared(TypeError):
 
     def __init__(self, text: str, at: str = "") -> None:
         super().__init__(f"{at or here()}: {text}")
+
+
+# Ids: wherever one is wanted, a quantity stands for its own.
+
+
+def ids(part: Any, at: str = "") -> Any:
+    """Return an id for a quantity, in tuples and tables too; all else as it is. Misdeclared where an expression is no single quantity."""
+    match part:
+        case Expression():
+            if not part.id:
+                template = "{part} is calculated, where a single quantity is wanted; declare it, chapter.NAME = …, and name m.NAME here"
+                raise Misdeclared(Phrase(template, part=repr(part)), at)
+            return part.id
+        case tuple() | list() if type(part) in (tuple, list):
+            found = type(part)(ids(each, at) for each in part)
+            return part if all(map(operator.is_, found, part)) else found
+        case dict() if type(part) is dict:
+            return {key: ids(each, at) for key, each in part.items()}
+    return part
+
+
+def with_ids(declared: Any, at: str = "") -> Any:
+    """Return what is declared with ids for the quantities in its fields, and in those of what it holds."""
+    if isinstance(declared, tuple):
+        return tuple(with_ids(each, at) for each in declared)
+    if not is_dataclass(declared) or isinstance(declared, type):
+        return declared
+    given = {each.name: getattr(declared, each.name) for each in fields(declared) if each.init}
+    at = getattr(declared, "at", at)
+    changed = {name: ids(with_ids(part, at), at) for name, part in given.items()}
+    return declared if all(map(_same, given.values(), changed.values())) else replace(declared, **changed)
+
+
+def _same(one: Any, other: Any) -> bool:
+    return one is other or (isinstance(one, tuple) and len(one) == len(other) and all(map(_same, one, other)))
 
 
 # Inputs that are texts.
@@ -217,7 +254,7 @@ class ByText:
     """
 
     def __init__(self, key: str, formulas: Mapping[str, Formula | Expression], /, **given: Expression | float) -> None:
-        self.key, self.formulas, self.given, self.at = key, formulas, given, here()
+        self.key, self.formulas, self.given, self.at = ids(key), formulas, given, here()
         self._made: dict[str, Formula] = {}
 
     def of(self, text: str) -> Formula:
@@ -252,7 +289,7 @@ def as_formula(part: Written, name: str) -> Formula | ByText:
         return part
     if not isinstance(part, FunctionType):
         template = "{name} needs a formula, and {part} is none; write an expression of quantities, as m.radius / 2"
-        raise Misdeclared(Phrase(template, name=name, part=repr(part)))
+        raise Misdeclared(Phrase(template, name=name, part=reprlib.repr(part)))
     optional = [p.name for p in signature(part).parameters.values() if p.default is not p.empty]
     if optional:
         template = (

@@ -4,20 +4,25 @@
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from diecut_report.mechanism.names import Misdeclared
+from diecut_report.errors import nearest
+from diecut_report.formulas.expression import Expression
+from diecut_report.mechanism.names import Misdeclared, ids
 from diecut_report.mechanism.steps.abscissa import Abscissa, Breakpoints
 from diecut_report.mechanism.steps.base import (
     Options,
+    QuantityStep,
     Recipe,
     ResultName,
     SilentStep,
     Step,
     StepCondition,
     form,
+    name_of_call,
     recipe,
 )
 from diecut_report.mechanism.steps.choice import Case, Choice, case
@@ -73,8 +78,8 @@ class Steps:
     def __setattr__(self, name: str, declared: Any) -> None:
         """Declare a quantity: what gives it, its symbol, its unit, its description and, if it is not the last step's, its source."""
         is_quantity = isinstance(declared, tuple) and declared and not isinstance(declared[0], str | Step)
-        if name in self.__dataclass_fields__ and not is_quantity:
-            object.__setattr__(self, name, declared)
+        if name in self.__dataclass_fields__ and not (is_quantity and len(declared) > 1):
+            object.__setattr__(self, name, ids(declared))
         else:
             self[name] = declared
 
@@ -82,12 +87,16 @@ class Steps:
         """Declare a quantity whose id is made of other names: ``chapter[f"force_{side}"] = …``."""
         if not isinstance(declared, tuple) or not 4 <= len(declared) <= 5:
             template = (
-                "{id} = {given}; write what gives it, its symbol, its unit, its description and its source: "
+                "{id} = {given}; write what gives it, its symbol, its unit, its description and, where there is one, its source: "
                 '… = m.radius / 2, "h", "mm", "Height", "geometry"'
             )
-            raise Misdeclared(Phrase(template, id=name, given=repr(declared)))
+            raise Misdeclared(Phrase(template, id=name, given=_shown(declared)))
         gives, *told = declared
         self.add((gives if isinstance(gives, Recipe) else Recipe(Value, (gives,), {})).step(name, *told))
+
+    def __getattr__(self, name: str) -> Any:
+        """Raise AttributeError: a chapter gives no quantities back, and quantities are declared by assigning them."""
+        raise AttributeError(_unknown(name, {each.id for each in self.__dict__.get("steps", ())}))
 
     breakpoints = form(Breakpoints.of)
     part_names = form(PartNames)
@@ -100,3 +109,31 @@ class Steps:
     clash = form(Clash)
     words = form(Words)
     phase = form(Phase.of)
+
+
+# What an author writes in place of a quantity's declaration, in words.
+
+
+def _shown(declared: Any) -> str:
+    """Return what is assigned as a line of text."""
+    if isinstance(declared, tuple):
+        return ", ".join(map(_shown, declared))
+    return repr(declared) if isinstance(declared, Recipe | Expression) else reprlib.repr(declared)
+
+
+def _unknown(name: str, quantities: set[str]) -> str:
+    """Return what is said of a name that a chapter does not have: a quantity of it, a way to give one, or a call that is misspelt."""
+    if name in quantities:
+        return Phrase("a chapter does not give {name} back; in an expression write m.{name}", name=name)
+    if name == "inner" or name in map(name_of_call, _types(QuantityStep)):
+        template = 'a chapter has no call {name}; say how a quantity is given where it is declared: chapter.ID = {name}(…), "h", "mm", "Height"'
+        return Phrase(template, name=name)
+    calls = sorted(each for each, own in vars(Steps).items() if callable(own) and not each.startswith("_"))
+    template = "a chapter has no call {name}{near}; it has {calls}, and a quantity is declared by chapter.ID = …"
+    return Phrase(template, name=name, near=nearest(name, calls), calls=", ".join(calls))
+
+
+def _types(base: type[Step]) -> Iterator[type[Step]]:
+    for each in base.__subclasses__():
+        yield each
+        yield from _types(each)

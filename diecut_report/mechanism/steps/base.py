@@ -11,11 +11,12 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from inspect import Parameter, Signature, signature
-from typing import Any, ClassVar, Concatenate, Literal, NamedTuple, ParamSpec, Protocol, TypedDict
+from typing import Any, ClassVar, Concatenate, Literal, ParamSpec, Protocol, TypedDict
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.mechanism.names import Misdeclared, Written, as_formula, here
+from diecut_report.formulas.expression import Expression, FormulaError
+from diecut_report.mechanism.names import Misdeclared, Written, as_formula, here, ids
 from diecut_report.mechanism.steps.protocols import (
     LABELS,
     OF_UNIT,
@@ -42,7 +43,8 @@ class StepHolder(Protocol):
         """Add steps."""
 
 
-class Recipe(NamedTuple):
+@dataclass(frozen=True, eq=False, repr=False)
+class Recipe:
     """Hold what gives a quantity, before it is said which: the type of step with all that it takes beside id, symbol, unit and description."""
 
     make: Callable[..., Step]
@@ -53,6 +55,9 @@ class Recipe(NamedTuple):
         """Return the step that gives a quantity so."""
         options = self.options | ({"source": source} if source else {})
         return made(self.make, (id, symbol, unit, description, *self.args), options)
+
+    def __repr__(self) -> str:
+        return f"{name_of_call(_step_type(self.make))}(…)"
 
 
 def recipe(make: Callable[Concatenate[str, str, str, str, P], Step]) -> Callable[P, Recipe]:
@@ -81,6 +86,7 @@ def form(make: Callable[P, Step]) -> Callable[Concatenate[StepHolder, P], None]:
     return declare
 
 
+FOR_READERS = ("symbol", "unit", "description", "source", "source_symbol")  # texts that name no quantity
 HEAD = ("id", "symbol", "unit", "description")
 
 
@@ -93,12 +99,27 @@ def made(make: Callable[..., Step], args: tuple[Any, ...], options: Mapping[str,
         raise Misdeclared(Phrase(template, id=[*args, ""][0], name=name, near=nearest(name, known)))
     try:
         return make(*args, **options)
-    except Misdeclared:
+    except (Misdeclared, FormulaError):
         raise
     except TypeError as wrong:
-        raise TypeError(
-            str(wrong).replace(f"{step_type.__name__}.__init__()", f"{name_of_call(step_type)}()")
-        ) from None
+        _refuse_call(make, args, options)
+        raise wrong
+
+
+def _refuse_call(make: Callable[..., Step], args: tuple[Any, ...], options: Mapping[str, Any]) -> None:
+    """Raise Misdeclared where something is missing in a call, or too much."""
+    try:
+        signature(make).bind(*args, **options)
+    except TypeError as wrong:
+        own = _own(make)
+        known = (
+            [*own]
+            if "id" in own and issubclass(_step_type(make), SilentStep)
+            else [each for each in own if each not in HEAD]
+        )
+        template = "{id}: {call}() cannot be called so: {wrong}; it takes {known}, and options by their names"
+        told = {"id": [*args, ""][0], "call": name_of_call(_step_type(make)), "wrong": str(wrong)}
+        raise Misdeclared(Phrase(template, told, known=", ".join(known))) from None
 
 
 def name_of_call(step_type: type[Step]) -> str:
@@ -241,8 +262,11 @@ class Step:
     message_places: ClassVar[tuple[str, ...]] = ()  # what its message may name beside quantities
 
     def __post_init__(self) -> None:
+        for name, part in vars(self).items():
+            if isinstance(part, Expression | tuple | dict) and name not in (*self.FORMULAS, "exists", *FOR_READERS):
+                object.__setattr__(self, name, ids(part))
         for name in ("exists", *self.FORMULAS):
-            if (written := getattr(self, name)) is not None:
+            if (written := getattr(self, name)) is not None or name != "exists":
                 called = self.id if name in ("formula", "condition") else f"{self.id} ({name})"
                 object.__setattr__(self, name, as_formula(written, called))
 

@@ -25,9 +25,13 @@ class Case:
     condition: Any = None
 
     def __post_init__(self) -> None:
-        for name in ("value", "condition"):
-            if not isinstance(written := getattr(self, name), str | None):
-                object.__setattr__(self, name, as_formula(written, self.words))
+        if not isinstance(self.value, str):
+            object.__setattr__(self, "value", as_formula(self.value, self.words))
+        if self.condition is not None:
+            named = Phrase("the condition of a case, which stands behind its value and its words,")
+            object.__setattr__(
+                self, "condition", as_formula(self.condition, named if isinstance(self.condition, str) else self.words)
+            )
 
     def mapped(self, function: Callable[[Any], Any]) -> Case:
         """Return the same with what a function makes of its formulas."""
@@ -126,7 +130,7 @@ class Choice(FormulaStep):
         return np.choose(calc.branch[self.id], taken)
 
     def shown_formula(self, page: StepPrinter, elsewhere: bool) -> Written:
-        taken = self.cases[page.case_taken(self, elsewhere)].value
+        taken: str | Written = self.cases[page.case_taken(self, elsewhere)].value
         assert not isinstance(taken, str), "a curve has no texts"
         return taken
 
