@@ -343,6 +343,8 @@ def _fills(statement: ast.stmt, name: str) -> bool:
     match statement:
         case ast.Expr(value=ast.Call(func=ast.Attribute(value=ast.Name(id=head)))):
             return head == name
+        case ast.Assign(targets=[ast.Attribute(value=ast.Name(id=head)) | ast.Subscript(value=ast.Name(id=head))]):
+            return head == name
     return False
 
 
@@ -371,6 +373,10 @@ def _names(node: ast.AST, name: str) -> int:
             name == each.arg for each in ast.walk(args) if isinstance(each, ast.arg)
         ):
             return 0
+        case ast.Attribute(value=ast.Name(id="m")):  # a quantity of this id
+            return 0
+        case ast.Attribute(value=filled, ctx=ast.Store()):
+            return _names(filled, name)
         case ast.Assign(targets=[ast.Name(id="__all__")]):
             return sum(getattr(each, "value", None) == name for each in ast.walk(node))
     own = name in (getattr(node, "id", None), getattr(node, "attr", None))

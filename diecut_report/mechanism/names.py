@@ -290,6 +290,9 @@ def as_formula(part: Written, name: str) -> Formula | ByText:
     if not isinstance(part, FunctionType):
         template = "{name} needs a formula, and {part} is none; write an expression of quantities, as m.radius / 2"
         raise Misdeclared(Phrase(template, name=name, part=reprlib.repr(part)))
+    if part.__module__.startswith(OWN):
+        template = "{name} is given by {part}, which is not called; write {part}(…)"
+        raise Misdeclared(Phrase(template, name=name, part=part.__name__))
     optional = [p.name for p in signature(part).parameters.values() if p.default is not p.empty]
     if optional:
         template = (

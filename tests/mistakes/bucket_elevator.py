@@ -117,8 +117,8 @@ conveying.mass_rate = value(m.capacity, needs=("capacity",)), "Q_m", "t/h", "Mas
 conveying.mass_rate = value(m.volume_rate * m.bulk_density, lacks=("capacity",)), "Q_m", "t/h", "Mass rate: of the volume"
 conveying.belt_speed = m.head_speed * m.head_diameter / 2, "v", "m/s", "Speed of the belt", "S1 eq. 1"
 conveying.bucket_load = m.filling * m.bucket_volume * m.bulk_density, "m_w", "kg", "Waste in a bucket", "S1 eq. 2"
-conveying.filling_needed = (m.mass_rate * m.bucket_pitch / (m.bulk_density * m.bucket_volume * m.belt_speed), "ψ_n", "%",
-    "Filling that the mass rate needs")
+conveying.filling_needed = (m.mass_rate * m.bucket_pitch / (m.bulk_density * m.bucket_volume * m.belt_speed),
+    "ψ_n", "%", "Filling that the mass rate needs")
 conveying.waste_line_mass = m.mass_rate / m.belt_speed, "q_w", "kg/m", "Waste on the belt"
 conveying.strand_line_mass = m.belt_mass + m.bucket_mass / m.bucket_pitch, "q_s", "kg/m", "Belt with empty buckets"
 conveying.bucket_count = value(np.ceil((2 * m.height + pi * m.head_diameter) / m.bucket_pitch), whole=True), "z", "1", "Buckets on the belt"
@@ -136,8 +136,10 @@ discharge.speed_limit = inner(as_angle(np.sqrt(2 * GRAVITY / m.head_diameter))),
 discharge.require("not_thrown", m.froude_number < 1, key="head_speed",
     message="is {head_speed}, but from {speed_limit:down} on the waste is thrown before it is at the top; turn slower")
 discharge.pole_distance = GRAVITY / as_number(m.head_speed) ** 2, "h_p", "mm", "Distance of the pole of discharge"
-discharge.discharge = (choice(case("by gravity", "the pole is above the buckets", m.head_diameter < m.pole_distance),
-    case("mixed", "the pole is among the buckets")), "K", "1", "Discharge is", "S2 table 1")
+discharge.discharge = (choice(
+    case("by gravity", "the pole is above the buckets", m.head_diameter < m.pole_distance),
+    case("mixed", "the pole is among the buckets"),
+), "K", "1", "Discharge is", "S2 table 1")
 discharge.angle = abscissa(period=2 * np.pi), "φ", "deg", "Turn of the head drum from the top"
 
 
@@ -158,8 +160,8 @@ discharge.force_slope = derivative(of="normal_force"), "N_w′", "N/rad", "Chang
 discharge.press_max = reduction("max", of="normal_force"), "N_max", "N", "Greatest force on the waste"
 discharge.rim_x = m.head_diameter / 2 * np.sin(m.angle), "x", "mm", "Rim of the drum, across"
 discharge.rim_y = m.head_diameter / 2 * np.cos(m.angle), "y", "mm", "Rim of the drum, upwards"
-discharge.fall_time = (computed(falling_time, takes=("belt_speed", "chute_drop"), method="the root of the free fall's parabola"), "t_f", "s",
-    "Fall of the waste to the chute")
+discharge.fall_time = (computed(falling_time, takes=("belt_speed", "chute_drop"), method="the root of the free fall's parabola"),
+    "t_f", "s", "Fall of the waste to the chute")
 discharge.throw = m.belt_speed * m.fall_time, "s_f", "mm", "How far the waste flies meanwhile"
 
 
@@ -175,8 +177,8 @@ pull.lift_force = hanging_weight.of(line_mass=m.waste_line_mass), "F_l", "N", "W
 pull.scoop_force = hanging_weight.of(line_mass=m.waste_line_mass, height=m.scoop_height), "F_s", "N", "Mean force of scooping"
 pull.strand_weight = hanging_weight.of(line_mass=m.strand_line_mass), "G_s", "N", "Weight of a strand"
 pull.pulley_load = 2 * m.strand_weight * np.sin(m.pulleys.wrap / 2), "F_i", "N", "Load of a pulley's shaft", "S1 eq. 7"
-pull.journal_loss = (m.pulley_load * m.pulleys.journal_friction * m.pulleys.journal_diameter / m.pulleys.diameter, "U_i", "N",
-    "Pull that a pulley's journals take")
+pull.journal_loss = (m.pulley_load * m.pulleys.journal_friction * m.pulleys.journal_diameter / m.pulleys.diameter,
+    "U_i", "N", "Pull that a pulley's journals take")
 pull.journal_losses = total("sum", of="journal_loss"), "U_j", "N", "Pull that all journals take"
 pull.losses_so_far = running("sum", of="journal_loss"), "ΣU_i", "N", "Losses up to each pulley"
 pull.foot_load = part(of="pulley_load", index=0), "F_f", "N", "Load of the first pulley's shaft"
@@ -186,14 +188,14 @@ pull.slack_needed = m.circumferential_pull / (m.euler_ratio - 1), "T_n", "N", "P
 pull.slack_pull = value(m.strand_weight, lacks=("pretension",)), "T_2", "N", "Pull of the slack strand: its weight"
 pull.slack_pull = value(m.strand_weight + m.pretension, needs=("pretension",)), "T_2", "N", "Pull of the slack strand: weight and take-up"
 pull.tight_pull = m.slack_pull + m.circumferential_pull, "T_1", "N", "Pull of the tight strand"
-pull.lagging_pressure = (value((m.tight_pull + m.slack_pull) / (m.head_diameter * m.belt_width), needs=("lagging=rubber",)), "p_L", "MPa",
-    "Pressure on the rubber")
+pull.lagging_pressure = (value((m.tight_pull + m.slack_pull) / (m.head_diameter * m.belt_width), needs=("lagging=rubber",)),
+    "p_L", "MPa", "Pressure on the rubber")
 
 shaft = Chapter("Head shaft")
 shaft.breakpoints("scooping", "angle", "scoop_start", "scoop_end")
 shaft.is_scooping = inner((m.angle > m.scoop_start) & (m.angle < m.scoop_end), per_piece=True), "S", "1", "Whether a bucket scoops"
-shaft.scoop_pull = (np.where(m.is_scooping > 0, m.scoop_force * 2 * pi / (m.scoop_end - m.scoop_start), 0 * m.scoop_force), "U_s", "N",
-    "Force of scooping")
+shaft.scoop_pull = (np.where(m.is_scooping > 0, m.scoop_force * 2 * pi / (m.scoop_end - m.scoop_start), 0 * m.scoop_force),
+    "U_s", "N", "Force of scooping")
 shaft.shaft_torque = (m.lift_force + m.scoop_pull) * m.head_diameter / 2, "M", "N*m", "Torque of the head shaft"
 shaft.torque_max = reduction("max", of="shaft_torque"), "M_max", "N*m", "Maximum torque"
 shaft.torque_mean = reduction("mean", of="shaft_torque"), "M_m", "N*m", "Mean torque"
@@ -218,12 +220,13 @@ def length_by_wraps(centre: Any, small_pulley: Any, large_pulley: Any) -> Any:
 drive = Chapter("Drive")
 drive.power = m.circumferential_pull * m.belt_speed / m.efficiency, "P", "kW", "Power at the motor", "S1 eq. 9"
 drive.motor_power = pick("above", of="power", series=standard_series("iec_60072_ratings")), "P_m", "kW", "Power of the motor"
-drive.length_wanted = (2 * m.wanted_centre + pi / 2 * (m.large_pulley + m.small_pulley) + (m.large_pulley - m.small_pulley) ** 2
-    / (4 * m.wanted_centre), "L_w", "mm", "Length for the wanted distance")
+offset = m.large_pulley - m.small_pulley
+drive.length_wanted = (2 * m.wanted_centre + pi / 2 * (m.large_pulley + m.small_pulley) + offset**2 / (4 * m.wanted_centre),
+    "L_w", "mm", "Length for the wanted distance")
 drive.belt_length = pick("nearest", of="length_wanted", series=(1400, 1600, 1800, 2000)), "L", "mm", "Length of the belt"
-drive.centre = (root(length_mismatch, low=(m.large_pulley - m.small_pulley) / 2, high=m.belt_length / 2, left=m.belt_length, right=length_by_wraps),
+drive.centre = (root(length_mismatch, low=offset / 2, high=m.belt_length / 2, left=m.belt_length, right=length_by_wraps),
     "C", "mm", "Distance of the shafts")
-drive.small_wrap = 2 * np.arccos((m.large_pulley - m.small_pulley) / (2 * m.centre)), "α_1", "deg", "Wrap of the smaller pulley"
+drive.small_wrap = 2 * np.arccos(offset / (2 * m.centre)), "α_1", "deg", "Wrap of the smaller pulley"
 drive.ratio_of_speeds = m.large_pulley / m.small_pulley, "i", "1", "Ratio of the belt drive"
 
 holding = Chapter("Backstop", needs=("backstop",), absent="no backstop is given")

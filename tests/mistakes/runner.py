@@ -92,7 +92,8 @@ def tried(mistake: Mistake, folder: Path) -> Told:
     return _used(mistake, folder)
 
 
-def _used(mistake: Mistake, folder: Path) -> Told:
+def write_machine(mistake: Mistake, folder: Path) -> None:
+    """Write a press of the machine, and a study of it, into the plugin's folder."""
     machine = {key: value for key, value in (MACHINE | mistake.keys).items() if value is not None}
     base = {
         "schema_version": 1,
@@ -101,14 +102,18 @@ def _used(mistake: Mistake, folder: Path) -> Told:
         "mechanisms": {"lift": machine},
     }
     (folder / "press.yaml").write_text(json.dumps(base), "utf-8")
+    study = {"schema_version": 1, "base": "press.yaml", "sample": {"method": "grid"},
+             "vary": {"mechanisms.lift.head_speed": ["46 rpm", "50 rpm"]}}  # fmt: skip
+    (folder / "study.yaml").write_text(json.dumps(study), "utf-8")
+
+
+def _used(mistake: Mistake, folder: Path) -> Told:
+    write_machine(mistake, folder)
     found = _command(folder, "calc", folder / "press.yaml", "-o", folder / "press.json")
     if found.code or mistake.told not in ("report", "study"):
         return found
     if mistake.told == "report":
         return _command(folder, "report", folder / "press.yaml", "-o", folder, "--format", "html,json")
-    study = {"schema_version": 1, "base": "press.yaml", "sample": {"method": "grid"},
-             "vary": {"mechanisms.lift.head_speed": ["46 rpm", "50 rpm"]}}  # fmt: skip
-    (folder / "study.yaml").write_text(json.dumps(study), "utf-8")
     return _command(folder, "batch", folder / "study.yaml", "-o", folder / "out")
 
 

@@ -6,12 +6,14 @@ CI tries each sixth row, which is some of each of the table's parts, and those t
 from __future__ import annotations
 
 import math
+import re
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.machine.calculation import Calculation
@@ -20,7 +22,7 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.results.checks import check_results
 from tests.examples import few
 from tests.machines import inputs, number
-from tests.mistakes.runner import KIND, MACHINE, PLUGIN, Mistake, faults, tried
+from tests.mistakes.runner import KIND, MACHINE, PLUGIN, Mistake, faults, tried, write_machine
 from tests.mistakes.table import TABLE
 
 
@@ -47,6 +49,64 @@ SOME = {mistake.what for mistake in (*TABLE[::12], *(row for row in TABLE if row
 )
 def test_a_mistake_is_told(mistake: Mistake, tmp_path: Path) -> None:
     assert not faults(mistake, tried(mistake, tmp_path))
+
+
+REFUSED = next(mistake for mistake in TABLE if mistake.what == "π as a number of NumPy")
+
+
+@pytest.mark.usefixtures("without_summary")
+@pytest.mark.parametrize(
+    ("command", "code"),
+    [
+        (("check-plugin", KIND), 3),
+        (("new", KIND), 3),
+        (("validate", "press.yaml"), 3),
+        (("calc", "press.yaml", "-o", "press.json"), 3),
+        (("report", "press.yaml", "-o", "out", "--format", "html"), 3),
+        (("batch", "study.yaml", "-o", "out"), 3),
+    ],
+    ids=lambda each: each[0] if isinstance(each, tuple) else str(each),
+)
+def test_each_command_tells_where_a_formula_cannot_be_printed_and_what_to_write(
+    command: tuple[str, ...],
+    code: int,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path(f"{KIND}.py").write_text(REFUSED.source, "utf-8")
+    write_machine(REFUSED, tmp_path)
+    assert main([*command, "--plugins", "."]) == code
+    told = "".join(capsys.readouterr())
+    assert re.search(
+        rf"{KIND}\.py:{REFUSED.line}: in “conveying\.bucket_count = .*: holds 3\.14159, .* write pi of diecut_report\.api",
+        told,
+    )
+    assert "Traceback" not in told
+
+
+ID = r'\b(of|by|key|demand|limit|abscissa|curve|value|x|y|period)="([a-z_]+(?:\.[a-z_]+)?)"'
+
+
+def test_a_quantity_stands_wherever_an_id_is_wanted(tmp_path: Path) -> None:
+    texts = (
+        ('takes=("belt_speed", "chute_drop")', "takes=(m.belt_speed, m.chute_drop)"),
+        ('"angle", "scoop_start", "scoop_end")', "m.angle, m.scoop_start, m.scoop_end)"),
+        ('("waste", "lift_force")', '("waste", m.lift_force)'),
+        ('needs=("allowable_torque",)', "needs=(m.allowable_torque,)"),
+        ('needs=("backstop",), absent', "needs=(m.backstop,), absent"),
+        ('columns=("rim_x", "rim_y")', "columns=(m.rim_x, m.rim_y)"),
+    )
+    written, count = re.subn(ID, r"\1=m.\2", Mistake("none", texts, "", ()).source)
+    assert count > 30
+    (tmp_path / f"{KIND}.py").write_text(written, "utf-8")
+    mechanism = Discovery([tmp_path]).mechanism(KIND)
+    check_mechanism(mechanism)
+    made = calculate(mechanism, inputs(mechanism, {key: value for key, value in MACHINE.items() if key != "kind"}))
+    assert [(check.id, check.demand) for check in check_results(made)] == [
+        (check.id, check.demand) for check in check_results(elevator())
+    ]
 
 
 def test_each_row_is_another_mistake() -> None:
