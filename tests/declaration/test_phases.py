@@ -61,7 +61,8 @@ MISTAKES: dict[str, tuple[Declare, str]] = {
     ),
     "a period in mm": (
         lambda c: c.phase("x", "rest", "X", "angle", (0, "ends"), period="blade"), "has the period blade, in mm; its abscissa angle is in deg"),
-    "a period in degrees": (lambda c: c.add(abscissa(360).step("turn", "ψ", "deg", "Turn")), "has the period 360, a number of radians that is not a part of"),
+    "a period in degrees": (
+        lambda c: c.add(abscissa(360).step("turn", "ψ", "deg", "Turn")), "has the period 360, a number of radians that is not a part of"),
     "a bare period": (lambda c: c.add(abscissa(400).step("way", "x", "mm", "Way")), "has the period 400, a number without a unit; name the input"),
     "a bare place of print": (
         lambda c: c.add(abscissa(2 * np.pi, shown_at=120).step("turn", "ψ", "deg", "Turn")),  # type: ignore[arg-type]

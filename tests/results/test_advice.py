@@ -53,8 +53,7 @@ def typed(mechanism: Mechanism, inputs: Given, change: KeyChangeRecord) -> Itera
     parts = change.key.split(".")
     key = ".".join(part for part in parts if not part.isdigit())
     meta = Calculation(mechanism, inputs, 1).meta[key]
-    for value in change.value if isinstance(change.value, list) else [change.value]:
-        number = value
+    for number in change.value if isinstance(change.value, list) else [change.value]:
         if isinstance(meta, Quantity):
             number = meta.validate(value if change.unit == "1" else f"{value!r} {change.unit}")
         for part in filter(str.isdigit, parts):
