@@ -101,13 +101,21 @@ class Press:
     tell: Tell = _silent
 
     @classmethod
-    def read(cls, source: Source, discovery: Discovery, tell: Tell = _silent, *, find: Find | None = None) -> Press:
+    def read(
+        cls,
+        source: Source,
+        discovery: Discovery,
+        tell: Tell = _silent,
+        *,
+        find: Find | None = None,
+        former: Config | None = None,
+    ) -> Press:
         """Return the press of a configuration; UserError with all that is wrong with it. A broken plugin is kept in ``config.broken``.
 
-        ``find`` says where tables are that the configuration names, where they are not beside it.
+        ``find`` says where tables are that the configuration names, where they are not beside it; ``former`` is one that was read before.
         """
         tell(phrase("reading the configuration"))
-        return cls(load_config(source, discovery, find=find), discovery, tell)
+        return cls(load_config(source, discovery, find=find, former=former), discovery, tell)
 
     @staticmethod
     def validate(source: Source, discovery: Discovery, judge: Judge | None = None) -> tuple[PluginError, ...]:
