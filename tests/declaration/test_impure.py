@@ -204,7 +204,7 @@ CALLED = {
 @pytest.mark.parametrize("name", CALLED)
 def test_code_is_followed_however_it_is_called(name: str, tmp_path: Path) -> None:
     body, function, called = CALLED[name]
-    step = f'chapter.computed("x", "X", "mm", "X", {function}, takes=("arm",), method="m")'
+    step = f'chapter.x = computed({function}, takes=("arm",), method="m"), "X", "mm", "X"'
     for place, parts in {"named": {"body": body}, "given": {"loop": step}}.items():
         (tmp_path / place).mkdir()
         lines = judged(tmp_path / place, module=f"import functools\n{HIDDEN}", **parts)
