@@ -284,7 +284,7 @@ class Slot:
     is_given: bool
     is_required: bool
 
-    @property
+    @cached_property
     def name(self) -> str:
         """What steps and checks call it: its key without the places in lists."""
         return dotted(self.key)
@@ -302,6 +302,9 @@ def slots(model: type[Block], data: Mapping[str, Any], key: KeyPath = ()) -> Ite
                 yield from slots(known.block, part, own if index is None else (*own, index))
 
 
+FOLLOWING = ("slots", "by_key", "given", "results", "phases", "rows")  # from the inputs of an instance
+
+
 class Instance:
     """A mechanism of the config, or the press (which has no calculation)."""
 
@@ -314,6 +317,15 @@ class Instance:
         self.without: frozenset[KeyPath] = frozenset()
         self.derived: frozenset[str] = frozenset()  # inputs taken from partners
         self.founded: Mapping[KeyPath, Any] = {}  # of varied inputs the values that their basis is of
+
+    def is_like(self, other: Instance) -> bool:
+        """Return whether another one has the same inputs, to the last letter."""
+        is_same = self.model is other.model and self.mechanism is other.mechanism and self.without == other.without
+        return is_same and repr(self.data) == repr(other.data)
+
+    def follow(self, other: Instance) -> None:
+        """Take over what follows from the inputs of one that has the same."""
+        self.__dict__.update({known: other.__dict__[known] for known in FOLLOWING if known in other.__dict__})
 
     def take(self, found: Mapping[str, str]) -> None:
         """Take inputs from partners: names, and references that keep no value where a machine does not have what they name."""
@@ -330,7 +342,7 @@ class Instance:
 
     def forget(self) -> None:
         """Forget what follows from the inputs, as they have changed."""
-        for known in ("slots", "by_key", "given", "results", "phases", "rows"):
+        for known in FOLLOWING:
             self.__dict__.pop(known, None)
 
     @cached_property

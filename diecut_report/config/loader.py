@@ -6,6 +6,7 @@ import math
 from collections.abc import Container, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import chain, count
 from pathlib import Path, PurePath
 from typing import Any
@@ -18,7 +19,7 @@ from diecut_report.config.parts.expansion import Expanded, expanded, has_parts, 
 from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.parts.model import MachineParts
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
-from diecut_report.config.references import WHOLE, Linker, linked, ordered
+from diecut_report.config.references import WHOLE, Linker, by_instance, linked, ordered
 from diecut_report.config.source_hashes import note_same_code, plugin_hash, program_hash
 from diecut_report.config.validation import ConfigPlace, as_typed, declared, keys_of, quoted, spread_out, validate
 from diecut_report.config.yaml import MAX_BYTES, KeyPath, Scalar, Tree, key_of, read, too_much
@@ -31,7 +32,7 @@ from diecut_report.mechanism.inputs import Block, Quantity, keys
 from diecut_report.mechanism.mechanism import Mechanism, Partner, Wired, absent_partners_checks, without_checks
 from diecut_report.mechanism.names import SI, Pending, Text
 from diecut_report.quantities.units import Unit, UnitError, decades, number_and_unit, parse_quantity, pretty
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase
 from diecut_report.time_limit import contained
 
 # Partners: the mechanisms from which a kind takes inputs by itself, and the kinds that run without being asked.
@@ -212,8 +213,6 @@ def _numbers(given: Any, path: list[str], meta: Quantity) -> Iterator[float]:
 
 
 RESERVED = (PRESS, "project", *WORDS)
-FOLLOWS = phrase("follows from the parts of the machine; change these in the file.")
-MADE_WITH = phrase("is what parts of the machine are made with, which follow it only where it is changed in the file.")
 
 
 @dataclass(frozen=True)
@@ -241,6 +240,11 @@ class Config:
     discovery: Discovery
     find: Find | None
 
+    @cached_property
+    def links_of(self) -> dict[str, dict[Node, Target]]:
+        """The links by the mechanisms whose inputs they are of."""
+        return by_instance(self.links)
+
     @property
     def files(self) -> dict[str, str]:
         """The SHA-256 of the files that the configuration names, by their names in it."""
@@ -251,20 +255,15 @@ class Config:
         """Return the only mechanism of a kind."""
         return only((kind,), self.kinds)
 
-    def tied(self, node: Node) -> Phrase | None:
-        """Return why other values of an input give no other machine by themselves: it and the parts follow from each other."""
-        if self.parts is None:
-            return None
-        if self.parts.follows(node):
-            return FOLLOWS
-        return MADE_WITH if self.parts.is_made_with(node) else None
-
     def units(self, places: Iterable[KeyPath]) -> dict[KeyPath, str]:
         """Return the units in which numbers without one count, by their places in the file; of what is no quantity there is none."""
+        return {path: self._units[path] for path in places if path in self._units}
+
+    @cached_property
+    def _units(self) -> dict[KeyPath, str]:
         made = [instance for instance in self.instances.values() if instance is not None]
         slots = ((each.place.stands(slot.key)[1], slot.meta) for each in made for slot in each.slots)
-        known = {path: meta.unit for path, meta in slots if isinstance(meta, Quantity)}
-        return {path: known[path] for path in places if path in known}
+        return {path: meta.unit for path, meta in slots if isinstance(meta, Quantity)}
 
     def retyped(self, changes: Mapping[KeyPath, Scalar]) -> tuple[Config, list[Problem]]:
         """Return the machine with these values in their places, its parts made anew, and what is wrong with it."""
@@ -281,18 +280,23 @@ class Config:
         return {"program": program_hash(), **dict(sorted((plugins | extensions).items()))}
 
 
-def load_config(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> Config:
+def load_config(
+    given: Path | Tree, discovery: Discovery, *, find: Find | None = None, former: Config | None = None
+) -> Config:
     """Read and validate a configuration, with what runs by itself; UserError with all its problems. A broken plugin is kept in ``broken``.
 
-    ``find`` says where the tables are that the file names, where they are not beside it.
+    ``find`` says where the tables are that the file names, where they are not beside it. ``former`` is one that was loaded before:
+    of what is the same there it is known that nothing is wrong with it.
     """
-    config, problems = examined(given, discovery, find=find)
+    config, problems = examined(given, discovery, find=find, former=former)
     if problems:
         raise UserError(in_order(problems))
     return config
 
 
-def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> tuple[Config, list[Problem]]:
+def examined(
+    given: Path | Tree, discovery: Discovery, *, find: Find | None = None, former: Config | None = None
+) -> tuple[Config, list[Problem]]:
     """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
     tree = given if isinstance(given, Tree) else yaml.read(given)
     refuse_study(tree)
@@ -306,12 +310,12 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     tree = found.tree if found else tree
     tables = OwnTables.read(tree, find)
     made = frozenset(each.name for each in found.elements.made) if found and found.elements else frozenset()
-    reader = _ConfigReader(tree, discovery, tables, made)
+    reader = _ConfigReader(tree, discovery, tables, made, former.instances if former else {})
     linker = linked(reader.instances)
     order, loops = ordered(linker)
     logo, faults = logo_of(tree, find)
     problems = [*reader.problems, *tables.problems, *_unknown_tables(reader), *faults]
-    problems += [*linker.problems, *_wrong_values(reader, linker), *loops]
+    problems += [*linker.problems, *_wrong_values(reader, linker, former), *loops]
     units = reader.report and reader.report.units
     problems += instances.faults(units, reader.instances, ConfigPlace(tree, ("report",)))
     broken = reader.broken if problems else {}
@@ -380,6 +384,7 @@ class _ConfigReader:
     discovery: Discovery
     tables: OwnTables
     made: frozenset[str]  # calculations that the parts of the machine make
+    known: Mapping[str, Instance | None]  # of a configuration that was loaded before
     instances: dict[str, Instance | None] = field(default_factory=dict)
     kinds: dict[str, str] = field(default_factory=dict)
     broken: dict[str, PluginError] = field(default_factory=dict)
@@ -439,7 +444,9 @@ class _ConfigReader:
         self.problems += [*problems, *own.problems]
         form = in_form(model, [key for key, value in own.data.items() if value is not None])
         typed = as_typed(form, own.data, own.place)
-        self.instances[name] = Instance(name, form, typed, own.place, mechanism, own.bases, own)
+        found = self.instances[name] = Instance(name, form, typed, own.place, mechanism, own.bases, own)
+        if (before := self.known.get(name)) is not None and found.is_like(before):
+            found.follow(before)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
         if name not in self.made and (fault := name_fault(name)):
@@ -499,20 +506,20 @@ def name_fault(name: str) -> str:
     return ""
 
 
-def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
+def _wrong_values(reader: _ConfigReader, linker: Linker, former: Config | None) -> list[Problem]:
     """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating.
 
     A plugin whose own validator breaks is kept in the reader's ``broken``.
     """
     problems: list[Problem] = []
-    unresolved = dict.fromkeys(linker.unresolved, Target("", "", is_broken=True))
-    for instance in reader.instances.values():
-        if instance is None:
+    links = by_instance(linker.links | dict.fromkeys(linker.unresolved, Target("", "", is_broken=True)))
+    for instance in filter(None, reader.instances.values()):
+        written = _written(links, instance.name)
+        if former is not None and _is_as_in(former, instance, written):
             continue
-        written = {node: target for node, target in linker.links.items() if not target.is_default} | unresolved
         data = substituted(instance, written, lambda node, target, own=instance: _pending(own, node, target))  # type: ignore[misc]
         # a text, and what a broken plugin would give, can be judged only when it is known
-        own = [(node[1:], target) for node, target in written.items() if node[0] == instance.name]
+        own = [(node[1:], target) for node, target in written.items()]
         texts = {key for key, each in own if each.unit is None and isinstance(declared(instance.model, key), Text)}
         left_open = {key for key, each in own if each.is_broken or (key in texts and not each.phase_unit)}
         try:
@@ -523,6 +530,16 @@ def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
         except PluginError as error:
             reader.broken[instance.name] = _of_instance(error, reader.kinds.get(instance.name, ""), instance.name)
     return problems
+
+
+def _written(links: Mapping[str, dict[Node, Target]], name: str) -> dict[Node, Target]:
+    return {node: target for node, target in links.get(name, {}).items() if not target.is_default}
+
+
+def _is_as_in(former: Config, instance: Instance, written: dict[Node, Target]) -> bool:
+    """Whether the same was written for a mechanism, to the last letter, in a configuration that was found valid."""
+    before = former.instances.get(instance.name)
+    return before is not None and instance.is_like(before) and _written(former.links_of, instance.name) == written
 
 
 def _pending(instance: Instance, node: Node, target: Target) -> Any:

@@ -26,7 +26,7 @@ from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, ConfigPlace, declared, value_at
 from diecut_report.config.yaml import LOADER, KeyPath, Scalar, Tree, dotted, key_of, parse
 from diecut_report.errors import Problem, UserError, nearest, seeming_latin
-from diecut_report.formulas.condition_parts import Name, read_expression
+from diecut_report.formulas.condition_parts import Expression, Name, read_expression
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields
@@ -42,6 +42,10 @@ WHOLE = re.compile(r"\$\{([^${}]*)\}")
 class _BrokenTerm(Exception):
     """Stand for an expression that refers to a mechanism whose plugin cannot be loaded."""
 
+    def __init__(self, term: Target) -> None:
+        super().__init__()
+        self.term = term
+
 
 class Linker:
     """Finds what every reference stands for; gathers links and problems. Broken mechanisms are None."""
@@ -50,6 +54,9 @@ class Linker:
         self.instances = instances
         self.links: dict[Node, Target] = {}
         self.unresolved: set[Node] = set()
+        # by their texts: what is made of parts refers to the same again and again
+        self._targets: dict[str, Target] = {}
+        self._expressions: dict[str, tuple[Expression, dict[str, Target]]] = {}
         self._asked: set[Node] = set()  # whose unit is just being looked for
         self.problems: list[Problem] = []
         known = [instance for instance in instances.values() if instance is not None]
@@ -91,17 +98,27 @@ class Linker:
         if isinstance(meta, CurveInput) and declared(instance.model, key):
             template = "“{strip}” calculates a number; a curve is needed here, and is referred to whole"
             raise Unresolved(template, strip=text.strip())
-        terms: dict[str, Target] = {}
         try:
-            found = read_expression(text, lambda name: self._term(name, terms))
-        except _BrokenTerm:
-            return next(term for term in terms.values() if term.is_broken)
+            found, terms = self._expression(text)
+        except _BrokenTerm as fault:
+            return fault.term
         units = [meta.unit, getattr(meta, "or_unit", "")] if meta else []
         wanted = next((each for each in units if each and not found.refused(each)), None)
         if meta and wanted is None:
             raise Unresolved(str(found.refused(meta.unit)))
         si = unit(wanted).si if wanted else "1"
         return Target(found.text, "", unit=si, expression=found, terms=tuple(terms[name] for name in found.names))
+
+    def _expression(self, text: str) -> tuple[Expression, dict[str, Target]]:
+        if (known := self._expressions.get(text)) and not self._asked:
+            return known
+        terms: dict[str, Target] = {}
+        try:
+            found = _read(text, tuple(self._term(f"${{{path.strip()}}}", terms) for path in WHOLE.findall(text)))
+        except (ConditionError, _BrokenTerm):  # which the first in the order of reading tells, with its place
+            terms.clear()
+            found = read_expression(text, lambda name: self._term(name, terms))
+        return (found, terms) if self._asked else self._expressions.setdefault(text, (found, terms))
 
     def _term(self, name: str, terms: dict[str, Target]) -> Name:
         """What a reference within an expression is: a single number."""
@@ -110,7 +127,7 @@ class Linker:
         except Unresolved as fault:
             raise ConditionError(str(fault)) from None
         if target.is_broken:
-            raise _BrokenTerm
+            raise _BrokenTerm(target)
         if target.is_curve:
             raise ConditionError("{name} is a curve; single numbers are needed to calculate with.", name=name)
         if target.unit is None:
@@ -153,6 +170,12 @@ class Linker:
 
     def target(self, text: str) -> Target:
         """What a reference stands for; Unresolved in words where it stands for nothing."""
+        if self._asked or text not in self._targets:  # while a unit is looked for, a loop is cut where it began
+            found = self._target(text)
+            return found if self._asked else self._targets.setdefault(text, found)
+        return self._targets[text]
+
+    def _target(self, text: str) -> Target:
         match = WHOLE.fullmatch(text.strip())
         if match is None:
             template = (
@@ -272,6 +295,11 @@ class Linker:
         return found if near else found + Phrase(" Known: {known}.", known=", ".join(known))
 
 
+@lru_cache(maxsize=4096)  # a machine of parts has the same ones each time that it is read
+def _read(text: str, names: tuple[Name, ...]) -> Expression:
+    return read_expression(text, {each.name: each for each in names}.__getitem__)
+
+
 def _wanted(instance: Instance, key: KeyPath) -> Meta | type[Block] | None:
     """What stands at a key: the declaration of the input, or of the curve that the value is listed in."""
     found = declared(instance.model, key)
@@ -386,6 +414,14 @@ def _differs(typed: str | None, value: Scalar, own: str) -> bool:
         return not math.isclose(parse_quantity(typed, own), parse_quantity(text, own), rel_tol=1e-12)
     except UnitError:
         return True
+
+
+def by_instance(links: Mapping[Node, Target]) -> dict[str, dict[Node, Target]]:
+    """Return links by the names of the instances whose inputs they are of."""
+    found: dict[str, dict[Node, Target]] = {}
+    for node, target in links.items():
+        found.setdefault(str(node[0]), {})[node] = target
+    return found
 
 
 def upstream(links: Mapping[Node, Target], names: Iterable[str]) -> set[str]:

@@ -14,6 +14,7 @@ from diecut_report.declaration.code import files
 from diecut_report.declaration.inputs import of_class, of_input
 from diecut_report.declaration.names import DeclaredNames, Fault, fault, short
 from diecut_report.declaration.texts import parsed
+from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.figures import Bars, Drawing, Figure, Plot, Polar
@@ -83,7 +84,18 @@ def _of_step(step: Step) -> Iterator[str]:
     for name in FOR_READERS:
         if name != "unit" and not isinstance(given := getattr(step, name), str):  # units are told for themselves
             yield Phrase("has {name}={given}; write a text in quotes", name=name, given=reprlib.repr(given))
-    yield from step.shape_faults()
+    wrong = list(step.shape_faults())
+    yield from wrong
+    for each in () if wrong else step.formulas():
+        yield from _of_formula(each.formula)
+
+
+def _of_formula(part: object) -> Iterator[str]:
+    if isinstance(part, Formula) and part.defaults:
+        template = (
+            "takes the formula {formula}, whose parameters have a default; each takes a quantity: remove the default"
+        )
+        yield Phrase(template, formula=part.__name__)
 
 
 # What a plugin's files define twice under one name: Python keeps the last and says nothing.

@@ -5,8 +5,9 @@ from __future__ import annotations
 import inspect
 import math
 import reprlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cached_property
+from inspect import Parameter
 from typing import Any, overload
 
 import numpy as np
@@ -45,34 +46,41 @@ class Formula:
 
     def __call__(self, *args: Any, **given: Any) -> Any:
         """Return the value of numbers, or the expression of expressions."""
-        if not any(isinstance(each, Expression) for each in (*args, *given.values())):
-            return self.function(*args, **given)
+        taken = self._taken(args, given)
+        if not any(isinstance(each, Expression) for each in taken):
+            return self.function(*taken)
+        self._refuse_texts(taken)
+        _ = self.spoken  # what it cannot hold is told where it stands
+        if self.printed_as:
+            return Expression(Node("apply", (FormulaName(self), *map(node_of, taken))))
+        return self._traced(*args, **given)
+
+    def _taken(self, args: tuple[Any, ...], given: dict[str, Any]) -> tuple[Any, ...]:
+        """What the parameters take in a call, in their order."""
+        if not given and len(args) == len(self.parameters):
+            return args
         try:
             taken = inspect.signature(self._function).bind(*args, **given)
         except TypeError as error:
-            template = "{name} cannot be called so: {error}; it takes {known}"
+            template = "formula {name}: {error}; it takes {known}"
             refuse(Phrase(template, name=self.__name__, error=error, known=self._told_parameters))
-        for each in (*args, *given.values()):
-            if isinstance(each, str):
-                node_of(each)
-        _ = self.spoken
-        if not self.printed_as:
-            return self._traced(*args, **given)
         taken.apply_defaults()
-        return Expression(Node("apply", (FormulaName(self), *map(node_of, taken.arguments.values()))))
+        return tuple(taken.arguments.values())
 
     def of(self, **given: Any) -> Expression:
         """Return the expression of other quantities; a parameter that is not given takes the quantity of its own name."""
-        self._refuse_unlike_parameters()
+        self._refuse_parameters(defaults=True)
         if unknown := sorted(set(given) - set(self.parameters)):
             template = "formula {name} has no parameter {unknown}{near}; it takes {known}"
             near = nearest(unknown[0], self.parameters)
             named = {"name": self.__name__, "unknown": ", ".join(unknown), "near": near, "known": self._told_parameters}
             refuse(Phrase(template, named))
-        for each in given.values():
-            node_of(each)
-        found: Expression = self(**{name: given.get(name, m[name]) for name in self.parameters})
-        return found
+        self._refuse_texts(given.values())
+        _ = self.spoken
+        taken = {name: given.get(name, m[name]) for name in self.parameters}
+        if self.printed_as:
+            return Expression(Node("apply", (FormulaName(self), *map(node_of, taken.values()))))
+        return Expression(whole(self._traced(**taken)))
 
     def renamed(self, rename: Callable[[str], str]) -> Formula:
         """Return the formula of quantities with other ids."""
@@ -104,32 +112,36 @@ class Formula:
     def _told_parameters(self) -> str:
         return ", ".join(self.parameters) or phrase("nothing")
 
-    def _refuse_unlike_parameters(self) -> None:
-        """Raise FormulaError where a parameter does not take one quantity."""
-        unlike = [
-            f"*{each.name}"
-            if each.kind is each.VAR_POSITIONAL
-            else f"**{each.name}"
-            if each.kind is each.VAR_KEYWORD
-            else each.name
-            for each in inspect.signature(self._function).parameters.values()
-            if each.kind is not each.POSITIONAL_OR_KEYWORD or each.default is not each.empty
-        ]
+    def _refuse_texts(self, taken: Iterable[Any]) -> None:
+        for each in taken:
+            if isinstance(each, str):
+                node_of(each)
+
+    def _refuse_parameters(self, *, defaults: bool) -> None:
+        """Raise FormulaError where a parameter does not take one quantity: with a star, or, where it takes one anyway, with a default."""
+        own = inspect.signature(self._function).parameters.values()
+        stars = {Parameter.VAR_POSITIONAL: "*", Parameter.VAR_KEYWORD: "**"}
+        unlike = [f"{stars[each.kind]}{each.name}" for each in own if each.kind in stars]
+        unlike += self.defaults if defaults else ()
         if unlike:
             template = "formula {name} has the parameter {unlike}; each takes one quantity: name it alone, without a star and without a default"
             raise FormulaError(Phrase(template, name=self.__name__, unlike=", ".join(unlike)), self.place)
 
     @cached_property
     def function(self) -> Callable[..., Any]:
-        """The function that computes. FormulaError where it calls itself, at once or by way of others."""
-        _ = self.spoken
-        return self._function
+        """The function that computes the tree, of what the parameters take in their order."""
+        return compiled(self.spoken, self.parameters)
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
         """The names of what the formula takes."""
         code = self._function.__code__
         return code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+
+    @property
+    def defaults(self) -> tuple[str, ...]:
+        """Return the parameters that have a default, which another formula may leave out."""
+        return tuple(p.name for p in inspect.signature(self._function).parameters.values() if p.default is not p.empty)
 
     @property
     def place(self) -> str:
@@ -140,16 +152,16 @@ class Formula:
     @cached_property
     def spoken(self) -> Node:
         """The tree with all that is said by ``as_number`` and ``as_angle``, calls of named formulas as such."""
-        self._refuse_unlike_parameters()
-        tree = whole(self._traced(**{name: Expression(Node("sym", (Parameter(name),))) for name in self.parameters}))
+        self._refuse_parameters(defaults=False)
+        tree = whole(self._traced(**{name: Expression(Node("sym", (Taken(name),))) for name in self.parameters}))
         own = (leaf.args[0] for leaf in walk(tree) if leaf.op == "sym")
-        if others := [name for name in own if is_id(name) and not isinstance(name, Parameter)]:
+        if others := [name for name in own if is_id(name) and not isinstance(name, Taken)]:
             template = "formula {name} takes {others} beside its parameters; make it one of them, or write an expression where it is used"
             raise FormulaError(
                 Phrase(template, name=self.__name__, others=", ".join(f"m.{each}" for each in others)), self.place
             )
         return transform(
-            tree, lambda leaf: Node(leaf.op, (str(leaf.args[0]),)) if isinstance(leaf.args[0], Parameter) else leaf
+            tree, lambda leaf: Node(leaf.op, (str(leaf.args[0]),)) if isinstance(leaf.args[0], Taken) else leaf
         )
 
     @cached_property
@@ -189,7 +201,7 @@ def whole(written: Any) -> Node:
     return node_of(written)
 
 
-class Parameter(str):
+class Taken(str):
     """Mark a name that a function takes, where it is followed, from those of quantities that it takes beside them."""
 
 
@@ -257,9 +269,9 @@ class WrittenFormula(Formula):
         own = (leaf.args[0] for leaf in walk(self.spoken) if leaf.op == "sym")
         return tuple(dict.fromkeys(filter(is_id, own)))
 
-    @cached_property
-    def function(self) -> Callable[..., Any]:
-        return compiled(self.spoken, self.parameters)
+    @property
+    def defaults(self) -> tuple[str, ...]:
+        return ()
 
 
 # Computing a tree: as a function of its own, and as it is printed.
@@ -305,8 +317,9 @@ class _Writer:
         if self.uses.get(id(node), 0) < 2:
             return self._written(node)
         if id(node) not in self.shared:
-            self.lines.append(f"s{len(self.lines)} = {self._written(node)}")
-            self.shared[id(node)] = f"s{len(self.lines) - 1}"
+            written = self._written(node)
+            self.shared[id(node)] = name = f"s{len(self.shared)}"
+            self.lines.append(f"{name} = {written}")
         return self.shared[id(node)]
 
     def _written(self, node: Node) -> str:

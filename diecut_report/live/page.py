@@ -137,11 +137,8 @@ def _text(text: object, kind: str) -> str:
 
 def _inputs(name: str, machine: LiveMachine) -> list[DesignInput]:
     """Those of the file in its order, then those at default in that of their declaration, where they stay when they are changed."""
-    own = [
-        each
-        for each in machine.inputs.values()
-        if each.asked.instance == name or each.name in machine.of_parts.get(name, ())
-    ]
+    made_with = machine.of_parts.get(name, ())
+    own = [each for called, each in machine.inputs.items() if each.asked.instance == name or called in made_with]
     given = [each for each in own if typed_text(machine.tree, each.stands) is not None]
     instance = machine.config.instances[name]
     order = {slot.key: index for index, slot in enumerate(instance.slots if instance else ())}

@@ -382,7 +382,8 @@ class LiveSession:
 
     def _made(self, tree: Tree) -> LiveMachine:
         changed = self._changed(tree)
-        config = Press.read(changed, self.discovery).usable().config
+        former = self.machine.config if self.machine else None
+        config = Press.read(changed, self.discovery, former=former).usable().config
         run = self._press.calculate(config)
         for error in run.errors.values():
             raise error

@@ -7,7 +7,6 @@ import reprlib
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass, replace
-from inspect import signature
 from types import FunctionType
 from typing import Any, NamedTuple, Protocol
 
@@ -293,14 +292,14 @@ def as_formula(part: Written, name: str) -> Formula | ByText:
     if part.__module__.startswith(OWN):
         template = "{name} is given by {part}, which is not called; write {part}(…)"
         raise Misdeclared(Phrase(template, name=name, part=part.__name__))
-    optional = [p.name for p in signature(part).parameters.values() if p.default is not p.empty]
-    if optional:
+    made = Formula(part, name)
+    if made.defaults:
         template = (
             "the formula of {name} has a default for {optional}, which is never used: each parameter takes "
             "a quantity; remove it"
         )
-        raise Misdeclared(Phrase(template, name=name, optional=", ".join(optional)))
-    return Formula(part, name)
+        raise Misdeclared(Phrase(template, name=name, optional=", ".join(made.defaults)))
+    return made
 
 
 def formula_of(part: Written) -> Formula:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 from diecut_report.quantities.formatting import ABOVE, shown
@@ -264,6 +265,7 @@ def displayed(value: float, unit: str, decimal: str = ".") -> str:
     return number(shown(value, unit)["text"], decimal)
 
 
+@lru_cache(maxsize=8192)
 def tidy(text: str) -> str:
     """A sentence with real minus signs, powers of ten written out, long numbers in threes, and degrees close to their number."""
     powers = re.sub(r"(?<=\d)[eE]([+-]?\d+)(?!\w)", lambda found: power_of_ten(int(found[1])), text.replace(" °", "°"))

@@ -24,7 +24,7 @@ from diecut_report.results.conclusion import LEFT, judged, summary, unsettled
 from diecut_report.results.drive_line import accepted, counted, unrated
 from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.model import OpenRecord, SummaryRecord
-from diecut_report.results.origins import as_founded, assumed, at_default, input_path, is_default
+from diecut_report.results.origins import as_founded, assumed, at_default, input_path, is_default, value_in
 from diecut_report.results.press_run import Run
 from diecut_report.results.record import OpenKind
 from diecut_report.results.usual import unbounded
@@ -195,7 +195,7 @@ def open_values(run: Run) -> Iterator[OpenRecord]:
             continue
         unranged_keys = unranged(run.config.kinds.get(name, PRESS), _is_alone(run, name))
         unbounded_keys = _unbounded(run, instance)
-        for slot in (each for each in instance.slots if not _is_varied(each)):
+        for slot in (each for each in instance.slots if _is_there(run, instance, each) and not _is_varied(each)):
             is_bounded = slot.key not in unbounded_keys
             what = _rests_on(run, instance, slot, _standing(run, instance, slot), is_bounded=is_bounded)
             if what is None:
@@ -234,6 +234,11 @@ def _unbounded(run: Run, instance: Instance) -> set[KeyPath]:
     return unbounded(instance, flatten(run.blocks[instance.name]), run.beside(instance), calc.values) if calc else set()
 
 
+def _is_there(run: Run, instance: Instance, slot: Slot) -> bool:
+    """Whether an input has a value; of what is left out nothing can be open."""
+    return slot.value is not None or (instance.name, *slot.key) in run.config.links
+
+
 def _is_varied(slot: Slot) -> bool:
     """Whether an input is not the same in all of several machines."""
     return isinstance(slot.value, SI) and np.ndim(slot.value.value) > 0
@@ -255,7 +260,8 @@ def _standing(run: Run, instance: Instance, slot: Slot) -> _Standing | None:
     )
     if not is_number or not isinstance(slot.value, int | float | str) or slot.value in slot.meta.words:  # type: ignore[union-attr]
         return None
-    return _Standing(instance.value(slot.key), is_default(run.blocks[instance.name], slot.key))
+    block = run.blocks[instance.name]
+    return _Standing(value_in(block, slot.key), not slot.is_given or is_default(block, slot.key))
 
 
 def _rests_on(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -98,19 +99,28 @@ def is_default(block: Block, key: KeyPath) -> bool:
 
 def at_default(block: Block, key: KeyPath) -> Any:
     """Return in which machines an input has the value that it would have if nobody typed it: True, False, or an array (variants,)."""
-    block = _home(block, key)
-    declared = keys_of(type(block))[str(key[-1])]
-    default = declared.field.get_default(call_default_factory=True)
-    if declared.field.is_required():
+    home: Block = _home(block, key)
+    if keys_of(type(home))[str(key[-1])].field.is_required():
         return np.asarray(False)
-    if isinstance(declared.meta, Quantity) and default is not None:
-        default = declared.meta.validate(default)  # it is declared in the unit of its key
-    return ~np.asarray(getattr(block, str(key[-1])) != default)
+    return ~np.asarray(value_in(block, key) != _default(type(home), str(key[-1])))
+
+
+@cache
+def _default(model: type[Block], name: str) -> Any:
+    default, meta = keys_of(model)[name].default, keys_of(model)[name].meta
+    if isinstance(meta, Quantity) and default is not None:
+        return meta.validate(default)  # it is declared in the unit of its key
+    return default
 
 
 def as_founded(instance: Instance, block: Block, key: KeyPath) -> Any:
     """Return in which machines a varied input has the value that its basis is of: True, False, or an array (variants,)."""
-    return key in instance.founded and np.asarray(getattr(_home(block, key), str(key[-1])) == instance.founded[key])
+    return key in instance.founded and np.asarray(value_in(block, key) == instance.founded[key])
+
+
+def value_in(block: Block, key: KeyPath) -> Any:
+    """Return the value of an input in a block, or in a block within it."""
+    return getattr(_home(block, key), str(key[-1]))
 
 
 def _home(block: Block, key: KeyPath) -> Any:
@@ -127,6 +137,7 @@ class Bases:
         self.config, self.calculations = config, calculations
         self._known: dict[Node, str] = {}
         self._given: dict[str, set[KeyPath]] = {}
+        self._beyond: dict[str, dict[KeyPath, str]] = {}
         self._linked: dict[Node, list[Target]] = {}
         for node, target in config.links.items():
             for length in range(2, len(node) + 1):  # also of the whole list that it stands in
@@ -145,8 +156,10 @@ class Bases:
 
     def beyond(self, instance: Instance) -> dict[KeyPath, str]:
         """Return why inputs may be outside their hard range: what the file says there, or at the input that they refer to."""
-        found = {slot.key: self.reason((instance.name, *slot.key)) for slot in instance.slots}
-        return {key: reason for key, reason in found.items() if reason}
+        if instance.name not in self._beyond:
+            found = {slot.key: self.reason((instance.name, *slot.key)) for slot in instance.slots}
+            self._beyond[instance.name] = {key: reason for key, reason in found.items() if reason}
+        return self._beyond[instance.name]
 
     def reason(self, node: Node) -> str:
         """Return why an input may be outside its hard range; nothing where that is not said."""

@@ -283,8 +283,7 @@ class Run:
     # --- mechanisms --------------------------------------------------------------------------------------------------
 
     def _mechanism(self, name: str) -> None:
-        instance, links = self.config.instances[name], self.config.links
-        own = {node: target for node, target in links.items() if node[0] == name}
+        instance, own = self.config.instances[name], self.config.links_of.get(name, {})
         if instance is None or name in self.errors:
             return
         asked = (target for node, target in own.items() if node[1] not in instance.derived)
@@ -337,12 +336,12 @@ class Run:
     def _calculate(self, name: str, instance: Instance, block: Block) -> None:
         assert instance.mechanism is not None
         known = self.beside(instance)
-        self._slips(instance, outside(instance, flatten(block), known))
+        self._slips(instance, self._outside(instance, block, known))
         self.tell(name)
         try:
             with in_time():
                 self.calculations[name] = self._made(instance, instance.mechanism, block)
-                self._slips(instance, note_usual(self.calculations[name], instance, block, known))
+                self._slips(instance, self._outside(instance, block, known, self.calculations[name]))
                 note_findings(self.calculations[name], placed_findings(self.config.parts, instance.mechanism.kind))
                 self._printed(instance, self.calculations[name])
         except Impossible as fault:
@@ -381,6 +380,14 @@ class Run:
         press = flatten(self.blocks[PRESS]) if PRESS in self.blocks else {}
         known = {f"{PRESS}.{name}": value for name, value in press.items()}
         return beside(instance, known, self.bases.beyond(instance))
+
+    def _outside(
+        self, instance: Instance, block: Block, known: Beside, calculation: Calculation | None = None
+    ) -> list[Outside]:
+        """What is outside its usual range before a mechanism is calculated, and then."""
+        if calculation is None:
+            return outside(instance, flatten(block), known)
+        return note_usual(calculation, instance, block, known)
 
     def _slips(self, instance: Instance, found: Sequence[Outside]) -> None:
         """Refuse the values that are a slip, each once and where it is typed: a default from the press where that gives it."""

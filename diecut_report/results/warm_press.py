@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cached_property
+from operator import is_
 from typing import Any, NamedTuple, TypeVar
 
 from diecut_report.config.instances import Instance
@@ -52,7 +53,7 @@ from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, Sec
 from diecut_report.results.model import DriveLineRecord, GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.open_items import run_summary
 from diecut_report.results.press_run import ReportedRun, Run, Tell, require_possible, same_inputs
-from diecut_report.results.usual import Beside
+from diecut_report.results.usual import Beside, Outside
 
 Data = dict[str, Any]
 T = TypeVar("T")
@@ -90,6 +91,18 @@ class Remembered:
         return made
 
 
+class _Judged(NamedTuple):
+    """Hold what of a mechanism is outside its usual range, and what that follows from."""
+
+    of: tuple[Mechanism | None, Block, Calculation | None]
+    data: Data
+    beside: Beside
+    found: list[Outside]
+
+    def is_of(self, of: tuple[Mechanism | None, Block, Calculation | None], data: Data, beside: Beside) -> bool:
+        return all(map(is_, self.of, of)) and same_inputs((self.data, self.beside), (data, beside))
+
+
 class WarmPress:
     """Remember the calculations of a press from one run to the next; see above.
 
@@ -101,6 +114,7 @@ class WarmPress:
         self.judge = check_results if is_advised else verdicts
         self._known: dict[str, list[Remembered]] = {}
         self.judged: dict[str, tuple[type[Block], Data, Block]] = {}  # for each instance what was found valid last
+        self.outside: dict[tuple[str, bool], _Judged] = {}
 
     def calculate(self, config: Config, tell: Tell = lambda _: None) -> WarmRun:
         """Calculate a configuration; UserError where the machine is impossible.
@@ -144,6 +158,17 @@ class WarmRun(Run):
         if is_valid:
             self.press.judged[name] = instance.model, data, self.blocks[name]
         return is_valid
+
+    def _outside(
+        self, instance: Instance, block: Block, known: Beside, calculation: Calculation | None = None
+    ) -> list[Outside]:
+        """What was judged before is not judged a second time."""
+        key = instance.name, calculation is None
+        given = (instance.mechanism, block, calculation), instance.data, known
+        before = self.press.outside.get(key)
+        if before is None or not before.is_of(*given):
+            before = self.press.outside[key] = _Judged(*given, super()._outside(instance, block, known, calculation))
+        return before.found
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         unfounded = self.bases.unfounded(instance, block)

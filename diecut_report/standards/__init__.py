@@ -112,6 +112,7 @@ def catalogue_type(designation: str) -> str | None:
     )
 
 
+@cache
 def related_bearings(designation: str) -> tuple[str, ...]:
     """Return the bearings of the tables that have the bore of this one, or are of its series; none where it is of no table."""
     bore, series = catalogue_size(designation, "d"), _size_series(designation)

@@ -236,7 +236,7 @@ def test_code_of_the_inputs_that_raises_gives_3_in_words(tmp_path: Path, capfd: 
 ENDLESS_PLUGIN = """\
 from typing import Annotated
 
-from diecut_report.api import Chapter, Drawing, Inputs, Mechanism, Quantity
+from diecut_report.api import Chapter, Drawing, Inputs, Mechanism, Quantity, computed
 
 
 class Arm(Inputs):
@@ -252,7 +252,7 @@ def drawn(view):
 
 
 chapter = Chapter("All")
-chapter.computed("reach", "r", "mm", "Reach", found, takes=("arm",), method="a search")
+chapter.reach = computed(found, takes=("arm",), method="a search"), "r", "mm", "Reach"
 MECHANISM = Mechanism(
     kind="endless", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,),
     figures=(Drawing(id="arm_drawn", title="Arm", caption="The arm.", build=drawn),),

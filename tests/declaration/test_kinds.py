@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import types
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
@@ -21,7 +20,6 @@ from diecut_report.api import (
     Annotated,
     Chapter,
     Check,
-    Constant,
     Derivative,
     Formula,
     Inputs,
@@ -53,10 +51,10 @@ from diecut_report.declaration.formula_checks import (
     kind_given,
     units_of,
 )
-from diecut_report.formulas.tree import Node
+from diecut_report.formulas.formula import evaluate
+from diecut_report.formulas.tree import Node, unsaid
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
-from diecut_report.mechanism.names import Bound
 from diecut_report.mechanism.steps.interpolated import Between
 from diecut_report.quantities.units import DIMENSIONS, unit
 
@@ -257,39 +255,22 @@ def built_in() -> tuple[Mechanism, ...]:
 REGISTRY: Any = pint.LazyRegistry()
 
 
-def with_units(made: Formula) -> Any:
-    """The formula's function with its constants, and those of the formulas it calls, as pint's quantities."""
-
-    def carried(part: Any) -> Any:
-        if isinstance(part, Constant):
-            return REGISTRY.Quantity(float(part), part.unit)
-        if isinstance(part, types.ModuleType) and part.__name__.startswith("diecut_report."):
-            own = {name: carried(each) for name, each in vars(part).items() if isinstance(each, Constant | Formula)}
-            return types.SimpleNamespace(**{**vars(part), **own})
-        return with_units(part) if isinstance(part, Formula) else part
-
-    function = made.function
-    named = {n: carried(function.__globals__[n]) for n in function.__code__.co_names if n in function.__globals__}
-    return types.FunctionType(function.__code__, {**function.__globals__, **named})
-
-
-def by_pint(link: Bound, units: dict[str, str]) -> tuple[float, ...] | None:
+def by_pint(rule: Formula, units: dict[str, str]) -> tuple[float, ...] | None:
     """The exponents that pint finds for what a formula gives, which counts no angle; None for a plain zero."""
-    given = [REGISTRY.Quantity(np.float64(0.6 + 0.01 * i), units[name]) if isinstance(name, str) else name
-             for i, name in enumerate(link.names.values())]  # fmt: skip
+    known = {name: REGISTRY.Quantity(np.float64(0.6 + 0.01 * i), units[name]) for i, name in enumerate(rule.parameters)}
+    known |= {symbol: REGISTRY.Quantity(float(each), each.unit) for symbol, each in rule.constants.items()}
     with np.errstate(all="ignore"):
-        result = with_units(link.formula)(*given)
+        result = evaluate(unsaid(rule.full_tree), lambda leaf: known[leaf.args[0]])
     if not isinstance(result, pint.Quantity):
         return None if result == 0 else (0.0,) * ANGLE_AT
     found: Any = result.dimensionality
     return tuple(float(found.get(f"[{name}]", 0)) for name in DIMENSIONS[:ANGLE_AT])
 
 
-def of_formulas(mechanism: Mechanism) -> Iterator[tuple[str, Bound, Found]]:
+def of_formulas(mechanism: Mechanism) -> Iterator[tuple[str, Formula, Found]]:
     units = units_of(mechanism)
-    for step, _, link in formulas(mechanism):
-        taken = {p: unit(units[n]).kind if isinstance(n, str) else float(n) for p, n in link.names.items()}
-        yield step.id, link, kind_given(link.formula, taken)
+    for step, _, rule in formulas(mechanism):
+        yield step.id, rule, kind_given(rule, {name: unit(units[name]).kind for name in rule.parameters})
 
 
 @pytest.mark.parametrize("each", [4, pytest.param(1, marks=pytest.mark.nightly)])
@@ -297,10 +278,10 @@ def test_but_for_the_angle_kinds_are_those_of_pint(each: int) -> None:
     """CI asks for each fourth formula."""
     seen = 0
     for mechanism in built_in():
-        for name, link, found in islice(of_formulas(mechanism), None, None, each):
-            if isinstance(link.formula, Between):  # takes plain numbers of a table: its kinds have a test of their own
+        for name, rule, found in islice(of_formulas(mechanism), None, None, each):
+            if isinstance(rule, Between):  # takes plain numbers of a table: its kinds have a test of their own
                 continue
-            expected = by_pint(link, units_of(mechanism))
+            expected = by_pint(rule, units_of(mechanism))
             if found is not None and expected is not None:
                 seen += 1
                 assert found[:ANGLE_AT] == pytest.approx(expected), f"{mechanism.kind}: {name}"

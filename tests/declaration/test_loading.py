@@ -69,18 +69,6 @@ def test_a_faulty_plugin_gives_3_and_the_results_of_the_others(
     assert err.startswith("mechanism 'b' of plugin 'faulty':") and "widht" in err and "tooth" in err
 
 
-def test_what_is_given_to_bind_and_is_no_function_is_told_at_its_line(tmp_path: Path) -> None:
-    folder = plugin(tmp_path / "own", "faulty", ("bind(same", "bind(2"))
-    with pytest.raises(
-        PluginError, match=r"faulty\.py:\d+: bind takes a formula, and 2 is none; write a lambda, or a def"
-    ):
-        Discovery([folder]).mechanism("faulty")
-
-
-def test_a_plain_function_given_to_bind_is_a_formula(tmp_path: Path) -> None:
-    Discovery([plugin(tmp_path / "own", "faulty", ("@formula\ndef same", "def same"))]).mechanism("faulty")
-
-
 def judged(folder: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> int:
     """How often the plugin is judged when it is loaded."""
     count = []

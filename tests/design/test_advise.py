@@ -233,7 +233,7 @@ def test_other_outcomes_are_told_in_words() -> None:
 PIN = """\
 from typing import Annotated, Literal
 
-from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text, lookup, m
 
 
 class Pin(Inputs):
@@ -244,8 +244,8 @@ class Pin(Inputs):
 
 
 pin = Chapter("Pin")
-pin.lookup("strength", "[p]", "MPa", "Strength", {"soft": 1.0, "middle": 2.0, "hard": 4.0}, by="grade")
-pin.value("pressure", "p", "MPa", "Pressure", lambda force, bore, count: force / (count * bore**2))
+pin.strength = lookup({"soft": 1.0, "middle": 2.0, "hard": 4.0}, by="grade"), "[p]", "MPa", "Strength"
+pin.pressure = m.force / (m.count * m.bore**2), "p", "MPa", "Pressure"
 MECHANISM = Mechanism(
     kind="pin", version="1", title="Pin", summary="A pin.", inputs=Pin, chapters=(pin,),
     checks=(Check(id="pressure", check_class="strength", title="Pressure", demand="pressure", limit="strength", unit="MPa",

@@ -25,9 +25,10 @@ from diecut_report.errors import UserError
 from diecut_report.live.page import WORDS, Pictures, advice, assets, effect, page, page_data, slider
 from diecut_report.live.session import LiveMachine, LiveSession, shown_inputs
 from diecut_report.press import Press
+from diecut_report.results.results_file import results_text
 from diecut_report.results.warm_press import WarmRun
 from diecut_report.text.translation import speaking
-from tests.configs import EXAMPLES
+from tests.configs import DISCOVERY, EXAMPLES, GOOD, HEAD, saved
 from tests.examples import few
 from tests.live.conftest import KNIFE
 from tools.site.api_examples import configuration, example_of
@@ -926,3 +927,80 @@ def test_a_machine_without_parts_has_no_views(file: Path) -> None:
 def test_a_click_on_a_part_opens_its_calculation() -> None:
     script = assets()["live.js"].content.decode()
     assert re.search(r'byId\("views"\).addEventListener\("click".*?closest\("a"\).*?preventDefault\(\).*?visit\(', script, re.DOTALL)  # fmt: skip
+
+
+# What was read and calculated before is kept where nothing of it has changed.
+
+
+LEVERS = HEAD + (
+    "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 150}\n"
+    '  b: {kind: lever, force: "2 * ${a.force}", arm: "${a.arm}"}\n'
+    "  g: {kind: gear_pair, module: 4 mm, teeth_1: 35, teeth_2: 212, face_width: 40 mm, torque: 12 N*m, shift_1: 0.1,\n"
+    "      sigma_h_lim_1: 767 MPa, sigma_h_lim_2: 767 MPa, sigma_f_lim_1: 314 MPa, sigma_f_lim_2: 314 MPa}\n"
+)
+OF_LEVERS = [
+    ("", ""),
+    ("force: 2 kN", "force: 2500 N"),
+    ("arm: 100 mm", "arm: {value: 100 mm, basis: assumed}"),  # the same number, of which something is said
+    (", allowable_moment: 150", ""),
+    ("2500 N", "2500 kg"),  # wrong
+    ("2500 kg", "2500 N # N\n   "),  # right again, a line further down
+    ("2 * ${a.force}", "2 * ${c.force}"),  # which is not there
+    ("  g:", "  c: {kind: lever, force: 1 kN, arm: 1 m}\n  g:"),  # now it is
+    ("torque: 12 N*m", "torque: [1, 2, 3, -4]"),  # a curve stands under another key
+    ("torque: [1, 2, 3, -4]", 'torque: "${c.moment} / 100"'),
+    (" shift_1: 0.1,", ""),
+    ("sigma_f_lim_1: 314 MPa", "sigma_f_lim_1: 510 MPa"),  # unusual
+    ("sigma_f_lim_1: 510 MPa", "sigma_f_lim_1: 600 MPa"),  # wrong: no steel has it
+    ("sigma_f_lim_1: 600 MPa", "sigma_f_lim_1: 320 MPa"),
+    ("productivity: 6000 1/h", "productivity: 6000.5 1/h"),
+    ("teeth_1: 35", "teeth_1: 35.0"),
+    ("teeth_1: 35.0", "teeth_1: 35.5"),  # wrong
+    ("teeth_1: 35.5", "teeth_1: 36"),
+    ("  c: {kind: lever, force: 1 kN", "  c: {kind: lever, force: 1 kN, force: 1 kN"),  # wrong
+    ("force: 1 kN, force: 1 kN", "force: -0.0 kN"),
+]
+OF_PARTS = [
+    ("", ""),
+    ("r1, 60x320 r1", "r1, 60x320 r1.2"),
+    ("mass: 9 kg", "mass: 9.5 kg"),
+    ("shoe_friction: 0.35", "shoe_friction: 0.34"),
+    ("60x320 r1.2", "60x320"),  # without its fillet
+    ("hub: 60, key: 50, plane: 20", "hub: 60, key: 51, plane: 20"),  # wrong: no length of a key
+    ("key: 51", "key: 45"),
+    ('at: 440, designation: "6210"', "at: 440, designation: NU210E"),
+    ("flywheel_material: cast_iron", "flywheel_material: steel"),
+    ("    service_factor: 1.5\n", ""),
+    ("cutting_force_per_length: 25 N/mm", "cutting_force_per_length: ${cuts.force}"),  # wrong
+    ("cutting_force_per_length: ${cuts.force}", "cutting_force_per_length: 26 N/mm"),
+    ("productivity: 6090 1/h", "productivity: 6080 1/h"),
+]
+
+
+@pytest.mark.usefixtures("without_advice")
+@pytest.mark.parametrize(
+    ("text", "changes"),
+    [
+        pytest.param(LEVERS, OF_LEVERS, id="levers"),
+        pytest.param(MACHINE.with_name("flat_cylinder.yaml").read_text("utf-8"), OF_PARTS, id="parts", marks=pytest.mark.nightly),
+    ],
+)  # fmt: skip
+def test_after_each_of_many_changes_it_has_what_the_file_gives_by_itself(
+    text: str, changes: list[tuple[str, str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To the last letter, or the same words where it is wrong; bearings are not sought for what fails, which takes minutes."""
+    monkeypatch.setattr("diecut_report.results.machine_advice._WholeMachine.advised", lambda self, name, check: check)
+    file, wrong = saved(tmp_path, text), 0
+    session = LiveSession(file, DISCOVERY)
+    for old, new in changes:
+        assert old in file.read_text("utf-8"), old
+        replaced(session, old, new) if old else session.read()
+        try:
+            wanted = Press.read(file, Discovery([GOOD])).calculate().text
+        except UserError as fault:
+            assert session.faults == [*fault.problems]
+            wrong += 1
+        else:
+            assert not session.faults and session.machine is not None
+            assert results_text(session.machine.run.document()) == wanted
+    assert 1 < wrong < len(changes) / 2

@@ -53,10 +53,10 @@ def typed(mechanism: Mechanism, inputs: Given, change: KeyChangeRecord) -> Itera
     parts = change.key.split(".")
     key = ".".join(part for part in parts if not part.isdigit())
     meta = Calculation(mechanism, inputs, 1).meta[key]
-    for value in change.value if isinstance(change.value, list) else [change.value]:
-        number = value
+    for given in change.value if isinstance(change.value, list) else [change.value]:
+        number = given
         if isinstance(meta, Quantity):
-            number = meta.validate(value if change.unit == "1" else f"{value!r} {change.unit}")
+            number = meta.validate(given if change.unit == "1" else f"{given!r} {change.unit}")
         for part in filter(str.isdigit, parts):
             row = inputs[key]
             number = (*row[: int(part)], number, *row[int(part) + 1 :])

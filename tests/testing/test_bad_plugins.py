@@ -18,6 +18,7 @@ import numpy as np
 
 from diecut_report.api import (
     Annotated, Chapter, Inputs, Mechanism, Quantity)
+from diecut_report.api import m
 
 
 class Bad(Inputs):
@@ -29,7 +30,7 @@ def code(x):
 
 
 chapter = Chapter("Only")
-chapter.value("a", "a", "mm", "A", lambda x: 2 * x)
+chapter.a = 2 * m.x, "a", "mm", "A"
 {step}
 
 {head}
