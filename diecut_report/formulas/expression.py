@@ -93,7 +93,7 @@ class Expression:
 
     def __getitem__(self, name: Any) -> Expression:
         if self._node.op != "sym":
-            template = "{expression} is no quantity and has no {name}; functions are those of NumPy, as np.clip(…)"
+            template = "{expression} is not a quantity and has no {name}; functions are those of NumPy, as np.clip(…)"
             refuse(Phrase(template, expression=_text(self._node), name=str(name)))
         if not isinstance(name, str | int):
             template = "{expression}[{name}] is not a part of it; a part is counted from 0, and m[text] gives a quantity by its id"
@@ -213,7 +213,7 @@ class Expression:
         refuse(Phrase(template, expression=_text(self._node)))
 
     def _single(self, *_: Any) -> NoReturn:
-        template = "{expression} is no single number; write the function of NumPy, as np.sin for math.sin, which takes arrays too"
+        template = "{expression} is not a single number; write the function of NumPy, as np.sin for math.sin, which takes arrays too"
         refuse(Phrase(template, expression=_text(self._node)))
 
     __float__ = __int__ = __complex__ = __round__ = __ceil__ = __floor__ = __trunc__ = _single
@@ -363,7 +363,7 @@ MAX_MANTISSA_LENGTH = 4  # letters before the power of ten, less than these
 
 def _number(value: float, as_written: bool) -> Node:
     if not math.isfinite(value):
-        refuse(Phrase("{value} is no number that can be printed", value=repr(value)))
+        refuse(Phrase("{value} is not a number that can be printed", value=repr(value)))
     turns = value / math.pi * OF_TURNS
     if (
         not as_written

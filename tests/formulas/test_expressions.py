@@ -184,7 +184,7 @@ BRACKETS, OF_ARRAYS = (
         (Formula(lambda a: sum(part for part in a)), "is one quantity and cannot be gone through"),
         (Formula(lambda a: np.cbrt(a)), "cannot print np.cbrt; .*sqrt"),
         (Formula(lambda a: a + "b"), r"'b' is a text; a quantity is written m\.b"),
-        (Formula(lambda a: (a + 1).length), r"a \+ 1 is no quantity and has no length"),
+        (Formula(lambda a: (a + 1).length), r"a \+ 1 is not a quantity and has no length"),
         (Formula(lambda a: a @ a), "unsupported operand"),
     ],
 )
