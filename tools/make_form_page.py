@@ -52,8 +52,8 @@ chapter.stress = value(m.force / m.area, needs=("area",)), "σ", "MPa", "Stress"
 chapter[f"force_{side}"] = reduction("max", of=f"curve_{side}"), f"F_{side}", "N", "Greatest force"
 ```
 
-That is what gives it, its symbol, unit, description and, where there is one, source. What gives it is a formula (`Written`: an expression of quantities
-`m.ID`, a number, a `@formula`, a `ByText`) or one of the calls below.
+That is what gives it, its symbol, unit, description and, where there is one, source. What gives it is a formula (`Written`: an expression of
+quantities `m.ID`, a number, a `@formula`, a `ByText`) or one of the calls below.
 """
 OTHERS = """\
 ## Calls of a chapter
