@@ -209,7 +209,7 @@ WRITTEN_OPERATORS = (
     ("x < y, <=, >, >=, ==, !=", "a condition, of two of one kind; one comparison at a time"),
     ("(x < y) & (y < z), |, ~", "and, or, not: of conditions, each in brackets"),
     ("pi", "π, half a turn: an angle; as_number(pi) is the mere number"),
-    ("number(1) / 3", "1/3 as it is written; 1 / 3 is 0.3333"),
+    ("number(1) / 3", "1/3 as it is written; 1 / 3 is 0.3333…"),
     ("Constant(value, symbol, unit)", "a constant, printed by its symbol and with its value"),
     ("other(x, y)", "another formula: its expression stands in place of the call, or its name with printed_as"),
 )

@@ -44,7 +44,10 @@ def _index() -> Iterator[str]:
     )
     yield from (
         "",
-        *(f"- [{group.title}]({group.page}.md): {', '.join(map(code, group.names))}" for group in GROUPS),
+        *(
+            f"- [{group.title}]({group.page}.md): {', '.join(map(code, filter(has_place, group.names)))}"
+            for group in GROUPS
+        ),
         "",
     )
     own = sorted(file.stem for file in PAGES.glob("*.md"))
@@ -55,7 +58,7 @@ def _page(group: Group) -> Iterator[str]:
     yield from (f"# {group.title}", "", group.words, "")
     for name in group.names:
         yield from _place(name)
-        if is_recipe(call_of(name)) and name != call_of(name):  # its call follows, which tells it
+        if not has_place(name):
             continue
         yield from (f"## {code(name)}", "")
         yield from _told(name, getattr(api, name))
@@ -94,6 +97,11 @@ def call_of(name: str) -> str:
 def is_recipe(name: str) -> bool:
     """Return whether a call says how a quantity is given."""
     return name == "inner" or (name in api.__all__ and any(call_of(each) == name != each for each in api.__all__))
+
+
+def has_place(name: str) -> bool:
+    """Return whether a name is told by itself: a type of step that gives a quantity is told with its call, which follows."""
+    return name == call_of(name) or not is_recipe(call_of(name))
 
 
 def declared_by(name: str) -> Any:
@@ -260,7 +268,12 @@ def paragraphs(thing: Any) -> Iterator[str]:
 def _marked(text: str) -> str:
     """A text of a docstring, its code in double backticks, as Markdown."""
     parts = re.split(r"``(.+?)``", text)
-    return "".join(code(part) if index % 2 else plain(part) for index, part in enumerate(parts))
+    return "".join(code(part) if index % 2 else _spaced(part) for index, part in enumerate(parts))
+
+
+def _spaced(text: str) -> str:
+    """A text between code, with the spaces at its ends."""
+    return f"{' ' * text.startswith(' ')}{plain(text)}{' ' * (text.strip() != '' and text.endswith(' '))}"
 
 
 def called(name: str, thing: Any) -> Iterator[str]:
@@ -309,7 +322,8 @@ GROUPS = (
     Group("formulas", "Formulas", "What computes, prints and is checked for its dimensions: an expression of quantities.", (
         "m", "Expression", "formula", "Formula", "ByText", "number", "pi", "Constant", "GRAVITY", "arccos", "as_number", "as_angle",
     )),
-    Group("steps", "Numbers and conditions", "What gives a number or a text, and steps that say what must hold.", (
+    Group("steps", "Numbers and conditions", "What gives a number or a text, and what must hold. One statement declares a quantity: "
+    "`chapter.ID =` what gives it, its symbol, unit, description and source, which may be left out; a formula alone stands for `value(formula)`.", (
         "Recipe", "Value", "value", "inner", "Choice", "choice", "case", "Case", "Root", "root", "Computed", "computed", "Refusal", "Require",
         "Words", "Fact",
     )),

@@ -45,7 +45,7 @@ class Link(Inputs):
 
 angles = Chapter("Angles and weight")
 angles.swing = triangle_angle.of(a=m.rod, b=m.arm, c=m.base), "ψ", "deg", "Angle between arm and base"
-third = number(1) / 3  # printed as it is written: 1 / 3 is 0.3333
+third = number(1) / 3  # printed as it is written: 1 / 3 is 0.3333…
 angles.hub = m.rod * third, "x", "mm", "Distance of the hub"
 angles.mass = DENSITY * m.rod * ring(m.outer, m.inner), "m", "kg", "Mass of the rod"
 angles.weight = m.mass * GRAVITY, "G", "N", "Weight of the rod"
