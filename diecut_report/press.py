@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from diecut_report.config.loader import FOLLOWS, Config, examined, in_order, load_config
+from diecut_report.config.loader import Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.parts.reading import typed_changes
 from diecut_report.config.plugins import Discovery, catalogues_for, lacking
@@ -133,7 +133,8 @@ class Press:
         if parts is not None:
             tree = parts.reader.tree  # what follows from the parts is worked out again
             if derived := next((path for path in values if parts.follows(path[1:])), None):
-                raise refusal("{path} {reason}", tree.file, path=dotted(derived[1:]), reason=FOLLOWS)
+                template = "{path} follows from the parts of the machine; change these in the file."
+                raise refusal(template, tree.file, path=dotted(derived[1:]))
             values = {place: str(text) for place, text in typed_changes(tree, values).items()}
         changed = rewritten(tree, values, self.config.units(values), over_references=over_references)
         return replace(self, config=load_config(changed, self.discovery))

@@ -23,7 +23,7 @@ from diecut_report.declaration.code import code_texts, fixed_texts
 from diecut_report.declaration.texts import DeclaredText, inputs_texts, is_text, texts
 from diecut_report.machine.printing import page
 from diecut_report.mechanics.motion_laws import LAWS
-from diecut_report.mechanism.inputs import Quantity, fields, keys
+from diecut_report.mechanism.inputs import fields, keys
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.steps import Accumulated, Derivative, pick, reduction, root, rows, table_steps
 from diecut_report.quantities.units import _table
@@ -125,7 +125,6 @@ MAKING = dict.fromkeys(("Phrase", "phrase", "say", "refusal", "UnitError", "Cond
                        0) | {".problem": 1, ".absent": 1, ".fault": 1, "._fault": 1, "finding": 1}  # fmt: skip
 """What takes the template of a message, with the place of that argument."""
 JOINING = ("joined", "named")
-BEARINGS = ("parts.designation", "parts.pin.bearing")
 COUNTING = ("Counted", "say_counted")
 SOURCES = (*EQUATIONS.values(),
            "eq.", "Fig.", "table", "chart", "charts", "after", "before", "corrected", "solved", "exact", "input", "energy", "statics",
@@ -221,11 +220,8 @@ def _papers() -> Iterator[ProgramText]:
 
 def _press() -> Iterator[str]:
     yield from (text for text, _ in inputs_texts(PressBlock))
-    parts = {
-        path: each.meta for model in (MachineKeys, *MODELS.values()) for path, each in keys(model).items() if each.meta
-    }
-    # of the texts the live page shows those of bearings alone
-    yield from (meta.description for path, meta in parts.items() if isinstance(meta, Quantity) or path in BEARINGS)
+    models = (MachineKeys, *MODELS.values())
+    yield from (each.meta.description for model in models for each in keys(model).values() if each.meta)
     yield from (meta.description for meta in (*BODY.values(), COORDINATE))
     yield from (meta.description for _, meta in fields(Project))
 

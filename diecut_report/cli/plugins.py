@@ -33,6 +33,7 @@ from diecut_report.cli.output import (
     without_output,
 )
 from diecut_report.config import yaml
+from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.plugins import Discovery, DuplicateKind, spoken_catalogues
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
 from diecut_report.files import write_all
@@ -52,7 +53,8 @@ if TYPE_CHECKING:
 def new(kinds: tuple[str, ...], file: Path | None, force: bool, machine: str | None, discovery: Discovery) -> int:
     """Start a configuration with mechanisms of these kinds: example values, linked to each other, with each key explained.
 
-    Without a KIND the kinds are listed. `clutch:main` names a mechanism; a kind may be given several times.
+    Without a KIND the kinds are listed. `clutch:main` names a mechanism; a kind may be given several times. Of the parts of a machine
+    (machine, shafts, meshes, chains, belts) all keys are shown.
 
     Exit codes: 0 written or listed, 1 written, but values are left for you to give, 2 bad input, 3 a plugin broke.
     """
@@ -66,6 +68,16 @@ def new(kinds: tuple[str, ...], file: Path | None, force: bool, machine: str | N
             raise refusal("This already exists and is not overwritten. Choose another name, or give --force.", file)
         if machine:
             emit_or_write(_machine(machine), file)
+            return PASSED
+        if words := [word for word in kinds if word in WORDS]:
+            from diecut_report.config.part_forms import part_forms
+
+            if len(words) < len(kinds):
+                raise refusal(
+                    "Keys of parts are asked for ({words}), and kinds beside them. Ask for each alone.",
+                    words=", ".join(words),
+                )
+            emit_or_write(part_forms(words), file)
             return PASSED
         from diecut_report.config.drafting import draft
 

@@ -533,7 +533,10 @@ class BlockWriter:
             yield localised(in_typed_units).replace(" ", UNBROKEN)
         if allowed := options(known):
             yield say("one of {options}", options=", ".join(map(str, allowed)))
-        if name in given or known.field.is_required():
+        if name in given:
+            return
+        if known.field.is_required():
+            yield say("required")
             return
         if others := _others(model, name, given):
             yield say("instead of {keys}", keys=", ".join(others))

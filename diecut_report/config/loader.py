@@ -31,7 +31,7 @@ from diecut_report.mechanism.inputs import Block, Quantity, keys
 from diecut_report.mechanism.mechanism import Mechanism, Partner, Wired, absent_partners_checks, without_checks
 from diecut_report.mechanism.names import SI, Pending, Text
 from diecut_report.quantities.units import Unit, UnitError, decades, number_and_unit, parse_quantity, pretty
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase
 from diecut_report.time_limit import contained
 
 # Partners: the mechanisms from which a kind takes inputs by itself, and the kinds that run without being asked.
@@ -212,8 +212,6 @@ def _numbers(given: Any, path: list[str], meta: Quantity) -> Iterator[float]:
 
 
 RESERVED = (PRESS, "project", *WORDS)
-FOLLOWS = phrase("follows from the parts of the machine; change these in the file.")
-MADE_WITH = phrase("is what parts of the machine are made with, which follow it only where it is changed in the file.")
 
 
 @dataclass(frozen=True)
@@ -250,14 +248,6 @@ class Config:
     def named(self, kind: str) -> str | None:
         """Return the only mechanism of a kind."""
         return only((kind,), self.kinds)
-
-    def tied(self, node: Node) -> Phrase | None:
-        """Return why other values of an input give no other machine by themselves: it and the parts follow from each other."""
-        if self.parts is None:
-            return None
-        if self.parts.follows(node):
-            return FOLLOWS
-        return MADE_WITH if self.parts.is_made_with(node) else None
 
     def units(self, places: Iterable[KeyPath]) -> dict[KeyPath, str]:
         """Return the units in which numbers without one count, by their places in the file; of what is no quantity there is none."""

@@ -88,7 +88,7 @@ def _of_step(step: Step) -> Iterator[str]:
 
 
 def _of_formula(part: object) -> Iterator[str]:
-    if isinstance(part, Formula) and part.function.__defaults__:
+    if isinstance(part, Formula) and part.defaults:
         template = (
             "takes the formula {formula}, whose parameters have a default; each takes a quantity: remove the default"
         )

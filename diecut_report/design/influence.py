@@ -17,7 +17,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import InfluenceSettings
 from diecut_report.config.yaml import KeyPath
 from diecut_report.design.answers import AskedNumber, quantity
-from diecut_report.design.inputs import DesignInput, design_input, given_numbers, numbers_at_default, untied
+from diecut_report.design.inputs import DesignInput, free_input, numbers_at_default, numbers_to_vary, untied
 from diecut_report.design.machines import CHECKS, VariedMachines, impossible, varied
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.formulas import Array
@@ -64,8 +64,7 @@ class Tornado:
     """Hold the inputs by what they do to a number, the greatest first.
 
     ``impossible`` are those of which a change makes no machine and that do nothing else, each with the reason.
-    Those that do nothing are counted (``still``), and those that were not changed, as they stand at their default (``at_default``)
-    or are of parts of the machine or what these are made with (``tied``).
+    Those that do nothing are counted (``still``), and those that were not changed, as they stand at their default (``at_default``).
     """
 
     asked: AskedNumber
@@ -74,7 +73,6 @@ class Tornado:
     still: int
     impossible: Mapping[InputEffect, str] = field(default_factory=dict)
     at_default: int = 0
-    tied: int = 0
 
     @property
     def record(self) -> TornadoRecord:
@@ -115,9 +113,8 @@ def tornados(
     govern. UserError where there is nothing to look at.
     """
     own = {each.asked.path for each in tolerances}
-    given, standing = given_numbers(config), untied(config, numbers_at_default(config))
-    free = untied(config, given)
-    numbers = [*free, *(standing if defaults else ())]
+    standing = untied(config, numbers_at_default(config))
+    numbers = [*numbers_to_vary(config), *(standing if defaults else ())]
     inputs = [*tolerances, *(each for each in numbers if each.present and each.asked.path not in own)]
     if not inputs:
         raise refusal("no input is given as a non-zero number, so none has an influence.", config.tree.file)
@@ -135,9 +132,7 @@ def tornados(
             )
             raise UserError(Problem(Phrase(template, asked=number.name), config.tree.file, path="--of"))
     left = 0 if defaults else sum(1 for each in standing if each.present and each.asked.path not in own)
-    # one number may stand for several inputs
-    tied = len({config.tree.position(each.stands) for each in given if each not in free})
-    return [replace(_tornado(made, each, inputs, ends), at_default=left, tied=tied) for each in asked]
+    return [replace(_tornado(made, each, inputs, ends), at_default=left) for each in asked]
 
 
 def by_input(sizes: Iterable[tuple[DesignInput, float]]) -> dict[DesignInput, float]:
@@ -290,18 +285,19 @@ def _tornado_lines(tornado: Tornado) -> Iterator[Phrase]:
     rest = [Phrase("{n} more have a smaller effect", n=found.more)] if found.more else []
     rest += [Phrase("{n} have no effect", n=found.still)] if found.still else []
     yield Phrase("  {rest}", rest=joined(rest, ", ") or phrase("no other input has an effect"))
-    if tornado.impossible:
-        yield Phrase(
-            "  changed one way or both, no machine exists: {inputs}",
-            inputs=joined(_by_reason(tornado.impossible), "; "),
-        )
 
 
-def _by_reason(impossible: Mapping[InputEffect, str]) -> Iterator[Phrase]:
-    """Yield the inputs of which a change makes no machine, those of one reason together with it."""
-    for reason in dict.fromkeys(impossible.values()):
-        names = ", ".join(each.design.name for each, why in impossible.items() if why == reason)
-        yield Phrase("{names} ({reason})", names=names, reason=reason)
+def _impossible(found: Sequence[Tornado]) -> Iterator[Phrase]:
+    """Name the inputs of which a change makes no machine, those of one reason together with it: of all numbers that are asked for at once."""
+    reasons = {bar.design.name: why for each in found for bar, why in each.impossible.items()}
+    told = list(dict.fromkeys(reasons.values()))
+    if told:
+        yield phrase("changed one way or both, no machine exists:")
+    for reason in told[:SHOWN]:
+        names = ", ".join(name for name, why in reasons.items() if why == reason)
+        yield Phrase("  {names} ({reason})", names=names, reason=reason)
+    if len(told) > SHOWN:
+        yield Phrase("  {n} more reasons; --format json gives each input its own", n=len(told) - SHOWN)
 
 
 def _told(value: float | None, unit: str, digits: int = 4) -> str:
@@ -309,17 +305,12 @@ def _told(value: float | None, unit: str, digits: int = 4) -> str:
 
 
 def _left_out(found: Sequence[Tornado], option: str) -> Iterator[Phrase]:
-    """How many inputs nobody gave, so that they were not changed."""
+    """Which inputs make no machine, and how many nobody gave, so that they were not changed."""
+    yield from _impossible(found)
     if left := max((each.at_default for each in found), default=0):
         one = "{n} input has its default value and is not varied; {option} includes it"
         many = "{n} inputs have their default values and are not varied; {option} includes them"
         yield Counted(left, one, many, option=option)
-    if tied := max((each.tied for each in found), default=0):
-        single = (
-            "{n} number of the parts of the machine, or with which they are made, is not varied; change it in the file"
-        )
-        several = "{n} numbers of the parts of the machine, or with which they are made, are not varied; change them in the file"
-        yield Counted(tied, single, several)
 
 
 def _tolerances(found: TolerancesRecord) -> Iterator[Phrase]:
@@ -355,7 +346,7 @@ def data(
         "schema_version": 1,
         "tornados": [
             {"name": each.asked.name, "unit": each.asked.si, "today": each.present, "still": each.still,
-             "bars": [_bar(bar) for bar in (*each.bars, *each.impossible)],
+             "bars": [*map(_bar, each.bars), *(_bar(bar) | {"reason": why} for bar, why in each.impossible.items())],
              "at_default": each.at_default}
             for each in found
         ],
@@ -464,7 +455,7 @@ def _asked(config: Config, index: int, name: str) -> object:
 def _tolerance(config: Config, name: str, typed: str) -> tuple[DesignInput, float]:
     """An input and how far it scatters."""
     own = ("tolerances", name)
-    design = _placed(config, own, lambda: design_input(config, name))
+    design = _placed(config, own, lambda: free_input(config, name))
     try:
         size = parse_quantity(typed, design.meta.unit)
     except UnitError as fault:

@@ -15,7 +15,7 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.parts.keys import WORDS
-from diecut_report.config.parts.reading import typed_value
+from diecut_report.config.parts.reading import typed_places, typed_value
 from diecut_report.config.yaml import KeyPath, dotted, plain_text
 from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
@@ -190,10 +190,11 @@ def _number(config: Config, asked: Input) -> DesignInput:
 
 
 def free_input(config: Config, name: str) -> DesignInput:
-    """Return the number that a name stands for, which takes other values; UserError in words where these give no other machine."""
-    found = design_input(config, name)
-    require_untied(config, found)
-    return found
+    """Return the number that a name stands for, which takes other values, also one that is typed at a part of a machine.
+
+    UserError in words where it is no number, or follows from the parts.
+    """
+    return _number(config, named_input(config, name).asked)
 
 
 def solved_input(config: Config, name: str, among: Sequence[str] = ()) -> DesignInput:
@@ -217,15 +218,14 @@ def solved_input(config: Config, name: str, among: Sequence[str] = ()) -> Design
     return replace(found, among=tuple(dict.fromkeys(among)))
 
 
-def require_untied(config: Config, design: DesignInput) -> None:
-    """Raise UserError in words where the parts of a machine do not follow other values of an input."""
-    if tied := config.tied(design.asked.node):
-        raise refusal("{name} {reason}", config.tree.file, name=design.name, reason=tied)
-
-
 def untied(config: Config, designs: Iterable[DesignInput]) -> list[DesignInput]:
-    """Return those whose other values give another machine, also where it is made of parts."""
-    return [each for each in designs if not config.tied(each.asked.node)]
+    """Return those that the parts of a machine neither give nor are made with."""
+    parts = config.parts
+    return [
+        each
+        for each in designs
+        if parts is None or not (parts.follows(each.asked.node) or parts.is_made_with(each.asked.node))
+    ]
 
 
 def named_input(config: Config, name: str) -> DesignInput:
@@ -269,6 +269,23 @@ def given_numbers(config: Config) -> list[DesignInput]:
     return [
         each for each in _own(config, Quantity, given=True) if each.present is not None and _stands_there(config, each)
     ]
+
+
+def numbers_to_vary(config: Config) -> list[DesignInput]:
+    """Return all numbers of the file whose other values give another machine, also those that are typed at its parts, in its order."""
+    parts = config.parts
+    given = [each for each in given_numbers(config) if parts is None or not parts.follows(each.asked.node)]
+    return sorted([*given, *_numbers_at_parts(config)], key=lambda each: config.tree.position(each.stands))
+
+
+def _numbers_at_parts(config: Config) -> Iterator[DesignInput]:
+    """What is typed at the parts of a machine as a number of its own."""
+    if (parts := config.parts) is not None:
+        for place in typed_places(parts.reader.tree):
+            with suppress(UnknownPath):  # a key that goes into no calculation
+                found = _made(config, varied_input(config, parts.called(place)))
+                if found.present is not None:
+                    yield found
 
 
 def given_words(config: Config) -> list[DesignInput]:

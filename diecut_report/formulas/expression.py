@@ -38,18 +38,16 @@ def _text(node: Node) -> str:
     return text if len(text) <= SHOWN else f"{text[:SHOWN]}…"
 
 
+BESIDE_AUTHORS = ("diecut_report.formulas", "diecut_report.mechanism", "numpy", "functools")
+
+
 def author_line() -> tuple[str, str]:
     """Return place (``file:line``) and code of the author's line that is being run."""
     frame = sys._getframe(1)
-    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in ("numpy", "functools"):
+    while frame.f_back and frame.f_globals.get("__name__", "").startswith(BESIDE_AUTHORS):
         frame = frame.f_back
-    while frame.f_back and frame.f_globals.get("__name__", "").startswith("diecut_report.formulas"):
-        frame = frame.f_back
-        while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == "numpy":
-            frame = frame.f_back
-    return f"{frame.f_code.co_filename}:{frame.f_lineno}", linecache.getline(
-        frame.f_code.co_filename, frame.f_lineno
-    ).strip()
+    file, line = frame.f_code.co_filename, frame.f_lineno
+    return f"{file}:{line}", linecache.getline(file, line).strip()
 
 
 def refuse(text: str) -> NoReturn:
@@ -227,15 +225,15 @@ def where(condition: Any, value: Any, otherwise: Any) -> Expression:
     )
 
 
-def node_of(operand: Any) -> Node:
-    """Return the node of an expression or of a number."""
+def node_of(operand: Any, *, as_written: bool = False) -> Node:
+    """Return the node of an expression or of a number; a multiple of π that is not given as such is refused."""
     match operand:
         case Expression():
             return operand._node
         case Number():
             return operand.node
         case int() | float() | np.integer() | np.floating() if not isinstance(operand, bool):
-            return _number(float(operand) if isinstance(operand, float | np.floating) else int(operand))
+            return _number(float(operand) if isinstance(operand, float | np.floating) else int(operand), as_written)
         case str():
             refuse(Phrase("{text} is a text; a quantity is written m.{name}", text=repr(operand), name=operand))
     refuse(Phrase("{operand} is neither a quantity nor a number", operand=repr(operand)))
@@ -246,11 +244,11 @@ PLAIN_BELOW = 1e5  # numbers from here on are printed as a power of ten
 MAX_MANTISSA_LENGTH = 4  # letters before the power of ten, less than these
 
 
-def _number(value: float) -> Node:
+def _number(value: float, as_written: bool) -> Node:
     if not math.isfinite(value):
         refuse(Phrase("{value} is no number that can be printed", value=repr(value)))
     turns = value / math.pi * OF_TURNS
-    if round(turns) and value % 1 and abs(turns - round(turns)) < 1e-12 * abs(turns):
+    if not as_written and 1 <= abs(turns) < OF_TURNS**2 and value % 1 and abs(turns - round(turns)) < 1e-12 * abs(turns):
         template = "holds {value}, a multiple of π that would be printed as a number; write pi of diecut_report.api in place of np.pi"
         refuse(Phrase(template, value=f"{value:.6g}"))
     return Node("neg", (Node("num", (_literal(-value),)),)) if value < 0 else Node("num", (_literal(value),))
@@ -277,7 +275,7 @@ class Number(float):
     def __new__(cls, value: float, node: Node | None = None) -> Self:
         """Return the number; without a node it stands as it is."""
         self = super().__new__(cls, value)
-        self.node = node if node is not None else _number(value)
+        self.node = node if node is not None else _number(value, as_written=True)
         return self
 
     def __neg__(self) -> Number:
@@ -289,7 +287,7 @@ class Number(float):
             return NotImplemented
         found = getattr(ufunc, method)(*plain, **options)
         kept = ufunc in FUNCTIONS and not options and all(type(each) in (int, float) for each in plain)
-        return Number(found, Node("call", (FUNCTIONS[ufunc], *map(node_of, inputs)))) if kept else found
+        return Number(found, Node("call", (FUNCTIONS[ufunc], *(node_of(each, as_written=True) for each in inputs)))) if kept else found
 
 
 def _kept(sign: str, operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
@@ -298,7 +296,7 @@ def _kept(sign: str, operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
     def of(left: Any, right: Any) -> Any:
         kept = all(isinstance(each, Number) or type(each) in (int, float) for each in (left, right))
         value = operation(*(float(each) if isinstance(each, Number) else each for each in (left, right)))
-        return Number(value, Node(sign, (node_of(left), node_of(right)))) if kept else value
+        return Number(value, Node(sign, (node_of(left, as_written=True), node_of(right, as_written=True)))) if kept else value
 
     def forward(self: Number, other: Any) -> Any:
         return NotImplemented if isinstance(other, Expression) else of(self, other)

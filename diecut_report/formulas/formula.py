@@ -10,7 +10,7 @@ from typing import Any, overload
 
 import numpy as np
 
-from diecut_report.formulas.expression import Constant, Expression, FormulaError, Symbol, m, node_of
+from diecut_report.formulas.expression import Constant, Expression, FormulaError, Symbol, m, node_of, refuse
 from diecut_report.formulas.tree import APPLY, LEAVES, NUMERIC, PI, SAID, Node, substitute, symbols, unsaid, walk
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -31,16 +31,23 @@ class Formula:
 
     def __call__(self, *args: Any, **given: Any) -> Any:
         """Return the value of numbers, or the expression of expressions."""
-        if not any(isinstance(each, Expression) for each in (*args, *given.values())):
-            return self.function(*args, **given)
-        if not self.printed_as:
-            return self._traced(*args, **given)
+        taken = self._taken(args, given)
+        if not any(isinstance(each, Expression) for each in taken):
+            return self.function(*taken)
+        if self.printed_as:
+            return Expression(Node("apply", (FormulaName(self), *map(node_of, taken))))
+        return self._traced(*args, **given)
+
+    def _taken(self, args: tuple[Any, ...], given: dict[str, Any]) -> tuple[Any, ...]:
+        """What the parameters take in a call, in their order."""
+        if not given and len(args) == len(self.parameters):
+            return args
         try:
             taken = inspect.signature(self._function).bind(*args, **given)
         except TypeError as error:
-            raise FormulaError(f"{self.place}: {self.__name__}: {error}") from None
+            refuse(Phrase("formula {name}: {error}", name=self.__name__, error=error))
         taken.apply_defaults()
-        return Expression(Node("apply", (FormulaName(self), *map(node_of, taken.arguments.values()))))
+        return tuple(taken.arguments.values())
 
     def of(self, **given: Any) -> Expression:
         """Return the expression of other quantities; a parameter that is not given takes the quantity of its own name."""
@@ -52,8 +59,10 @@ class Formula:
                 "known": ", ".join(self.parameters) or "none",
             }
             raise FormulaError(Phrase(template, named))
-        found: Expression = self(**{name: given.get(name, m[name]) for name in self.parameters})
-        return found
+        taken = {name: given.get(name, m[name]) for name in self.parameters}
+        if self.printed_as:
+            return Expression(Node("apply", (FormulaName(self), *map(node_of, taken.values()))))
+        return Expression(whole(self._traced(**taken)))
 
     def renamed(self, rename: Callable[[str], str]) -> Formula:
         """Return the formula of quantities with other ids."""
@@ -75,15 +84,19 @@ class Formula:
 
     @cached_property
     def function(self) -> Callable[..., Any]:
-        """The function that computes. FormulaError where it calls itself, at once or by way of others."""
-        _ = self.spoken
-        return self._function
+        """The function that computes the tree, of what the parameters take in their order."""
+        return compiled(self.spoken, self.parameters)
 
     @cached_property
     def parameters(self) -> tuple[str, ...]:
         """The names of what the formula takes."""
         code = self._function.__code__
         return code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+
+    @property
+    def defaults(self) -> tuple[str, ...]:
+        """Return the parameters that have a default, which another formula may leave out."""
+        return tuple(p.name for p in inspect.signature(self._function).parameters.values() if p.default is not p.empty)
 
     @property
     def place(self) -> str:
@@ -194,9 +207,9 @@ class WrittenFormula(Formula):
     def parameters(self) -> tuple[str, ...]:
         return tuple(filter(is_id, symbols(self.spoken)))
 
-    @cached_property
-    def function(self) -> Callable[..., Any]:
-        return compiled(self.spoken, self.parameters)
+    @property
+    def defaults(self) -> tuple[str, ...]:
+        return ()
 
 
 # Computing a tree: as a function of its own, and as it is printed.
@@ -242,8 +255,9 @@ class _Writer:
         if self.uses.get(id(node), 0) < 2:
             return self._written(node)
         if id(node) not in self.shared:
-            self.lines.append(f"s{len(self.lines)} = {self._written(node)}")
-            self.shared[id(node)] = f"s{len(self.lines) - 1}"
+            written = self._written(node)
+            self.shared[id(node)] = name = f"s{len(self.shared)}"
+            self.lines.append(f"{name} = {written}")
         return self.shared[id(node)]
 
     def _written(self, node: Node) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from inspect import signature
 from types import FunctionType
 from typing import Any, NamedTuple, Protocol
 
@@ -253,14 +252,14 @@ def as_formula(part: Written, name: str) -> Formula | ByText:
     if not isinstance(part, FunctionType):
         template = "{name} needs a formula, and {part} is none; write an expression of quantities, as m.radius / 2"
         raise Misdeclared(Phrase(template, name=name, part=repr(part)))
-    optional = [p.name for p in signature(part).parameters.values() if p.default is not p.empty]
-    if optional:
+    made = Formula(part, name)
+    if made.defaults:
         template = (
             "the formula of {name} has a default for {optional}, which is never used: each parameter takes "
             "a quantity; remove it"
         )
-        raise Misdeclared(Phrase(template, name=name, optional=", ".join(optional)))
-    return Formula(part, name)
+        raise Misdeclared(Phrase(template, name=name, optional=", ".join(made.defaults)))
+    return made
 
 
 def formula_of(part: Written) -> Formula:

@@ -233,7 +233,7 @@ def keys(machine: Machine) -> Iterator[Disagreement]:
 def pitch_radii(machine: Machine) -> Iterator[Disagreement]:
     """A gear of a shaft, and the drive's pinion, has the pitch radius and the helix of the pair of gears that takes the same torque."""
     for shaft, index in machine.parts_of("shaft", "loads.name"):
-        target, radius = shaft.target("loads", index, "torque"), shaft.number("loads.gear.pitch_radius", index)
+        target, radius = _torque(shaft, index), shaft.number("loads.gear.pitch_radius", index)
         if target and radius is not None:
             pairs = machine.gears.get((target.instance, target.result), [])
             yield from _radius(shaft, ("loads", index, "gear", "pitch_radius"), radius, pairs)
@@ -243,6 +243,17 @@ def pitch_radii(machine: Machine) -> Iterator[Disagreement]:
         if pinion is not None:
             pairs = machine.gears.get((drive.instance.name, "total_moment"), [])
             yield from _radius(drive, ("pinion_radius",), pinion, pairs)
+
+
+def _torque(shaft: LinkedPart, index: int) -> Target | None:
+    """The torque of a load: what it refers to, or where it balances that of a single other load, which has no teeth, the other one's."""
+    torques = shaft.inputs["loads.torque"]
+    if not isinstance(torques[index], str):
+        return shaft.target("loads", index, "torque")
+    others = [i for i, each in enumerate(torques) if i != index and each is not None and np.any(each != 0)]
+    if len(others) != 1 or shaft.number("loads.gear.pitch_radius", others[0]) is not None:
+        return None
+    return shaft.target("loads", others[0], "torque")
 
 
 def _radius(part: LinkedPart, key: KeyPath, radius: Array, pairs: list[LinkedPart]) -> Iterator[Disagreement]:

@@ -21,7 +21,7 @@ from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, Unkno
 from diecut_report.config.validation import declared
 from diecut_report.declaration import faults, faults_at_load
 from diecut_report.declaration.code import code_texts, template
-from diecut_report.declaration.formula_checks import at_place, by_id, doubts, forms, idle_inputs, printing, unbalanced
+from diecut_report.declaration.formula_checks import at_place, by_id, doubts, forms, idle_inputs, unbalanced
 from diecut_report.declaration.names import short
 from diecut_report.declaration.texts import files_around, own_files, parsed, texts
 from diecut_report.errors import PluginError, Problem, UserError
@@ -54,7 +54,6 @@ MAX_LISTED = 5  # faults of a rule that a short list tells
 TITLES = {
     "declaration": phrase("Declarations"),
     "dimensions": phrase("Dimensions of formulas"),
-    "printed": phrase("Printed as computed"),
     "inputs": phrase("Inputs that are used"),
     "doubts": phrase("Doubtful declarations"),
     "example": phrase("Example machine"),
@@ -275,10 +274,6 @@ class ContractTest:
         """Try whether the dimensions of the formulas balance, in each unit that holds by form."""
         texts = (text for form in forms(self.mechanism) for text in unbalanced(form))
         return rule("dimensions", "", (by_id(self.mechanism, text) for text in texts))
-
-    def printed(self) -> TriedRule:
-        """Try whether each formula prints what it computes."""
-        return rule("printed", "", (by_id(self.mechanism, text) for text in printing(self.mechanism)))
 
     def inputs(self) -> TriedRule:
         """Try whether something takes each input."""

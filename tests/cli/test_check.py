@@ -168,7 +168,7 @@ def test_what_is_not_checked_is_counted_from_the_results() -> None:
 FREE = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm}\n"
 WITH_LIMIT = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 300 N*m}\n"
 CONTRADICTORY = """
-from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity, m
 
 
 class Twice(Inputs):
@@ -177,8 +177,8 @@ class Twice(Inputs):
 
 
 sizes = Chapter("Sizes")
-sizes.value("doubled", "D", "mm", "Doubled", lambda length: 2 * length)
-sizes.value("residual", "R", "mm", "Residual", lambda doubled, length, beside: abs(doubled - length - beside))
+sizes.doubled = 2 * m.length, "D", "mm", "Doubled"
+sizes.residual = abs(m.doubled - m.length - m.beside), "R", "mm", "Residual"
 
 MECHANISM = Mechanism(
     kind="twice", version="1", title="Twice", summary="", inputs=Twice, chapters=(sizes,),

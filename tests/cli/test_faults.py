@@ -182,14 +182,14 @@ def test_an_export_of_what_is_no_length_costs_the_export(tmp_path: Path, capfd: 
 
 
 STEPS = {
-    "a formula": "Value(id='x', symbol='x', unit='1', description='X', formula=bind(double, radius='lost'))",
+    "a formula": "Value(id='x', symbol='x', unit='1', description='X', formula=double.of(radius=m.lost))",
     "computed": "Computed(id='x', symbol='x', unit='1', description='X', function=lambda r: 1 / 0, takes=('radius',), method='m')",
     "a curve without values": "Value(id='x', symbol='x', unit='mm', description='X', formula=root)",
     "sys.exit": "Computed(id='x', symbol='x', unit='1', description='X', function=lambda r: exit(5), takes=('radius',), method='m')",
     "BaseException": "Computed(id='x', symbol='x', unit='1', description='X', function=lambda r: (_ for _ in ()).throw(BaseException('no')),"
     " takes=('radius',), method='m')",
     "no text": "Words(id='w', function=lambda r: 5, takes=('radius',)), "
-    "Require(id='q', condition=bind(wrong, radius='radius'), key='radius', message='is {w}')",
+    "Require(id='q', condition=wrong.of(radius=m.radius), key='radius', message='is {w}')",
     "a clash": "Clash(id='x', function=lambda r: 1 / 0, takes=('radius',), key='radius', message='m')",
 }
 MORE = """
@@ -236,7 +236,7 @@ def test_code_of_the_inputs_that_raises_gives_3_in_words(tmp_path: Path, capfd: 
 ENDLESS_PLUGIN = """\
 from typing import Annotated
 
-from diecut_report.api import Chapter, Drawing, Inputs, Mechanism, Quantity
+from diecut_report.api import Chapter, Drawing, Inputs, Mechanism, Quantity, computed
 
 
 class Arm(Inputs):
@@ -252,7 +252,7 @@ def drawn(view):
 
 
 chapter = Chapter("All")
-chapter.computed("reach", "r", "mm", "Reach", found, takes=("arm",), method="a search")
+chapter.reach = computed(found, takes=("arm",), method="a search"), "r", "mm", "Reach"
 MECHANISM = Mechanism(
     kind="endless", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,),
     figures=(Drawing(id="arm_drawn", title="Arm", caption="The arm.", build=drawn),),

@@ -103,7 +103,24 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Block, Chapter, CurveInput, Inputs, Mechanism, OneOf, Quantity, Text
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Block,
+    Chapter,
+    CurveInput,
+    Inputs,
+    Mechanism,
+    OneOf,
+    Quantity,
+    Text,
+    abscissa,
+    from_curve,
+    m,
+    reduction,
+    total,
+    value,
+)
 
 
 class Point(Block):
@@ -119,11 +136,11 @@ class Way(Inputs):
 
 
 load = Chapter("Load")
-load.abscissa("place", "x", "mm", "Way", period="stroke")
-load.total("greatest", "F_g", "N", "Greatest point", "max", of="points.force", needs=("points.force",))
-load.value("force", "F", "N", "Load", lambda greatest, place, stroke: greatest * place / stroke, needs=("points.force",))
-load.from_curve("force", "F", "N", "Load", given="curve", abscissa="place", needs=("curve",))
-load.reduction("peak", "F_max", "N", "Greatest load", "max", of="force")
+load.place = abscissa(period="stroke"), "x", "mm", "Way"
+load.greatest = total("max", of="points.force", needs=("points.force",)), "F_g", "N", "Greatest point"
+load.force = value(m.greatest * m.place / m.stroke, needs=("points.force",)), "F", "N", "Load"
+load.force = from_curve(given="curve", abscissa="place", needs=("curve",)), "F", "N", "Load"
+load.peak = reduction("max", of="force"), "F_max", "N", "Greatest load"
 MECHANISM = Mechanism(kind="way", version="1", title="Way", summary="A way.", inputs=Way, chapters=(load,))
 '''
 WAY = "schema_version: 1\nproject: {title: T}\npress: {name: P, productivity: 6000 1/h}\nmechanisms:\n  a: {kind: way%s}\n"

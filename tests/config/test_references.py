@@ -180,7 +180,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, GivenPhase, Inputs, Mechanism, PhaseInput
+from diecut_report.api import Annotated, Chapter, GivenPhase, Inputs, Mechanism, PhaseInput, computed
 
 
 class Watch(Inputs):
@@ -193,7 +193,7 @@ def length(phase: GivenPhase) -> Any:
 
 
 chapter = Chapter("Watch")
-chapter.computed("length", "l", "deg", "Length of the phase", length, ("watched",), "sum of its intervals")
+chapter.length = computed(length, ("watched",), "sum of its intervals"), "l", "deg", "Length of the phase"
 MECHANISM = Mechanism(kind="watch", version="1", title="Watch", summary="Watch.", inputs=Watch, chapters=(chapter,))
 '''
 TEXT = """\

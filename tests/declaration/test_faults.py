@@ -839,7 +839,7 @@ def reach(arm):
 
 
 chapter = Chapter("All")
-chapter.value("reach", "r", "mm", "Reach", reach)
+chapter.reach = reach, "r", "mm", "Reach"
 MECHANISM = Mechanism(kind="twice", version="1", title="", summary="", inputs=Twice, chapters=(chapter,))
 """
 

@@ -23,7 +23,7 @@ from time import perf_counter as ticks
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, computed
 
 TABLE = Path(__file__).read_text("utf-8")
 {module}
@@ -44,7 +44,7 @@ def found(arm):
 
 
 chapter = Chapter("All")
-chapter.computed("reach", "r", "mm", "Reach", found, takes=("arm",), method="a search")
+chapter.reach = computed(found, takes=("arm",), method="a search"), "r", "mm", "Reach"
 {loop}
 MECHANISM = Mechanism(kind="asking", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
 """
@@ -96,17 +96,17 @@ KEPT = {
 }
 ENDING = ("os._exit(0)", "os.abort()", "os.kill(os.getppid(), 9)")
 LOOPS = {
-    "a lambda": 'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")',
+    "a lambda": 'for k in (1, 2):\n    chapter[f"x{k}"] = computed(lambda arm: k * arm, takes=("arm",), method="m"), f"X_{k}", "mm", "X"',
     "a function": 'for k in (1, 2):\n    def many(arm):\n        return k * arm\n'
-    '    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", many, takes=("arm",), method="m")',
+    '    chapter[f"x{k}"] = computed(many, takes=("arm",), method="m"), f"X_{k}", "mm", "X"',
     "of several": 'for k, _ in ((1, 2), (2, 3)):\n'
-    '    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")',
+    '    chapter[f"x{k}"] = computed(lambda arm: k * arm, takes=("arm",), method="m"), f"X_{k}", "mm", "X"',
     "in a function": 'def declare():\n    for k in (1, 2):\n'
-    '        chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")\n\n\ndeclare()',
+    '        chapter[f"x{k}"] = computed(lambda arm: k * arm, takes=("arm",), method="m"), f"X_{k}", "mm", "X"\n\n\ndeclare()',
 }  # fmt: skip
 SOUND_LOOPS = (
-    'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", partial(many, k), takes=("arm",), method="m")',
-    'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: sum(k * arm for k in (1, 2)), takes=("arm",), method="m")',
+    'for k in (1, 2):\n    chapter[f"x{k}"] = computed(partial(many, k), takes=("arm",), method="m"), f"X_{k}", "mm", "X"',
+    'for k in (1, 2):\n    chapter[f"x{k}"] = computed(lambda arm: sum(k * arm for k in (1, 2)), takes=("arm",), method="m"), f"X_{k}", "mm", "X"',
 )
 SOUND = (
     "arm = arm * random.Random(3).random()",

@@ -61,14 +61,14 @@ MISTAKES: dict[str, tuple[Declare, str]] = {
     ),
     "a period in mm": (
         lambda c: c.phase("x", "rest", "X", "angle", (0, "ends"), period="blade"), "has the period blade, in mm; its abscissa angle is in deg"),
-    "a period in degrees": (lambda c: c.abscissa("turn", "ψ", "deg", "Turn", 360), "has the period 360, a number of radians that is not a part of"),
-    "a bare period": (lambda c: c.abscissa("way", "x", "mm", "Way", 400), "has the period 400, a number without a unit; name the input"),
+    "a period in degrees": (lambda c: c.add(abscissa(360).step("turn", "ψ", "deg", "Turn")), "has the period 360, a number of radians that is not a part of"),
+    "a bare period": (lambda c: c.add(abscissa(400).step("way", "x", "mm", "Way")), "has the period 400, a number without a unit; name the input"),
     "a bare place of print": (
-        lambda c: c.abscissa("turn", "ψ", "deg", "Turn", 2 * np.pi, shown_at=120),  # type: ignore[arg-type]
+        lambda c: c.add(abscissa(2 * np.pi, shown_at=120).step("turn", "ψ", "deg", "Turn")),  # type: ignore[arg-type]
         "has shown_at=120",
     ),
     "a bare length of pieces": (lambda c: c.breakpoints("b", "angle", every=30), "has every=30"),  # type: ignore[arg-type]
-    "a speed in mm": (lambda c: c.abscissa("turn", "ψ", "deg", "Turn", 2 * np.pi, speed="blade"), "a speed in deg/s is needed"),
+    "a speed in mm": (lambda c: c.add(abscissa(2 * np.pi, speed="blade").step("turn", "ψ", "deg", "Turn")), "a speed in deg/s is needed"),
 }  # fmt: skip
 
 
@@ -82,11 +82,11 @@ def test_a_mistake_is_told(what: str) -> None:
 
 @pytest.mark.parametrize("turns", [2, 1, 0.5, 1 / 3, 1 / 7 * 7, 4])
 def test_parts_of_a_turn_are_periods(turns: float) -> None:
-    assert told(lambda c: c.abscissa("turn", "ψ", "deg", "Turn", turns * np.pi)) == []
+    assert told(lambda c: c.add(abscissa(turns * np.pi).step("turn", "ψ", "deg", "Turn"))) == []
 
 
 def test_a_constant_with_its_unit_is_a_period() -> None:
-    assert told(lambda c: c.abscissa("way", "x", "mm", "Way", Constant(0.4, "l", "m"))) == []
+    assert told(lambda c: c.add(abscissa(Constant(0.4, "l", "m")).step("way", "x", "mm", "Way"))) == []
 
 
 def test_a_phase_is_a_step_with_a_name_of_its_own() -> None:

@@ -74,9 +74,9 @@ def told(declare: Callable[[Chapter], None], *figures: Any) -> list[str]:
     return [str(fault) for fault in faults(mechanism)]
 
 
-def lookup(table: Any = BEARINGS, **more: Any) -> Callable[[Chapter], None]:
+def row_of(table: Any = BEARINGS, **more: Any) -> Callable[[Chapter], None]:
     wanted = {"by": "bearing", "column": "bore", **more}
-    return lambda chapter: chapter.lookup("d", "d", "mm", "Bore", table, **wanted)
+    return lambda chapter: chapter.add(lookup(table, **wanted).step("d", "d", "mm", "Bore"))
 
 
 def by_number(table: Any, by: str, **more: Any) -> Callable[[Chapter], None]:
@@ -85,7 +85,12 @@ def by_number(table: Any, by: str, **more: Any) -> Callable[[Chapter], None]:
     def declare(chapter: Chapter) -> None:
         chapter.twice = 2 * m.teeth, "2z", "1", "Twice the teeth"
         chapter.own_teeth = pick("above", of="teeth", series=FACTORS.series("teeth")), "z_o", "1", "Teeth of the table"
-        chapter.given_teeth = pick("above", of="teeth", series=FACTORS.series("teeth"), given="count"), "z_g", "1", "Teeth, given or picked"
+        chapter.given_teeth = (
+            pick("above", of="teeth", series=FACTORS.series("teeth"), given="count"),
+            "z_g",
+            "1",
+            "Teeth, given or picked",
+        )
         chapter.other_teeth = pick("above", of="teeth", series=(12, 13)), "z_e", "1", "Teeth of elsewhere"
         unit, column = ("1", "Y") if table is FACTORS else ("kN", "C")
         chapter.found = lookup(table, by, column=column, **more), "f", unit, "Found"
@@ -102,38 +107,38 @@ def between(table: Any = FACTORS, of: str = "teeth", unit: str = "1", **more: An
     return declare
 
 
-def pick(series: Any, of: str = "length") -> Callable[[Chapter], None]:
-    return lambda chapter: chapter.pick("rod", "r", "mm", "Rod", "above", of, series)
+def picked(series: Any, of: str = "length") -> Callable[[Chapter], None]:
+    return lambda chapter: chapter.add(pick("above", of, series).step("rod", "r", "mm", "Rod"))
 
 
 MISTAKES = {
-    "a column that is not there": (lookup(column="bores"), "The table “Bearings” has no column 'bores'; it has bore, C"),
-    "no column named": (lookup(column=""), "has several columns; name one; it has bore, C"),
-    "a column of a plain table": (lookup({"small": 1.0, "big": 2.0}), "names the column bore, but its table has none"),
-    "a column in another unit": (lookup(column="C"), "the column C of the table is in kN, the step in mm"),
-    "a table of numbers by a text": (lookup(FACTORS, column="Y"), "by is bearing, a text; a number or a row over repeated parts is wanted"),
-    "a table of names by a number": (lookup(by="length"), "for a number name the column that it is sought in, sought_in"),
+    "a column that is not there": (row_of(column="bores"), "The table “Bearings” has no column 'bores'; it has bore, C"),
+    "no column named": (row_of(column=""), "has several columns; name one; it has bore, C"),
+    "a column of a plain table": (row_of({"small": 1.0, "big": 2.0}), "names the column bore, but its table has none"),
+    "a column in another unit": (row_of(column="C"), "the column C of the table is in kN, the step in mm"),
+    "a table of numbers by a text": (row_of(FACTORS, column="Y"), "by is bearing, a text; a number or a row over repeated parts is wanted"),
+    "a table of names by a number": (row_of(by="length"), "for a number name the column that it is sought in, sought_in"),
     "a column to seek in that is not there": (by_number(BEARINGS, "length", sought_in="bor"), "has no column 'bor'; it has bore, C"),
     "a column to seek in, in another unit": (by_number(BEARINGS, "teeth", sought_in="bore"), "the column bore of the table is in mm, teeth in 1"),
     "a number that two rows have": (by_number(ALIKE, "length", sought_in="bore"), "the table “Alike”, which has a number twice"),
     "no key of a number that may be none of the table": (by_number(FACTORS, "twice"), "which may be a number that the table does not have"),
     "no key of what is picked elsewhere": (by_number(FACTORS, "other_teeth"), "takes other_teeth, which may be a number"),
     "no key of what may be given": (by_number(FACTORS, "given_teeth"), "takes given_teeth, which may be a number"),
-    "a key of a text": (lookup(key="length"), "names the key length, but its row is that of a text"),
-    "a text without a row": (lookup(ONLY_SMALL, column=""), "has no row in the table for bearing=big"),
-    "given that is not an input": (lookup(given="boer"), "given is boer, which is not an input that is a number (did you mean 'bore'?)"),
-    "given that is a text": (lookup(given="bearing"), "given is bearing, which is not an input that is a number"),
-    "given that is always there": (lookup(given="length"), "given is length, which is always there; let it be float | None"),
-    "given in another unit": (lookup(given="force"), "given, force, is in N, the step in mm"),
-    "given of parts, a text of none": (lookup(given="wheels.width"), "both must be inputs of one list, or of none"),
+    "a key of a text": (row_of(key="length"), "names the key length, but its row is that of a text"),
+    "a text without a row": (row_of(ONLY_SMALL, column=""), "has no row in the table for bearing=big"),
+    "given that is not an input": (row_of(given="boer"), "given is boer, which is not an input that is a number (did you mean 'bore'?)"),
+    "given that is a text": (row_of(given="bearing"), "given is bearing, which is not an input that is a number"),
+    "given that is always there": (row_of(given="length"), "given is length, which is always there; let it be float | None"),
+    "given in another unit": (row_of(given="force"), "given, force, is in N, the step in mm"),
+    "given of parts, a text of none": (row_of(given="wheels.width"), "both must be inputs of one list, or of none"),
     "the step in another unit than the column": (between(unit="mm"), "the column Y of the table is in 1, the step in mm"),
     "another quantity than the table goes by": (between(of="length"), "the column teeth of the table is in 1, length in mm"),
     "no key of what is calculated": (between(of="twice"), 'takes twice, which may lie outside of the table; name the input'),
     "a key that is not there": (between(of="twice", key="tooth"), "key is tooth, which is not an input (did you mean 'teeth'?)"),
     "a turn of which the table has a quarter": (between(LIFTS, "turn", "mm"), "takes turn, which may lie outside of the table"),
     "a quantity that is not there": (between(of="tooth"), "takes tooth, which nothing gives"),
-    "a series in another unit": (pick(RODS, "teeth"), "the series “Rods” is in mm, teeth in 1"),
-    "a table as a series": (pick(BEARINGS), "takes from a table; name its column, table.series(…)"),
+    "a series in another unit": (picked(RODS, "teeth"), "the series “Rods” is in mm, teeth in 1"),
+    "a table as a series": (picked(BEARINGS), "takes from a table; name its column, table.series(…)"),
 }  # fmt: skip
 
 
@@ -161,16 +166,16 @@ def test_what_cannot_be_gone_between_is_told_at_once(table: Any, column: str, wo
 @pytest.mark.parametrize(
     "declare",
     [
-        lookup(),
-        lookup(given="bore"),
+        row_of(),
+        row_of(given="bore"),
         by_number(FACTORS, "teeth"),
         by_number(FACTORS, "own_teeth"),
         by_number(FACTORS, "twice", key="teeth"),
         by_number(BEARINGS, "length", sought_in="bore"),
         between(),
         between(of="twice", key="teeth"),
-        pick(RODS),
-        pick(BEARINGS.series("bore")),
+        picked(RODS),
+        picked(BEARINGS.series("bore")),
     ],
 )
 def test_what_is_sound_is_not_told(declare: Callable[[Chapter], None]) -> None:
@@ -226,13 +231,13 @@ def test_ranges_of_polar_diagrams_and_of_bars_are_judged_too() -> None:
 
 PLUGIN = """
 from typing import Annotated
-from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, table_beside
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, interpolated, table_beside
 
 class Own(Inputs):
     teeth: Annotated[float, Quantity("z", "1", "Teeth")] = 13
 
 all_ = Chapter("All")
-all_.interpolated("y", "Y", "1", "Factor", table_beside(__file__, "factors.yaml"), of="teeth")
+all_.y = interpolated(table_beside(__file__, "factors.yaml"), of="teeth"), "Y", "1", "Factor"
 MECHANISM = Mechanism(kind="own", version="1", title="Own", summary="", inputs=Own, chapters=(all_,))
 """
 TABLE = "title: Factors\ncolumns: {teeth: '1', Y: '1'}\nsources: [One, Two]\nrows: [[12, 0.2], [15, 0.3]]\n"

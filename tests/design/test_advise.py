@@ -154,7 +154,7 @@ def test_a_share_of_any_size_is_told_without_a_power_of_ten(share: float, told: 
 
 SCREWED = '''
 """A screw that holds a bracket."""
-from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, Quantity, Source, bind
+from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, Quantity, Source, bind, m
 
 class Screw(Block):
     preload: Annotated[float, Quantity("F_V", "kN", "Preload", gt=0)]
@@ -164,7 +164,7 @@ class Bracket(Inputs):
     screw: Annotated[Screw, "The screw"]
 
 joint = Chapter("Joint")
-joint.value("opening", "F_o", "kN", "Force that opens the joint", lambda force: 5 * force, source="lever")
+joint.opening = 5 * m.force, "F_o", "kN", "Force that opens the joint", "lever"
 MECHANISM = Mechanism(
     kind="bracket", version="1.0", title="Bracket", summary="A screw holds a bracket.", inputs=Bracket, chapters=(joint,), key_results=("opening",),
     checks=(Check(id="joint", check_class="strength", title="Joint", demand="opening", limit="screw.preload", unit="kN", demand_label="force",
@@ -233,7 +233,7 @@ def test_other_outcomes_are_told_in_words() -> None:
 PIN = """\
 from typing import Annotated, Literal
 
-from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text, lookup, m
 
 
 class Pin(Inputs):
@@ -244,8 +244,8 @@ class Pin(Inputs):
 
 
 pin = Chapter("Pin")
-pin.lookup("strength", "[p]", "MPa", "Strength", {"soft": 1.0, "middle": 2.0, "hard": 4.0}, by="grade")
-pin.value("pressure", "p", "MPa", "Pressure", lambda force, bore, count: force / (count * bore**2))
+pin.strength = lookup({"soft": 1.0, "middle": 2.0, "hard": 4.0}, by="grade"), "[p]", "MPa", "Strength"
+pin.pressure = m.force / (m.count * m.bore**2), "p", "MPa", "Pressure"
 MECHANISM = Mechanism(
     kind="pin", version="1", title="Pin", summary="A pin.", inputs=Pin, chapters=(pin,),
     checks=(Check(id="pressure", check_class="strength", title="Pressure", demand="pressure", limit="strength", unit="MPa",
@@ -374,7 +374,7 @@ def test_a_number_of_a_part_is_asked_for_by_the_name_by_which_it_is_varied(name:
 
 
 SLIDE = """
-from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity, m
 
 
 class Slide(Inputs):
@@ -385,8 +385,8 @@ class Slide(Inputs):
 
 
 chapter = Chapter("Stroke")
-chapter.value("stroke", "H", "mm", "Stroke", lambda crank, base: crank + base)
-chapter.value("share", "s", "1", "Share of the stroke that is used", lambda stroke_needed, stroke: stroke_needed / stroke)
+chapter.stroke = m.crank + m.base, "H", "mm", "Stroke"
+chapter.share = m.stroke_needed / m.stroke, "s", "1", "Share of the stroke that is used"
 checks = (
     Check(id="stroke", check_class="function", title="Stroke", demand="stroke_needed", limit="stroke", unit="mm",
           demand_label="needed", limit_label="stroke", consequence="the sheet does not arrive."),

@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from scipy.stats import beta, norm
 
@@ -14,8 +15,12 @@ from diecut_report import __version__
 from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
-from diecut_report.design.influence import _ends
-from diecut_report.design.inputs import DesignInput, given_numbers, numbers_at_default
+from diecut_report.design import influence as design_influence
+from diecut_report.design.influence import _ends, by_input, data, lines, tornados, within_tolerances
+from diecut_report.design.inputs import DesignInput, free_input, given_numbers, numbers_at_default, numbers_to_vary
+from diecut_report.design.machines import proved
+from diecut_report.errors import UserError
+from diecut_report.press import Press
 from diecut_report.report.rendering import Rendering
 from diecut_report.results.model import ResultsRecord
 from tests.configs import EXAMPLE, GOOD, HEAD, MECHANISMS, saved
@@ -141,20 +146,76 @@ def press_inputs() -> dict[str, DesignInput]:
     return {each.name: each for each in (*given_numbers(config), *numbers_at_default(config))}
 
 
-def test_inputs_whose_change_makes_no_machine_are_one_line_at_the_end(capfd: Capture) -> None:
+def test_inputs_whose_change_makes_no_machine_stand_at_the_end(capfd: Capture) -> None:
     assert main(["influence", str(MECHANISMS), "--of", "drive.stroke", "--by", "40", "--quiet"]) == 0
-    head, mover, still, impossible, _ = capfd.readouterr().out.splitlines()
+    head, mover, still, told, *impossible, _ = capfd.readouterr().out.splitlines()
     assert "drive.stroke" in head and re.match("  cylinder.radius .*: cannot exist … 9", mover) and "no effect" in still
-    assert impossible.startswith("  changed one way or both, no machine exists: cylinder.segment_height (")
-    assert re.search(r"; cylinder\.density \(mechanisms\.cylinder\.density: .+\); ", impossible)
+    assert told == "changed one way or both, no machine exists:" and impossible[0].startswith(
+        "  cylinder.segment_height ("
+    )
+    assert any(re.fullmatch(r"  cylinder\.density \(mechanisms\.cylinder\.density: .+\)", line) for line in impossible)
 
 
 def test_each_input_without_a_machine_has_its_own_reason_not_that_of_one_that_moves(capfd: Capture) -> None:
     assert main(["influence", str(MECHANISMS), "--of", "cylinder.checks.radius", "--by", "40", "--quiet"]) == 0
-    *_, impossible, _ = capfd.readouterr().out.splitlines()
-    _, _, told = impossible.partition("no machine exists: ")
-    assert told.startswith("cylinder.density (mechanisms.cylinder.density: gives density = ")
-    assert "; cylinder.elastic_modulus (mechanisms.cylinder.elastic_modulus.value: gives elastic_modulus = " in told
+    _, _, told = capfd.readouterr().out.partition("no machine exists:\n")
+    assert told.startswith("  cylinder.density (mechanisms.cylinder.density: gives density = ")
+    assert "\n  cylinder.elastic_modulus (mechanisms.cylinder.elastic_modulus.value: gives elastic_modulus = " in told
+
+
+# A machine of parts.
+
+
+KEY, SEAT, WIDTH = "shafts.rocker.parts.arm.key", "shafts.rocker.sections.1.diameter", "meshes.main_drive.width"
+
+
+@pytest.fixture(scope="module")
+def machine() -> Press:
+    return Press.read(EXAMPLE.parent / "machines" / "flat_cylinder.yaml", Discovery([]))
+
+
+def test_what_is_typed_at_parts_or_they_are_made_with_is_varied_once_by_its_name_there(machine: Press) -> None:
+    config = machine.config
+    assert config.parts is not None
+    names = [each.name for each in numbers_to_vary(config)]
+    typed = {KEY, SEAT, WIDTH, "belts.motor.diameter_2", "machine.frame.main.0", "chains.grippers.pretension"}
+    assert typed | {"drive.crank_length", "press.sheet.length"} <= {*names} and len(names) == len({*names})
+    assert not [each.name for each in numbers_to_vary(config) if config.parts.follows(each.asked.node)]
+
+
+def test_the_effect_of_a_part_is_that_of_the_file_with_its_value(
+    machine: Press, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without the others of the machine, which take minutes."""
+    own = [each for each in numbers_to_vary(machine.config) if each.name in (KEY, SEAT, WIDTH)]
+    monkeypatch.setattr(design_influence, "numbers_to_vary", lambda config: own)
+    check = "shafts_rocker_arm_key.checks.pressure_key"
+    (found,) = tornados(machine.config, [check], 0.1, {})
+    bars = {bar.design.name: bar for bar in (*found.bars, *found.impossible)}
+    assert [bar.design.name for bar in found.bars] == [KEY, SEAT]
+    typed = (
+        {("shafts", "rocker", "parts", 2, "key"): "45 mm"},
+        {("shafts", "rocker", "sections", 1, "diameter"): "66 mm"},
+    )
+    alone = [proved(machine.with_values(each)).run.checks["shafts_rocker_arm_key"] for each in typed]
+    wanted = [next(each.utilisation for each in checks if each.id == "pressure_key") for checks in alone]
+    assert [bars[KEY].low, bars[SEAT].high] == pytest.approx(wanted, rel=1e-9)
+    assert np.isnan(bars[KEY].high)  # no key of 55 mm is made
+    (told,) = [line for line in map(str, lines([found], None)) if WIDTH in line]
+    assert "but the hub of flywheel.pinion is 50 mm long" in told
+    reasons = [bar["reason"] for bar in data([found])["tornados"][0]["bars"] if bar["path"] == WIDTH]
+    assert reasons and reasons[0] in told
+
+
+def test_a_part_scatters_within_its_tolerance(machine: Press) -> None:
+    """Its gear is cut wider than the hub in half of the machines, which are none."""
+    scatter = by_input([(free_input(machine.config, WIDTH), 1e-3)])
+    found = within_tolerances(machine.config, scatter, "uniform", 10, 1)
+    assert found.inputs[0].name == WIDTH and sum(each.count for each in found.checks) > 0
+    with pytest.raises(UserError, match="is a text"):
+        free_input(machine.config, "machine.shaft_material")
+    with pytest.raises(UserError, match=r"vary meshes\.main_drive\.width in its place"):
+        free_input(machine.config, "meshes_main_drive.face_width")
 
 
 # The chapter of the report.

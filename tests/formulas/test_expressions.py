@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import pi
-from diecut_report.formulas.formula import Formula, FormulaError, evaluate, formula
-from diecut_report.formulas.tree import GRAVITY, Constant, Node, arccos, substitute, symbols
+from diecut_report.api import m, number, pi
+from diecut_report.formulas.expression import GRAVITY, Constant, FormulaError, arccos, node_of
+from diecut_report.formulas.formula import Formula, WrittenFormula, evaluate, formula
+from diecut_report.formulas.tree import Node, substitute, symbols
+from diecut_report.report.mathematics import Linear
 
 GENT = Constant(98100.0, "k_G", "Pa")
 
@@ -104,9 +106,34 @@ def test_a_cosine_that_is_really_beyond_one_is_no_angle() -> None:
 
 @formula
 def looping(a: Any) -> Any:
-    for _ in range(3):
-        a = a + 1
+    for factor in (2, SHARE, DENSITY):
+        a = a * factor
     return a
+
+
+def test_loops_names_and_helpers_are_ordinary_python() -> None:
+    assert looping.tree.to_json() == ["*", ["*", ["*", ["sym", "a"], ["num", "2"]], ["sym", "k"]], ["num", "7850"]]
+    assert looping(3.0) == 3 * 2 * 0.25 * 7850 and looping.constants == {"k": SHARE}
+
+
+def test_numbers_print_as_they_are_written() -> None:
+    third = node_of(m.a ** (number(1) / 3) + np.sqrt(number(3)) - 2 * pi)
+    assert Linear()(third.to_json()) == "a^(1/3) + √3 − 2·π"
+    assert Linear()(node_of(m.a ** (1 / 4) - 0.5).to_json()) == "a^(0.25) − 0.5"
+    assert float(number(1) / 3) == 1 / 3 and pi * np.ones(2) == pytest.approx([math.pi, math.pi])
+
+
+def test_quantities_stand_by_their_ids() -> None:
+    written = m.inputs.torque / m.rods[0].length * m[f"force_{2}"]
+    assert WrittenFormula(written, "x", "").parameters == ("inputs.torque", "rods.0.length", "force_2")
+
+
+def test_what_stands_in_several_places_is_computed_once() -> None:
+    calls = []
+    root = Formula(lambda a: np.sqrt(a), printed_as="root")
+    root.function = lambda a: calls.append(a) or a**0.5  # type: ignore[method-assign, assignment, func-returns-value]
+    shared = root(m.a)
+    assert WrittenFormula(shared * shared + shared, "x", "").function(4.0) == 6 and len(calls) == 1
 
 
 @formula
@@ -125,6 +152,7 @@ def endless(a: Any) -> None:
 
 
 DENSITY = 7850
+SHARE = Constant(0.25, "k", "1")
 
 
 @formula
@@ -134,28 +162,43 @@ def choosing(a: Any) -> Any:
     return -a
 
 
+BRACKETS, OF_ARRAYS = (
+    r"write np.where.*\(a\) & \(b\), \(a\) \| \(b\), ~\(a\), each condition in brackets",
+    "as np.sin for math.sin",
+)
+
+
 @pytest.mark.parametrize(
     ("broken", "words"),
     [
-        (Formula(lambda a, b: a > 0 and b > 0), r"write \(a\) & \(b\), each condition in brackets"),
-        (Formula(lambda a, b: a > 0 or b > 0), r"write \(a\) \| \(b\), each condition in brackets"),
-        (Formula(lambda a: not a), r"write ~\(a\)"),
-        (Formula(lambda a: 0 < a < 1), r"write \(a < b\) & \(b < c\)"),
-        (Formula(lambda a: a if a > 0 else -a), r"write np.where\(condition, a, b\)"),
-        (choosing, r"write np.where\(condition, a, b\)"),
-        (Formula(lambda a: math.sin(a)), "write np.sin"),
-        (Formula(lambda a: math.acos(a)), "write np.arccos"),
-        (Formula(lambda a, b: max(a, b)), "write np.maximum"),
-        (Formula(lambda a: a * DENSITY), r"or bind it: bind\(…, DENSITY=7850\), or make it one of the constants"),
-        (Formula(lambda a: a @ a), "a formula holds assignments, one return"),
+        (Formula(lambda a, b: a > 0 and b > 0), BRACKETS),
+        (Formula(lambda a, b: a > 0 or b > 0), BRACKETS),
+        (Formula(lambda a: not a), BRACKETS),
+        (Formula(lambda a: 0 < a < 1), BRACKETS),
+        (Formula(lambda a: a if a > 0 else -a), BRACKETS),
+        (choosing, BRACKETS),
+        (Formula(lambda a, b: max(a, b)), "np.maximum"),
+        (Formula(lambda a: math.sin(a)), OF_ARRAYS),
+        (Formula(lambda a: round(a)), OF_ARRAYS),
+        (Formula(lambda a: a * np.pi), "write pi of diecut_report.api in place of np.pi"),
+        (Formula(lambda a: sum(part for part in a)), "is one quantity and cannot be gone through"),
+        (Formula(lambda a: np.cbrt(a)), "cannot print np.cbrt; .*sqrt"),
+        (Formula(lambda a: a + "b"), r"'b' is a text; a quantity is written m\.b"),
+        (Formula(lambda a: (a + 1).length), r"a \+ 1 is no quantity and has no length"),
+        (Formula(lambda a: a @ a), "unsupported operand"),
     ],
 )
 def test_what_a_formula_cannot_hold_is_told_with_what_to_write_instead(broken: Formula, words: str) -> None:
-    with pytest.raises(FormulaError, match=words):
+    with pytest.raises(FormulaError, match=rf"test_expressions\.py:\d+: (.|\n)*{words}"):
         _ = broken.tree
 
 
-@pytest.mark.parametrize("broken", [looping, foreign, unknown_name, endless])
+@pytest.mark.parametrize("broken", [foreign, unknown_name, endless])
 def test_a_body_that_cannot_be_printed_is_refused_with_its_place(broken: Any) -> None:
-    with pytest.raises(FormulaError, match=broken.__name__):
+    with pytest.raises(FormulaError, match=r"test_expressions\.py:\d+: "):
         _ = broken.tree
+
+
+def test_a_constant_with_the_symbol_of_a_quantity_is_refused() -> None:
+    with pytest.raises(FormulaError, match="takes a quantity k and a constant of this symbol"):
+        _ = WrittenFormula(m.k * SHARE, "x", "here.py:1").constants

@@ -70,7 +70,12 @@ shaft.rating = lookup(BEARINGS, by="bearing", column="C", needs=("bearing",)), "
 shaft.factor = interpolated(FACTORS, of="teeth"), "Y", "1", "Factor of the teeth"
 wheels = Chapter("Wheels", needs=("wheels",), absent="no wheels")
 wheels.wheel_factor = interpolated(FACTORS, of="wheels.count"), "Y_i", "1", "Factor of a wheel"
-wheels.wheel_strength = lookup({"soft": 100.0, "hard": 300.0}, by="wheels.grade", given="wheels.strength"), "[σ]", "MPa", "Strength taken"
+wheels.wheel_strength = (
+    lookup({"soft": 100.0, "hard": 300.0}, by="wheels.grade", given="wheels.strength"),
+    "[σ]",
+    "MPa",
+    "Strength taken",
+)
 turning = Chapter("Turning")
 turning.turn = abscissa(period=2 * np.pi), "φ", "deg", "Turn"
 turning.lift = interpolated(LIFTS, of="turn"), "h", "mm", "Lift"

@@ -20,6 +20,7 @@ from diecut_report.api import (
     as_angle,
     formula,
     m,
+    pi,
 )
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.model import PRESS
@@ -285,7 +286,7 @@ NO_PROOF = {
         "the equation has a pole between low = 0 and high = 2001, where it changes its sign without a root",
     ),
     "a pole of the tangent": (
-        {"equation": lambda x: np.tan(as_angle(x)), "low": lambda: 1.0, "high": lambda: 2.5, "left": lambda x: x, "right": lambda: np.pi / 2},
+        {"equation": lambda x: np.tan(as_angle(x)), "low": lambda: 1.0, "high": lambda: 2.5, "left": lambda x: x, "right": lambda: pi / 2},
         "the equation has a pole between low = 1 and high = 2.5",
     ),
 }  # fmt: skip

@@ -75,21 +75,16 @@ def looked_up(chapter: Chapter) -> None:
     chapter.bore = lookup(BEARINGS, by="bearing", column="bore"), "d", "mm", "Bore"
 
 
-def computed(function: Callable[..., Any] = found) -> Callable[[Chapter], None]:
-    return lambda chapter: chapter.computed(
-        "bearing", "B", "1", "Bearing that is taken", function, ("load",), "in words", is_text=True
-    )
+BEARING = ("bearing", "B", "1", "Bearing that is taken")
+
+
+def by_code(function: Callable[..., Any] = found) -> Callable[[Chapter], None]:
+    return lambda chapter: chapter.add(computed(function, ("load",), "in words", is_text=True).step(*BEARING))
 
 
 def chosen(light: str = "small") -> Callable[[Chapter], None]:
-    return lambda chapter: chapter.choice(
-        "bearing",
-        "B",
-        "1",
-        "Bearing that is taken",
-        case(light, "the load is light", m.load * m.factor < 13.9 * m.load),
-        case("big", "it is not"),
-    )
+    by_load = case(light, "the load is light", m.load * m.factor < 13.9 * m.load)
+    return lambda chapter: chapter.add(choice(by_load, case("big", "it is not")).step(*BEARING))
 
 
 def run(mechanism: Mechanism, **inputs: Any) -> Calculation:
@@ -97,7 +92,7 @@ def run(mechanism: Mechanism, **inputs: Any) -> Calculation:
 
 
 def test_the_row_of_a_text_that_was_computed_is_taken() -> None:
-    mechanism = made(computed(), looked_up)
+    mechanism = made(by_code(), looked_up)
     check_mechanism(mechanism)
     assert run(mechanism, load=13)["bore"].item() == 0.02
     one = run(mechanism, load=14)
@@ -138,9 +133,9 @@ def test_names_that_are_no_rows_are_told() -> None:
     with pytest.raises(
         Misdeclared, match=r"test_found_rows.py:\d+: step bore: bearing is 'smal', which is not a row of its table"
     ):
-        run(made(computed(lambda load: ["smal"]), looked_up))
+        run(made(by_code(lambda load: ["smal"]), looked_up))
     with pytest.raises(Misdeclared, match="gives 2 values; it must return a text for each machine, 1"):
-        run(made(computed(lambda load: ["small", "big"]), looked_up))
+        run(made(by_code(lambda load: ["small", "big"]), looked_up))
 
 
 def test_a_text_that_all_machines_share_is_that_of_each() -> None:
@@ -166,7 +161,7 @@ def listed(taken: str, rows: Any, digits: int = 0) -> Callable[[Chapter], None]:
 
 def test_the_row_that_was_taken_is_marked_and_a_column_has_its_digits() -> None:
     rows = [("small", 13.5e3), ("big", 14.875e3)]
-    one = run(made(computed(), listed("bearing", rows, digits=3)))
+    one = run(made(by_code(), listed("bearing", rows, digits=3)))
     (table,) = (each for section in section_items(one) for each in section["items"] if each["type"] == "table")
     assert [column["title"] for column in table["columns"]] == ["taken", "Bearing", "Rating"]
     assert table["rows"] == [["", "small", "13.5"], ["→", "big", "14.9"]]
@@ -214,7 +209,12 @@ def test_numbers_of_parts_are_tried_where_some_have_none() -> None:
     mechanism = made(again({"bars.length": (np.array([1.0, 2.0]), None), "given": "big"}, ("first",)))
     chapter = Chapter("More", needs=("bars",), absent="none")
     chapter.prepared("lengths", lambda known: known["bars.length"], ("bars.length",), for_many=True)
-    chapter.first = computed(lambda lengths: np.reshape(lengths[0], (-1, 1)), ("lengths",), "the first"), "L", "m", "First length"
+    chapter.first = (
+        computed(lambda lengths: np.reshape(lengths[0], (-1, 1)), ("lengths",), "the first"),
+        "L",
+        "m",
+        "First length",
+    )
     whole = replace(mechanism, inputs=Bars, chapters=(*mechanism.chapters, chapter))
     given = flatten(Bars(bars=[Bar(length=1), Bar()]))
     assert calculate(whole, given).inputs["sought"]["first"].tolist() == [1.0, 2.0]

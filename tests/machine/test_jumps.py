@@ -25,6 +25,7 @@ from diecut_report.api import (
     formula,
     inner,
     m,
+    pi,
     reduction,
     value,
 )
@@ -320,7 +321,7 @@ ROUGH: dict[str, tuple[str, Any]] = {
     "a simple pole": ("mm", lambda arm, angle, place: arm / as_number(angle - place)),
     "a pole of one sign": ("mm", lambda arm, angle, place: arm / np.abs(as_number(angle - place))),
     "a double pole": ("mm", lambda arm, angle, place: arm / np.sin((angle - place) / 2) ** 2),
-    "a tangent": ("mm", lambda arm, angle, place: arm * np.tan((angle - place) / 2 + np.pi / 2)),
+    "a tangent": ("mm", lambda arm, angle, place: arm * np.tan((angle - place) / 2 + pi / 2)),
     "a logarithm": ("mm", lambda arm, angle, place: -arm * np.log(np.abs(np.sin((angle - place) / 2)))),
     "a logarithm beside much": (
         "mm",
@@ -401,7 +402,7 @@ ENDLESS: dict[str, tuple[str, Any]] = {
     "an eighth root": ("max", lambda arm, angle, place: arm / np.abs(np.sin((angle - place) / 2)) ** (1 / 8)),
     "a power that is given": ("max", lambda arm, angle, place: arm * np.abs(np.sin((angle - place) / 2)) ** (-arm / arm)),
     "the end of the turn": ("max", lambda arm, angle: arm / np.cos(angle / 4)),
-    "both ends": ("max", lambda arm, angle: arm * np.tan((angle - np.pi) / 2)),
+    "both ends": ("max", lambda arm, angle: arm * np.tan((angle - pi) / 2)),
     "a power": ("max", lambda arm, angle, place: arm * np.cos(angle - place) ** -2),
 }  # fmt: skip
 WHOLE: dict[str, tuple[str, Any]] = {
@@ -419,13 +420,13 @@ WHOLE: dict[str, tuple[str, Any]] = {
 }  # fmt: skip
 
 
-def reduced(reduction: str, formula: Any, places: list[float], *, breakpoint: bool = False) -> Calculation:
+def reduced(operation: str, formula: Any, places: list[float], *, breakpoint: bool = False) -> Calculation:
     chapter = Chapter("Turn")
     chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
     if breakpoint:
         chapter.breakpoints("there", "angle", "place")
     chapter.rough = formula, "R", "mm", "Rough"
-    chapter.most = reduction(reduction, of="rough"), "R_m", "mm", "Most"
+    chapter.most = reduction(operation, of="rough"), "R_m", "mm", "Most"
     mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
     given = {"arm": 0.05, "place": np.array(places) if len(places) > 1 else places[0], "n_points": 36}
     return calculate(mechanism, given, len(places))
@@ -458,7 +459,7 @@ def test_a_breakpoint_at_a_pole_is_no_remedy(place: float) -> None:
 
 def test_of_many_machines_those_whose_curve_has_no_value_somewhere_are_in_error() -> None:
     """The root of what is negative where the crank is longer than the rod."""
-    push = lambda arm, angle, place: arm * np.sqrt(1 - (place / np.pi * np.sin(angle)) ** 2)  # noqa: E731
+    push = lambda arm, angle, place: arm * np.sqrt(1 - (place / pi * np.sin(angle)) ** 2)  # noqa: E731
     made = reduced("max", push, [1.0, 4.0, 3.0])
     assert list(made.flaws) == [1] and "has no value at some of its places" in made.flaws[1][1]
     with pytest.raises(Unproven, match="has no value at some of its places"):

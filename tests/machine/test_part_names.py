@@ -41,8 +41,8 @@ def check(id, named_by=""):
 
 
 chapter = Chapter("All")
-chapter.value("pull", "P_i", "N", "Pull", bind(lambda force: 2 * force, force="springs.force"), named_by="%(named)s")
-chapter.value("push_pull", "Q_i", "N", "Both", bind(lambda force: 3 * force, force="springs.force"), named_by="%(named)s")
+chapter.pull = value(2 * m.springs.force, named_by="%(named)s"), "P_i", "N", "Pull"
+chapter.push_pull = value(3 * m.springs.force, named_by="%(named)s"), "Q_i", "N", "Both"
 MECHANISM = Mechanism(kind="springs", version="1", title="S", summary="S.", inputs=Springs, chapters=(chapter,), checks=(%(checks)s))
 """
 NAMED, EACH = "springs.name", 'check("force", "springs.name"),'

@@ -127,7 +127,12 @@ class Asking(Inputs):
 def test_what_a_mechanism_tells_of_one_machine_is_asked_for_each(in_list: bool) -> None:
     """Three machines, and three parts in each: the numbers of the first machine are as many as the machines."""
     own = Chapter("Row")
-    own.row = computed(lambda x, width: x * width / 1e-3, takes=("pegs.place", "width"), method="m", over="pegs"), "r", "mm", "Row"
+    own.row = (
+        computed(lambda x, width: x * width / 1e-3, takes=("pegs.place", "width"), method="m", over="pegs"),
+        "r",
+        "mm",
+        "Row",
+    )
     row = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(own,))
     widths = np.array([1e-3, 2e-3, 3e-3])
     told = calculate(row, {"width": widths, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)}, 3)
@@ -137,7 +142,12 @@ def test_what_a_mechanism_tells_of_one_machine_is_asked_for_each(in_list: bool) 
     def asked(given: Any) -> Any:
         return (given[0] if in_list else given).parts("row")
 
-    asks.taken = computed(asked, takes=("others.other" if in_list else "other",), method="m", over="pegs"), "t", "m", "Taken"
+    asks.taken = (
+        computed(asked, takes=("others.other" if in_list else "other",), method="m", over="pegs"),
+        "t",
+        "m",
+        "Taken",
+    )
     inputs = Asking if in_list else AskingOne
     mechanism = Mechanism(kind="asks", version="1", title="Asks", summary="Asks.", inputs=inputs, chapters=(asks,))
     given: dict[str, Any] = {"others": True, "others.other": (handle,)} if in_list else {"other": handle}
@@ -161,7 +171,12 @@ def test_a_truth_value_is_printed_as_yes_or_no_and_what_serves_others_alone_is_n
     for id, answer in (("held", True), ("lost", False)):
         chapter[id] = (computed(lambda width, answer=answer: width > 0.1 if answer else width > 1, takes=("width",), method="compared"), id[0], "1",
             f"Whether it is {id}")  # fmt: skip
-    chapter.place = computed(lambda width: 2.0, takes=("width",), method="counted", printed=False), "i", "1", "Number of the place"
+    chapter.place = (
+        computed(lambda width: 2.0, takes=("width",), method="counted", printed=False),
+        "i",
+        "1",
+        "Number of the place",
+    )
     chapter.wide = (computed(lambda place: np.asarray(place) > 0.15, takes=("pegs.place",), method="compared", over="pegs"), "w", "1",
         "Whether each is wide")  # fmt: skip
     mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
@@ -202,15 +217,35 @@ class Bar:
 chapter = Chapter("Bar")
 chapter.prepared("bar", Bar, ("force", "jump"), for_many=True)
 chapter.x = abscissa(Constant(10.0, "l", "m")), "x", "m", "Place"
-chapter.along = computed_curve(Bar.at, "bar", "x", "as it is laid out", joints=lambda bar: bar.jump), "F(x)", "N", "Force along the bar"
+chapter.along = (
+    computed_curve(Bar.at, "bar", "x", "as it is laid out", joints=lambda bar: bar.jump),
+    "F(x)",
+    "N",
+    "Force along the bar",
+)
 chapter.twice = 2 * m.along, "2F", "N", "Twice the force"
 chapter.greatest = reduction("max", of="along"), "F_max", "N", "Greatest force"
 chapter.mean = reduction("mean", of="along"), "F_m", "N", "Mean force"
 chapter.part_names("points", "Points", lambda grade: ["left", "right"], ("grade",), shown_at="worst")
-chapter.at_point = computed(lambda bar: bar.force * np.array([[1.0, 2.0]]), ("bar",), "by the bar", over="points"), "F_p", "N", "Force there"
+chapter.at_point = (
+    computed(lambda bar: bar.force * np.array([[1.0, 2.0]]), ("bar",), "by the bar", over="points"),
+    "F_p",
+    "N",
+    "Force there",
+)
 chapter.doubled = 2 * m.at_point * m.grade, "D_p", "N", "Twice the force there"
-chapter.worst = computed(lambda row: np.argmax(row, axis=1)[:, None], ("doubled",), "the greatest", whole=True), "i_w", "1", "Worst point"
-chapter.word = computed(lambda index: [f"point {int(i)}" for i in index[:, 0]], ("worst",), "the greatest", is_text=True), "w", "1", "Its name"
+chapter.worst = (
+    computed(lambda row: np.argmax(row, axis=1)[:, None], ("doubled",), "the greatest", whole=True),
+    "i_w",
+    "1",
+    "Worst point",
+)
+chapter.word = (
+    computed(lambda index: [f"point {int(i)}" for i in index[:, 0]], ("worst",), "the greatest", is_text=True),
+    "w",
+    "1",
+    "Its name",
+)
 chapter.part_table("table", "All points", "points", ("at_point", "doubled"))
 
 MECHANISM = Mechanism(

@@ -14,9 +14,10 @@ from diecut_report.declaration import faults
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism import recipes
 from diecut_report.mechanism.names import Misdeclared
-from diecut_report.mechanism.steps import Step, Steps, form
-from diecut_report.mechanism.steps.base import QuantityStep
+from diecut_report.mechanism.steps import Step, Steps
+from diecut_report.mechanism.steps.base import QuantityStep, recipe
 from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.quantities.units import Kind
 from diecut_report.results.mechanism import mechanism_results
@@ -60,14 +61,8 @@ class Swing(QuantityStep):
         return [self.head() | {"type": "found", "relation": None, "method": "top less mean", "result": result}]
 
 
-class WiderSteps(Steps):
-    """The register with one line more."""
-
-    swing = form(Swing)
-
-
-class WiderChapter(WiderSteps, Chapter):
-    """A chapter with the call of the new type."""
+swing = recipe(Swing)
+"""The register's line of the new type."""
 
 
 class Wave(Inputs):
@@ -76,10 +71,10 @@ class Wave(Inputs):
 
 
 def wave(unit: str = "mm", of: str = "height", level: float = 1.0) -> Mechanism:
-    chapter = WiderChapter("Wave")
+    chapter = Chapter("Wave")
     chapter.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
     chapter.height = m.size * (3 + np.sin(m.angle)), "h", "mm", "Height"
-    chapter.swing("swing", "s", unit, "Swing", of, level)
+    chapter.swing = swing(of, level), "s", unit, "Swing"
     chapter.doubled = 2 * m.swing, "s_2", "mm", "Twice the swing"
     return Mechanism(kind="wave", version="1", title="Wave", summary="", inputs=Wave, chapters=(chapter,))
 
@@ -105,9 +100,9 @@ def test_what_is_wrong_with_it_is_told_with_its_place(made: Mechanism, words: st
 
 def test_its_call_knows_the_options_of_all_steps() -> None:
     with pytest.raises(Misdeclared, match=r"swing has no option neds \(did you mean 'needs'\?\)"):
-        WiderChapter("Wave").swing("swing", "s", "mm", "Swing", "height", neds=("size",))  # type: ignore[call-arg]
+        Chapter("Wave").swing = swing("height", neds=("size",)), "s", "mm", "Swing"  # type: ignore[call-arg]
     with pytest.raises(TypeError, match=r"swing\(\) missing 1 required positional argument: 'of'"):
-        WiderChapter("Wave").swing("swing", "s", "mm", "Swing")  # type: ignore[call-arg]
+        Chapter("Wave").swing = swing(), "s", "mm", "Swing"  # type: ignore[call-arg]
 
 
 def test_it_is_calculated_of_one_machine_and_of_many() -> None:
@@ -124,7 +119,8 @@ def test_it_is_printed_and_stored() -> None:
 
 
 def test_each_type_has_a_call_of_its_name() -> None:
-    calls = {name: call.__name__ for name, call in vars(Steps).items() if hasattr(call, "__signature__")}
+    both = vars(Steps) | vars(recipes)
+    calls = {name: call.__name__ for name, call in both.items() if hasattr(call, "__signature__")}
     assert len(calls) > 30 and calls == {name: name for name in calls}
 
 

@@ -101,7 +101,7 @@ TWICE = (
 # The author's form: chapters, their calls, and formulas written as lambdas.
 
 WASTE = "lambda mass_rate, belt_speed: mass_rate / belt_speed)"
-RATIO = 'drive.value("ratio_of_speeds", "i", "1", "Ratio of the belt drive", lambda small_pulley, large_pulley: large_pulley / small_pulley)'
+RATIO = 'drive.ratio_of_speeds = m.large_pulley / m.small_pulley, "i", "1", "Ratio of the belt drive"'
 EULER = "lambda head_friction, head_wrap: np.exp(head_friction * as_number(head_wrap))"
 SPEED = '"belt_speed", "v", "m/s", "Speed of the belt", lambda head_speed, head_diameter: head_speed * head_diameter / 2,'
 HOLDING = 'holding = Chapter("Backstop", needs=("backstop",), absent="no backstop is given")\n'
@@ -130,10 +130,10 @@ LAMBDAS = (
     load("plain code as a formula", '"How far the waste flies meanwhile", lambda belt_speed, fall_time: belt_speed * fall_time',
          '"How far the waste flies meanwhile", falling_time', "throw", "drop", "bind|which nothing gives"),
     load("a field of a block in a lambda",
-         'bind(lambda lift_force, head_diameter, arm: lift_force * head_diameter / (2 * arm), arm="backstop.radius")',
+         'm.lift_force * m.head_diameter / (2 * m.backstop.radius)',
          "lambda lift_force, head_diameter, backstop: lift_force * head_diameter / (2 * backstop.radius)",
          "pawl_force", r"backstop\.radius", "a block"),
-    load("a whole list in a lambda", 'bind(lambda strand_weight, wrap: 2 * strand_weight * np.sin(wrap / 2), wrap="pulleys.wrap")',
+    load("a whole list in a lambda", '2 * m.strand_weight * np.sin(m.pulleys.wrap / 2)',
          "lambda strand_weight, pulleys: 2 * strand_weight * pulleys", "pulley_load", r"pulleys\.(wrap|diameter)|a block|a field"),
     load("what a call gives back as a quantity", 'pull.running("losses_so_far"',
          'total = pull.total("all", "U_a", "N", "All", "sum", of="journal_loss")\n'
@@ -184,17 +184,17 @@ CHAPTERS = (
     load("a quantity in another chapter", 'pull.value("tight_pull"', 'holding.value("tight_pull"', "holding", placed=False),
     load("a chapter that is not listed", LISTED, LISTED.replace("drive, ", ""), "power", "which nothing gives", placed=False),
     load("a chapter that is not listed and that nothing asks", HOLDING,
-         'spare = Chapter("Spare")\nspare.value("spare", "m_s", "kg", "Spare", lambda belt_mass, height: belt_mass * height)\n' + HOLDING,
+         'spare = Chapter("Spare")\nspare.spare = m.belt_mass * m.height, "m_s", "kg", "Spare"\n' + HOLDING,
          "Spare", "chapters"),
     load("one name for two chapters of which the first is lost", HOLDING,
-         'spare = Chapter("Spare")\nspare.value("spare", "m_s", "kg", "Spare", lambda belt_mass, height: belt_mass * height)\n'
-         'spare = Chapter("Again")\nspare.value("again", "m_a", "kg", "Again", lambda belt_mass, height: belt_mass * height)\n' + HOLDING,
+         'spare = Chapter("Spare")\nspare.spare = m.belt_mass * m.height, "m_s", "kg", "Spare"\n'
+         'spare = Chapter("Again")\nspare.again = m.belt_mass * m.height, "m_a", "kg", "Again"\n' + HOLDING,
          "'Spare'", "another one spare", "chapters", also=((LISTED, LISTED.replace("holding", "holding, spare")),)),
     load("a chapter named as a quantity that nothing lists", HOLDING,
-         'spare = Chapter("Spare")\nspare.value("spare", "m_s", "kg", "Spare", lambda belt_mass, height: belt_mass * height)\n'
-         'spare.value("again", "m_a", "kg", "Again", lambda spare: 2 * spare)\n' + HOLDING, "'Spare'", "chapters"),
+         'spare = Chapter("Spare")\nspare.spare = m.belt_mass * m.height, "m_s", "kg", "Spare"\n'
+         'spare.again = 2 * m.spare, "m_a", "kg", "Again"\n' + HOLDING, "'Spare'", "chapters"),
     load("a family of steps that is added to no chapter", HOLDING,
-         'spare = Steps()\nspare.value("spare", "m_s", "kg", "Spare", lambda belt_mass, height: belt_mass * height)\n' + HOLDING,
+         'spare = Steps()\nspare.spare = m.belt_mass * m.height, "m_s", "kg", "Spare"\n' + HOLDING,
          "spare", "add", also=(("    Source,\n", "    Source,\n    Steps,\n"),)),
     load("a family of steps in place of a chapter", 'holding = Chapter("Backstop", needs=("backstop",), absent="no backstop is given")',
          "holding = Steps()", "holding|chapters|Steps", "Chapter", also=(("    Source,\n", "    Source,\n    Steps,\n"),), placed=False),
@@ -432,11 +432,11 @@ DIMENSIONS = (
     tested("an abscissa's period in another unit", "period=2 * np.pi", 'period="chute_drop"', "angle"),
     tested("breakpoints in another unit than the abscissa", '"angle", "scoop_start", "scoop_end")', '"angle", "scoop_start", "chute_drop")',
          "scooping"),
-    tested("an unlike relation proves a root", 'left=bind(common.same, quantity="belt_length")', 'left=bind(common.same, quantity="power")',
+    tested("an unlike relation proves a root", 'left=m.belt_length', 'left=m.power',
          "centre"),
     tested("a root's end in another unit", "high=lambda belt_length: belt_length / 2", "high=lambda power: power / 2", "centre"),
     tested("degrees bound as a plain number", "lambda head_friction, head_wrap: np.exp(head_friction * as_number(head_wrap))",
-         "bind(lambda head_friction, head_wrap: np.exp(head_friction * as_number(head_wrap)), head_wrap=180)", "euler_ratio",
+         "np.exp(m.head_friction * as_number(180))", "euler_ratio",
          "rad|head_wrap"),
     tested("plain numbers bound where a quantity is needed", "lambda froude_number: froude_number < 1",
          "lambda head_diameter: head_diameter < 1", "not_thrown"),
@@ -494,11 +494,11 @@ LAST_INPUT = "    n_points: Annotated[int, POINTS] = 360"
 NUMPY = "import numpy as np\n"
 PYDANTIC = ((NUMPY, f"{NUMPY}from pydantic import AfterValidator, Field, field_validator, model_validator\n"),)
 HEIGHT = 'Quantity("H", "m", "Height of lift", gt=0, le=60)]'
-THROW = 'discharge.value("throw", "s_f", "mm", "How far the waste flies meanwhile", lambda belt_speed, fall_time: belt_speed * fall_time)'
+THROW = 'discharge.throw = m.belt_speed * m.fall_time, "s_f", "mm", "How far the waste flies meanwhile"'
 FALL = "return np.sqrt(2 * drop / GRAVITY) + 0 * speed"
 CURVE = "lambda head_diameter, angle: head_diameter / 2 * np.sin(angle))"
 PERIOD = "period=2 * np.pi"
-LATER = ('discharge.computed("later_{k}", "t_{k}", "s", "Later", lambda speed: k * speed, takes=("fall_time",), method="as given")'
+LATER = ('discharge["later_{k}"] = computed(lambda speed: k * speed, takes=("fall_time",), method="as given"), "t_{k}", "s", "Later"'
          .replace('"later_{k}"', 'f"later_{k}"').replace('"t_{k}"', 'f"t_{k}"'))
 
 SILENT = (

@@ -13,7 +13,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from diecut_report.api import formula, number
+from diecut_report.api import formula
+from diecut_report.api import number as exact
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
 from diecut_report.plugins.cam_gear_transport import MECHANISM, figures
@@ -302,7 +303,7 @@ cubic_position = formula(lambda k: k**2 * (3 - 2 * k))
 cubic_velocity = formula(lambda k: 6 * k * (1 - k))
 cubic_acceleration = formula(lambda k: 6 - 12 * k)
 cubic_jerk = formula(lambda k: -12 + 0 * k)
-three_halves = formula(lambda: number(3) / 2)
+three_halves = formula(lambda: exact(3) / 2)
 six = formula(lambda: 6)
 
 

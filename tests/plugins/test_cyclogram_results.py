@@ -265,7 +265,7 @@ def test_a_ring_stands_for_each_line() -> None:
 PLUGIN = """
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Quantity, abscissa, m, pi
 
 
 class Feeder(Inputs):
@@ -275,12 +275,12 @@ class Feeder(Inputs):
 
 
 chapter = Chapter("Motion")
-chapter.value("speed", "ω", "rad/s", "Speed", lambda rate: 2 * np.pi * rate)
-chapter.value("start", "φ_0", "deg", "Start of the carrying", lambda end: end / 4)
-chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi, speed="speed")
+chapter.speed = 2 * pi * m.rate, "ω", "rad/s", "Speed"
+chapter.start = m.end / 4, "φ_0", "deg", "Start of the carrying"
+chapter.angle = abscissa(2 * np.pi, speed="speed"), "φ", "deg", "Angle"
 chapter.phase("carrying", "working", "A sheet is carried", "angle", ("start", "end"))
 chapter.phase("returning", "moving", "Back without a sheet", "angle", rest_of=("carrying",))
-chapter.value("load", "F", "N", "Load", lambda angle: 2 + np.sin(angle))
+chapter.load = 2 + np.sin(m.angle), "F", "N", "Load"
 
 MECHANISM = Mechanism(kind="small_feeder", version="1.0", title="Feeder", summary="Carries", inputs=Feeder, chapters=(chapter,))
 """

@@ -93,6 +93,37 @@ def test_a_contradiction_names_both_places(warm: WarmPress, tmp_path: Path) -> N
     assert file.name not in told.message  # results keep it as what advice leads to, the same wherever the file stands
 
 
+BALANCED = (
+    ("torque: ${drive.crank_torque}\n        gear:", "torque: balance\n        gear:"),
+    ("torque: balance\n        mass: {value: 8 kg", "torque: ${drive.crank_torque}\n        mass: {value: 8 kg"),
+)
+TOOTHED = ("mass: {value: 8 kg", "gear: {pitch_radius: 96 mm, mesh_angle: 90 deg}\n        mass: {value: 8 kg")
+CUT_SMALLER = ("module: {value: 5 mm", "module: {value: 4 mm")
+
+
+@pytest.mark.parametrize(
+    ("changes", "is_refused"),
+    [((), False), ((CUT_SMALLER,), True), ((CUT_SMALLER, TOOTHED), False)],
+    ids=["the pair's radius", "another one", "as the other load has teeth, whose pair it may be"],
+)
+def test_the_teeth_that_balance_a_torque_are_those_of_its_pair(
+    warm: WarmPress, tmp_path: Path, changes: tuple[tuple[str, str], ...], is_refused: bool
+) -> None:
+    text = EXAMPLE.read_text(encoding="utf-8")
+    for old, new in (*BALANCED, *changes):
+        assert old in text
+        text = text.replace(old, new, 1)
+    config = load_config(saved(tmp_path, text), Discovery())
+    if not is_refused:
+        warm.calculate(config)
+        return
+    with pytest.raises(UserError) as refused:
+        warm.calculate(config)
+    (told,) = refused.value.problems
+    assert "loads.0.gear.pitch_radius" in str(told.path)
+    assert re.search(r"is 120 mm, but the pair main_gears, .* mechanisms\.main_gears\.module", told.message)
+
+
 @pytest.mark.parametrize(
     ("change", "place"),
     [

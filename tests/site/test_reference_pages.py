@@ -82,7 +82,7 @@ def test_a_formula_has_the_dimension_that_the_page_says(tmp_path: Path, formula:
 
 
 PLUGIN = """
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, m
 
 
 class Given(Inputs):
@@ -90,7 +90,7 @@ class Given(Inputs):
 
 
 chapter = Chapter("Force")
-chapter.value("double", "D", "N", "Twice the force", lambda force: 2 * force)
+chapter.double = 2 * m.force, "D", "N", "Twice the force"
 
 
 def made(kind):

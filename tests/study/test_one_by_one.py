@@ -79,7 +79,7 @@ def test_a_machine_that_array_code_refuses_costs_no_other(tmp_path: Path) -> Non
 REACH = """\
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, computed
 
 
 class Speeds(Inputs):
@@ -91,7 +91,7 @@ def share(speed):
 
 
 shares = Chapter("Shares")
-shares.computed("share", "s", "1", "Share", share, ("speed",), "the speed by the greatest")
+shares.share = computed(share, ("speed",), "the speed by the greatest"), "s", "1", "Share"
 MECHANISM = Mechanism(kind="reach", version="1.0", title="Reach", summary="A share.", inputs=Speeds, chapters=(shares,))
 """
 

@@ -18,6 +18,7 @@ import numpy as np
 
 from diecut_report.api import (
     Annotated, Chapter, Inputs, Mechanism, Quantity)
+from diecut_report.api import m
 
 
 class Bad(Inputs):
@@ -29,13 +30,13 @@ def code(x):
 
 
 chapter = Chapter("Only")
-chapter.value("a", "a", "mm", "A", lambda x: 2 * x)
+chapter.a = 2 * m.x, "a", "mm", "A"
 {step}
 
 {head}
 MECHANISM = Mechanism(kind="faulty", version="1", title="T", summary="", inputs=Bad, chapters=(chapter,))
 """
-COMPUTED = 'chapter.computed("b", "b", "mm", "B", code, ("x",), "by code")'
+COMPUTED = 'chapter.b = computed(code, ("x",), "by code"), "b", "mm", "B"'
 BAD = {  # what stands where in the plugin, and what is told of it
     "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:19)"),
     "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (1.0.0) has contract 1; install a newer version"),
@@ -51,17 +52,17 @@ BAD = {  # what stands where in the plugin, and what is told of it
     "wrong shape": ({"code": "return np.ones((3, 4))"}, "faulty.py:17: step b: its function code gives an array of shape (3, 4)"),
     "nothing": ({"code": "pass"}, "faulty.py:17: step b: its function code gives None; it must return a number"),
     "output that is not declared": (
-        {"step": 'chapter.value("b", "b", "mm", "B", lambda q: q)'}, "faulty.py:17: step b: takes q, which nothing gives",
+        {"step": 'chapter.b = m.q, "b", "mm", "B"'}, "faulty.py:17: step b: takes q, which nothing gives",
     ),
     "message that names nothing": (
-        {"step": 'chapter.require("r", lambda x: x > 0, key="x", message="is {nope}")'}, "faulty.py:17: step r: the message names nope",
+        {"step": 'chapter.require("r", m.x > 0, key="x", message="is {nope}")'}, "faulty.py:17: step r: the message names nope",
     ),
     "prepared without what is taken": (
-        {"code": "return {}", "step": 'chapter.prepared("p", code, ("x",))\nchapter.computed("b", "b", "mm", "B", lambda p: p["q"], ("p",), "m")'},
+        {"code": "return {}", "step": 'chapter.prepared("p", code, ("x",))\nchapter.b = computed(lambda p: p["q"], ("p",), "m"), "b", "mm", "B"'},
         "KeyError: 'q' (faulty.py:18)",
     ),
 }  # fmt: skip
-TWO = 'chapter.value("b", "b", "mm", "B", lambda q: q)\nchapter.value("c", "c", "mm", "C", lambda r: r)'
+TWO = 'chapter.b = m.q, "b", "mm", "B"\nchapter.c = m.r, "c", "mm", "C"'
 LATER = {"code": "return x", "step": COMPUTED, "head": ""}
 
 

@@ -100,8 +100,8 @@ def test_a_plugin_is_tried_on_all_machines_of_its_kind(tmp_path: Path, capfd: Ca
 
 def odd(body: str) -> tuple[tuple[str, str], tuple[str, str]]:
     """Changes that add a quantity by plain code."""
-    head, total = 'EN_13906 = "EN 13906-1"\n', 'springs.total("rate"'
-    computed = 'springs.computed("odd", "o", "N", "Odd", odd, ("travel",), "in words")\n'
+    head, total = 'EN_13906 = "EN 13906-1"\n', "springs.rate = total("
+    computed = 'springs.odd = computed(odd, ("travel",), "in words"), "o", "N", "Odd"\n'
     return (total, f"{computed}{total}"), (head, f"{head}\n\ndef odd(travel):\n    {body}\n\n")
 
 
@@ -227,9 +227,9 @@ def test_a_machine_beside_the_example_may_be_refused(tmp_path: Path) -> None:
 
 
 PICKED = (  # a size of a series by the travel, and what is wrong among others as soon as they have another size
-    'springs.total("rate"',
-    'springs.pick("wire_size", "d_n", "mm", "Size", "above", of="travel", series=(8, 12.5, 20, 40))\n'
-    'springs.computed("odd", "o", "mm", "Odd", odd, ("wire_size",), "in words")\nsprings.total("rate"',
+    "springs.rate = total(",
+    'springs.wire_size = pick("above", of="travel", series=(8, 12.5, 20, 40)), "d_n", "mm", "Size"\n'
+    'springs.odd = computed(odd, ("wire_size",), "in words"), "o", "mm", "Odd"\nsprings.rate = total(',
 )
 
 
@@ -410,8 +410,8 @@ def test_sources_in_functions_are_not_asked_for(tmp_path: Path) -> None:
 STANDARD = (
     ("    line,\n", "    line,\n    standard_series,\n"),
     (
-        "springs.total(",
-        'springs.pick("size", "d_n", "mm", "Active turns", "above", of="travel", series=standard_series("renard_r40_lengths"))\nsprings.total(',
+        "springs.rate = total(",
+        'springs.size = pick("above", of="travel", series=standard_series("renard_r40_lengths")), "d_n", "mm", "Active turns"\nsprings.rate = total(',
     ),
 )
 

@@ -24,7 +24,12 @@ class Rounded(Inputs):
 def differences(check_class: CheckClass, each: float) -> list[str]:
     """The checks that differ between three machines together and one alone; their error grows with their number."""
     chapter = Chapter("Error")
-    chapter.error = computed(lambda length: np.full(length.shape, each * len(length)), ("length",), "made up"), "e", "1", "Error"
+    chapter.error = (
+        computed(lambda length: np.full(length.shape, each * len(length)), ("length",), "made up"),
+        "e",
+        "1",
+        "Error",
+    )
     check = Check(id="error", check_class=check_class, title="Error", demand="error", limit=1e-9, unit="1", demand_label="error",
                   limit_label="accepted", consequence="it is wrong.")  # fmt: skip
     rounded = Mechanism(
@@ -58,7 +63,12 @@ def test_a_curve_that_is_rounding_beside_its_quantities_may_be_another_one(size:
     """As the difference of a formula and its derivative; the one here grows with the number of machines."""
     chapter = Chapter("A turn")
     chapter.turn = abscissa(2 * np.pi), "φ", "deg", "Turn"
-    chapter.offset = computed(lambda length: np.full(length.shape, size * len(length)), ("length",), "made up"), "o", "mm", "Offset"
+    chapter.offset = (
+        computed(lambda length: np.full(length.shape, size * len(length)), ("length",), "made up"),
+        "o",
+        "mm",
+        "Offset",
+    )
     chapter.apart = m.offset * np.cos(m.turn), "Δ", "mm", "Difference"
     turned = Mechanism(kind="turned", version="1", title="", summary="", inputs=Turned, chapters=(chapter,))
     many = calculate(turned, {"length": np.array([0.01, 0.02, 0.03]), "n_points": 36}, 3)

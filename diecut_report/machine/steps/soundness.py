@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.expression import Expression, m
+from diecut_report.formulas.expression import Expression, m, number
 from diecut_report.formulas.tree import Node, substitute, written
 from diecut_report.machine.calculation import Calculation, Side, Unproven
 from diecut_report.machine.numerics import extremes, jumps
@@ -248,7 +248,7 @@ def _stand_ins(check: Check) -> tuple[Value, ...]:
     factor = unit(check.unit).factor
 
     def gap(*sides: str | float) -> Expression | float:
-        demand, limit = (m[side] if isinstance(side, str) else side * factor for side in sides)
+        demand, limit = (m[side] if isinstance(side, str) else number(side * factor) for side in sides)
         return demand - limit
 
     return tuple(

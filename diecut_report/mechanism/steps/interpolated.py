@@ -14,7 +14,7 @@ import numpy as np
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.formulas.expression import Constant, m
+from diecut_report.formulas.expression import Constant, m, number
 from diecut_report.formulas.formula import Formula, formula
 from diecut_report.formulas.tree import Node, substitute
 from diecut_report.mechanism.names import Misdeclared, Written
@@ -101,7 +101,7 @@ class Between(Formula):
         """Return the expression of the line at ``x`` through two rows: x_1, y_1, x_2, y_2."""
         return substitute(self.line.tree, dict(zip(self.line.parameters, (x, *rows), strict=True)))
 
-    @cached_property
+    @property
     def function(self) -> Callable[..., Any]:
         return self._function
 
@@ -140,7 +140,7 @@ def _line(table: StandardTable, columns: tuple[Column, Column], interpolation: I
         near = nearest(str(interpolation), LINES)
         message = "interpolation is {interpolation}{near}; allowed: {lines}."
         raise StandardFault(Phrase(message, interpolation=repr(interpolation), near=near, lines=", ".join(LINES)))
-    for own in (columns[number] for number in LOGARITHMIC[interpolation]):
+    for own in (columns[index] for index in LOGARITHMIC[interpolation]):
         if below := [value for value in own.values if value <= 0]:
             template = "has the number {value} in its column {name}, which has no logarithm"
             message = Phrase(template, value=format(below[0], "g"), name=own.name)
@@ -183,8 +183,8 @@ class Interpolated(Value):
     def corners(self) -> tuple[Value, ...]:
         """Return curves that cross zero where ``of`` crosses an inner row of the table, so that this one has a corner there."""
         return tuple(
-            Value(f"{self.id}@{number}", "", self.unit, "", m[self.of] - float(row))
-            for number, row in enumerate(self.between.x[1:-1], 1)
+            Value(f"{self.id}@{index}", "", self.unit, "", m[self.of] - number(float(row)))
+            for index, row in enumerate(self.between.x[1:-1], 1)
         )
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:

@@ -348,7 +348,11 @@ def _by_structure(base: Config, typed: Given, rows: Rows) -> Iterator[tuple[list
     first: dict[Any, Mapping[KeyPath, Scalar]] = {}
     known = _Leaves(base)
     for key, alike in _alike(typed, rows.count).items():
-        changes = {typed_place(base, asked): typed_data(asked, value) for asked, value in zip(typed, key, strict=True)}
+        changes = {
+            typed_place(base, asked): typed_data(asked, value)
+            for asked, value in zip(typed, key, strict=True)
+            if value != present_value(base, asked)
+        }
         made = with_parts(base.parts, changes, kinds)
         if made.problems:
             rows.errors[alike] = _reason(made.problems[0])

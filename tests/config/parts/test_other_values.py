@@ -36,13 +36,12 @@ from tests.config.parts.machines import CORRECTED, DISCOVERY, FILE, Change, mach
 from tests.examples import few
 
 WHOLE = FILE.with_stem("flat_cylinder_corrected")
-MADE_WITH = "is what parts of the machine are made with"
 FOLLOWS = "follows from the parts of the machine"
-TIED = [
-    ("drive.crank_length", MADE_WITH), ("drive.frame_ratio", MADE_WITH), ("cross.roller_width", MADE_WITH), ("cross.roller_radius", MADE_WITH),
-    ("cross.locking_radius", MADE_WITH), ("clutch.shoe_radius", MADE_WITH), ("timing.lines.0.turns_per_sheet", MADE_WITH),
-    ("drive.pinion_radius", FOLLOWS), ("train.vbelt.count", FOLLOWS), ("shafts_main.sections.0.diameter", FOLLOWS), ("meshes_sector.module", FOLLOWS),
-]  # fmt: skip
+MADE_WITH = (
+    "drive.crank_length", "drive.frame_ratio", "cross.roller_width", "cross.roller_radius", "cross.locking_radius", "clutch.shoe_radius",
+    "timing.lines.0.turns_per_sheet",
+)  # fmt: skip
+FOLLOWING = "drive.pinion_radius", "train.vbelt.count", "shafts_main.sections.0.diameter", "meshes_sector.module"
 
 
 @cache
@@ -50,17 +49,17 @@ def press() -> Press:
     return Press.read(WHOLE, DISCOVERY)
 
 
-@pytest.mark.parametrize(("name", "why"), TIED, ids=[name for name, _ in TIED])
-def test_what_follows_from_the_parts_is_not_varied_and_a_question_changes_none_that_they_are_made_with(
-    name: str, why: str
-) -> None:
-    if why == FOLLOWS:
-        with pytest.raises(UnknownPath, match=why):
-            varied_input(press().config, f"mechanisms.{name}")
-    else:
-        assert is_of_parts(press().config, varied_input(press().config, f"mechanisms.{name}"))
-    if name not in ("timing.lines.0.turns_per_sheet", "drive.pinion_radius"):  # a text, and one that refers
-        with pytest.raises(UserError, match=why):
+@pytest.mark.parametrize("name", MADE_WITH)
+def test_the_parts_follow_what_they_are_made_with(name: str) -> None:
+    assert is_of_parts(press().config, varied_input(press().config, f"mechanisms.{name}"))
+
+
+@pytest.mark.parametrize("name", FOLLOWING)
+def test_what_follows_from_the_parts_is_not_varied(name: str) -> None:
+    with pytest.raises(UnknownPath, match=FOLLOWS):
+        varied_input(press().config, f"mechanisms.{name}")
+    if name != "drive.pinion_radius":  # which refers
+        with pytest.raises(UserError, match=FOLLOWS):
             free_input(press().config, name)
 
 

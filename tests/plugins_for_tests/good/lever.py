@@ -108,9 +108,7 @@ MECHANISM = Mechanism(
                     id="teeth_limit", condition=at_most_hundred, key="teeth", message="is {teeth}; a hundred at most"
                 ),
                 Value(id="moment", symbol="M", unit="N*m", description="Moment", formula=moment),
-                Value(
-                    id="arm", symbol="a", unit="mm", description="Arm as used", formula=same.of(length=m.inputs.arm)
-                ),
+                Value(id="arm", symbol="a", unit="mm", description="Arm as used", formula=same.of(length=m.inputs.arm)),
                 Value(
                     id="pressure", symbol="p", unit="MPa", description="Pressure", formula=quotient, needs=("width",)
                 ),
