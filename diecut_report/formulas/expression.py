@@ -248,7 +248,12 @@ def _number(value: float, as_written: bool) -> Node:
     if not math.isfinite(value):
         refuse(Phrase("{value} is no number that can be printed", value=repr(value)))
     turns = value / math.pi * OF_TURNS
-    if not as_written and 1 <= abs(turns) < OF_TURNS**2 and value % 1 and abs(turns - round(turns)) < 1e-12 * abs(turns):
+    if (
+        not as_written
+        and 1 <= abs(turns) < OF_TURNS**2
+        and value % 1
+        and abs(turns - round(turns)) < 1e-12 * abs(turns)
+    ):
         template = "holds {value}, a multiple of π that would be printed as a number; write pi of diecut_report.api in place of np.pi"
         refuse(Phrase(template, value=f"{value:.6g}"))
     return Node("neg", (Node("num", (_literal(-value),)),)) if value < 0 else Node("num", (_literal(value),))
@@ -287,7 +292,11 @@ class Number(float):
             return NotImplemented
         found = getattr(ufunc, method)(*plain, **options)
         kept = ufunc in FUNCTIONS and not options and all(type(each) in (int, float) for each in plain)
-        return Number(found, Node("call", (FUNCTIONS[ufunc], *(node_of(each, as_written=True) for each in inputs)))) if kept else found
+        return (
+            Number(found, Node("call", (FUNCTIONS[ufunc], *(node_of(each, as_written=True) for each in inputs))))
+            if kept
+            else found
+        )
 
 
 def _kept(sign: str, operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
@@ -296,7 +305,11 @@ def _kept(sign: str, operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
     def of(left: Any, right: Any) -> Any:
         kept = all(isinstance(each, Number) or type(each) in (int, float) for each in (left, right))
         value = operation(*(float(each) if isinstance(each, Number) else each for each in (left, right)))
-        return Number(value, Node(sign, (node_of(left, as_written=True), node_of(right, as_written=True)))) if kept else value
+        return (
+            Number(value, Node(sign, (node_of(left, as_written=True), node_of(right, as_written=True))))
+            if kept
+            else value
+        )
 
     def forward(self: Number, other: Any) -> Any:
         return NotImplemented if isinstance(other, Expression) else of(self, other)
