@@ -14,7 +14,20 @@ from diecut_report import api, testing
 from diecut_report.mechanism.steps import Options, StepCondition
 from tools.site.api_examples import FOLDER, example_of
 from tools.site.markup import code, plain, table
-from tools.site.reference import GROUPS, TOLD, declared_by, is_own, methods, paragraphs, short, signature
+from tools.site.reference import (
+    GROUPS,
+    TOLD,
+    call_of,
+    declaration,
+    declared_by,
+    is_own,
+    is_recipe,
+    methods,
+    paragraphs,
+    short,
+    signature,
+    words_of,
+)
 
 PAGE = Path(__file__).parents[1] / "docs" / "reference" / "api.md"
 LISTED = ("Chapter", "Steps")
@@ -29,15 +42,28 @@ code gets is SI. A `StandardTable` holds its numbers in *its own* units, as type
 `bore [mm]`; `si(25, "mm")` gives 0.025.
 """
 STEPS = """\
-## The calls of a chapter
+## A chapter
 
-`chapter = Chapter("Title")`, then one call for each quantity. All that give a quantity begin with `id, symbol, unit, description`. A formula
-(`Written`) is a lambda, a `@formula`, `bind(…)` or `ByText`.
+`chapter = Chapter("Title")`, then one statement for each quantity, in the order in which they are calculated:
+
+```python
+chapter.stress = 32 * m.moment / (pi * m.diameter**3), "σ", "MPa", "Bending stress", "beam theory"
+chapter.stress = value(m.force / m.area, needs=("area",)), "σ", "MPa", "Stress"
+chapter[f"force_{side}"] = reduction("max", of=f"curve_{side}"), f"F_{side}", "N", "Greatest force"
+```
+
+That is what gives it, its symbol, unit, description and, where there is one, source. What gives it is a formula (`Written`: an expression of
+quantities `m.ID`, a number, a `@formula`, a `ByText`) or one of the calls below.
+"""
+OTHERS = """\
+## Calls of a chapter
+
+What gives no single quantity is a call with an id.
 """
 OPTIONS = """\
 ### Options of every step
 
-Steps that give no quantity (`require`, `breakpoints`, `clash`, `words`, `phase`, `prepared`) take `needs` and `lacks` alone.
+Calls of a chapter take `needs` and `lacks` alone.
 """
 STEPLESS = {"phase": "Phase", "listing": "ListedColumn", "add": "Steps"}  # calls whose example is that of another name
 MEANINGS = {
@@ -60,7 +86,7 @@ MEANINGS = {
 
 def pages() -> dict[Path, str]:
     """The text of the page by its file."""
-    lines = [INTRODUCTION, STEPS, OPTIONS, *_options(), *_calls()]
+    lines = [INTRODUCTION, STEPS, OPTIONS, *_options(), *_recipes(), OTHERS, *_calls()]
     for group in GROUPS:
         lines += [f"## {group.title}", "", _words(group.words), ""]
         lines += [line for name in group.names if not _is_step(name) for line in _name(name)]
@@ -88,8 +114,16 @@ def _options() -> Iterator[str]:
     yield from table(("option", "type", "default", "steps", "means"), rows)
 
 
+def _recipes() -> Iterator[str]:
+    """What gives a quantity, in the order of the groups."""
+    for name in (name for group in GROUPS for name in group.names if is_recipe(name)):
+        yield from (f"### `{name}`", "", "```python", declaration(name), "```", "")
+        yield from (_text(line) for each in words_of(name) for line in paragraphs(each))
+        yield from _example(name)
+
+
 def _calls() -> Iterator[str]:
-    """All calls in the order of the form."""
+    """The calls of a chapter, in the order of the form."""
     offered = methods(api.Steps)
     for name in dict.fromkeys([*(name for name in vars(api.Steps) if name in offered), *offered]):
         if inspect.isfunction(offered[name]):
@@ -109,7 +143,7 @@ def _call(name: str, method: Any, step: str) -> Iterator[str]:
 
 
 def _is_step(name: str) -> bool:
-    return declared_by(name) is not None
+    return declared_by(name) is not None or is_recipe(call_of(name))
 
 
 def _name(name: str) -> Iterator[str]:

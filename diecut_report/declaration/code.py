@@ -423,6 +423,13 @@ class _Finder(ast.NodeVisitor):
             said += [each.value for each in node.keywords if each.arg in ("label", "text", "lines")]
             self.found += [text for each in said for text in _spoken(each) if WORDS.fullmatch(text) or name == "phrase"]
 
+    def visit_Assign(self, node: ast.Assign) -> None:
+        """Visit what is assigned; of a quantity what gives it and its description: symbol, unit and source are no words."""
+        is_quantity = isinstance(node.targets[0], ast.Attribute | ast.Subscript) and isinstance(node.value, ast.Tuple)
+        for place, part in enumerate(node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]):
+            if not is_quantity or place in (0, 3):
+                self.visit(part)
+
     def visit_Subscript(self, node: ast.Subscript) -> None:
         self.visit(node.value)
 

@@ -22,10 +22,10 @@ def test_each_name_of_the_interface_has_an_example() -> None:
 
 
 def test_a_name_that_is_imported_and_not_used_has_no_example_by_that(tmp_path: Path) -> None:
-    text = '"""Words."""\n\nfrom diecut_report.api import Root, told\n\nchapter.lookup(told)\n'
+    text = '"""Words."""\n\nfrom diecut_report.api import Root, lookup, told\n\nchapter.bore = lookup(told), "d", "mm", "Bore"\n'
     (tmp_path / "one.py").write_text(text, encoding="utf-8")
     (example,) = api_examples(tmp_path)
-    assert example.shows == {"told", "Lookup"} and example.words == "Words."
+    assert example.shows == {"told", "lookup", "Lookup"} and example.words == "Words."
 
 
 @pytest.mark.parametrize("example", EXAMPLES)

@@ -60,7 +60,7 @@ def declared(folder: Path, formula: str, given: str, unit: str) -> ModuleType:
         "class Given(Inputs):",
         *keys,
         'chapter = Chapter("Row")',
-        f'chapter.value("result", "r", "{unit}", "Result", lambda {", ".join(name for name, _ in inputs)}: {formula})',
+        f'chapter.result = {formula}, "r", "{unit}", "Result"',
         'MECHANISM = Mechanism(kind="row", version="1", title="Row", summary="A row.", inputs=Given, chapters=(chapter,))',
     ]
     file.write_text("\n".join(lines), encoding="utf-8")
@@ -192,13 +192,13 @@ def test_a_function_takes_and_gives_what_the_page_says(tmp_path: Path, name: str
     meaning = formulas.MEANINGS[name]
     (given, _), (_, gives) = UNIT_OF[meaning.takes], UNIT_OF[meaning.gives]
     names = ("y", "x") if name in OF_TWO else ("x",)
-    formula = f"np.{name}({', '.join(names)})"
+    formula = f"np.{name}({', '.join(f'm.{each}' for each in names)})"
     module = declared(tmp_path, formula, ", ".join(f"{each} in `{given}`" for each in names), gives)
     check_mechanism(module.MECHANISM)
 
 
 def test_each_function_and_each_role_has_a_meaning() -> None:
-    assert formulas.MEANINGS.keys() == set(FUNCTIONS.values()) and formulas.SAYING.keys() == SAID.keys()
+    assert formulas.MEANINGS.keys() == set(FUNCTIONS.values()) and formulas.SAYING.keys() == {*SAID}
     assert drawing_page.MEANINGS.keys() == ROLES.keys()
 
 

@@ -64,7 +64,8 @@ def _read(file: Path) -> ApiExample:
     text = file.read_text(encoding="utf-8")
     tree = ast.parse(text)
     names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    shows = frozenset(own for own, called in _imported(tree).items() if called in names) | frozenset(_declared(tree))
+    used = {own for own, called in _imported(tree).items() if called in names}
+    shows = frozenset(used | {type_of(own) for own in used} | set(_declared(tree))) & {*api.__all__}
     values = {name: value for name, value in _assigned(tree) if name in SAID}
     kinds = {_kind(value): name for name, value in _assigned(tree) if _is_mechanism(value)}
     words = " ".join((ast.get_docstring(tree) or "").split())
@@ -80,12 +81,15 @@ def _imported(tree: ast.Module) -> dict[str, str]:
 
 
 def _declared(tree: ast.Module) -> Iterator[str]:
-    """The steps that calls of a chapter declare: ``chapter.made_curve(…)`` is an example of ``MadeCurve``."""
+    """The steps that calls of a chapter declare: ``chapter.part_table(…)`` is an example of ``PartTable``."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and hasattr(api.Steps, node.func.attr):
-            name = "".join(part.capitalize() for part in node.func.attr.split("_"))
-            if name in api.__all__:
-                yield name
+            yield type_of(node.func.attr)
+
+
+def type_of(call: str) -> str:
+    """Return the name of the type of step that a call declares, as types are named: ``made_curve`` is ``MadeCurve``."""
+    return "".join(part.capitalize() for part in call.split("_"))
 
 
 def _assigned(tree: ast.Module) -> Iterator[tuple[str, ast.expr]]:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.formulas.expression import as_angle, as_number, m, node_of
+from diecut_report.formulas.expression import m, node_of
 from diecut_report.formulas.formula import is_id
 from diecut_report.formulas.tree import FUNCTIONS, OF_TWO, Node, arccos_of, transform
 from diecut_report.machine.printing.page import definitions
@@ -199,8 +199,8 @@ MADE_OF_OTHERS = {  # what prints as others do
     ),
 }
 SAYING = {
-    as_number: Meaning("says that radians stand as a plain number", "an angle, 1/s for rad/s", "a number"),
-    as_angle: Meaning("says that a plain number stands as radians", "a number", "an angle"),
+    "as_number": Meaning("says that radians stand as a plain number", "an angle, 1/s for rad/s", "a number"),
+    "as_angle": Meaning("says that a plain number stands as radians", "a number", "an angle"),
 }
 WRITTEN_OPERATORS = (
     ("x + y, x - y", "sum and difference, of one kind"),
@@ -209,7 +209,7 @@ WRITTEN_OPERATORS = (
     ("x < y, <=, >, >=, ==, !=", "a condition, of two of one kind; one comparison at a time"),
     ("(x < y) & (y < z), |, ~", "and, or, not: of conditions, each in brackets"),
     ("pi", "π, half a turn: an angle; as_number(pi) is the mere number"),
-    ("number(1) / 3", "1/3 as it is written; 1 / 3 is 0.3333"),
+    ("number(1) / 3", "1/3 as it is written; 1 / 3 is 0.3333…"),
     ("Constant(value, symbol, unit)", "a constant, printed by its symbol and with its value"),
     ("other(x, y)", "another formula: its expression stands in place of the call, or its name with printed_as"),
 )
@@ -239,8 +239,8 @@ def _rows() -> Iterator[tuple[str, ...]]:
         yield code(f"{written}({arguments})"), _printed(tree), *map(plain, MEANINGS[name])
     for written, (expression, meaning) in MADE_OF_OTHERS.items():
         yield code(written), _printed(node_of(expression)), *map(plain, meaning)
-    for function in SAYING:
-        yield code(f"{function.__name__}(x)"), _printed(X), *map(plain, SAYING[function])
+    for name, meaning in SAYING.items():
+        yield code(f"{name}(x)"), _printed(X), *map(plain, meaning)
 
 
 def _written(function: object) -> str:

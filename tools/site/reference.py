@@ -44,7 +44,10 @@ def _index() -> Iterator[str]:
     )
     yield from (
         "",
-        *(f"- [{group.title}]({group.page}.md): {', '.join(map(code, group.names))}" for group in GROUPS),
+        *(
+            f"- [{group.title}]({group.page}.md): {', '.join(map(code, filter(has_place, group.names)))}"
+            for group in GROUPS
+        ),
         "",
     )
     own = sorted(file.stem for file in PAGES.glob("*.md"))
@@ -55,6 +58,8 @@ def _page(group: Group) -> Iterator[str]:
     yield from (f"# {group.title}", "", group.words, "")
     for name in group.names:
         yield from _place(name)
+        if not has_place(name):
+            continue
         yield from (f"## {code(name)}", "")
         yield from _told(name, getattr(api, name))
         yield from _example(name, group)
@@ -68,20 +73,59 @@ def _place(name: str) -> Iterator[str]:
 def _told(name: str, thing: Any) -> Iterator[str]:
     declared = declared_by(name)
     if declared:
-        yield from called(f"chapter.{declared.__name__}", declared)
-        yield from described(declared) if inspect.getdoc(declared) != inspect.getdoc(thing) else ()
-    elif name not in TOLD:
+        yield from fenced("python", declaration(name))
+        yield from (line for each in words_of(name) for line in described(each))
+        return
+    if name not in TOLD:
         yield from called(name, thing)
     yield from (TOLD[name], "") if name in TOLD else described(thing)
     if inspect.isclass(thing):
         yield from _methods(name, thing)
 
 
+def call_of(name: str) -> str:
+    """Return the name of the call that declares a type of step, where the name is that of one: of ``MadeCurve`` it is ``made_curve``."""
+    thing = getattr(api, name)
+    is_step = inspect.isclass(thing) and issubclass(thing, Step)
+    return (
+        "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name).lstrip("_")
+        if is_step
+        else name
+    )
+
+
+def is_recipe(name: str) -> bool:
+    """Return whether a call says how a quantity is given."""
+    return name == "inner" or (name in api.__all__ and any(call_of(each) == name != each for each in api.__all__))
+
+
+def has_place(name: str) -> bool:
+    """Return whether a name is told by itself: a type of step that gives a quantity is told with its call, which follows."""
+    return name == call_of(name) or not is_recipe(call_of(name))
+
+
 def declared_by(name: str) -> Any:
-    """Return the call of a chapter that declares a step of this name; None where there is none."""
-    method = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name).lstrip("_")
-    found = getattr(api.Steps, method, None)
-    return found if inspect.isclass(getattr(api, name)) and inspect.isfunction(found) else None
+    """Return the call that declares a step of this name: one that gives a quantity, or a chapter's; None where there is none."""
+    call = call_of(name)
+    found = getattr(api, call) if is_recipe(call) else getattr(api.Steps, call, None) if call != name else None
+    return found if inspect.isfunction(found) else None
+
+
+def declaration(name: str) -> str:
+    """Return how a step is declared: the statement, or the call of a chapter."""
+    call, declared = call_of(name), declared_by(name)
+    if not is_recipe(call):
+        return signature(f"chapter.{call}", declared)
+    return f"chapter.ID = {signature(call, declared).removesuffix(' -> Recipe')}, symbol, unit, description, source"
+
+
+def words_of(name: str) -> list[Any]:
+    """Return what tells of a step: of what gives a quantity its call, of others the type, and the call where it says something else."""
+    own = declared_by(name)
+    thing = getattr(api, name)
+    return (
+        [own] if is_recipe(call_of(name)) else [thing, *([own] if inspect.getdoc(own) != inspect.getdoc(thing) else [])]
+    )
 
 
 def _methods(name: str, thing: type) -> Iterator[str]:
@@ -224,7 +268,12 @@ def paragraphs(thing: Any) -> Iterator[str]:
 def _marked(text: str) -> str:
     """A text of a docstring, its code in double backticks, as Markdown."""
     parts = re.split(r"``(.+?)``", text)
-    return "".join(code(part) if index % 2 else plain(part) for index, part in enumerate(parts))
+    return "".join(code(part) if index % 2 else _spaced(part) for index, part in enumerate(parts))
+
+
+def _spaced(text: str) -> str:
+    """A text between code, with the spaces at its ends."""
+    return f"{' ' * text.startswith(' ')}{plain(text)}{' ' * (text.strip() != '' and text.endswith(' '))}"
 
 
 def called(name: str, thing: Any) -> Iterator[str]:
@@ -270,26 +319,28 @@ GROUPS = (
         "Inputs", "Block", "Annotated", "Quantity", "InOtherUnit", "Text", "OneOf", "CurveInput", "Varying", "Extremes", "Curve", "PhaseInput",
         "MechanismInput", "FromPress", "FromTable", "POINTS",
     )),
-    Group("formulas", "Formulas", "What computes, prints and is checked for its dimensions: a function.", (
-        "formula", "Formula", "bind", "Bound", "Binding", "ByText", "Constant", "GRAVITY", "arccos", "as_number", "as_angle",
+    Group("formulas", "Formulas", "What computes, prints and is checked for its dimensions: an expression of quantities.", (
+        "m", "Expression", "formula", "Formula", "ByText", "number", "pi", "Constant", "GRAVITY", "arccos", "as_number", "as_angle",
     )),
-    Group("steps", "Numbers and conditions", "Steps that give a number or a text, or say what must hold.", (
-        "Value", "Choice", "case", "Case", "Root", "Computed", "Refusal", "Require", "Words", "Fact",
+    Group("steps", "Numbers and conditions", "What gives a number or a text, and what must hold. One statement declares a quantity: "
+    "`chapter.ID =` what gives it, its symbol, unit, description and source, which may be left out; a formula alone stands for `value(formula)`.", (
+        "Recipe", "Value", "value", "inner", "Choice", "choice", "case", "Case", "Root", "root", "Computed", "computed", "Refusal", "Require",
+        "Words", "Fact",
     )),
-    Group("curves", "Curves", "Steps that give a curve over an abscissa, or take a number of one.", (
-        "Abscissa", "Breakpoints", "Reduction", "Derivative", "Accumulated", "Crossings", "FromCurve", "CurvePeriod", "MadeCurve", "Spectrum",
-        "SpectrumLine",
+    Group("curves", "Curves", "What gives a curve over an abscissa, or a number of one.", (
+        "Abscissa", "abscissa", "Breakpoints", "Reduction", "reduction", "Derivative", "derivative", "Accumulated", "accumulated", "Crossings",
+        "crossings", "FromCurve", "from_curve", "CurvePeriod", "curve_period", "MadeCurve", "made_curve", "Spectrum", "SpectrumLine",
     )),
-    Group("parts", "Repeated parts", "Steps over a list of blocks: rows with a number for each part.", (
-        "Total", "Neighbour", "Running", "Part", "Clash",
+    Group("parts", "Repeated parts", "Rows over a list of blocks, with a number for each part.", (
+        "Total", "total", "Neighbour", "neighbour", "Running", "running", "Part", "part", "Clash",
     )),
     Group("plain-code", "Plain code", "Objects that plain code makes once, and what several steps take of them.", (
-        "Prepared", "ComputedCurve", "PartNames", "PartTable", "PartCurves", "ListedColumn", "Cell",
+        "Prepared", "ComputedCurve", "computed_curve", "PartNames", "PartTable", "PartCurves", "ListedColumn", "Cell",
     )),
     Group("phases", "Phases", "When a mechanism does something, and how others take part in it.", ("Phase", "GivenPhase", "GivenMechanism")),
     Group("tables", "Tables and series", "Numbers of standards and of an author's own tables.", (
-        "Lookup", "Interpolated", "Pick", "standard_table", "standard_series", "standard_series_by", "own_table", "own_series", "table_beside",
-        "StandardTable", "StandardSeries", "StandardFault",
+        "Lookup", "lookup", "Interpolated", "interpolated", "Pick", "pick", "standard_table", "standard_series", "standard_series_by", "own_table",
+        "own_series", "table_beside", "StandardTable", "StandardSeries", "StandardFault",
     )),
     Group("figures", "Figures", "Diagrams and drawings; [shapes and roles](drawings.md) has each shape and role as a picture.", (
         "Plot", "Panel", "Series", "Level", "Mark", "Span", "Polar", "Bars", "BarGroup", "Chart", "chart_panel", "line", "fill", "mark", "level",
@@ -305,12 +356,16 @@ TOLD = {  # names without a docstring of their own
     "AdviceWay": "A way in which a check may be made to hold: an input that is changed alone, by its key or as a `Vary`, "
     "or several keys whose inputs are changed together in one proportion.",
     "Annotated": "Python's own `typing.Annotated`: joins the type of an input with what is declared of it.",
-    "Binding": "What a step takes as its formula: a formula, one that is bound, or one that a text chooses.",
     "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 1` for which it is written.",
     "Cell": "What stands in a cell of a listing: a number in SI, a text, or `None` where there is nothing.",
     "GRAVITY": "The standard acceleration of free fall, 9.80665 m/s², a `Constant`.",
     "POINTS": "The input with which curves are sampled, for `n_points: Annotated[int, POINTS] = 720`: "
     "it says how densely they are listed, no more. It has the symbol N: a quantity of yours needs another.",
+    "Expression": "What arithmetic with quantities gives: it is printed, computes, and is checked for its dimensions. For annotations.",
     "Point": "A place in a drawing: across and upwards, in metres.",
+    "Recipe": "What `value(…)`, `reduction(…)` and the like give: how a quantity comes about, before it has an id. For annotations.",
     "Shape": "A shape of a drawing, or a panel of a chart, as plain data: made by the functions of this page.",
+    "m": 'The quantities by their ids: `m.radius`; `m[f"force_{side}"]` where an id is made; `m.inputs.torque` for an input whose id a step has too; '
+    "`m.rods.length` for the row over a list, `m.rods[0].length` for one of it.",
+    "pi": "π as it is printed, half a turn: an angle. `np.pi` in a formula is refused; plain code uses it.",
 }

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.expression import Expression, m, number
+from diecut_report.formulas.expression import Expression, Number, m
 from diecut_report.formulas.tree import Node, substitute, written
 from diecut_report.machine.calculation import Calculation, Side, Unproven
 from diecut_report.machine.numerics import extremes, jumps
@@ -245,16 +245,20 @@ def is_made(calc: Calculation, check: Check) -> bool:
 @cache
 def _stand_ins(check: Check) -> tuple[Value, ...]:
     """A curve for each pair of a check's sides: the one less the other. The same for all calculations, as programs are kept for it."""
-    factor = unit(check.unit).factor
 
-    def gap(*sides: str | float) -> Expression | float:
-        demand, limit = (m[side] if isinstance(side, str) else number(side * factor) for side in sides)
+    def gap(number: int) -> Expression:
+        demand, limit = (m[side] if isinstance(side, str) else Number(side) for side in _sides(check, number))
         return demand - limit
 
     return tuple(
-        Value(f"checks.{check.id}.{i}", "", "1", check.title, gap(*pair), output=False)
-        for i, pair in enumerate(check.pairs)
+        Value(f"checks.{check.id}.{i}", "", "1", check.title, gap(i), output=False) for i in range(len(check.pairs))
     )
+
+
+def _sides(check: Check, number: int) -> tuple[str | float, ...]:
+    """The sides of one of a check's pairs: ids, or numbers in SI."""
+    factor = unit(check.unit).factor
+    return tuple(side if isinstance(side, str) else side * factor for side in check.pairs[number])
 
 
 def _search(calc: Calculation, check: Check, number: int, step: Value) -> Array:
@@ -263,7 +267,7 @@ def _search(calc: Calculation, check: Check, number: int, step: Value) -> Array:
     axes, calc.axis, calc.curves[step.id] = calc.axis, {**calc.axis, step.id: axis}, step
     found, place, middle = extremes.extreme(calc, step.id, 1.0)
     residual = extremes.outruns(calc, step.id, found, 1.0)
-    demand, limit = (_there(calc, side, place, middle) for side in step.takes())
+    demand, limit = (_there(calc, side, place, middle) for side in _sides(check, number))
     calc.judged[check.id, number] = Side(demand, limit, axis, place)
     calc.axis = axes
     del calc.curves[step.id]

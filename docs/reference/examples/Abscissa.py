@@ -43,9 +43,9 @@ motion.breakpoints("pad_ends", "angle", "meets_at", "leaves_at")
 motion.position = m.stroke / 2 * (1 - np.cos(m.angle)), "x", "mm", "Position"
 motion.slope = derivative(of="position"), "x_1", "mm/rad", "Change of position by the angle"
 motion.turning = crossings(of="slope"), "φ_t", "deg", "Where the slide turns back"
-motion.force = m.stiffness * np.maximum(m.position - m.pad, 0 * m.pad), "F", "N", "Force on the pad"  # fmt: skip
-motion.force_max = reduction(operation="max", of="force"), "F_max", "N", "Greatest force"
-motion.force_mean = reduction(operation="mean", of="force"), "F_m", "N", "Mean force"
+motion.force = m.stiffness * np.maximum(m.position - m.pad, 0), "F", "N", "Force on the pad"
+motion.force_max = reduction("max", of="force"), "F_max", "N", "Greatest force"
+motion.force_mean = reduction("mean", of="force"), "F_m", "N", "Mean force"
 motion.impulse = accumulated(of="force"), "S", "N*rad", "Force that has been, over the angle"
 
 MECHANISM = Mechanism(

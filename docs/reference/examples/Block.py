@@ -30,9 +30,9 @@ class Spindle(Inputs):
 rows = Chapter("Sections")
 rows.next_diameter = neighbour(of="sections.diameter"), "d_n,k", "mm", "Diameter of the next section"
 rows.step = m.next_diameter - m.sections.diameter, "Δd_k", "mm", "Step to the next section"
-rows.end = running(operation="sum", of="sections.length"), "x_k", "mm", "Right end of the section"
-rows.length = total(operation="sum", of="sections.length"), "L", "mm", "Length of the spindle"
-rows.thickest = total(operation="max", of="sections.diameter"), "d_max", "mm", "Greatest diameter"
+rows.end = running("sum", of="sections.length"), "x_k", "mm", "Right end of the section"
+rows.length = total("sum", of="sections.length"), "L", "mm", "Length of the spindle"
+rows.thickest = total("max", of="sections.diameter"), "d_max", "mm", "Greatest diameter"
 rows.last_end = part(of="end", index=-1), "x_e", "mm", "Right end of the last section"
 
 MECHANISM = Mechanism(

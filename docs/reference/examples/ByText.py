@@ -1,41 +1,12 @@
-"""A formula that a text input chooses; all of them have the same parameters."""
+"""A formula that a text input chooses; all of them take the same quantities."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from diecut_report.api import (
-    Annotated,
-    Binding,
-    Bound,
-    ByText,
-    Chapter,
-    Formula,
-    Inputs,
-    Mechanism,
-    Quantity,
-    Text,
-    formula,
-    pi,
-)
+from diecut_report.api import Annotated, ByText, Chapter, Expression, Inputs, Mechanism, Quantity, Text, m, pi
 
-
-@formula
-def rectangle(width):
-    """Area of a square bar."""
-    return width**2
-
-
-@formula
-def disc(width):
-    """Area of a round bar."""
-    return pi / 4 * width**2
-
-
-AREAS: dict[str, Formula] = {"square": rectangle, "round": disc}
-area: Binding = ByText("section", AREAS, width="size")
-first: Bound = area.of("square")
-assert first.takes == ("size",)
+AREAS: dict[str, Expression] = {"square": m.size**2, "round": pi / 4 * m.size**2}
 
 
 class Bar(Inputs):
@@ -44,7 +15,7 @@ class Bar(Inputs):
 
 
 areas = Chapter("Area")
-areas.area = area, "A", "mm**2", "Area of the section"
+areas.area = ByText("section", AREAS), "A", "mm**2", "Area of the section"
 
 MECHANISM = Mechanism(kind="bar", version="1.0", title="Bar", summary="Area of a bar.", inputs=Bar, chapters=(areas,))
 

@@ -28,7 +28,7 @@ room.clash(
     "apart", overlapping, ("cams.place", "cams.width"), key="cams.{index}.place",
     message="puts cam {part} into cam {other}; move one of them",
 )  # fmt: skip
-room.width = total(operation="sum", of="cams.width"), "w_Σ", "mm", "Widths of all cams"
+room.width = total("sum", of="cams.width"), "w_Σ", "mm", "Widths of all cams"
 
 MECHANISM = Mechanism(
     kind="camshaft", version="1.0", title="Camshaft", summary="Room on a camshaft.", inputs=Camshaft, chapters=(room,)

@@ -23,8 +23,8 @@ def driver_teeth(ratio, most):
 
 
 search = Chapter("Teeth")
-search.driver_teeth = (computed(driver_teeth, ("ratio", "most"),
-    "all drivers of 17 to 30 teeth are tried, and the one is taken whose ratio is nearest", whole=True), "z_1", "1", "Teeth of the driver")  # fmt: skip
+METHOD = "all drivers of 17 to 30 teeth are tried, and the one is taken whose ratio is nearest"
+search.driver_teeth = computed(driver_teeth, ("ratio", "most"), METHOD, whole=True), "z_1", "1", "Teeth of the driver"
 search.driven_teeth = np.round(m.ratio * m.driver_teeth), "z_2", "1", "Teeth of the driven wheel"
 
 MECHANISM = Mechanism(

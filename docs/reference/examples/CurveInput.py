@@ -33,13 +33,13 @@ class Follower(Inputs):
 turn = Chapter("Turn")
 turn.angle = abscissa(2 * np.pi), "φ", "deg", "Angle of the shaft"
 turn.force = from_curve(given="load", abscissa="angle"), "F_φ", "kN", "Load over the angle"
-turn.force_max = reduction(operation="max", of="force"), "F_max", "kN", "Greatest load"
+turn.force_max = reduction("max", of="force"), "F_max", "kN", "Greatest load"
 
 following = Chapter("Following")
-following.period = curve_period(given="force", otherwise="give a force over an angle"), "Φ", "deg", "Period of the force"  # fmt: skip
-following.angle = abscissa(period="period"), "φ", "deg", "Angle of the shaft"
+following.period = curve_period("force", otherwise="give a force over an angle"), "Φ", "deg", "Period of the force"
+following.angle = abscissa("period"), "φ", "deg", "Angle of the shaft"
 following.own_force = from_curve(given="force", abscissa="angle"), "F", "kN", "Force, taken over"
-following.force_range = reduction(operation="range", of="own_force"), "ΔF", "kN", "Range of the force"
+following.force_range = reduction("range", of="own_force"), "ΔF", "kN", "Range of the force"
 
 PUNCH = Mechanism(
     kind="punch", version="1.0", title="Punch", summary="A load over a turn.", inputs=Press, chapters=(turn,)

@@ -40,7 +40,8 @@ class CrankSlider(Inputs):
 motion = Chapter("Motion")
 motion.require("turns", m.crank < m.rod, key="rod", message="is {rod}; it must be longer than the crank {crank}")
 motion.angle = abscissa(2 * np.pi), "φ", "deg", "Crank angle"
-motion.position = m.crank * np.cos(m.angle) + np.sqrt(m.rod**2 - (m.crank * np.sin(m.angle)) ** 2), "x", "mm", "Position"  # fmt: skip
+across, upwards = m.crank * np.cos(m.angle), m.crank * np.sin(m.angle)
+motion.position = across + np.sqrt(m.rod**2 - upwards**2), "x", "mm", "Position"
 motion.stroke = 2 * m.crank, "s", "mm", "Stroke"
 
 

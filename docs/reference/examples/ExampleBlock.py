@@ -34,7 +34,7 @@ class Hoist(Inputs):
 
 
 masses = Chapter("Masses")
-masses.load = total(operation="sum", of="loads.mass"), "m_Σ", "kg", "Mass of all loads"
+masses.load = total("sum", of="loads.mass"), "m_Σ", "kg", "Mass of all loads"
 masses.mass = m.load + m.own_mass, "m", "kg", "Mass with the hook"
 
 MECHANISM = Mechanism(

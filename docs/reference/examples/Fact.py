@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, m, value
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, inner, m, value
 
 
 class Lines(Inputs):
@@ -12,7 +12,7 @@ class Lines(Inputs):
 
 
 rates = Chapter("Rates")
-rates.error = abs(m.one - m.other) / m.one, "δ", "%", "Difference of the rates"
+rates.error = inner(abs(m.one - m.other) / m.one), "δ", "%", "Difference of the rates"
 rates.fact("rates_agree", m.error <= 1e-6, "not calculated: the lines run at different rates")
 rates.speed = value(m.one * m.length, needs=("rates_agree",)), "v", "m/s", "Common speed"
 

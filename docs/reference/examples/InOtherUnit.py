@@ -18,8 +18,8 @@ def delay_angle(delay, speed):
 
 
 timing = Chapter("Timing")
-timing.delay_angle = (computed(delay_angle, ("delay", "speed"), "a delay that is a time is multiplied by the speed"), "φ_d", "deg",
-    "Angle by which the valve is late")  # fmt: skip
+METHOD = "a delay that is a time is multiplied by the speed"
+timing.delay_angle = computed(delay_angle, ("delay", "speed"), METHOD), "φ_d", "deg", "Angle by which the valve is late"
 
 MECHANISM = Mechanism(
     kind="valve", version="1.0", title="Valve", summary="Delay of a valve.", inputs=Valve, chapters=(timing,)

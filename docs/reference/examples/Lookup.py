@@ -52,8 +52,8 @@ class Drive(Inputs):
 tables = Chapter("Tables")
 tables.bore = lookup(BEARINGS, by="bearing", column="bore"), "d", "mm", "Bore"
 tables.pitch = lookup(PITCHES, by="chain"), "p", "mm", "Pitch"
-tables.second_rating = pick("above", of="load", series=BEARINGS.series("C")), "C_2", "kN", "Rating of the second bearing"
-tables.second_bore = lookup(BEARINGS, by="second_rating", sought_in="C", column="bore"), "d_2", "mm", "Bore of the second bearing"
+tables.second_rating = pick("above", of="load", series=BEARINGS.series("C")), "C_2", "kN", "Rating of the second one"
+tables.second_bore = lookup(BEARINGS, by="second_rating", sought_in="C", column="bore"), "d_2", "mm", "Its bore"
 tables.form_factor = interpolated(FACTORS, of="teeth"), "Y", "1", "Form factor"
 
 MECHANISM = Mechanism(

@@ -53,7 +53,7 @@ def ramp(lift) -> Curve:
 cam = Chapter("Cam")
 cam.angle = abscissa(2 * np.pi), "φ", "deg", "Angle of the cam"
 cam.path = made_curve(ramp, ("lift",), "angle", "a ramp up and a ramp down"), "s", "mm", "Lift over the angle"
-cam.mean = reduction(operation="mean", of="path"), "s_m", "mm", "Mean lift"
+cam.mean = reduction("mean", of="path"), "s_m", "mm", "Mean lift"
 
 MECHANISM = Mechanism(kind="ramp_cam", version="1.0", title="Cam", summary="A ramp.", inputs=Cam, chapters=(cam,))
 

@@ -52,7 +52,7 @@ def share(known):
 
 watching = Chapter("Watching")
 watching.prepared("found", share, ("watched", "mechanism"))
-watching.share = computed(lambda found: found, ("found",), "the sum of the phase's intervals"), "s", "%", "Share of the turn"
+watching.share = computed(lambda found: found, ("found",), "the sum of its intervals"), "s", "%", "Share of the turn"
 
 KNIFE = Mechanism(kind="blade", version="1.0", title="Knife", summary="Cuts.", inputs=Knife, chapters=(turn,))
 GUARD = Mechanism(kind="guard", version="1.0", title="Guard", summary="Watches.", inputs=Guard, chapters=(watching,))

@@ -30,7 +30,7 @@ class Rotor(Inputs):
 torque = Chapter("Torque")
 torque.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
 torque.torque = m.mean + m.ripple * np.cos(2 * m.angle), "M", "N*m", "Torque"
-torque.torque_max = reduction(operation="max", of="torque"), "M_max", "N*m", "Maximum torque"
+torque.torque_max = reduction("max", of="torque"), "M_max", "N*m", "Maximum torque"
 
 MECHANISM = Mechanism(
     kind="rotor", version="1.0", title="Rotor", summary="Torque of a rotor.", inputs=Rotor, chapters=(torque,),

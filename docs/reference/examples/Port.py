@@ -18,7 +18,7 @@ turn = Chapter("Turn")
 turn.angle = abscissa(2 * np.pi, speed="crank_speed"), "φ", "deg", "Angle of the crank"
 turn.pin_force = m.force * np.sin(m.angle), "F_z", "N", "Force on the pin"
 turn.torque = m.pin_force * m.radius * np.sin(m.angle), "T", "N*m", "Torque that the crank takes"
-turn.mean_torque = reduction(operation="mean", of="torque"), "T_m", "N*m", "Mean torque"
+turn.mean_torque = reduction("mean", of="torque"), "T_m", "N*m", "Mean torque"
 
 MECHANISM = Mechanism(
     kind="stamp", version="1.0", title="Stamp", summary="A stamp on a crank.", inputs=Stamp, chapters=(turn,),

@@ -15,6 +15,7 @@ from diecut_report.api import (
     ListedColumn,
     Mechanism,
     Quantity,
+    Recipe,
     abscissa,
     computed,
     computed_curve,
@@ -55,6 +56,16 @@ def curve(torques, index, angle, middle, rows):
     return torques.over(index, angle)
 
 
+def both(torques, angle, middle, rows):
+    """The sum over the angle."""
+    return torques.over(0, angle) + torques.over(1, angle)
+
+
+def of_both(function) -> Recipe:
+    """How a row over both wheels is given, for any of their quantities."""
+    return computed(function, ("torques",), "driver, driven", over="wheels")
+
+
 def table(known) -> list[tuple[Cell, ...]]:
     """Rows of texts and SI numbers, None where there is none."""
     return [(name, value) for name, value in zip(PARTS, known["torques"].mean, strict=True)]
@@ -64,15 +75,14 @@ pair = Chapter("Pair")
 pair.angle = abscissa(2 * np.pi), "φ", "deg", "Angle of the driver"
 pair.prepared("torques", torques, ("torque", "ratio", "ripple"))
 pair.part_names("wheels", "Both wheels", lambda ratio: PARTS, ("ratio",), count=lambda length: 2)
-pair.mean = computed(lambda torques: torques.mean, ("torques",), "driver, driven", over="wheels"), "M_k", "N*m", "Mean torque"  # fmt: skip
+pair.mean = of_both(lambda torques: torques.mean), "M_k", "N*m", "Mean torque"
 pair.halved = m.mean / 2, "H_k", "N*m", "Half of the mean torque"
 pair.part_table("wheel_table", "Torques of the wheels", "wheels", ("mean", "halved"))
-pair.sum = (computed_curve(lambda torques, angle, middle, rows: torques.over(0, angle) + torques.over(1, angle), "torques", "angle",
-    "both are added"), "M_Σ", "N*m", "Sum of both")  # fmt: skip
+pair.sum = computed_curve(both, "torques", "angle", "both are added"), "M_Σ", "N*m", "Sum of both"
 pair.part_curves(
     "torque_over", "M_φ", "N*m", "Torque over the angle", lambda torques: PARTS, curve, "torques", "angle", "a cosine about its mean",
 )  # fmt: skip
-pair.sum_max = reduction(operation="max", of="sum"), "M_max", "N*m", "Greatest sum"
+pair.sum_max = reduction("max", of="sum"), "M_max", "N*m", "Greatest sum"
 pair.listing(
     "list", "Torques in a list", (ListedColumn("wheel", "Wheel"), ListedColumn("mean", "Mean", "M_m", "N*m")), table, ("torques",),
 )  # fmt: skip

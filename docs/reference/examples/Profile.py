@@ -30,7 +30,7 @@ contour.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
 contour.distance = m.radius + m.lift / 2 * (1 - np.cos(m.angle)), "ρ", "mm", "Distance from the axis"
 contour.x = m.distance * np.cos(m.angle), "x", "mm", "Across"
 contour.y = m.distance * np.sin(m.angle), "y", "mm", "Upwards"
-contour.greatest = reduction(operation="max", of="distance"), "ρ_max", "mm", "Greatest distance"
+contour.greatest = reduction("max", of="distance"), "ρ_max", "mm", "Greatest distance"
 
 MECHANISM = Mechanism(
     kind="disc", version="1.0", title="Disc", summary="A disc cam.", inputs=Disc, chapters=(contour,),

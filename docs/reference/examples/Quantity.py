@@ -19,7 +19,7 @@ class Wheel(Inputs):
 
 meshing = Chapter("Meshing")
 meshing.mesh_rate = m.teeth * m.speed / (2 * pi), "f_z", "1/s", "Teeth that mesh in a second"
-meshing.changes = value(2 * m.mesh_rate, needs=("reversing=true", "use=drive")), "f_r", "1/s", "Changes of load in a second"
+meshing.changes = value(2 * m.mesh_rate, needs=("reversing=true", "use=drive")), "f_r", "1/s", "Changes of load"
 meshing.undercut = 2 / np.sin(m.pressure_angle) ** 2, "z_g", "1", "Least teeth without undercut"
 
 MECHANISM = Mechanism(

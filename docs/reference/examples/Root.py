@@ -13,10 +13,17 @@ class Chain(Inputs):
 
 
 catenary = Chapter("Catenary")
-catenary.require("hangs", m.length > m.span, key="length", message="is {length}; a chain hangs where it is longer than {span}")  # fmt: skip
-catenary.parameter = (root(2 * m.parameter * np.sinh(m.span / (2 * m.parameter)) - m.length, low=0.05 * m.span, high=100 * m.span,
-    left=np.sinh(m.span / (2 * m.parameter)), right=m.length / (2 * m.parameter)), "c", "m", "Parameter of the catenary")  # fmt: skip
-catenary.sag = m.parameter * (np.cosh(m.span / (2 * m.parameter)) - 1), "f", "m", "Sag"
+catenary.require("hangs", m.length > m.span, key="length", message="is {length}; it must be longer than {span}")
+half = m.span / (2 * m.parameter)  # a name for what stands several times; it is printed in each place
+solved = root(
+    2 * m.parameter * np.sinh(half) - m.length,
+    low=0.05 * m.span,
+    high=100 * m.span,
+    left=np.sinh(half),
+    right=m.length / (2 * m.parameter),
+)
+catenary.parameter = solved, "c", "m", "Parameter of the catenary"
+catenary.sag = m.parameter * (np.cosh(half) - 1), "f", "m", "Sag"
 
 MECHANISM = Mechanism(
     kind="chain", version="1.0", title="Chain", summary="Sag of a chain.", inputs=Chain, chapters=(catenary,)

@@ -30,7 +30,7 @@ def half_range(force: Curve) -> float:
 
 alternating = Chapter("Alternating force")
 alternating.prepared("half", amplitude, ("force",))
-alternating.amplitude = computed(lambda half: half, ("half",), "half of the range"), "F_a", "kN", "Amplitude of the force"
+alternating.amplitude = computed(lambda half: half, ("half",), "half of the range"), "F_a", "kN", "Amplitude"
 
 MECHANISM = Mechanism(
     kind="bolt", version="1.0", title="Bolt", summary="Amplitude of a force.", inputs=Bolt, chapters=(alternating,)

@@ -14,7 +14,12 @@ class Spring(Inputs):
 travel = Chapter("Travel")
 travel.travel = m.free_length - m.solid_length, "s_c", "mm", "Travel until coils touch"
 travel.words("share", lambda stroke, travel: f"{stroke / travel:.0%}", ("stroke", "travel"))
-travel.require("fits", m.stroke < m.travel, key="stroke", message="is {stroke}, {share} of the travel; at most {travel:down} is possible")  # fmt: skip
+travel.require(
+    "fits",
+    m.stroke < m.travel,
+    key="stroke",
+    message="is {stroke}, {share} of the travel; at most {travel:down} is possible",
+)
 
 MECHANISM = Mechanism(
     kind="spring", version="1.0", title="Spring", summary="Travel of a spring.", inputs=Spring, chapters=(travel,)

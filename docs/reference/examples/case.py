@@ -15,7 +15,8 @@ BRANCHES: tuple[Case, ...] = (
     case((m.slenderness / 50) ** 2, "of a slender column"),
 )
 buckling.factor = choice(*BRANCHES), "ω", "1", "Factor of buckling"
-buckling.kind = choice(case("short", "below 60", m.slenderness < 60), case("slender", "60 and above")), "K", "1", "Kind of column"  # fmt: skip
+KINDS = case("short", "below 60", m.slenderness < 60), case("slender", "60 and above")
+buckling.kind = choice(*KINDS), "K", "1", "Kind of column"
 
 MECHANISM = Mechanism(
     kind="column", version="1.0", title="Column", summary="Buckling of a column.", inputs=Column, chapters=(buckling,)

@@ -1,8 +1,6 @@
-"""Formulas that are more than a lambda: with intermediate terms, with a name in print, bound to other quantities, with constants."""
+"""Formulas as functions: with intermediate terms, with a name in print, of other quantities; numbers as written; constants."""
 
 from __future__ import annotations
-
-import numpy as np
 
 from diecut_report.api import (
     GRAVITY,
@@ -13,9 +11,11 @@ from diecut_report.api import (
     Inputs,
     Mechanism,
     Quantity,
+    arccos,
     as_number,
     formula,
     m,
+    number,
     pi,
 )  # fmt: skip
 
@@ -26,7 +26,7 @@ DENSITY = Constant(7850, "ρ", "kg/m**3")
 def triangle_angle(a, b, c):
     """Angle opposite to ``a`` by the law of cosines; ``arccos`` forgives what rounding carries beyond 1."""
     cosine = (b**2 + c**2 - a**2) / (2 * b * c)
-    return np.arccos(cosine)
+    return arccos(cosine)
 
 
 @formula(printed_as="A")
@@ -45,6 +45,8 @@ class Link(Inputs):
 
 angles = Chapter("Angles and weight")
 angles.swing = triangle_angle.of(a=m.rod, b=m.arm, c=m.base), "ψ", "deg", "Angle between arm and base"
+third = number(1) / 3  # printed as it is written: 1 / 3 is 0.3333…
+angles.hub = m.rod * third, "x", "mm", "Distance of the hub"
 angles.mass = DENSITY * m.rod * ring(m.outer, m.inner), "m", "kg", "Mass of the rod"
 angles.weight = m.mass * GRAVITY, "G", "N", "Weight of the rod"
 

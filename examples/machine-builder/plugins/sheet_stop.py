@@ -19,8 +19,9 @@ class SheetStop(Inputs):
 impact = Chapter(
     "Impact", text="The sheet and the bar go on together (plastic impact); then the springs take their energy."
 )
-impact.speed_after = m.sheet_mass * m.speed / (m.sheet_mass + m.stop_mass), "v_1", "m/s", "Speed of both after the impact", "momentum"
-impact.way = m.speed_after * np.sqrt((m.sheet_mass + m.stop_mass) / m.stiffness), "x", "mm", "Way of the stop", "energy"
+both = m.sheet_mass + m.stop_mass
+impact.speed_after = m.sheet_mass * m.speed / both, "v_1", "m/s", "Speed of both after the impact", "momentum"
+impact.way = m.speed_after * np.sqrt(both / m.stiffness), "x", "mm", "Way of the stop", "energy"
 impact.force = m.stiffness * m.way, "F", "N", "Force of the springs"
 
 MECHANISM = Mechanism(

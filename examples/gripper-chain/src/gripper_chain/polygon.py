@@ -18,6 +18,8 @@ from diecut_report.api import (
     value,
 )
 
+# fmt: off
+
 CHAINS = table_beside(__file__, "chains.csv")
 
 chain = Chapter(
@@ -35,21 +37,24 @@ for id, symbol, unit, name in (
     ("mass_per_length", "q", "kg/m", "Mass per length of a chain"),
 ):
     chain[id] = lookup(CHAINS, by="chain", column=id, output=id != "plate_thickness"), symbol, unit, name, "catalogue"
-chain.joint_area = m.pin_diameter * (m.inner_width + 2 * m.plate_thickness), "A", "mm**2", "Bearing area of a joint: pin and bush", "geometry"
+chain.joint_area = (m.pin_diameter * (m.inner_width + 2 * m.plate_thickness),
+    "A", "mm**2", "Bearing area of a joint: pin and bush", "geometry")
 
 bars = Chapter(
     "Bars and speed",
     text="Each bar brings one sheet, so the chain runs one spacing of the bars in the time of a sheet.",
 )
-bars.links_whole = (inner(m.bar_links * np.ceil(m.links / m.bar_links), whole=True), "X_k", "1",
-    "Next number of links that is a multiple of the spacing")
+bars.links_whole = (inner(m.bar_links * np.ceil(m.links / m.bar_links), whole=True),
+    "X_k", "1", "Next number of links that is a multiple of the spacing")
 bars.require("bars_fit", m.links == m.links_whole, key="links",
     message="is {links}, not a multiple of bar_links = {bar_links}, so that one gap between bars would be shorter; take {links_whole}")
 bars.bar_count = value(m.links / m.bar_links, whole=True), "N_b", "1", "Gripper bars"
 bars.bar_spacing = m.bar_links * m.pitch, "L", "mm", "Distance of the bars along the chain"
 bars.chain_speed = m.sheet_rate * m.bar_spacing, "v", "m/s", "Mean speed of the chain"
-bars.sprocket_speed = 2 * pi * m.chain_speed / (m.teeth * m.pitch), "ω", "rpm", "Speed of the sprockets", "Shigley, 17-5"
-bars.pitch_radius = m.pitch / (2 * np.sin(pi / m.teeth)), "R", "mm", "Radius of the circle through the joints", "Shigley, 17-5"
+bars.sprocket_speed = (2 * pi * m.chain_speed / (m.teeth * m.pitch),
+    "ω", "rpm", "Speed of the sprockets", "Shigley, 17-5")
+bars.pitch_radius = (m.pitch / (2 * np.sin(pi / m.teeth)),
+    "R", "mm", "Radius of the circle through the joints", "Shigley, 17-5")
 
 polygon = Chapter(
     "Polygon effect",
@@ -59,17 +64,21 @@ polygon = Chapter(
 )
 polygon.half_tooth = inner(pi / m.teeth), "α", "deg", "Half the pitch angle of the sprocket"
 polygon.tooth_angle = 2 * pi / m.teeth, "τ", "deg", "Pitch angle of the sprocket"
-polygon.sprocket_angle = (abscissa(period="tooth_angle", speed="sprocket_speed", shown_at="tension_max_at"), "θ", "deg",
-    "Angle of the sprocket since the last joint engaged")
-polygon.velocity = (m.pitch_radius * m.sprocket_speed * np.cos(m.sprocket_angle - m.half_tooth), "v_θ", "m/s", "Velocity of the upper strand",
-    "Roloff/Matek")
-polygon.acceleration = (-m.pitch_radius * as_number(m.sprocket_speed) ** 2 * np.sin(m.sprocket_angle - m.half_tooth), "a_θ", "m/s**2",
-    "Acceleration of the upper strand", "kinematics")
-polygon.advance = (m.pitch_radius * (np.sin(m.half_tooth) + np.sin(m.sprocket_angle - m.half_tooth)), "x_θ", "mm",
-    "Displacement of the strand since the joint engaged", "kinematics")
-polygon.ripple = m.advance - m.pitch * m.sprocket_angle / m.tooth_angle, "δ_θ", "mm", "Lead of the strand over its mean motion"
+polygon.sprocket_angle = (abscissa("tooth_angle", speed="sprocket_speed", shown_at="tension_max_at"),
+    "θ", "deg", "Angle of the sprocket since the last joint engaged")
+from_middle = m.sprocket_angle - m.half_tooth
+polygon.velocity = (m.pitch_radius * m.sprocket_speed * np.cos(from_middle),
+    "v_θ", "m/s", "Velocity of the upper strand", "Roloff/Matek")
+polygon.acceleration = (-m.pitch_radius * as_number(m.sprocket_speed) ** 2 * np.sin(from_middle),
+    "a_θ", "m/s**2", "Acceleration of the upper strand", "kinematics")
+polygon.advance = (m.pitch_radius * (np.sin(m.half_tooth) + np.sin(from_middle)),
+    "x_θ", "mm", "Displacement of the strand since the joint engaged", "kinematics")
+polygon.ripple = (m.advance - m.pitch * m.sprocket_angle / m.tooth_angle,
+    "δ_θ", "mm", "Lead of the strand over its mean motion")
 polygon.velocity_max = reduction("max", of="velocity"), "v_max", "m/s", "Maximum velocity"
 polygon.velocity_min = reduction("min", of="velocity"), "v_min", "m/s", "Minimum velocity"
-polygon.acceleration_max = reduction("abs_max", of="acceleration"), "a_max", "m/s**2", "Maximum acceleration, of either sign"
+polygon.acceleration_max = (reduction("abs_max", of="acceleration"),
+    "a_max", "m/s**2", "Maximum acceleration, of either sign")
 polygon.ripple_max = reduction("abs_max", of="ripple"), "δ_max", "mm", "Maximum deviation from the mean motion"
-polygon.unevenness = 1 - m.velocity_min / m.velocity_max, "u", "%", "Relative drop in velocity within a tooth", "Shigley, 17-5"
+polygon.unevenness = (1 - m.velocity_min / m.velocity_max,
+    "u", "%", "Relative drop in velocity within a tooth", "Shigley, 17-5")

@@ -2,25 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from diecut_report.api import GRAVITY, Chapter, formula, inner, m, root
+from diecut_report.api import GRAVITY, Chapter, inner, m, root
 
-
-@formula
-def catenary_sag(catenary: Any, centre_distance: Any) -> Any:
-    """Sag in the middle, c·(cosh u − 1) with u = a/(2c), written so that nothing cancels where the strand is nearly straight."""
-    return 2 * catenary * np.sinh(centre_distance / (4 * catenary)) ** 2
-
-
-@formula
-def length_by_sag(catenary: Any, centre_distance: Any) -> Any:
-    """Length of a catenary by its sag: s² = 4·f·(f + 2c), which holds no arc length in itself."""
-    sag = catenary_sag(catenary, centre_distance)
-    return 2 * np.sqrt(sag * (sag + 2 * catenary))
-
+# fmt: off
 
 slack = Chapter(
     "Slack strand",
@@ -28,26 +14,33 @@ slack = Chapter(
     "a catenary y = c·cosh(x/c); the parameter c is the horizontal pull divided by the weight per unit length. Running changes its pull, "
     "not its shape.",
 )
-slack.line_mass = m.mass_per_length + m.bar_mass / (2 * m.bar_spacing), "q_t", "kg/m", "Mass per length of a chain with its half of the bars"
-slack.slack_length = (m.links * m.pitch * (1 + m.elongation) - m.teeth * m.pitch - m.centre_distance, "s", "mm", "Length of the slack strand",
-    "geometry")
-slack.links_around = (inner((2.0001 * m.centre_distance / m.pitch + m.teeth) / (1 + m.elongation)), "X_a", "1",
-    "Links of two straight strands and the sprockets")
-slack.links_least = (inner(m.bar_links * np.ceil(m.links_around / m.bar_links), whole=True), "X_min", "1",
-    "Minimum number of links with which the chain goes round")
+slack.line_mass = (m.mass_per_length + m.bar_mass / (2 * m.bar_spacing),
+    "q_t", "kg/m", "Mass per length of a chain with its half of the bars")
+slack.slack_length = (m.links * m.pitch * (1 + m.elongation) - m.teeth * m.pitch - m.centre_distance,
+    "s", "mm", "Length of the slack strand", "geometry")
+slack.links_around = (inner((2.0001 * m.centre_distance / m.pitch + m.teeth) / (1 + m.elongation)),
+    "X_a", "1", "Links of two straight strands and the sprockets")
+slack.links_least = (inner(m.bar_links * np.ceil(m.links_around / m.bar_links), whole=True),
+    "X_min", "1", "Minimum number of links with which the chain goes round")
 slack.require("goes_round", m.slack_length > 1.00001 * m.centre_distance, key="links",
     message="is {links}, which leaves {slack_length} for a strand between axes {centre_distance} apart; take at least {links_least} links, or "
     "move the sprockets together")
 slack.require("does_not_fall", m.slack_length < 1.3 * m.centre_distance, key="links",
     message="is {links}, which leaves {slack_length} for a strand between axes {centre_distance} apart: it would hang down by more than a third "
     "of that; take fewer links, or move the sprockets apart")
+# The sag c·(cosh u − 1) with u = a/(2c), written so that nothing cancels where the strand is nearly straight. By it s² = 4·f·(f + 2c), which
+# holds no arc length in itself and so proves the root.
+sag = 2 * m.catenary * np.sinh(m.centre_distance / (4 * m.catenary)) ** 2
+longer = m.slack_length / m.centre_distance
 slack.catenary = (root(2 * m.catenary * np.sinh(m.centre_distance / (2 * m.catenary)) - m.slack_length,
-    low=m.centre_distance / (4 * np.sqrt(6 * (m.slack_length / m.centre_distance - 1))),
-    high=m.centre_distance / np.sqrt(6 * np.log(m.slack_length / m.centre_distance)), left=m.slack_length, right=length_by_sag), "c", "mm",
-    "Parameter of the catenary", "statics")
-slack.sag = catenary_sag, "f", "mm", "Sag of the slack strand", "statics"
+        low=m.centre_distance / (4 * np.sqrt(6 * (longer - 1))), high=m.centre_distance / np.sqrt(6 * np.log(longer)),
+        left=m.slack_length, right=2 * np.sqrt(sag * (sag + 2 * m.catenary))),
+    "c", "mm", "Parameter of the catenary", "statics")
+slack.sag = sag, "f", "mm", "Sag of the slack strand", "statics"
 slack.sag_share = m.sag / m.centre_distance, "ζ", "%", "Ratio of the sag to the centre distance"
-slack.slack_tension = m.line_mass * GRAVITY * (m.catenary + m.sag), "F_s", "N", "Pull of the slack strand at the sprockets, of each chain", "statics"
-slack.parabola_tension = (m.line_mass * GRAVITY * m.centre_distance**2 / (8 * m.sag), "F_p", "N", "Its horizontal component by the parabola formula",
-    "Roloff/Matek")
-slack.parabola_error = 1 - m.parabola_tension / (m.line_mass * GRAVITY * m.catenary), "e_p", "%", "Error of the parabola formula"
+slack.slack_tension = (m.line_mass * GRAVITY * (m.catenary + m.sag),
+    "F_s", "N", "Pull of the slack strand at the sprockets, of each chain", "statics")
+slack.parabola_tension = (m.line_mass * GRAVITY * m.centre_distance**2 / (8 * m.sag),
+    "F_p", "N", "Its horizontal component by the parabola formula", "Roloff/Matek")
+slack.parabola_error = (1 - m.parabola_tension / (m.line_mass * GRAVITY * m.catenary),
+    "e_p", "%", "Error of the parabola formula")
