@@ -2,10 +2,11 @@
 
     .venv/bin/python scripts/change_signs.py [--per-plugin N | --all] [--seed S] [--only NAME …] [--jobs N] [--log FILE] [--list]
 
-A formula is the body of a function under ``@formula``, or a lambda, in ``plugins/`` and in ``diecut_report/mechanics/``. One
-``+`` becomes ``-``, ``-`` becomes ``+``, ``*`` becomes ``/`` or ``/`` becomes ``*``; a leading minus becomes a plus. Each mutant
-lives in a copy; the checkout is never touched. With ``--log`` a run that was stopped goes on where it was: what was noticed in the
-same file is not tried again, what survived is, as it may have a test now. A test that fails with a change must pass without it.
+A formula is an expression of quantities (``m.ID``), the body of a function under ``@formula``, or a lambda, in ``plugins/`` and in
+``diecut_report/mechanics/``. One ``+`` becomes ``-``, ``-`` becomes ``+``, ``*`` becomes ``/`` or ``/`` becomes ``*``; a leading
+minus becomes a plus. Each mutant lives in a copy; the checkout is never touched. With ``--log`` a run that was stopped goes on where
+it was: what was noticed in the same file is not tried again, what survived is, as it may have a test now. A test that fails with a
+change must pass without it.
 Ends with 1 where a mutant survives, or where a test fails as it is.
 """
 
@@ -82,12 +83,20 @@ def mutants(unit: str, file: Path) -> Iterator[Mutant]:
 
 
 def formulas(tree: ast.Module) -> Iterator[ast.AST]:
-    """The expressions that are formulas: bodies of lambdas, and of functions under ``@formula``."""
+    """The expressions that are formulas: of quantities, bodies of lambdas, and of functions under ``@formula``."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.Lambda):
+        if is_of_quantities(node):
+            yield node
+        elif isinstance(node, ast.Lambda):
             yield node.body
         elif isinstance(node, ast.FunctionDef) and any(map(is_formula, node.decorator_list)):
             yield from node.body
+
+
+def is_of_quantities(node: ast.AST) -> bool:
+    """Whether a node calculates with quantities, ``m.ID``."""
+    is_operation = isinstance(node, ast.BinOp | ast.UnaryOp | ast.Compare)
+    return is_operation and any(isinstance(part, ast.Name) and part.id == "m" for part in ast.walk(node))
 
 
 def is_formula(decorator: ast.expr) -> bool:

@@ -119,9 +119,17 @@ def spans(source: str) -> tuple[list[tuple[Place, Place]], list[tuple[Place, Pla
             outside += [span(part, lines) for part in (*node.decorator_list, *all_of(node.args), node.returns) if part]
         elif isinstance(node, ast.Lambda):
             inside.append(span(node.body, lines))
+        elif is_of_quantities(node):
+            inside.append(span(node, lines))
         elif isinstance(node, ast.JoinedStr | ast.Raise):
             outside.append(span(node, lines))
     return inside, outside
+
+
+def is_of_quantities(node: ast.AST) -> bool:
+    """Whether a node calculates with quantities, ``m.ID``."""
+    is_operation = isinstance(node, ast.BinOp | ast.UnaryOp | ast.Compare)
+    return is_operation and any(isinstance(part, ast.Name) and part.id == "m" for part in ast.walk(node))
 
 
 def all_of(arguments: ast.arguments) -> Iterator[ast.AST]:

@@ -26,7 +26,7 @@ from diecut_report.config.validation import (
 )
 from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem, latin_letters, nearest
-from diecut_report.formulas.condition_parts import Expression
+from diecut_report.formulas.condition_parts import TypedExpression
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.curve_inputs import CurveInput, FromTable, InOtherUnit, is_in
@@ -249,7 +249,7 @@ class Target:
     is_default: bool = False  # not written by the user: the press's field that stands in for an absent input
     formula: Formula | None = None
     is_broken: bool = False  # the plugin of what it refers to cannot be loaded
-    expression: Expression | None = None
+    expression: TypedExpression | None = None
     terms: tuple[Target, ...] = ()
     phase_unit: str | None = None  # of a phase: the SI unit of what it runs over
     is_mechanism: bool = False  # it stands for the mechanism as a whole

@@ -26,7 +26,7 @@ from diecut_report.config.parts.keys import WORDS
 from diecut_report.config.validation import ASSUMED, OF_ONE_VALUE, ConfigPlace, declared, value_at
 from diecut_report.config.yaml import LOADER, KeyPath, Scalar, Tree, dotted, key_of, parse
 from diecut_report.errors import Problem, UserError, nearest, seeming_latin
-from diecut_report.formulas.condition_parts import Expression, Name, read_expression
+from diecut_report.formulas.condition_parts import Name, TypedExpression, read_expression
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields
@@ -56,7 +56,7 @@ class Linker:
         self.unresolved: set[Node] = set()
         # by their texts: what is made of parts refers to the same again and again
         self._targets: dict[str, Target] = {}
-        self._expressions: dict[str, tuple[Expression, dict[str, Target]]] = {}
+        self._expressions: dict[str, tuple[TypedExpression, dict[str, Target]]] = {}
         self._asked: set[Node] = set()  # whose unit is just being looked for
         self.problems: list[Problem] = []
         known = [instance for instance in instances.values() if instance is not None]
@@ -109,7 +109,7 @@ class Linker:
         si = unit(wanted).si if wanted else "1"
         return Target(found.text, "", unit=si, expression=found, terms=tuple(terms[name] for name in found.names))
 
-    def _expression(self, text: str) -> tuple[Expression, dict[str, Target]]:
+    def _expression(self, text: str) -> tuple[TypedExpression, dict[str, Target]]:
         if (known := self._expressions.get(text)) and not self._asked:
             return known
         terms: dict[str, Target] = {}
@@ -296,7 +296,7 @@ class Linker:
 
 
 @lru_cache(maxsize=4096)  # a machine of parts has the same ones each time that it is read
-def _read(text: str, names: tuple[Name, ...]) -> Expression:
+def _read(text: str, names: tuple[Name, ...]) -> TypedExpression:
     return read_expression(text, {each.name: each for each in names}.__getitem__)
 
 

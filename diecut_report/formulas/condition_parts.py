@@ -464,7 +464,7 @@ WORDS = (
 
 
 @dataclass(frozen=True)
-class Expression:
+class TypedExpression:
     """Hold an expression: its text as typed, its tree, and the kind of what it gives; its names are ``${NAME.KEY}``."""
 
     text: str
@@ -522,7 +522,7 @@ def _whole(text: str) -> Parsed:
     return parsed(calculation(text))
 
 
-def read_expression(text: str, find: Find) -> Expression:
+def read_expression(text: str, find: Find) -> TypedExpression:
     """Read an expression; ConditionError in words, with the place, for what it may not say. ``find`` says what a reference is."""
     try:
         whole = _whole(text)
@@ -534,7 +534,7 @@ def read_expression(text: str, find: Find) -> Expression:
         raise ConditionError(text_of_fault, fault.place) from None
     if not names(made.node):
         raise ConditionError("the expression refers to nothing; write the value itself.", 0)
-    return Expression(text.strip(), made.node, made.kind)
+    return TypedExpression(text.strip(), made.node, made.kind)
 
 
 def _faults(node: Node, value_of: Callable[[str], Any]) -> Iterator[str]:

@@ -342,7 +342,7 @@ def node_of(operand: Any, *, as_written: bool = False) -> Node:
     match operand:
         case Expression():
             return operand._node
-        case Number():
+        case WrittenNumber():
             return operand.node
         case int() | float() | np.integer() | np.floating() if not isinstance(operand, bool):
             return _number(float(operand) if isinstance(operand, float | np.floating) else int(operand), as_written)
@@ -357,6 +357,9 @@ def node_of(operand: Any, *, as_written: bool = False) -> Node:
 
 
 OF_TURNS = 360  # the shares of π by which a formula is likely to multiply
+POWERS_OF_PI = (1, 2, 3, -1, -2, 0.5)
+EQUAL = 1e-12  # relative
+ALL_DIGITS = 16  # which nobody types
 PLAIN_BELOW = 1e5  # numbers from here on are printed as a power of ten
 MAX_MANTISSA_LENGTH = 4  # letters before the power of ten, less than these
 
@@ -364,16 +367,24 @@ MAX_MANTISSA_LENGTH = 4  # letters before the power of ten, less than these
 def _number(value: float, as_written: bool) -> Node:
     if not math.isfinite(value):
         refuse(Phrase("{value} is not a number that can be printed", value=repr(value)))
-    turns = value / math.pi * OF_TURNS
-    if (
-        not as_written
-        and 1 <= abs(turns) < OF_TURNS**2
-        and value % 1
-        and abs(turns - round(turns)) < 1e-12 * abs(turns)
-    ):
-        template = "holds {value}, a multiple of π that would be printed as a number; write pi of diecut_report.api in place of np.pi"
-        refuse(Phrase(template, value=f"{value:.6g}"))
+    if value % 1 and not as_written:
+        _refuse_worked_out(value)
     return Node("neg", (Node("num", (_literal(-value),)),)) if value < 0 else Node("num", (_literal(value),))
+
+
+def _refuse_worked_out(value: float) -> None:
+    """Raise FormulaError where a number was worked out of π or of other numbers: it would be printed with all its digits."""
+    for power in POWERS_OF_PI:
+        turns = value / math.pi**power * OF_TURNS
+        if 1 <= abs(turns) < OF_TURNS**2 and abs(turns - round(turns)) < EQUAL * abs(turns):
+            template = "holds {value}, worked out of π, that would be printed as a number; write pi of diecut_report.api in place of np.pi"
+            refuse(Phrase(template, value=f"{value:.6g}"))
+    if len(repr(value).partition("e")[0].strip("-0.").replace(".", "")) >= ALL_DIGITS:
+        template = (
+            "holds {value}, worked out of other numbers, that would be printed with all its digits; write number(1) / 3 for what is to be "
+            "printed as it is written, or number(…) of the whole"
+        )
+        refuse(Phrase(template, value=repr(value)))
 
 
 def _literal(value: float) -> str:
@@ -389,7 +400,7 @@ def _literal(value: float) -> str:
 # Numbers that are printed as they are written.
 
 
-class Number(float):
+class WrittenNumber(float):
     """Hold a number that is printed as its author writes it: π as π, a third as 1/3. It computes as any other number."""
 
     node: Node
@@ -400,17 +411,17 @@ class Number(float):
         self.node = node if node is not None else _number(value, as_written=True)
         return self
 
-    def __neg__(self) -> Number:
-        return Number(-float(self), Node("neg", (self.node,)))
+    def __neg__(self) -> WrittenNumber:
+        return WrittenNumber(-float(self), Node("neg", (self.node,)))
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
-        plain = [float(each) if isinstance(each, Number) else each for each in inputs]
+        plain = [float(each) if isinstance(each, WrittenNumber) else each for each in inputs]
         if any(isinstance(each, Expression) for each in inputs):
             return NotImplemented
         found = getattr(ufunc, method)(*plain, **options)
         kept = ufunc in FUNCTIONS and not options and all(type(each) in (int, float) for each in plain)
         return (
-            Number(found, Node("call", (FUNCTIONS[ufunc], *(node_of(each, as_written=True) for each in inputs))))
+            WrittenNumber(found, Node("call", (FUNCTIONS[ufunc], *(node_of(each, as_written=True) for each in inputs))))
             if kept
             else found
         )
@@ -420,18 +431,18 @@ def _kept(sign: str, operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
     """The operation and its reflection, of which the tree is kept where both sides are single numbers."""
 
     def of(left: Any, right: Any) -> Any:
-        kept = all(isinstance(each, Number) or type(each) in (int, float) for each in (left, right))
-        value = operation(*(float(each) if isinstance(each, Number) else each for each in (left, right)))
+        kept = all(isinstance(each, WrittenNumber) or type(each) in (int, float) for each in (left, right))
+        value = operation(*(float(each) if isinstance(each, WrittenNumber) else each for each in (left, right)))
         return (
-            Number(value, Node(sign, (node_of(left, as_written=True), node_of(right, as_written=True))))
+            WrittenNumber(value, Node(sign, (node_of(left, as_written=True), node_of(right, as_written=True))))
             if kept
             else value
         )
 
-    def forward(self: Number, other: Any) -> Any:
+    def forward(self: WrittenNumber, other: Any) -> Any:
         return NotImplemented if isinstance(other, Expression) else of(self, other)
 
-    def reflected(self: Number, other: Any) -> Any:
+    def reflected(self: WrittenNumber, other: Any) -> Any:
         return of(other, self)
 
     return forward, reflected
@@ -439,13 +450,13 @@ def _kept(sign: str, operation: Callable[[Any, Any], Any]) -> tuple[Any, Any]:
 
 for _sign, _name in (("+", "add"), ("-", "sub"), ("*", "mul"), ("/", "truediv"), ("^", "pow")):
     _forward, _reflected = _kept(_sign, getattr(operator, _name))
-    setattr(Number, f"__{_name}__", _forward)
-    setattr(Number, f"__r{_name}__", _reflected)
+    setattr(WrittenNumber, f"__{_name}__", _forward)
+    setattr(WrittenNumber, f"__r{_name}__", _reflected)
 
 
-def number(value: float) -> Number:
+def number(value: float) -> WrittenNumber:
     """Return a number with which arithmetic is printed as it is written: ``number(1) / 3`` is 1/3, not 0.3333."""
-    return Number(value)
+    return WrittenNumber(value)
 
 
 class Symbol(str):
@@ -459,7 +470,7 @@ class Symbol(str):
         return self
 
 
-class Constant(Number):
+class Constant(WrittenNumber):
     """Hold a physical constant of a formula: an SI value with symbol and unit (pint-readable, coherent SI)."""
 
     symbol: str
@@ -477,7 +488,7 @@ class Constant(Number):
         return self
 
 
-pi = Number(math.pi, PI)
+pi = WrittenNumber(math.pi, PI)
 GRAVITY = Constant(9.80665, "g", "m/s**2")
 
 
@@ -532,6 +543,6 @@ def _said(what: str, of: Any) -> Any:
     match of:
         case Expression():
             return Expression(Node("call", (what, node_of(of))))
-        case Number():
-            return Number(float(of), Node("call", (what, of.node)))
+        case WrittenNumber():
+            return WrittenNumber(float(of), Node("call", (what, of.node)))
     return of

@@ -282,7 +282,7 @@ SIGNS = {"^": "**", "and": "&", "or": "|"}
 
 def compiled(tree: Node, parameters: tuple[str, ...]) -> Callable[..., Any]:
     """Return the function that computes a tree; what is one part of it in several places is computed once."""
-    writer = _Writer(tree, parameters)
+    writer = _FunctionWriter(tree, parameters)
     space: dict[str, Any] = {f"_{name}": function for name, function in NUMERIC.items()}
     space |= {"_where": np.where, "_not": np.logical_not, "_of": writer.called}
     exec(compile(writer.source, "<formula>", "exec"), space)
@@ -290,7 +290,7 @@ def compiled(tree: Node, parameters: tuple[str, ...]) -> Callable[..., Any]:
     return function
 
 
-class _Writer:
+class _FunctionWriter:
     """Write a tree as Python."""
 
     def __init__(self, tree: Node, parameters: tuple[str, ...]) -> None:

@@ -338,7 +338,7 @@ class Mechanism:
 # The number of the contract between the program and its plugins: it grows when a plugin that was written before would no longer run.
 
 
-CONTRACT = 1
+CONTRACT = 2
 
 
 # What a check still needs: the optional inputs without which it is not made, as far as the declarations tell.

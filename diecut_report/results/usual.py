@@ -19,7 +19,7 @@ from diecut_report.config.model import NUMBERS, PRESS
 from diecut_report.config.yaml import KeyPath, dotted
 from diecut_report.errors import Problem
 from diecut_report.formulas import Array
-from diecut_report.formulas.condition_parts import Expression, Name, read_expression
+from diecut_report.formulas.condition_parts import Name, TypedExpression, read_expression
 from diecut_report.machine.calculation import Calculation
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import Block, Quantity, fields, flatten, keys, list_inputs
@@ -248,7 +248,7 @@ def _computed(instance: Instance, of: str, known: Callable[[str], Array | None])
 
 
 @cache
-def _expression(mechanism: Mechanism, of: str) -> Expression:
+def _expression(mechanism: Mechanism, of: str) -> TypedExpression:
     units = {name: meta.unit for name, meta in NUMBERS.items()} | {step.id: step.unit for _, step in mechanism.steps}
     units |= {path: meta.unit for path, meta in fields(mechanism.inputs) if isinstance(meta, Quantity)}
     return read_expression(of, lambda name: Name(name, "number", unit(units[name[2:-1]]).si))

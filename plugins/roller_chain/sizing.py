@@ -168,5 +168,5 @@ size.pitch = (pick("above", of="pitch_least", series=CHAINS.series("pitch"), lac
     "ISO 606")
 INCHES = {name: pitch / 25.4 for name, pitch in CHAINS.by_name("pitch").items()}
 size.designation = (choice(*(case(name, f"its pitch is {round(16 * inches):d}/16 inch",
-    m.pitch / INCH <= inches * (1 + SAME)) for name, inches in list(INCHES.items())[:-1]),
+    m.pitch / INCH <= round(inches + SAME, 6)) for name, inches in list(INCHES.items())[:-1]),
     case(CHAINS.names[-1], "its pitch is the largest"), lacks=("chain",)), "C", "1", "Selected chain", "ISO 606")

@@ -154,7 +154,7 @@ def test_a_share_of_any_size_is_told_without_a_power_of_ten(share: float, told: 
 
 SCREWED = '''
 """A screw that holds a bracket."""
-from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, Quantity, Source, bind, m
+from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, Quantity, Source, m
 
 class Screw(Block):
     preload: Annotated[float, Quantity("F_V", "kN", "Preload", gt=0)]

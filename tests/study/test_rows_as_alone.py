@@ -197,8 +197,8 @@ def test_what_nothing_bounds_is_open_in_each_row(tmp_path: Path) -> None:
 def test_rows_of_a_plugin_with_faults_in_its_formulas_are_conditional(tmp_path: Path) -> None:
     builder = Path(__file__).parents[2] / "examples" / "machine-builder"
     plugin = (builder / "plugins" / "sheet_stop.py").read_text("utf-8")
-    assert "stiffness * way" in plugin
-    saved(tmp_path, plugin.replace("stiffness * way", "stiffness * way + 1", 1), "sheet_stop.py")
+    assert "m.stiffness * m.way" in plugin
+    saved(tmp_path, plugin.replace("m.stiffness * m.way", "m.stiffness * m.way + 1", 1), "sheet_stop.py")
     config = Press.read(next(builder.rglob("*.yaml")), Discovery([tmp_path])).config
     names = [name for name, kind in config.kinds.items() if kind == "sheet_stop"]
     design = next(each for each in given_numbers(config) if each.asked.instance == names[0])

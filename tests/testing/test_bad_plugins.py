@@ -39,8 +39,8 @@ MECHANISM = Mechanism(kind="faulty", version="1", title="T", summary="", inputs=
 COMPUTED = 'chapter.b = computed(code, ("x",), "by code"), "b", "mm", "B"'
 BAD = {  # what stands where in the plugin, and what is told of it
     "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:19)"),
-    "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (1.0.0) has contract 1; install a newer version"),
-    "older contract": ({"head": "CONTRACT = 0"}, "has contract 1; use a newer version of the plugin"),
+    "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (1.0.0) has contract 2; install a newer version"),
+    "older contract": ({"head": "CONTRACT = 0"}, "has contract 2; use a newer version of the plugin"),
     "name of another version": (
         {"head": "from diecut_report.api import Wormhole"},
         "diecut_report.api of this version (1.0.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:19)",

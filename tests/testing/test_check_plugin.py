@@ -399,9 +399,9 @@ def test_sources_in_words_that_no_catalogue_has_are_told(tmp_path: Path) -> None
 
 def test_sources_in_functions_are_not_asked_for(tmp_path: Path) -> None:
     made = (
-        "CONTRACT = 1",
+        "CONTRACT = 2",
         "def made():\n    return own_table(title='', unit='mm', rows={'a': 1}, sources=('a list of one maker',)), "
-        "Source('B', 'A book about springs')\n\n\nCONTRACT = 1",
+        "Source('B', 'A book about springs')\n\n\nCONTRACT = 2",
     )
     test = contract(tmp_path, made, ("    line,\n", "    line,\n    own_table,\n"))
     assert list(test.words.untranslated("uk")) == []

@@ -356,7 +356,7 @@ TOLD = {  # names without a docstring of their own
     "AdviceWay": "A way in which a check may be made to hold: an input that is changed alone, by its key or as a `Vary`, "
     "or several keys whose inputs are changed together in one proportion.",
     "Annotated": "Python's own `typing.Annotated`: joins the type of an input with what is declared of it.",
-    "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 1` for which it is written.",
+    "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 2` for which it is written.",
     "Cell": "What stands in a cell of a listing: a number in SI, a text, or `None` where there is nothing.",
     "GRAVITY": "The standard acceleration of free fall, 9.80665 m/s², a `Constant`.",
     "POINTS": "The input with which curves are sampled, for `n_points: Annotated[int, POINTS] = 720`: "

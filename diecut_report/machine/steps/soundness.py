@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.expression import Expression, Number, m
+from diecut_report.formulas.expression import Expression, WrittenNumber, m
 from diecut_report.formulas.tree import Node, substitute, written
 from diecut_report.machine.calculation import Calculation, Side, Unproven
 from diecut_report.machine.numerics import extremes, jumps
@@ -247,7 +247,7 @@ def _stand_ins(check: Check) -> tuple[Value, ...]:
     """A curve for each pair of a check's sides: the one less the other. The same for all calculations, as programs are kept for it."""
 
     def gap(number: int) -> Expression:
-        demand, limit = (m[side] if isinstance(side, str) else Number(side) for side in _sides(check, number))
+        demand, limit = (m[side] if isinstance(side, str) else WrittenNumber(side) for side in _sides(check, number))
         return demand - limit
 
     return tuple(

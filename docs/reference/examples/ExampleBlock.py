@@ -20,7 +20,7 @@ from diecut_report.api import (
     total,
 )
 
-CONTRACT = 1  # the contract for which this module is written; a program with another one says so
+CONTRACT = 2  # the contract for which this module is written; a program with another one says so
 assert CONTRACT == KNOWN
 
 

@@ -12,7 +12,7 @@ from gripper_chain.slack import slack
 from gripper_chain.stations import cycle, stations
 from gripper_chain.tension import grip, loads, motor, pull, strength
 
-CONTRACT = 1  # the contract of plugins that this one is written for
+CONTRACT = 2  # the contract of plugins that this one is written for
 
 MECHANISM = Mechanism(
     kind="gripper_chain",
