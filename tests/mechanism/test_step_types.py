@@ -101,7 +101,9 @@ def test_what_is_wrong_with_it_is_told_with_its_place(made: Mechanism, words: st
 def test_its_call_knows_the_options_of_all_steps() -> None:
     with pytest.raises(Misdeclared, match=r"swing has no option neds \(did you mean 'needs'\?\)"):
         Chapter("Wave").swing = swing("height", neds=("size",)), "s", "mm", "Swing"  # type: ignore[call-arg]
-    with pytest.raises(TypeError, match=r"test_step_types\.py:\d+: swing: .*missing a required argument: 'of'; it takes of, level"):
+    with pytest.raises(
+        TypeError, match=r"test_step_types\.py:\d+: swing: .*missing a required argument: 'of'; it takes of, level"
+    ):
         Chapter("Wave").swing = swing(), "s", "mm", "Swing"  # type: ignore[call-arg]
 
 

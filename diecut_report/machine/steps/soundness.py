@@ -248,7 +248,8 @@ def _stand_ins(check: Check) -> tuple[Value, ...]:
 
     def gap(number: int) -> Expression:
         demand, limit = (m[side] if isinstance(side, str) else Number(side) for side in _sides(check, number))
-        return demand - limit
+        found: Expression = demand - limit  # one side at least is a quantity
+        return found
 
     return tuple(
         Value(f"checks.{check.id}.{i}", "", "1", check.title, gap(i), output=False) for i in range(len(check.pairs))
