@@ -125,10 +125,7 @@ def impure_faults(names: DeclaredNames) -> Iterator[Fault]:
             for where, what in _used(node, _scope(function)):
                 yield _fault(file, where, what, code.co_name)
             for where in _quantities(node, _scope(function)):
-                template = (
-                    "uses {quantity}, a quantity of formulas, which is not a number in plain code; take its number: {takes}, in a "
-                    "drawing {view}"
-                )
+                template = "uses {quantity}, a quantity of formulas, which plain code does not know; take its number: {takes}, in a drawing {view}"
                 told = {
                     "quantity": ast.unparse(where),
                     "takes": f'takes=("{where.attr}",)',

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 
@@ -248,7 +249,7 @@ def _stand_ins(check: Check) -> tuple[Value, ...]:
 
     def gap(number: int) -> Expression:
         demand, limit = (m[side] if isinstance(side, str) else WrittenNumber(side) for side in _sides(check, number))
-        return demand - limit
+        return cast(Expression, demand - limit)  # one side at least is a quantity
 
     return tuple(
         Value(f"checks.{check.id}.{i}", "", "1", check.title, gap(i), output=False) for i in range(len(check.pairs))
