@@ -434,14 +434,19 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
         try:
             given = _given(formula, units)
         except KindError as error:
-            yield f"{step.id}: {formula.__name__}: {error}"
+            yield f"{step.id}: {_told(step, formula)}: {error}"
             continue
         wanted = unit(step.unit).si
         if part.is_of_unit and not alike(given, unit(wanted).kind):
-            filling = {"id": step.id, "name": formula.__name__, "given": kind_text(given), "wanted": wanted}
+            filling = {"id": step.id, "name": _told(step, formula), "given": kind_text(given), "wanted": wanted}
             yield Phrase("{id}: {name} gives {given}, declared is {wanted}", filling) + angle_hint(
                 given, unit(wanted).kind
             )
+
+
+def _told(step: Step, formula: Formula) -> str:
+    """A formula in words: by its name, or as the step's where it has no name of its own."""
+    return phrase("its formula") if formula.__name__ == step.id else formula.__name__
 
 
 def curve_units(mechanism: Mechanism) -> Iterator[str]:

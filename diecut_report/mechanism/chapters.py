@@ -1,7 +1,7 @@
 """A chapter of the calculation, written quantity by quantity in the order in which they are calculated.
 
-Each call declares one step: its id, symbol, unit and description, then what gives it. A formula is a lambda whose parameters
-are named for the quantities that it takes (``lambda radius, height: radius - height``), or ``bind(formula, parameter="id")``.
+A quantity is declared by assigning what gives it, its symbol, unit, description and source to its id:
+``chapter.depth = m.radius - m.height, "h", "mm", "Depth", "geometry"``. What gives no single quantity is a call of the chapter.
 """
 
 from __future__ import annotations

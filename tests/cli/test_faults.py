@@ -324,7 +324,7 @@ def test_the_alarm_of_a_program_around_rings_in_its_time() -> None:
 
 
 LEVER = (GOOD / "lever.py").read_text("utf-8")
-PRESS = "def turn_for_each_sheet(productivity: Any) -> Any:\n    return 2 * np.pi * productivity\n"
+PRESS = "def turn_for_each_sheet(productivity: Any) -> Any:\n    return 2 * pi * productivity\n"
 BREAKING_CONFIG = """\
 schema_version: 1
 project: {title: Test}

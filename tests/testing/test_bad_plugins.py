@@ -17,8 +17,7 @@ PLUGIN = """\
 import numpy as np
 
 from diecut_report.api import (
-    Annotated, Chapter, Inputs, Mechanism, Quantity)
-from diecut_report.api import m
+    Annotated, Chapter, Inputs, Mechanism, Quantity, computed, m)
 
 
 class Bad(Inputs):

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, Formula, Mechanism, Step, Value, formula, m
+from diecut_report.api import Chapter, Mechanism, Step, Value, formula, m
 from diecut_report.config.loader import load_config
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.errors import PluginError
@@ -213,20 +213,12 @@ def rooted(**changes: Any) -> Mechanism:
     return replace(ROOTED, chapters=(Chapter("Root", steps=(step,)),))
 
 
-class Lying(Formula):
-    """A formula that computes something else than it prints."""
-
-    def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        return 2 * super().__call__(*args, **kwargs)
-
-
 FLAWS = {
     "a length added to a force": (
         mechanism(value(formula=lambda force, arm: force + arm)),
         "brings together N .force. and m .arm.",
     ),
     "another unit than declared": (mechanism(value(unit="N")), "declared is N"),
-    "a print that is not what is computed": (mechanism(value(formula=Lying(moment.function))), "prints"),
     "a bracket in another unit than the root": (rooted(low=same.of(quantity=m.force)), "gives"),
     "a relation between unlike quantities": (rooted(right=same.of(quantity=m.force)), "the relation equals"),
 }

@@ -8,10 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import pytest
 
-from diecut_report.api import GRAVITY, Chapter, Check, Inputs, Mechanism, Quantity, Source, m
+from diecut_report.api import GRAVITY, Chapter, Check, Inputs, Mechanism, Quantity, Source, m, pi
 from diecut_report.cli.main import main
 from diecut_report.declaration.formula_checks import doubts
 from tests.testing.test_check_plugin import toggle
@@ -19,7 +18,7 @@ from tests.testing.test_check_plugin import toggle
 Capture = pytest.CaptureFixture[str]
 WRONG = ("wire**4 / (8", "wire**5 / (8")  # springs that are too soft, so that no check fails
 SAID = "The formulas of the plugin of 'toggle' have faults; do not rely on its results."
-FAULT = "  toggle.py:59: spring_rate: "
+FAULT = "  toggle.py:58: spring_rate: "
 
 
 def run(home: Path, *arguments: str) -> int:
@@ -117,27 +116,27 @@ DOUBTFUL = {
     "60": lambda rate: rate / 60,
     "1000": lambda rate: 1000 * rate,
     "100": lambda rate: rate * 100,
-    "180": lambda rate: rate * 180 / np.pi,
+    "180": lambda rate: rate * 180 / pi,
     "9.81": lambda rate: 9.81 * rate,
-    "3.14": lambda rate: 2 * 3.14 * rate,
+    "3.14": lambda rate: rate * 3.14 * 2,
     "1e6": lambda rate: 1e6 * rate,
-    "30": lambda rate: np.pi * rate / 30,
+    "30": lambda rate: pi * rate / 30,
     "0.104719755": lambda rate: 0.104719755 * rate,
     "57.29577951": lambda rate: 57.29577951 * rate,
     "0.0174533": lambda rate: 0.0174533 * rate,
     "9550": lambda rate: 9550 * rate,
 }
 NOT_DOUBTFUL = [
-    lambda rate: 2 * np.pi * rate,
+    lambda rate: 2 * pi * rate,
     lambda rate: 30 * rate - 12 * rate,  # of a polynomial
-    lambda rate: rate * np.pi / 4,
+    lambda rate: rate * pi / 4,
     lambda rate: rate**100 / rate**99,
     lambda rate: 1.5 * rate,
 ]
 WORKED_OUT = {
     "1000": lambda rate: rate * 10**3,
     "60": lambda rate: (3 * 20) * rate,
-    "0.01745329": lambda rate: np.pi / 180 * rate,
+    "0.01745329": lambda rate: pi / 180 * rate,
 }
 
 
