@@ -37,6 +37,7 @@ ARITHMETIC: dict[Any, str] = {
     np.logical_and: "and", np.logical_or: "or", np.bitwise_and: "and", np.bitwise_or: "or",
 }  # fmt: skip
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
+NOTHING_ADDED, NOT_MULTIPLIED = 0, 1  # with which sum and math.prod begin
 SHOWN = 60  # letters of an expression in a message
 
 
@@ -112,7 +113,7 @@ class Expression:
         return _of("+", self, other)
 
     def __radd__(self, other: Any) -> Expression:
-        return _of("+", other, self)
+        return self if other is NOTHING_ADDED else _of("+", other, self)
 
     def __sub__(self, other: Any) -> Expression:
         return _of("-", self, other)
@@ -124,7 +125,7 @@ class Expression:
         return _of("*", self, other)
 
     def __rmul__(self, other: Any) -> Expression:
-        return _of("*", other, self)
+        return self if other is NOT_MULTIPLIED else _of("*", other, self)
 
     def __truediv__(self, other: Any) -> Expression:
         return _of("/", self, other)

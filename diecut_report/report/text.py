@@ -265,9 +265,13 @@ def displayed(value: float, unit: str, decimal: str = ".") -> str:
     return number(shown(value, unit)["text"], decimal)
 
 
-@lru_cache(maxsize=8192)
 def tidy(text: str) -> str:
     """A sentence with real minus signs, powers of ten written out, long numbers in threes, and degrees close to their number."""
+    return _tidied(text)
+
+
+@lru_cache(maxsize=8192)
+def _tidied(text: str) -> str:
     powers = re.sub(r"(?<=\d)[eE]([+-]?\d+)(?!\w)", lambda found: power_of_ten(int(found[1])), text.replace(" °", "°"))
     powers = re.sub(f"(?<=[{RAISED}])°", f"{THIN}°", _LONG.sub(lambda found: grouped(found[0]), powers))
     return re.sub(r"(?<![\w.)])-(?=\d)", MINUS, powers)

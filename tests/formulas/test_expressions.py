@@ -119,6 +119,7 @@ def test_loops_names_and_helpers_are_ordinary_python() -> None:
 def test_numbers_print_as_they_are_written() -> None:
     third = node_of(m.a ** (number(1) / 3) + np.sqrt(number(3)) - 2 * pi)
     assert Linear()(third.to_json()) == "a^(1/3) + √3 − 2·π"
+    assert Linear()(node_of(sum(m[f"F_{i}"] for i in (1, 2)) * math.prod((m.a, m.b))).to_json()) == "(F_1 + F_2)·a·b"
     assert Linear()(node_of(m.a ** (1 / 4) - 0.5).to_json()) == "a^(0.25) − 0.5"
     assert float(number(1) / 3) == 1 / 3 and pi * np.ones(2) == pytest.approx([math.pi, math.pi])
 
