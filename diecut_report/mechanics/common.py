@@ -1,4 +1,4 @@
-"""Formulas that any calculation needs: comparison, sum and difference, the quantity itself."""
+"""Formulas that any calculation needs: the next multiple of a step, the angle between two sides."""
 
 from __future__ import annotations
 
@@ -8,66 +8,6 @@ import numpy as np
 
 from diecut_report.formulas.expression import arccos
 from diecut_report.formulas.formula import formula
-
-
-@formula
-def same(quantity: Any) -> Any:
-    """The quantity itself."""
-    return quantity
-
-
-@formula
-def zero() -> Any:
-    """Zero."""
-    return 0
-
-
-@formula
-def is_below(smaller: Any, greater: Any) -> Any:
-    """Whether one quantity is below another."""
-    return smaller < greater
-
-
-@formula
-def is_at_most(smaller: Any, greater: Any) -> Any:
-    """Whether one quantity is not above another."""
-    return smaller <= greater
-
-
-@formula
-def is_positive(quantity: Any) -> Any:
-    """Whether a quantity is above zero."""
-    return quantity > 0
-
-
-@formula
-def difference(quantity: Any, less: Any) -> Any:
-    """One quantity less another, of either sign."""
-    return quantity - less
-
-
-@formula
-def sum_of(first: Any, second: Any) -> Any:
-    """Sum of two quantities."""
-    return first + second
-
-
-@formula
-def product(first: Any, second: Any) -> Any:
-    """Product of two quantities."""
-    return first * second
-
-
-@formula
-def quotient(quantity: Any, by: Any) -> Any:
-    """Quotient of two quantities."""
-    return quantity / by
-
-
-@formula
-def is_at_least(greater: Any, smaller: Any) -> Any:
-    """Whether one quantity is not below another."""
-    return greater >= smaller
 
 
 @formula

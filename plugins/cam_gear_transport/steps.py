@@ -24,7 +24,7 @@ from diecut_report.api import (
     reduction,
     value,
 )
-from diecut_report.mechanics import common, contact
+from diecut_report.mechanics import contact
 from diecut_report.mechanics.motion_laws import (
     ACCELERATION,
     JOINT,
@@ -178,7 +178,7 @@ sector.sector_angle = (choice(*by_phase(m.sector_dwell_sweep * m.disc_angle / m.
 sector.sector_speed = (choice(*by_phase(m.sector_speed_dwell, formulas.rise_speed.of(sweep=m.sector_stop_sweep, time=m.time_stop),
     -m.sector_sweep / m.time_return * m.law_velocity, formulas.rise_speed.of(sweep=m.sector_stop_sweep, time=m.time_stop))), "ω_3", "rad",
     "Speed of the sector relative to the disc, per revolution of the disc", "003 eq. 1, 2, Fig. 6")
-sector.sector_acceleration = (choice(*by_phase(common.zero, formulas.rise_acceleration.of(sweep=m.sector_stop_sweep, time=m.time_stop),
+sector.sector_acceleration = (choice(*by_phase(0, formulas.rise_acceleration.of(sweep=m.sector_stop_sweep, time=m.time_stop),
     -m.sector_sweep * (m.cycles_per_hour / m.time_return) ** 2 * m.law_acceleration,
     formulas.rise_acceleration.of(sweep=m.sector_stop_sweep, time=m.time_stop))), "ε_3", "rad/s**2", "Angular acceleration of the sector",
     "kinematics")

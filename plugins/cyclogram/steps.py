@@ -22,7 +22,6 @@ from diecut_report.api import (
     total,
     value,
 )
-from diecut_report.mechanics import common
 from diecut_report.plugins.cyclogram import listings
 from diecut_report.plugins.cyclogram.clearances import clearance_of
 from diecut_report.plugins.cyclogram.listings import verdicts
@@ -211,5 +210,5 @@ for name, symbol, words, quantity, by in (
     ("fluctuation_ratio", "k_E", "Ratio of the range of the excess energy to that of the largest consumer", "energy_fluctuation",
      "greatest_fluctuation"),
 ):
-    torques[name] = value(m[quantity] / m[by], exists=common.is_positive.of(quantity=m[by])), symbol, "1", words
+    torques[name] = value(m[quantity] / m[by], exists=m[by] > 0), symbol, "1", words
 torques.torque_curve_turns = m.sheets_per_period, "N_t", "1", "Revolutions of the main shaft spanned by the torque curve"

@@ -30,7 +30,7 @@ from diecut_report.api import (
     total,
     value,
 )
-from diecut_report.mechanics import belt_path, common
+from diecut_report.mechanics import belt_path
 from diecut_report.plugins.drive_train.figures import TOOTHED_BELT_FIGURES
 
 # fmt: off
@@ -79,7 +79,7 @@ def any_marked(is_cylinder: Any) -> Any:
     return is_cylinder.max(axis=1, keepdims=True)
 
 
-IS_MARKED = common.is_positive.of(quantity=m.cylinder_pulley_there)
+IS_MARKED = m.cylinder_pulley_there > 0
 
 listed = Chapter("Toothed belt: pulleys in the list",
     text="The first pulley of the list is the driving one; one may be fixed to the cylinder (κ = 1, otherwise −1). All pulleys inside the loop and "

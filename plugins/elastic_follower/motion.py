@@ -26,7 +26,7 @@ from diecut_report.api import (
     reduction,
     value,
 )
-from diecut_report.mechanics import common, followers
+from diecut_report.mechanics import followers
 from diecut_report.mechanics.motion_laws import ACCELERATION, JOINT, PEAK_ACCELERATION, POSITION
 from diecut_report.plugins.elastic_follower import rests
 
@@ -93,7 +93,7 @@ times.require("share_of_cycle", m.rise_time <= 1, key="rise_time",
 times.rise_duration = value(m.rise_time * m.cycle_time, needs=("rise_time", *RATE)), "t_r", "ms", "Duration of the rise"
 times.rise_duration = value(m.motion_share * m.cycle_time, needs=CURVE), "t_r", "ms", "Duration of the motion"
 times.tuning_ratio = followers.tuning_ratio.of(rise_time=m.rise_duration), "λ", "1", "Natural periods within the rise", "001, first paper"
-times.require("not_too_soft", common.is_at_least.of(greater=m.tuning_ratio, smaller=SOFTEST), key="stiffness",
+times.require("not_too_soft", m.tuning_ratio >= SOFTEST, key="stiffness",
     message=f"leaves {{tuning_ratio}} natural periods within the rise; at least {SOFTEST} are needed for this calculation (the spectrum covers 0.5 "
     "to 10): give a stiffer drive or a longer rise")
 times.require("not_too_stiff", m.tuning_ratio <= STIFFEST, key="stiffness",

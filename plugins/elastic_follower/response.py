@@ -24,7 +24,7 @@ from diecut_report.api import (
     reduction,
     value,
 )
-from diecut_report.mechanics import common, followers
+from diecut_report.mechanics import followers
 from diecut_report.mechanics.followers import Peaks, peaks
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.elastic_follower import motion, rests
@@ -102,8 +102,8 @@ response.torque = (value(followers.drive_torque.of(deflection_velocity=m.deflect
 
 def _while(chapter: Steps, rising: bool, symbol: str, words: str) -> None:
     there = m.acceleration
-    chapter[f"acceleration_{'rising' if rising else 'resting'}"] = (choice(case(there if rising else common.zero, "the input moves", MOVING),
-        case(common.zero if rising else there, "the input rests"), units=STRAIGHT_ACCELERATION, output=False), symbol, "rad/s**2",
+    chapter[f"acceleration_{'rising' if rising else 'resting'}"] = (choice(case(there if rising else 0, "the input moves", MOVING),
+        case(0 if rising else there, "the input rests"), units=STRAIGHT_ACCELERATION, output=False), symbol, "rad/s**2",
         f"Acceleration of the driven link {words} the motion, else zero", "this method")
 
 
@@ -190,4 +190,4 @@ compared.one_way = (computed(function=rests.gained, takes=CURVE, method="positio
     "Drift of the motion per cycle, relative to its range", "this method")
 recommended(compared, "Law of motion with the lowest peak acceleration of the driven link", LAW, None)
 recommended(compared, "Law that loads the link least in a single rise; this motion, of several parts, may need another", CURVE,
-        common.is_at_least.of(greater=m.one_way, smaller=0.999))
+        m.one_way >= 0.999)

@@ -54,7 +54,6 @@ from diecut_report.declaration.formula_checks import (
 from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import Node, unsaid
 from diecut_report.machine.steps.run import calculate
-from diecut_report.mechanics import common
 from diecut_report.mechanism.steps.interpolated import Between
 from diecut_report.quantities.units import DIMENSIONS, unit
 
@@ -114,7 +113,7 @@ SOUND = {
     "rad/s said to be 1/s": value(lambda speed: as_number(speed), "1/s"),
     "1/s said to be rad/s": value(lambda rate: as_angle(rate), "rad/s"),
     "m·ω² said": value(lambda mass, speed: mass * as_number(speed) ** 2, "N/m"),
-    "zero as an angle": value(common.zero, "deg"),
+    "zero as an angle": value(0, "deg"),
 }
 UNSOUND = {
     "rad/s as Hz": (value(lambda speed: speed, "Hz"), "gives rad/s, declared is 1/s"),
@@ -189,7 +188,7 @@ def beyond(u: Any, share: Any) -> Any:
 
 
 def test_the_sides_of_a_relation_are_both_angles() -> None:
-    root = Root(id="u", equation=beyond, unknown="u", low=common.zero, high=formula(lambda: 1),
+    root = Root(id="u", equation=beyond, unknown="u", low=0, high=1,
                 left=m.u, right=m.angle, **REST)  # fmt: skip
     with pytest.raises(AssertionError, match="the relation equals a pure number with rad"):
         check_mechanism(wheel(root))

@@ -32,7 +32,6 @@ from diecut_report.machine.numerics.curves import MANY, Curves, Program
 from diecut_report.machine.numerics.domain import shares
 from diecut_report.machine.numerics.extremes import Spots, around, vertices
 from diecut_report.machine.steps.run import calculate
-from diecut_report.mechanics import common
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.steps import Choice, Root
@@ -206,7 +205,7 @@ is_between = formula(lambda root: root > 0.5)
 
 def test_what_follows_from_an_impossible_number_makes_no_message() -> None:
     steps = (
-        Require(id="positive", condition=common.is_positive.of(quantity=m.arm), key="arm", message="is {arm}"),
+        Require(id="positive", condition=m.arm > 0, key="arm", message="is {arm}"),
         Value(id="root", symbol="r", unit="m", description="Root", formula=root_of.of()),
         Require(id="long", condition=is_between, key="arm", message="has a root of {root}"),
     )
