@@ -31,6 +31,7 @@ from math import inf, sqrt
 from pathlib import Path
 from typing import Any
 
+from change_signs import is_of_quantities
 from mutant_runs import KILLED, OPEN, SURVIVED, TIMEOUT, Server, in_server, prepared
 from unit_tests import ROOT, units
 
@@ -124,12 +125,6 @@ def spans(source: str) -> tuple[list[tuple[Place, Place]], list[tuple[Place, Pla
         elif isinstance(node, ast.JoinedStr | ast.Raise):
             outside.append(span(node, lines))
     return inside, outside
-
-
-def is_of_quantities(node: ast.AST) -> bool:
-    """Whether a node calculates with quantities, ``m.ID``."""
-    is_operation = isinstance(node, ast.BinOp | ast.UnaryOp | ast.Compare)
-    return is_operation and any(isinstance(part, ast.Name) and part.id == "m" for part in ast.walk(node))
 
 
 def all_of(arguments: ast.arguments) -> Iterator[ast.AST]:

@@ -12,6 +12,7 @@ import operator
 import reprlib
 import sys
 from collections.abc import Callable
+from decimal import Decimal
 from traceback import walk_tb
 from types import FrameType
 from typing import Any, NoReturn, Self
@@ -56,13 +57,12 @@ def is_own(frame: FrameType) -> bool:
     return frame.f_code.co_filename == GENERATED or any(name.startswith(f"{each}.") for each in OWN)
 
 
-def author_line() -> tuple[str, str]:
-    """Return place (``file:line``) and code of the author's line that is being run."""
+def author_place() -> tuple[str, int]:
+    """Return file and number of the author's line that is being run."""
     frame = sys._getframe(1)
     while frame.f_back and is_own(frame):
         frame = frame.f_back
-    file, line = frame.f_code.co_filename, frame.f_lineno
-    return f"{file}:{line}", linecache.getline(file, line).strip()
+    return frame.f_code.co_filename, frame.f_lineno
 
 
 def failed_at(error: BaseException) -> str:
@@ -73,8 +73,10 @@ def failed_at(error: BaseException) -> str:
 
 def refuse(text: str) -> NoReturn:
     """Raise FormulaError with the author's line in front of the text."""
-    place, line = author_line()
-    raise FormulaError(joined((Phrase("in “{line}”", line=line), text), ": ") if line else text, place) from None
+    file, number = author_place()
+    line = linecache.getline(file, number).strip()
+    text = joined((Phrase("in “{line}”", line=line), text), ": ") if line else text
+    raise FormulaError(text, f"{file}:{number}") from None
 
 
 class Expression:
@@ -393,8 +395,7 @@ def _literal(value: float) -> str:
     text = repr(value)
     if not text.endswith(".0") or abs(value) < PLAIN_BELOW:
         return text
-    mantissa, power = f"{value:e}".split("e")
-    mantissa = mantissa.rstrip("0").rstrip(".")
+    mantissa, power = f"{Decimal(value).normalize():e}".split("e")
     return f"{mantissa}e{int(power)}" if len(mantissa) < MAX_MANTISSA_LENGTH else f"{value:.0f}"
 
 

@@ -8,6 +8,7 @@ import reprlib
 from collections.abc import Callable, Iterable
 from functools import cached_property
 from inspect import Parameter
+from threading import RLock
 from typing import Any, overload
 
 import numpy as np
@@ -20,6 +21,7 @@ from diecut_report.formulas.tree import (
     NUMERIC,
     PI,
     SAID,
+    SIGNS,
     Node,
     substitute,
     symbols,
@@ -28,6 +30,8 @@ from diecut_report.formulas.tree import (
     walk,
 )
 from diecut_report.text.phrases import Phrase, phrase
+
+TRACING = RLock()  # two threads that follow one formula would each take the other for a call of itself
 
 
 class Formula:
@@ -87,6 +91,10 @@ class Formula:
         return WrittenFormula(Expression(renamed(self.spoken, rename)), self.__name__, self.place)
 
     def _traced(self, *args: Any, **given: Any) -> Any:
+        with TRACING:
+            return self._followed(*args, **given)
+
+    def _followed(self, *args: Any, **given: Any) -> Any:
         if self._is_traced:
             template = (
                 "formula {name} calls itself and would never end; give the formula another name than what it calls"
@@ -275,9 +283,6 @@ class WrittenFormula(Formula):
 
 
 # Computing a tree: as a function of its own, and as it is printed.
-
-
-SIGNS = {"^": "**", "and": "&", "or": "|"}
 
 
 def compiled(tree: Node, parameters: tuple[str, ...]) -> Callable[..., Any]:

@@ -145,4 +145,5 @@ APPLY: dict[str, Callable[..., Any]] = {
     "and": operator.and_, "or": operator.or_, "not": np.logical_not, "neg": operator.neg,
     "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
 }  # fmt: skip
+SIGNS = {"^": "**", "and": "&", "or": "|"}  # operations that Python writes otherwise
 PI = Node("sym", ("π",))

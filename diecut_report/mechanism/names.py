@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import operator
 import reprlib
-import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from types import FunctionType
@@ -15,22 +14,17 @@ from pydantic_core import CoreSchema, core_schema
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.formulas.expression import Expression
+from diecut_report.formulas.expression import Expression, author_place
 from diecut_report.formulas.formula import Formula, WrittenFormula
 from diecut_report.text.phrases import Phrase
 
 OWN = "diecut_report.mechanism"
-GENERATED = "<string>"  # the code of a dataclass of a step type that stands elsewhere
 
 
 def here() -> str:
     """Return the place, ``file:line``, of the call outside the contract that declares what is being made."""
-    frame = sys._getframe(1)
-    while (
-        frame.f_globals.get("__name__", "").startswith(OWN) or frame.f_code.co_filename == GENERATED
-    ) and frame.f_back is not None:
-        frame = frame.f_back
-    return f"{frame.f_code.co_filename}:{frame.f_lineno}"
+    file, line = author_place()
+    return f"{file}:{line}"
 
 
 def placed() -> Any:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+from concurrent.futures import ThreadPoolExecutor
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -86,6 +88,22 @@ def test_a_formula_that_calls_itself_is_told_before_it_runs_away(rule: Any) -> N
     for use in (lambda: rule(2.0), lambda: rule.tree, lambda: rule.constants, lambda: rule.function(2.0)):
         with pytest.raises(FormulaError, match=rf"test_called_formulas\.py:\d+: formula {rule.__name__} calls itself"):
             use()
+
+
+def test_two_threads_may_follow_one_formula() -> None:
+    begun, gone_on = Event(), Event()
+
+    def waiting(x: Any) -> Any:
+        begun.set()
+        gone_on.wait(0.2)
+        return 2 * x
+
+    rule = Formula(waiting)
+    with ThreadPoolExecutor(2) as pool:
+        first = pool.submit(lambda: rule(m.a))
+        begun.wait(5)
+        second = pool.submit(lambda: rule(m.b))
+        assert repr(first.result()) == "<2 * a>" and repr(second.result()) == "<2 * b>"
 
 
 def test_a_call_may_name_what_it_gives() -> None:

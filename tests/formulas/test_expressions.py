@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from diecut_report.api import m, number, pi
 from diecut_report.formulas.expression import GRAVITY, Constant, FormulaError, arccos, node_of
@@ -122,6 +124,14 @@ def test_numbers_print_as_they_are_written() -> None:
     assert Linear()(node_of(sum(m[f"F_{i}"] for i in (1, 2)) * math.prod((m.a, m.b))).to_json()) == "(F_1 + F_2)·a·b"
     assert Linear()(node_of(m.a ** (1 / 4) - 0.5).to_json()) == "a^(0.25) − 0.5"
     assert float(number(1) / 3) == 1 / 3 and pi * np.ones(2) == pytest.approx([math.pi, math.pi])
+
+
+@given(st.one_of(st.floats(-1e16, 1e16), st.integers(-(10**12), 10**12).map(float)))
+@example(100000001.0)
+@example(-2e8)
+def test_a_number_that_is_printed_is_the_number_itself(value: float) -> None:
+    assert evaluate(number(value).node, leaf_values()) == value
+    assert WrittenFormula(number(value) * m.a, "x", "").function(1.0) == value
 
 
 def test_quantities_stand_by_their_ids() -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.formulas.expression import FormulaError
 from diecut_report.formulas.formula import Formula, FormulaName
-from diecut_report.formulas.tree import NUMERIC, Node
+from diecut_report.formulas.tree import NUMERIC, SIGNS, Node
 from diecut_report.machine.numerics.domain import CalculatedMachines, Inside
 from diecut_report.mechanism.names import Written, formula_of
 from diecut_report.mechanism.steps import Choice, Step, Value
@@ -128,7 +128,6 @@ class SampledCurve:
 
 NUMBERS, PIECES, POINTS = 0, 1, 2  # what a term depends on at most: each is computed on arrays of its own
 WRITING = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide"}  # what may put its result where it belongs
-SIGNS = {"^": "**", "and": "&", "or": "|"}
 
 
 class Leaf(NamedTuple):
