@@ -1,7 +1,5 @@
 """All that a plugin may import, with ``diecut_report.mechanics``, NumPy and SciPy."""
 
-from typing import Annotated
-
 from diecut_report.formulas.expression import GRAVITY, Constant, Expression, arccos, as_angle, as_number, m, number, pi
 from diecut_report.formulas.formula import Formula, formula
 from diecut_report.mechanism.chapters import Chapter, Steps, prefixed
@@ -52,7 +50,7 @@ from diecut_report.mechanism.figures import (
     rigid,
     vertical,
 )
-from diecut_report.mechanism.inputs import POINTS, Block, Extremes, Inputs, Quantity, Varying
+from diecut_report.mechanism.inputs import Block, Extremes, Inputs, Quantity, Varying, block, parts, samples
 from diecut_report.mechanism.mechanism import (
     CONTRACT,
     Comparison,
@@ -138,11 +136,9 @@ from diecut_report.text.phrases import Phrase, joined, named, phrase, worded
 __all__ = [
     "CONTRACT",
     "GRAVITY",
-    "POINTS",
     "Abscissa",
     "Accumulated",
     "AdviceWay",
-    "Annotated",
     "BarGroup",
     "Bars",
     "Block",
@@ -242,6 +238,7 @@ __all__ = [
     "as_angle",
     "as_number",
     "below",
+    "block",
     "box",
     "case",
     "chart_panel",
@@ -273,6 +270,7 @@ __all__ = [
     "own_series",
     "own_table",
     "part",
+    "parts",
     "phrase",
     "pi",
     "pick",
@@ -285,6 +283,7 @@ __all__ = [
     "rigid",
     "root",
     "running",
+    "samples",
     "si",
     "standard_series",
     "standard_series_by",

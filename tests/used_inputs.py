@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar
+from typing import Any
 
 from diecut_report.api import (
     Block,
@@ -19,37 +18,38 @@ from diecut_report.api import (
     View,
     circle,
     m,
+    parts,
     total,
     value,
 )
 
 
 def number(unit: str = "mm", **more: Any) -> Any:
-    return Annotated[float, Quantity("q", unit, "Quantity", **more)]
+    return Quantity("q", unit, "Quantity", **more)
 
 
 class Part(Block):
-    width: number()  # type: ignore[valid-type]
-    depth: number()  # type: ignore[valid-type]
+    width = number()
+    depth = number()
 
 
 class Many(Inputs):
-    spread: ClassVar[Mapping[str, tuple[str, ...]]] = {"several": ("first", "second")}
+    spread = {"several": ("first", "second")}
 
-    taken: number()  # type: ignore[valid-type]
-    switch: Annotated[float | None, Quantity("s", "mm", "Switch")] = None
-    form: Annotated[float | None, Quantity("f", "mm", "Form")] = None
-    formed: number(units=(("form", "N"),))  # type: ignore[valid-type]
-    limited: number()  # type: ignore[valid-type]
-    said: number()  # type: ignore[valid-type]
-    drawn: number()  # type: ignore[valid-type]
-    level: number()  # type: ignore[valid-type]
-    several: number()  # type: ignore[valid-type]
-    first: number()  # type: ignore[valid-type]
-    second: number()  # type: ignore[valid-type]
-    name: Annotated[str, Text("A name for the reader")] = ""
-    parts: Annotated[list[Part], Text("Parts")]
-    idle: number()  # type: ignore[valid-type]
+    taken = number()
+    switch = Quantity("s", "mm", "Switch", optional=True)
+    form = Quantity("f", "mm", "Form", optional=True)
+    formed = number(units=(("form", "N"),))
+    limited = number()
+    said = number()
+    drawn = number()
+    level = number()
+    several = number()
+    first = number()
+    second = number()
+    name = Text("A name for the reader", default="")
+    parts = parts(Part, "Parts")
+    idle = number()
 
 
 def draw(view: View) -> list[Any]:

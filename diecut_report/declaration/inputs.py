@@ -8,12 +8,9 @@ import re
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache
-from inspect import get_annotations
 from itertools import chain
-from types import UnionType
-from typing import Any, Literal, Union, cast, get_args, get_origin, get_type_hints
+from typing import Any, Literal, cast, get_args, get_origin, get_type_hints
 
-from pydantic import PydanticSchemaGenerationError, TypeAdapter
 from pydantic.fields import FieldInfo
 
 from diecut_report.declaration.formulas import kind_of
@@ -23,7 +20,7 @@ from diecut_report.formulas.expression import FormulaError
 from diecut_report.formulas.formula import Formula
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.curve_inputs import CurveInput
-from diecut_report.mechanism.inputs import BOUNDS, Block, Key, Meta, Quantity, Referred, allowed, meta_of, nested
+from diecut_report.mechanism.inputs import BOUNDS, Block, Key, Meta, Quantity, allowed, meta_of, nested
 from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Wired, kinds_named
 from diecut_report.mechanism.names import ByText, Text, formula_of
 from diecut_report.mechanism.steps import Root, Step
@@ -98,15 +95,15 @@ def of_class(declared: type, otherwise: str) -> str:
 
 
 def of_field(model: type[Block], name: str, otherwise: str) -> str:
-    """Return the line that declares an input: annotations may be texts that pydantic reads, so that they know no place themselves."""
+    """Return the line that declares an input: what several have in common is made elsewhere, and knows no place of its own."""
     for owner in model.__mro__:
         if name in inspect.get_annotations(owner):
             try:
                 lines, first = inspect.getsourcelines(owner)
-            except OSError:  # made without a file
-                return otherwise
+            except OSError:  # made without a file, as a block with a suffix of its own
+                continue
             for number, line in enumerate(lines, first):
-                if line.strip().startswith(f"{name}:"):
+                if line.strip().startswith((f"{name} =", f"{name}_ =", f"{name}:")):
                     return f"{inspect.getsourcefile(owner)}:{number}"
     return otherwise
 
@@ -119,7 +116,6 @@ def of_input(model: type[Block], path: str, otherwise: str) -> str:
 
 
 RESERVED = ("kind",)  # keys of each mechanism in a configuration
-PLAIN = ("builtins", "typing", "types")  # where the classes of plain values stand
 
 
 def faults(names: DeclaredNames) -> Iterator[Fault]:
@@ -157,17 +153,6 @@ def _own_code(model: type[Block]) -> Iterator[str]:
     yield from (name for name in MADE_BY if any(name in vars(each) for each in own))
 
 
-def _beside(declared: FieldInfo) -> Iterator[str]:
-    """What is declared of an input beside its quantity, and would be held against SI numbers in silence."""
-    known = Quantity | Text | Referred | str
-    if others := [type(each).__name__ for each in declared.metadata if not isinstance(each, known)]:
-        template = (
-            "has {names} beside its quantity, by which another value than the user's may count; give bounds to the quantity, "
-            "and calculate in a step"
-        )
-        yield Phrase(template, names=", ".join(others))
-
-
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
     whole = of_class(model, place), Phrase("class {name}", name=model.__name__)
     if changed := [name for name, value in Block.model_config.items() if model.model_config.get(name) != value]:
@@ -181,15 +166,19 @@ def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
         yield Fault(*whole, Phrase(template, names=", ".join(own)))
     for name, declared in model.model_fields.items():
         inner, subject = nested(declared.annotation), Phrase("input {path}", path=f"{prefix}{name}")
-        told = [] if inner else list(_wrong(name, declared, meta_of(model, name)))
+        told = [] if inner else list(_wrong(declared, meta_of(model, name)))
+        if not any(name in getattr(owner, "assigned", ()) for owner in model.__mro__):
+            told = [
+                Phrase(
+                    'is annotated; write {name} = Quantity("SYMBOL", "UNIT", "description"), or Text("description")',
+                    name=name,
+                )
+            ]
         if name in RESERVED and not prefix:
             template = "has the name of a key that the program reads itself ({reserved}), so that nobody can give it; name it otherwise"
             told.append(Phrase(template, reserved=", ".join(RESERVED)))
-        for text in (*_absent(declared), *_beside(declared), *told):
+        for text in told:
             yield Fault(of_field(model, name, place), subject, text)
-        for kind in _strange(declared.annotation):
-            template = "is made of {name}, which is not a block of inputs; write class {name}(Block)"
-            yield Fault(of_class(kind, place), subject, Phrase(template, name=kind.__name__))
         if inner:
             yield from _block(inner[0], place, f"{prefix}{name}.")
     yield from (Fault(place, subject, text) for subject, text in _rules(model))
@@ -212,42 +201,6 @@ def _rules(model: type[Block]) -> Iterator[tuple[Phrase, Phrase]]:
             yield Phrase("curve_keys of {name}", name=name), Phrase(template, key=key, curve=curve)
 
 
-def _absent(declared: FieldInfo) -> Iterator[str]:
-    """What is wrong with an input that is left out: None must be allowed where it is the default, and be the default where it is allowed."""
-    kinds = _kinds(declared.annotation)
-    said = " | ".join(kind.__name__ if isinstance(kind, type) else str(kind).removeprefix("typing.")
-                      for kind in kinds if kind is not type(None))  # fmt: skip
-    may_be_none = type(None) in kinds  # Any alone does not tell that it may be left out
-    if declared.is_required() and may_be_none:
-        template = "may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}"
-        yield Phrase(template, said=said)
-    if not declared.is_required() and declared.get_default(call_default_factory=True) is None and not may_be_none:
-        template = "has the default None, but may not be None; annotate it as {said} | None, or give it a value"
-        yield Phrase(template, said=said)
-
-
-def _kinds(annotation: Any) -> tuple[Any, ...]:
-    return get_args(annotation) if get_origin(annotation) in (Union, UnionType) else (annotation,)
-
-
-def _strange(annotation: Any) -> Iterator[type]:
-    """Classes with keys of their own that are not blocks, of which nothing is known, and those that no text of a file can be."""
-    if isinstance(annotation, type):
-        is_plain = annotation.__module__ in PLAIN or issubclass(annotation, Block)
-        if not is_plain and (get_annotations(annotation) or not _is_readable(annotation)):
-            yield annotation
-    for part in get_args(annotation):
-        yield from _strange(part)
-
-
-def _is_readable(kind: type) -> bool:
-    try:
-        TypeAdapter(kind)
-    except PydanticSchemaGenerationError:
-        return False
-    return True
-
-
 def _bounds(meta: Quantity) -> Iterator[str]:
     """Bounds that are not numbers, and those that no number keeps."""
     given = {name: getattr(meta, name) for name, _ in BOUNDS if getattr(meta, name) is not None}
@@ -262,30 +215,18 @@ def _bounds(meta: Quantity) -> Iterator[str]:
         yield Phrase("has bounds that no number keeps: {allowed}; exchange or widen them", allowed=meta.allowed)
 
 
-def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
+def _wrong(declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
     default = declared.get_default(call_default_factory=True)
-    if meta is None:
-        kind = getattr(declared.annotation, "__name__", str(declared.annotation))
-        what = f'Quantity("SYMBOL", "UNIT", "description")' if kind in ("int", "float") else 'Text("description")'  # noqa: F541
-        value = "" if declared.is_required() else f" = {default!r}"
-        template = "is a plain {kind}, of which nothing is known; write {name}: Annotated[{kind}, {what}]{value}"
-        yield Phrase(template, kind=kind, name=name, what=what, value=value)
-        return
     if isinstance(meta, Quantity):
         wrong = list(_bounds(meta))
         if wrong:  # no number can be held against them
             yield from wrong
             return
-        if int in _kinds(declared.annotation) and not meta.integer:
-            template = (
-                "is annotated as int, but takes any number; write integer=True in its Quantity, or annotate it as float"
-            )
-            yield phrase(template)
         if meta.plausible:
             yield from _sizes(meta, meta.plausible)
         if meta.integer and (meta.unit != "1" or meta.units):
             yield Phrase("is a whole number in {unit}; a count has the unit 1", unit=meta.unit)
-    if not declared.is_required() and default is not None:
+    if meta and not declared.is_required() and default is not None:
         yield from _default(default, declared.annotation, meta)
 
 

@@ -133,7 +133,7 @@ def _twice(file: Path, scope: ast.Module | Defined) -> Iterator[Fault]:
         name = _name(statement, isinstance(scope, ast.ClassDef))
         if name and name in seen:
             template = "twice, at first in line {line}, and only the last one counts; give one of them another name, or take it away"
-            is_field = isinstance(statement, ast.AnnAssign)
+            is_field = isinstance(statement, ast.AnnAssign | ast.Assign)
             text = Phrase(
                 "is a field {told}" if is_field else "is defined {told}", told=Phrase(template, line=seen[name])
             )
@@ -150,7 +150,9 @@ def _name(statement: ast.stmt, of_class: bool) -> str:
         case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
             marks = {getattr(mark, "attr", getattr(mark, "id", "")) for d in statement.decorator_list for mark in ast.walk(d)}  # fmt: skip
             return "" if marks & MEANT or statement.name == "_" else statement.name
-        case ast.AnnAssign(target=ast.Name(id=name)) if of_class:
+        case ast.AnnAssign(target=ast.Name(id=name)) | ast.Assign(targets=[ast.Name(id=name)], value=ast.Call()) if (
+            of_class
+        ):
             return name
     return ""
 

@@ -17,7 +17,7 @@ from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, f
 from diecut_report.errors import nearest
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.figures import Spectrum
-from diecut_report.mechanism.inputs import POINTS, Block, Quantity, keys
+from diecut_report.mechanism.inputs import Block, Quantity, Samples, keys
 from diecut_report.mechanism.mechanism import Comparison, CurveTable, Mechanism, Profile
 from diecut_report.mechanism.names import When
 from diecut_report.mechanism.steps import Case, SilentStep, Step, has_own_names, names_ahead, numbered_symbol
@@ -324,7 +324,7 @@ def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> F
     template = (
         "has the symbol {symbol} of {name} ({points}at {place}): both would be printed as one quantity; give it another"
     )
-    points = "POINTS, " * one.is_points
+    points = "samples, " * one.is_points
     return _of(mechanism, other, Phrase(template, symbol=symbol, name=one.name, points=points, place=place))
 
 
@@ -338,7 +338,7 @@ def _whole(names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
     """Yield the symbols that are declared."""
     for key in names.world.keys.values():
         if isinstance(key.meta, Quantity) and key.meta.symbol:
-            when, is_points = names.known[key.path][0].when, key.meta is POINTS
+            when, is_points = names.known[key.path][0].when, isinstance(key.meta, Samples)
             yield key.meta.symbol, Printed(key.path, key.meta.at, when, is_points=is_points)
     for step, when in names.steps:
         if step.symbol and step.printed and not isinstance(step, SilentStep) and names.kinds(step.id) != {"text"}:

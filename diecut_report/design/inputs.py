@@ -21,7 +21,7 @@ from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Vary
 from diecut_report.mechanism.curve_inputs import InOtherUnit
-from diecut_report.mechanism.inputs import POINTS, Quantity
+from diecut_report.mechanism.inputs import Quantity, Samples
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Text
 from diecut_report.mechanism.steps import Require
@@ -183,7 +183,7 @@ def _number(config: Config, asked: Input) -> DesignInput:
     if not isinstance(asked.meta, Quantity):
         template = "{name} is a text, a choice or a yes/no; name an input that is a number."
         raise refusal(template, config.tree.file, name=found.name)
-    if asked.meta is POINTS:
+    if isinstance(asked.meta, Samples):
         template = "{name} only sets how densely curves are listed; it does not affect the machine."
         raise refusal(template, config.tree.file, name=found.name)
     return found
@@ -339,7 +339,7 @@ def _own(config: Config, kind: type, *, given: bool) -> Iterator[DesignInput]:
     """The inputs that refer to nothing."""
     for name, instance in config.instances.items():
         for slot in instance.slots if instance else ():
-            is_meant = isinstance(slot.meta, kind) and slot.is_given is given and slot.meta is not POINTS
+            is_meant = isinstance(slot.meta, kind) and slot.is_given is given and not isinstance(slot.meta, Samples)
             if is_meant and (name, *slot.key) not in config.links:
                 with suppress(UnknownPath):  # it stands for several, as in a list
                     yield _made(config, find_input(config, _path(name, slot.key)))

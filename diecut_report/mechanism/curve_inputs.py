@@ -11,7 +11,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from diecut_report.errors import MAX_CURVE_VALUES
 from diecut_report.formulas import Array
-from diecut_report.mechanism.names import SI, Curve, Pending, placed
+from diecut_report.mechanism.names import SI, Curve, DeclaredKey, Pending
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.plausible import plausible
 from diecut_report.quantities.units import number_and_unit, parse_quantity, pretty, to_display, unit
@@ -26,7 +26,7 @@ def by_validate(declared: Any, source: Any, handler: GetCoreSchemaHandler) -> Co
 
 
 @dataclass(frozen=True)
-class CurveInput:
+class CurveInput(DeclaredKey):
     """Declare a curve taken by reference, or (unless ``referred``) a list of equally spaced numbers over one period.
 
     The validated value is a ``Pending``, the referred curve, or a tuple of SI floats. ``units`` as for ``Quantity``.
@@ -37,7 +37,6 @@ class CurveInput:
     description: str
     referred: bool = False
     units: tuple[tuple[str, str], ...] = ()
-    at: str = placed()
     __get_pydantic_core_schema__ = by_validate
 
     def validate(self, given: Any) -> Any:
@@ -103,7 +102,7 @@ class GivenPhase(Protocol):
 
 
 @dataclass(frozen=True)
-class PhaseInput:
+class PhaseInput(DeclaredKey):
     """Declare a phase of another mechanism, taken by reference: ``${drive.phases.cutting}``.
 
     ``unit`` is that of the abscissa it runs over (an angle, a time). The validated value is a ``Pending`` or the phase
@@ -113,7 +112,6 @@ class PhaseInput:
     symbol: str
     unit: str
     description: str
-    at: str = placed()
     __get_pydantic_core_schema__ = by_validate
 
     def validate(self, given: Any) -> Any:
@@ -134,7 +132,7 @@ class PhaseInput:
 
 
 @dataclass(frozen=True)
-class MechanismInput:
+class MechanismInput(DeclaredKey):
     """Declare another mechanism of the configuration, taken whole by its name: ``mechanism: drive``.
 
     It is calculated first, as if it were referred to. The validated value is a ``Pending`` or the mechanism (``GivenMechanism``).
@@ -142,7 +140,6 @@ class MechanismInput:
 
     description: str
     symbol: str = ""
-    at: str = placed()
     __get_pydantic_core_schema__ = by_validate
 
     def validate(self, given: Any) -> Any:

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import math
 import operator
+import reprlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import Any, ClassVar, Literal, get_args, get_origin
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, get_args, get_origin
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
+from pydantic.fields import FieldInfo
 
 from diecut_report.mechanism.curve_inputs import (
     CurveInput,
@@ -24,10 +26,15 @@ from diecut_report.mechanism.curve_inputs import (
     by_validate,
     is_in,
 )
-from diecut_report.mechanism.names import SI, FromPress, OneOf, Pending, Text, placed
+from diecut_report.mechanism.names import SI, DeclaredKey, FromPress, Misdeclared, OneOf, Pending, Text
 from diecut_report.quantities.plausible import Plausible, plausible
 from diecut_report.quantities.units import Unit, UnitError, number_and_unit, parse_quantity, pretty, to_display, unit
 from diecut_report.text.phrases import Phrase, joined, phrase
+
+if TYPE_CHECKING:
+    from pydantic._internal._model_construction import ModelMetaclass
+else:
+    ModelMetaclass = type(BaseModel)  # which pydantic names nowhere
 
 # Hard bounds of a quantity, in the unit that it is declared in.
 
@@ -54,11 +61,11 @@ def as_typed(shown: Any, limits: Sequence[float | None]) -> Any:
 
 
 @dataclass(frozen=True)
-class Quantity:
-    """Declare a number with a unit: symbol, display unit, description and bounds (in the display unit).
+class Quantity(DeclaredKey):
+    """Declare a number with a unit: symbol, display unit, description and bounds (in the display unit, as the default is).
 
-    Put into ``Annotated[float, Quantity(...)]`` of an input model. The validated value is an SI float
-    (an int where ``integer``). ``units`` are other units, each with the key beside which it holds: (("mass", "N/m"),).
+    The validated value is an SI float (an int where ``integer``). ``units`` are other units, each with the key beside which it holds:
+    (("mass", "N/m"),).
     ``plausible`` are the least and the greatest size that a machine may have, zero aside, where they are not those of
     the kind of quantity (``quantities.plausible``): ("1 mm", "10 m"). ``words`` are texts that may stand in place of a number,
     and are taken as they are. ``or_unit`` is another kind of unit in which it may be given: it is then an ``InOtherUnit``.
@@ -79,8 +86,16 @@ class Quantity:
     words: tuple[str, ...] = ()
     or_unit: str = ""
     listed: tuple[float, ...] = ()
-    at: str = placed()
     __get_pydantic_core_schema__ = by_validate
+
+    def __post_init__(self) -> None:
+        if self.press:  # which stands in
+            object.__setattr__(self, "optional", True)
+
+    @property
+    def form(self) -> Any:
+        """Return what its value is when it is given."""
+        return int if self.integer else float
 
     @cached_property
     def parsed_unit(self) -> Unit:
@@ -207,11 +222,45 @@ class Quantity:
         return np.isfinite(shown) & self._within(shown) & whole & self.sizes.holds(values, calculated=calculated)
 
 
-class Block(BaseModel):
-    """Declare a block of inputs inside a mechanism, or one of a list of repeated parts."""
+class KeysByAssignment(ModelMetaclass):
+    """Let the keys of a block be declared by assignment: what is assigned says what the key takes, and what it is where nobody gives it."""
+
+    def __new__(cls, name: str, bases: tuple[type, ...], attributes: dict[str, Any], **options: Any) -> Any:
+        declared = {key: each for key, each in attributes.items() if isinstance(each, DeclaredKey)}
+        for key, each in attributes.items():
+            if isinstance(each, PLAIN) and not key.startswith("_") and not any(hasattr(base, key) for base in bases):
+                _refuse_plain(key, each, attributes)
+        if declared:
+            attributes.setdefault("__annotations__", {})
+        for key, each in declared.items():
+            del attributes[key]
+            attributes["__annotations__"][key.rstrip("_")] = each.given_as
+            if each.otherwise is not ...:
+                attributes[key.rstrip("_")] = each.otherwise
+        attributes["assigned"] = frozenset(key.rstrip("_") for key in declared)
+        return super().__new__(cls, name, bases, attributes, **options)
+
+
+PLAIN = (str, int, float, tuple, list, dict, type(None), FieldInfo)
+
+
+def _refuse_plain(key: str, given: Any, attributes: Mapping[str, Any]) -> None:
+    """Refuse a plain value among the keys, unless it is the default of one that is annotated."""
+    if key not in attributes.get("__annotations__", {}):
+        template = '{key} = {given} does not say what the key takes; write {key} = Quantity("SYMBOL", "UNIT", "description"), or Text("description")'
+        raise Misdeclared(Phrase(template, key=key, given=reprlib.repr(given)))
+
+
+class Block(BaseModel, metaclass=KeysByAssignment):
+    """Declare a block of inputs inside a mechanism, or one of a list of repeated parts: ``length = Quantity("l", "mm", "Length", gt=0)``.
+
+    A key that is a word of Python has an underscore behind it: ``from_``.
+    """
 
     # arbitrary types are refused by the declaration check
     model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True, arbitrary_types_allowed=True)
+    assigned: ClassVar[frozenset[str]] = frozenset()
+    """Keys of this class alone that are declared by assignment; those of the program's own files are annotated."""
     one_of: ClassVar[tuple[OneOf, ...]] = ()
     spread: ClassVar[Mapping[str, tuple[str, ...]]] = {}
     """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""
@@ -222,10 +271,60 @@ class Block(BaseModel):
 
 
 class Inputs(Block):
-    """Declare the base of a mechanism's inputs: one annotated field for each key of the config."""
+    """Declare the base of a mechanism's inputs: one key of the config for each attribute."""
 
 
-POINTS = Quantity("N", "1", phrase("Samples of each curve"), ge=36, le=100_000, integer=True)
+def parts(block: type[Block], description: str, *, optional: bool = False) -> Text:
+    """Declare a list of repeated parts, each a block; an ``optional`` one may be empty."""
+    return Text(description, block=_block(block), many=True, optional=optional)
+
+
+def block(block: type[Block], description: str, *, suffix: str = "", optional: bool = False, **words: str) -> Text:
+    """Declare a block of keys within the inputs.
+
+    Of several of one class each has a ``suffix`` for its symbols (r_a, r_b), and words for the places in its descriptions:
+    ``block(Link, "Lower link", suffix="a", link="lower link")`` of a class whose key is "Length of the {link}".
+    """
+    own = _block(block)
+    return Text(description, block=_worded(own, suffix, words) if suffix or words else own, optional=optional)
+
+
+def _worded(model: type[Block], suffix: str, words: Mapping[str, str]) -> type[Block]:
+    keys: dict[str, Any] = {"__module__": model.__module__, "__doc__": model.__doc__}
+    for name in model.model_fields:
+        meta = meta_of(model, name)
+        assert meta is not None, "keys of a block are declared by assignment"
+        symbol = f"{meta.symbol}{',' if '_' in meta.symbol else '_'}{suffix}" if suffix and meta.symbol else meta.symbol
+        keys[name] = replace(meta, symbol=symbol, description=_with_words(meta.description, words, name))
+    return type(model)(f"{model.__name__}_{suffix}" if suffix else model.__name__, (model,), keys)
+
+
+def _with_words(description: str, words: Mapping[str, str], name: str) -> str:
+    try:
+        return description.format(**words)
+    except KeyError as missing:
+        template = "the description of {name} has a place {place}, for which block(…) has no words; write {place}="
+        raise Misdeclared(Phrase(template, name=name, place=missing.args[0])) from None
+
+
+def _block(given: Any) -> type[Block]:
+    if isinstance(given, type) and issubclass(given, Block):
+        return given
+    template = (
+        "{given} is not a block of inputs; write class {name}(Block), with a key for each of its numbers and texts"
+    )
+    raise Misdeclared(Phrase(template, given=repr(given), name=getattr(given, "__name__", "Part")))
+
+
+@dataclass(frozen=True)
+class Samples(Quantity):
+    """Declare how many samples of each curve are listed, on which no other number depends."""
+
+
+def samples(default: int) -> Samples:
+    """Declare the key ``n_points``: how many samples of each curve are listed."""
+    return Samples("N", "1", phrase("Samples of each curve"), ge=36, le=100_000, integer=True, default=default)
+
 
 Referred = CurveInput | PhaseInput | MechanismInput
 """What stands for something of another mechanism that is no single number."""
@@ -380,13 +479,18 @@ class Extremes:
 
 @dataclass(frozen=True)
 class Varying(Quantity):
-    """Declare a quantity that is a number or a curve by reference; put into ``Annotated[Any, Varying(...)]``.
+    """Declare a quantity that is a number or a curve by reference.
 
     The validated value is an SI float, the referred curve, with ``extremes`` also ``Extremes`` from a block ``{min, max}``, or one of
     the texts ``words``. Only plain code takes it (``Prepared``).
     """
 
     extremes: bool = False
+
+    @property
+    def form(self) -> Any:
+        """Return what its value is when it is given."""
+        return Any
 
     def validate(self, given: Any) -> Any:
         """Return what the plugin's code takes; ValueError in words where it is not allowed."""

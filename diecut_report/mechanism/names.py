@@ -7,7 +7,7 @@ import reprlib
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from types import FunctionType
-from typing import Any, NamedTuple, Protocol
+from typing import Annotated, Any, Literal, NamedTuple, Protocol
 
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
@@ -74,20 +74,68 @@ def _same(one: Any, other: Any) -> bool:
     return one is other or (isinstance(one, tuple) and len(one) == len(other) and all(map(_same, one, other)))
 
 
-# Inputs that are texts.
+# Inputs.
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeclaredKey:
+    """Declare what any input may say: whether it is ``optional``, so that it may be absent, or its ``default``, as one would type it."""
+
+    optional: bool = False
+    default: Any = ...
+    at: str = placed()
+
+    @property
+    def form(self) -> Any:
+        """Return what its value is when it is given."""
+        return Any
+
+    @property
+    def given_as(self) -> Any:
+        """Return its annotation for pydantic."""
+        return Annotated[self.form | None if self.optional else self.form, self]
+
+    @property
+    def otherwise(self) -> Any:
+        """Return its value where nobody gives one; ``...`` where it must be given."""
+        return None if self.optional and self.default is ... else self.default
 
 
 @dataclass(frozen=True)
-class Text:
-    """Declare an input that is a text, a choice or yes/no: its description (the annotation says what is allowed).
+class Text(DeclaredKey):
+    """Declare an input that is a text, one of several (``options``), yes or no (a default that is True or False), or ``many`` texts.
 
-    ``options`` are the allowed texts where these are kept in a registry.
+    ``options`` that are no tuple are a registry, in which others may be added later. ``block`` is that of a block or of a list's parts.
     """
 
     description: str
-    symbol: str = ""
     options: Collection[str] = ()
-    at: str = placed()
+    symbol: str = ""
+    many: bool = False
+    block: type | None = None
+
+    def __post_init__(self) -> None:
+        if isinstance(self.options, str):
+            template = "options are {given}, a single text; write a tuple of all that are allowed, with a comma behind a single one: ({given},)"
+            raise Misdeclared(Phrase(template, given=repr(self.options)), self.at)
+
+    @property
+    def form(self) -> Any:
+        """Return what its value is when it is given."""
+        one: Any = self.block or (bool if isinstance(self.default, bool) else str)
+        if isinstance(self.options, tuple) and self.options:
+            one = Literal[self.options]
+        return list[one] if self.many else one
+
+    @property
+    def otherwise(self) -> Any:
+        """Return its value where nobody gives one: of many, none."""
+        return [] if self.many and self.optional else super().otherwise
+
+    @property
+    def given_as(self) -> Any:
+        """Return its annotation for pydantic: an empty list stands for none."""
+        return Annotated[self.form, self] if self.many else super().given_as
 
     def validate(self, given: str | None) -> str | None:
         """Return the text, if it is one of the options; ValueError with the known ones in words where it is not."""
@@ -97,7 +145,8 @@ class Text:
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         schema = handler(source)
-        return core_schema.no_info_after_validator_function(self.validate, schema) if self.options else schema
+        is_registry = self.options and not isinstance(self.options, tuple)
+        return core_schema.no_info_after_validator_function(self.validate, schema) if is_registry else schema
 
 
 # What may stand in for a typed value: a number that is known already, a reference, a default of the press, one of several.

@@ -16,7 +16,7 @@ from diecut_report.config.source_hashes import plugin_code
 from diecut_report.config.validation import ASSUMED, is_founded, keys_of, names_something
 from diecut_report.config.yaml import KeyPath
 from diecut_report.formulas import Array
-from diecut_report.mechanism.inputs import POINTS, Quantity, Varying, flatten
+from diecut_report.mechanism.inputs import Quantity, Samples, Varying, flatten
 from diecut_report.mechanism.names import SI
 from diecut_report.mechanism.steps import Reduction
 from diecut_report.quantities.units import unit
@@ -255,7 +255,7 @@ def _standing(run: Run, instance: Instance, slot: Slot) -> _Standing | None:
     """A typed number as it stands in all machines; None of what refers to others or is no number, and of one that is not the same in all."""
     is_number = (
         isinstance(slot.meta, Quantity)
-        and slot.meta is not POINTS
+        and not isinstance(slot.meta, Samples)
         and (instance.name, *slot.key) not in run.config.links
     )
     if not is_number or not isinstance(slot.value, int | float | str) or slot.value in slot.meta.words:  # type: ignore[union-attr]

@@ -11,7 +11,6 @@ import numpy as np
 
 from diecut_report.api import GivenMechanism, Phrase, Refusal, told
 from diecut_report.mechanics.numerics import root
-from diecut_report.plugins.cyclogram.inputs import Passage
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
 
 TURN = 2 * pi
@@ -76,7 +75,7 @@ def stretches(given: Mapping[str, Any]) -> tuple[tuple[Stretch, ...], ...]:
     )
 
 
-def _stretch(mechanism: Any, passage: Passage) -> Stretch:
+def _stretch(mechanism: Any, passage: Any) -> Stretch:
     asked = [np.atleast_1d(np.asarray(getattr(passage, side), dtype=float)) for side in ("from", "to")]
     places = (
         _angles(mechanism, np.stack(np.broadcast_arrays(*asked), axis=1)) if _has_way(mechanism) else (np.nan, np.nan)

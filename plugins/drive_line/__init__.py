@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Any
 
 from diecut_report.api import (
     Block,
@@ -18,6 +18,7 @@ from diecut_report.api import (
     formula,
     inner,
     m,
+    parts,
     pi,
     total,
     value,
@@ -36,80 +37,79 @@ def at_main_shaft(torque: Any, ratio: Any) -> Any:
 class ShaftRatio(Block):
     """A shaft that turns steadily."""
 
-    name: Annotated[str, Text("Name of the shaft")]
-    ratio: Annotated[float, Quantity("i", "1", "Speed of the shaft for each of the main shaft")]
+    name = Text("Name of the shaft")
+    ratio = Quantity("i", "1", "Speed of the shaft for each of the main shaft")
 
 
 class Mesh(Block):
     """A pair of gears, from the driving one to the driven one."""
 
-    name: Annotated[str, Text("Name of the pair")]
-    module: Annotated[float, Quantity("m_n", "mm", "Normal module", gt=0)]
-    helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle, positive where the driving gear is right-handed", ge=-30, le=30)] = 0
-    teeth_1: Annotated[int, Quantity("z_1", "1", "Number of teeth of the driving gear", ge=5, integer=True)]
-    teeth_2: Annotated[int, Quantity("z_2", "1", "Number of teeth of the driven gear", ge=5, integer=True)]
+    name = Text("Name of the pair")
+    module = Quantity("m_n", "mm", "Normal module", gt=0)
+    helix_angle = Quantity("β", "deg", "Helix angle, positive where the driving gear is right-handed", ge=-30, le=30, default=0)
+    teeth_1 = Quantity("z_1", "1", "Number of teeth of the driving gear", ge=5, integer=True)
+    teeth_2 = Quantity("z_2", "1", "Number of teeth of the driven gear", ge=5, integer=True)
 
 
 class ChainDrive(Block):
     """A chain, from the driving sprocket to the driven one."""
 
-    name: Annotated[str, Text("Name of the chain")]
-    pitch: Annotated[float, Quantity("p", "mm", "Pitch of the chain", gt=0)]
-    links: Annotated[int, Quantity("X", "1", "Number of links", ge=8, integer=True)]
-    teeth_1: Annotated[int, Quantity("z_3", "1", "Number of teeth of the driving sprocket", ge=6, integer=True)]
-    teeth_2: Annotated[int, Quantity("z_4", "1", "Number of teeth of the driven sprocket", ge=6, integer=True)]
-    strands: Annotated[int, Quantity("s", "1", "Number of chains side by side", ge=1, le=4, integer=True)] = 1
-    mass_per_length: Annotated[float, Quantity("q", "kg/m", "Mass per unit length of one chain", gt=0)]
-    moving_mass: Annotated[float, Quantity("m_c", "kg", "Mass that the chains move, without the chains themselves", ge=0)] = 0
-    pretension: Annotated[float, Quantity("F_v", "N", "Pretension of each chain", ge=0)] = 0
+    name = Text("Name of the chain")
+    pitch = Quantity("p", "mm", "Pitch of the chain", gt=0)
+    links = Quantity("X", "1", "Number of links", ge=8, integer=True)
+    teeth_1 = Quantity("z_3", "1", "Number of teeth of the driving sprocket", ge=6, integer=True)
+    teeth_2 = Quantity("z_4", "1", "Number of teeth of the driven sprocket", ge=6, integer=True)
+    strands = Quantity("s", "1", "Number of chains side by side", ge=1, le=4, integer=True, default=1)
+    mass_per_length = Quantity("q", "kg/m", "Mass per unit length of one chain", gt=0)
+    moving_mass = Quantity("m_c", "kg", "Mass that the chains move, without the chains themselves", ge=0, default=0)
+    pretension = Quantity("F_v", "N", "Pretension of each chain", ge=0, default=0)
 
 
 class Belt(Block):
     """A V-belt, from the driving pulley to the driven one."""
 
-    name: Annotated[str, Text("Name of the belt")]
-    diameter_1: Annotated[float, Quantity("d_1", "mm", "Datum diameter of the driving pulley", gt=0)]
-    diameter_2: Annotated[float, Quantity("d_2", "mm", "Datum diameter of the driven pulley", gt=0)]
+    name = Text("Name of the belt")
+    diameter_1 = Quantity("d_1", "mm", "Datum diameter of the driving pulley", gt=0)
+    diameter_2 = Quantity("d_2", "mm", "Datum diameter of the driven pulley", gt=0)
 
 
 class Rolling(Block):
     """A chain that rolls a cylinder: it moves its axis, which must be as much as its turning makes it roll."""
 
-    name: Annotated[str, Text("Name of the chain")]
-    teeth: Annotated[int, Quantity("z_r", "1", "Number of teeth of the driving sprocket", ge=6, integer=True)]
-    pitch: Annotated[float, Quantity("p_r", "mm", "Pitch of the chain", gt=0)]
-    radius: Annotated[float, Quantity("R", "mm", "Radius of the cylinder", gt=0)]
+    name = Text("Name of the chain")
+    teeth = Quantity("z_r", "1", "Number of teeth of the driving sprocket", ge=6, integer=True)
+    pitch = Quantity("p_r", "mm", "Pitch of the chain", gt=0)
+    radius = Quantity("R", "mm", "Radius of the cylinder", gt=0)
 
 
 class Brake(Block):
     """A brake on a shaft that turns steadily."""
 
-    name: Annotated[str, Text("Name of the brake")]
-    torque: Annotated[float, Quantity("M_b", "N*m", "Torque of the brake on its shaft", gt=0)]
-    ratio: Annotated[float, Quantity("i_B", "1", "Speed of its shaft for each of the main shaft")]
+    name = Text("Name of the brake")
+    torque = Quantity("M_b", "N*m", "Torque of the brake on its shaft", gt=0)
+    ratio = Quantity("i_B", "1", "Speed of its shaft for each of the main shaft")
 
 
 class HeldBrake(Block):
     """A brake behind a clutch, on a shaft that turns steadily."""
 
-    name: Annotated[str, Text("Name of the brake")]
-    torque: Annotated[float, Quantity("M_h", "N*m", "Torque of the brake on its shaft", gt=0)]
-    ratio: Annotated[float, Quantity("i_H", "1", "Speed of its shaft for each of the main shaft")]
+    name = Text("Name of the brake")
+    torque = Quantity("M_h", "N*m", "Torque of the brake on its shaft", gt=0)
+    ratio = Quantity("i_H", "1", "Speed of its shaft for each of the main shaft")
 
 
 class DriveLine(Inputs):
     """Keys of ``drive_line``."""
 
-    reference_speed: Annotated[float | None,
-        Quantity("ω_m", "rpm", "Speed of the main shaft, which turns once a sheet", gt=0,
-            press=FromPress("press.productivity", formula(lambda productivity: 2 * pi * productivity)))] = None
-    shafts: Annotated[list[ShaftRatio], Text("Shafts that turn steadily")]
-    meshes: Annotated[list[Mesh], Text("Pairs of gears")] = []  # noqa: RUF012
-    chains: Annotated[list[ChainDrive], Text("Chains")] = []  # noqa: RUF012
-    rolling: Annotated[list[Rolling], Text("Chains that roll a cylinder")] = []  # noqa: RUF012
-    belts: Annotated[list[Belt], Text("V-belts")] = []  # noqa: RUF012
-    brakes: Annotated[list[Brake], Text("Brakes that stop the flywheel")] = []  # noqa: RUF012
-    clutch_brakes: Annotated[list[HeldBrake], Text("Brakes behind a clutch, which hold what it drives and do not stop the flywheel")] = []  # noqa: RUF012
+    reference_speed = Quantity("ω_m", "rpm", "Speed of the main shaft, which turns once a sheet", gt=0,
+        press=FromPress("press.productivity", formula(lambda productivity: 2 * pi * productivity)))
+    shafts = parts(ShaftRatio, "Shafts that turn steadily")
+    meshes = parts(Mesh, "Pairs of gears", optional=True)
+    chains = parts(ChainDrive, "Chains", optional=True)
+    rolling = parts(Rolling, "Chains that roll a cylinder", optional=True)
+    belts = parts(Belt, "V-belts", optional=True)
+    brakes = parts(Brake, "Brakes that stop the flywheel", optional=True)
+    clutch_brakes = parts(HeldBrake, "Brakes behind a clutch, which hold what it drives and do not stop the flywheel", optional=True)
 
 
 turning = Chapter("Speeds of the shafts")

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from diecut_report.api import (
-    Annotated,
     Block,
     ByText,
     Chapter,
@@ -26,6 +25,7 @@ from diecut_report.api import (
     m,
     neighbour,
     part,
+    parts,
     pi,
     total,
     value,
@@ -156,34 +156,32 @@ LISTED_CHECKS = (
 class Pulley(Block):
     """A pulley of the toothed belt."""
 
-    x: Annotated[float, Quantity("x", "mm", "Position of the pulley's axis along x")]
-    y: Annotated[float, Quantity("y", "mm", "Position of the pulley's axis along y, upwards; the die lies below the cylinder")]
-    radius: Annotated[float, Quantity("r", "mm", "Radius to the belt's pitch line", gt=0)]
-    side: Annotated[Literal["inside", "outside"],
-        Text(
-            "Side of the belt loop on which the pulley lies; outside means on the back of the belt: there the driving pulley or the cylinder's "
-                "pulley needs a double-sided toothed belt")]
-    role: Annotated[Literal["cylinder", "other"],
-        Text("Role of the pulley: marked as cylinder it is fixed to the cylinder, and compared with driven_radius and engagement")] = "other"
+    x = Quantity("x", "mm", "Position of the pulley's axis along x")
+    y = Quantity("y", "mm", "Position of the pulley's axis along y, upwards; the die lies below the cylinder")
+    radius = Quantity("r", "mm", "Radius to the belt's pitch line", gt=0)
+    side = Text(
+        "Side of the belt loop on which the pulley lies; outside means on the back of the belt: there the driving pulley or the cylinder's "
+        "pulley needs a double-sided toothed belt",
+        ("inside", "outside"))
+    role = Text("Role of the pulley: marked as cylinder it is fixed to the cylinder, and compared with driven_radius and engagement",
+        ("cylinder", "other"), default="other")
 
 
 class ToothedBelt(Block):
     """The toothed belt between the main shaft and the cylinder in its carriage."""
 
-    cylinder_radius: Annotated[float, Quantity("R", "mm", "Radius of the cylinder, which rolls on the die", gt=0)]
-    driven_radius: Annotated[float, Quantity("r_d", "mm", "Pitch radius of the pulley fixed to the cylinder", gt=0)]
-    cylinder_velocity: Annotated[float, Quantity("V", "m/s", "Velocity of the carriage, normally cylinder_drive's velocity_max", gt=0)]
-    shaft_speed: Annotated[float,
-        Quantity("ω_p", "rpm", "Speed of the driving pulley's shaft, used as given, without the rounding of the train", gt=0)]
-    pitch: Annotated[float, Quantity("p", "mm", "Pitch of the toothed belt", gt=0)]
-    engagement: Annotated[Literal["away", "die"],
-        Text(
-            "Side of the cylinder's axis on which its pulley rolls on the belt: away from the die (the belt passes over the pulley, the "
-                "die lying below), or the die's (it passes below)")] = "away"
-    pulleys: Annotated[list[Pulley],
-        Text(
-            "Pulleys in the order in which the belt meets them, counter-clockwise, the driving pulley first; required for the length of the "
-                "belt")] = []  # noqa: RUF012
+    cylinder_radius = Quantity("R", "mm", "Radius of the cylinder, which rolls on the die", gt=0)
+    driven_radius = Quantity("r_d", "mm", "Pitch radius of the pulley fixed to the cylinder", gt=0)
+    cylinder_velocity = Quantity("V", "m/s", "Velocity of the carriage, normally cylinder_drive's velocity_max", gt=0)
+    shaft_speed = Quantity("ω_p", "rpm", "Speed of the driving pulley's shaft, used as given, without the rounding of the train", gt=0)
+    pitch = Quantity("p", "mm", "Pitch of the toothed belt", gt=0)
+    engagement = Text(
+        "Side of the cylinder's axis on which its pulley rolls on the belt: away from the die (the belt passes over the pulley, the "
+        "die lying below), or the die's (it passes below)",
+        ("away", "die"), default="away")
+    pulleys = parts(Pulley,
+        "Pulleys in the order in which the belt meets them, counter-clockwise, the driving pulley first; required for the length of the belt",
+        optional=True)
 
 
 def alone(x: Any) -> Any:

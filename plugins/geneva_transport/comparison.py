@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     BarGroup,
     Bars,
     Chapter,
@@ -36,6 +34,7 @@ from diecut_report.api import (
     mark,
     pi,
     reduction,
+    samples,
     value,
     vertical,
 )
@@ -192,21 +191,21 @@ LEAST_RETURN = 0.1  # share of the cycle that the cam-gear's sector needs at lea
 class TransportComparison(Inputs):
     """What the comparison takes from both drives."""
 
-    dwell_share: Annotated[float, Quantity("T_2", "1", "Cam-gear: dwell fraction of the cycle")]
-    sector_dwell_sweep: Annotated[float, Quantity("γ_32", "deg", "Cam-gear: sweep of the sector in the dwell")]
-    sector_stop_sweep: Annotated[float, Quantity("γ_3(3+1)", "deg", "Cam-gear: sweep of the sector while it stops and starts")]
-    motion_law: Annotated[str, Text("Cam-gear: law of motion")]
-    law_peak_velocity: Annotated[float, Quantity("B", "1", "Cam-gear: peak velocity of the law")]
-    law_peak_acceleration: Annotated[float, Quantity("A", "1", "Cam-gear: peak acceleration of the law")]
-    cycles_per_hour: Annotated[float, Quantity("n", "1/h", "Cam-gear: cycle rate, one sheet per cycle")]
-    gear_speed: Annotated[Any, CurveInput("ω_1", "rad", "Cam-gear: speed of the gear, per revolution of the disc")]
-    gear_acceleration: Annotated[Any, CurveInput("ε_1", "rad/s**2", "Cam-gear: acceleration of the gear")]
-    cam_step: Annotated[float | None, Quantity("S_c", "mm", "Cam-gear: step of the sheet")] = None
-    conveyor_mass: Annotated[float | None, Quantity("m_c", "kg", "Cam-gear: mass that moves with the conveyor")] = None
-    slots: Annotated[int, Quantity("z", "1", "Geneva: number of slots of the wheel", integer=True)]
-    crank_speed: Annotated[float, Quantity("ω_g", "rpm", "Geneva: speed of the crank")]
-    geneva_step: Annotated[float | None, Quantity("S_g", "mm", "Geneva: step of the sheet")] = None
-    n_points: Annotated[int, POINTS] = 720
+    dwell_share = Quantity("T_2", "1", "Cam-gear: dwell fraction of the cycle")
+    sector_dwell_sweep = Quantity("γ_32", "deg", "Cam-gear: sweep of the sector in the dwell")
+    sector_stop_sweep = Quantity("γ_3(3+1)", "deg", "Cam-gear: sweep of the sector while it stops and starts")
+    motion_law = Text("Cam-gear: law of motion")
+    law_peak_velocity = Quantity("B", "1", "Cam-gear: peak velocity of the law")
+    law_peak_acceleration = Quantity("A", "1", "Cam-gear: peak acceleration of the law")
+    cycles_per_hour = Quantity("n", "1/h", "Cam-gear: cycle rate, one sheet per cycle")
+    gear_speed = CurveInput("ω_1", "rad", "Cam-gear: speed of the gear, per revolution of the disc")
+    gear_acceleration = CurveInput("ε_1", "rad/s**2", "Cam-gear: acceleration of the gear")
+    cam_step = Quantity("S_c", "mm", "Cam-gear: step of the sheet", optional=True)
+    conveyor_mass = Quantity("m_c", "kg", "Cam-gear: mass that moves with the conveyor", optional=True)
+    slots = Quantity("z", "1", "Geneva: number of slots of the wheel", integer=True)
+    crank_speed = Quantity("ω_g", "rpm", "Geneva: speed of the crank")
+    geneva_step = Quantity("S_g", "mm", "Geneva: step of the sheet", optional=True)
+    n_points = samples(720)
 
 
 basis = Chapter("Basis of comparison",

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, m, total, value
+from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Text, m, parts, total, value
 
 # fmt: off
 
@@ -12,24 +10,24 @@ from diecut_report.api import Block, Chapter, ExampleBlock, Inputs, Mechanism, Q
 class TurningShaft(Block):
     """A shaft that turns steadily."""
 
-    name: Annotated[str, Text("Name of the shaft")]
-    ratio: Annotated[float, Quantity("i", "1", "Speed of the shaft for each of the main shaft")]
-    mass: Annotated[float, Quantity("m_k", "kg", "Mass of the shaft with its parts", ge=0)]
-    inertia: Annotated[float, Quantity("J_k", "kg*m**2", "Moment of inertia of the shaft with its parts", ge=0)]
+    name = Text("Name of the shaft")
+    ratio = Quantity("i", "1", "Speed of the shaft for each of the main shaft")
+    mass = Quantity("m_k", "kg", "Mass of the shaft with its parts", ge=0)
+    inertia = Quantity("J_k", "kg*m**2", "Moment of inertia of the shaft with its parts", ge=0)
 
 
 class MovingShaft(Block):
     """A shaft that swings or turns in steps."""
 
-    name: Annotated[str, Text("Name of the shaft")]
-    mass: Annotated[float, Quantity("m_s", "kg", "Mass of the shaft with its parts", ge=0)]
+    name = Text("Name of the shaft")
+    mass = Quantity("m_s", "kg", "Mass of the shaft with its parts", ge=0)
 
 
 class MachineInertia(Inputs):
     """Keys of ``machine_inertia``."""
 
-    shafts: Annotated[list[TurningShaft], Text("Shafts that turn steadily")]
-    moving: Annotated[list[MovingShaft], Text("Shafts that swing or turn in steps")] = []  # noqa: RUF012
+    shafts = parts(TurningShaft, "Shafts that turn steadily")
+    moving = parts(MovingShaft, "Shafts that swing or turn in steps", optional=True)
 
 
 MOVING = ("moving",)

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 import numpy as np
 
 from diecut_report.api import (
     GRAVITY,
-    POINTS,
-    Annotated,
     Case,
     Chapter,
     Inputs,
@@ -25,6 +23,7 @@ from diecut_report.api import (
     m,
     pi,
     reduction,
+    samples,
     value,
 )
 from diecut_report.mechanics import slider_crank
@@ -45,7 +44,7 @@ INSTEAD = {STRETCH: RODS[:1], "friction": JOINTS}
 
 def coefficient(place: str, symbol: str) -> Quantity:
     """The declaration of one coefficient of friction."""
-    return Quantity(symbol, "1", f"Coefficient of friction {place}", ge=0, le=1)
+    return Quantity(symbol, "1", f"Coefficient of friction {place}", ge=0, le=1, optional=True)
 
 
 def without_idle_defaults(keys: Mapping[str, Any]) -> dict[str, Any]:
@@ -59,48 +58,42 @@ def without_idle_defaults(keys: Mapping[str, Any]) -> dict[str, Any]:
 class PlatenPress(Inputs):
     """Keys of ``platen_press``."""
 
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf((STRETCH,), RODS, optional=True),)
-    spread: ClassVar[Mapping[str, tuple[str, ...]]] = {"friction": JOINTS}
+    one_of = (OneOf((STRETCH,), RODS, optional=True),)
+    spread = {"friction": JOINTS}
 
-    cycles_per_hour: Annotated[float, Quantity("n", "1/h", "Cycle rate of the platen, one revolution of the crank per cycle", gt=0, le=1e6)] = 1200
-    cutting_force_max: Annotated[float, Quantity("P_max", "kN", "Maximum cutting force, of both rods together", gt=0)] = 500
-    platen_mass: Annotated[float, Quantity("m", "kg", "Mass of the platen and the parts that move with it", ge=0)] = 306
-    drive_deformation: Annotated[float | None,
-        Quantity("Δl_m", "mm", "Elongation of the drive at the platen under the maximum cutting force; or rod_area and elastic_modulus",
-            ge=1e-9)] = 0.45
-    rod_area: Annotated[float | None,
-        Quantity("A", "mm**2", "Cross-section of one of the two rods; with elastic_modulus gives their elongation", gt=0)] = None
-    elastic_modulus: Annotated[float | None, Quantity("E", "GPa", "Elastic modulus of the rods; with rod_area gives their elongation", gt=0)] = None
-    material_thickness: Annotated[float, Quantity("s", "mm", "Thickness of the board", gt=0)] = 0.5
-    crank_radius: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)] = 110
-    rod_length: Annotated[float, Quantity("l", "mm", "Unloaded length of the rods", gt=0)] = 635
-    journal_radius: Annotated[float, Quantity("r_0", "mm", "Radius of the crankshaft's journals", gt=0)] = 50.25
-    crank_pin_radius: Annotated[float, Quantity("r_A", "mm", "Radius of the crank pins", gt=0)] = 47.5
-    platen_pin_radius: Annotated[float, Quantity("r_B", "mm", "Radius of the platen's pins", gt=0)] = 60
-    friction: Annotated[float | None,
-        Quantity("f", "1", "Coefficient of friction of all joints and guides; or a list of four: guides, platen pins, crank pins, journals",
-            ge=0, le=1)] = 0.1
-    friction_guide: Annotated[float | None, coefficient("of the guides, if different from the common one", "f_1")] = None
-    friction_platen_pin: Annotated[float | None, coefficient("of the platen's pins, if different from the common one", "f_2")] = None
-    friction_crank_pin: Annotated[float | None, coefficient("of the crank pins, if different from the common one", "f_3")] = None
-    friction_journal: Annotated[float | None, coefficient("of the journals, if different from the common one", "f_4")] = None
-    journal_length: Annotated[float | None, Quantity("b_0", "mm", "Length of one of the two journals; required for their pressure", gt=0)] = None
-    crank_pin_length: Annotated[float | None, Quantity("b_A", "mm", "Length of one of the two crank pins; required for their pressure", gt=0)] = None
-    platen_pin_length: Annotated[float | None,
-        Quantity("b_B", "mm", "Length of one of the two platen pins; required for their pressure", gt=0)] = None
-    rod_net_area: Annotated[float | None,
-        Quantity("A_n", "mm**2", "Minimum cross-section of one of the two rods, at its eye or shank; required for their stress", gt=0)] = None
-    offset_force: Annotated[float, Quantity("h_1", "mm", "Offset of the rods' force from the axis of the guides")] = 0
-    offset_weight: Annotated[float, Quantity("h_2", "mm", "Offset of the platen's weight from the axis of the guides")] = 0
-    guide_length: Annotated[float | None, Quantity("b", "mm", "Length of the guides; required if a force is offset", gt=0)] = None
-    carriage_clearance: Annotated[float | None,
-        Quantity("c_r", "mm", "Clearance required by the carriages at the platen; required for their window", gt=0)] = None
-    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowable torque at the main shaft", gt=0)] = None
-    allowable_pin_pressure: Annotated[float | None,
-        Quantity("[p]", "MPa", "Allowable pressure of journals and pins, on their projected area", gt=0)] = None
-    allowable_rod_stress: Annotated[float | None,
-        Quantity("[σ]", "MPa", "Allowable pulsating stress of the rods, on their minimum cross-section", gt=0)] = None
-    n_points: Annotated[int, POINTS] = 720
+    cycles_per_hour = Quantity("n", "1/h", "Cycle rate of the platen, one revolution of the crank per cycle", gt=0, le=1e6, default=1200)
+    cutting_force_max = Quantity("P_max", "kN", "Maximum cutting force, of both rods together", gt=0, default=500)
+    platen_mass = Quantity("m", "kg", "Mass of the platen and the parts that move with it", ge=0, default=306)
+    drive_deformation = Quantity("Δl_m", "mm",
+        "Elongation of the drive at the platen under the maximum cutting force; or rod_area and elastic_modulus", ge=1e-9, optional=True,
+        default=0.45)
+    rod_area = Quantity("A", "mm**2", "Cross-section of one of the two rods; with elastic_modulus gives their elongation", gt=0, optional=True)
+    elastic_modulus = Quantity("E", "GPa", "Elastic modulus of the rods; with rod_area gives their elongation", gt=0, optional=True)
+    material_thickness = Quantity("s", "mm", "Thickness of the board", gt=0, default=0.5)
+    crank_radius = Quantity("r", "mm", "Radius of the crank", gt=0, default=110)
+    rod_length = Quantity("l", "mm", "Unloaded length of the rods", gt=0, default=635)
+    journal_radius = Quantity("r_0", "mm", "Radius of the crankshaft's journals", gt=0, default=50.25)
+    crank_pin_radius = Quantity("r_A", "mm", "Radius of the crank pins", gt=0, default=47.5)
+    platen_pin_radius = Quantity("r_B", "mm", "Radius of the platen's pins", gt=0, default=60)
+    friction = Quantity("f", "1", "Coefficient of friction of all joints and guides; or a list of four: guides, platen pins, crank pins, journals",
+        ge=0, le=1, optional=True, default=0.1)
+    friction_guide = coefficient("of the guides, if different from the common one", "f_1")
+    friction_platen_pin = coefficient("of the platen's pins, if different from the common one", "f_2")
+    friction_crank_pin = coefficient("of the crank pins, if different from the common one", "f_3")
+    friction_journal = coefficient("of the journals, if different from the common one", "f_4")
+    journal_length = Quantity("b_0", "mm", "Length of one of the two journals; required for their pressure", gt=0, optional=True)
+    crank_pin_length = Quantity("b_A", "mm", "Length of one of the two crank pins; required for their pressure", gt=0, optional=True)
+    platen_pin_length = Quantity("b_B", "mm", "Length of one of the two platen pins; required for their pressure", gt=0, optional=True)
+    rod_net_area = Quantity("A_n", "mm**2", "Minimum cross-section of one of the two rods, at its eye or shank; required for their stress", gt=0,
+        optional=True)
+    offset_force = Quantity("h_1", "mm", "Offset of the rods' force from the axis of the guides", default=0)
+    offset_weight = Quantity("h_2", "mm", "Offset of the platen's weight from the axis of the guides", default=0)
+    guide_length = Quantity("b", "mm", "Length of the guides; required if a force is offset", gt=0, optional=True)
+    carriage_clearance = Quantity("c_r", "mm", "Clearance required by the carriages at the platen; required for their window", gt=0, optional=True)
+    allowable_torque = Quantity("[M]", "N*m", "Allowable torque at the main shaft", gt=0, optional=True)
+    allowable_pin_pressure = Quantity("[p]", "MPa", "Allowable pressure of journals and pins, on their projected area", gt=0, optional=True)
+    allowable_rod_stress = Quantity("[σ]", "MPa", "Allowable pulsating stress of the rods, on their minimum cross-section", gt=0, optional=True)
+    n_points = samples(720)
 
     @classmethod
     def model_validate(cls, obj: Any, **how: Any) -> Self:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 from diecut_report.api import (
     Block,
     Chapter,
@@ -15,6 +13,7 @@ from diecut_report.api import (
     as_number,
     inner,
     m,
+    parts,
     pi,
     total,
     value,
@@ -26,27 +25,27 @@ from diecut_report.api import (
 class Disc(Block):
     """A section of the shaft, or a part on it, as a disc."""
 
-    name: Annotated[str, Text("Name of the section or part")]
-    diameter: Annotated[float, Quantity("D", "mm", "Diameter: of a gear, sprocket or pulley its reference, pitch or datum diameter", gt=0)]
-    bore: Annotated[float, Quantity("d", "mm", "Bore", ge=0)] = 0
-    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
-    density: Annotated[float, Quantity("ρ", "kg/m**3", "Density", gt=0)] = 7850
-    fill: Annotated[float, Quantity("k_f", "1", "Fraction of the full disc that is there", gt=0, le=1)] = 1
+    name = Text("Name of the section or part")
+    diameter = Quantity("D", "mm", "Diameter: of a gear, sprocket or pulley its reference, pitch or datum diameter", gt=0)
+    bore = Quantity("d", "mm", "Bore", ge=0, default=0)
+    width = Quantity("b", "mm", "Width", gt=0)
+    density = Quantity("ρ", "kg/m**3", "Density", gt=0, default=7850)
+    fill = Quantity("k_f", "1", "Fraction of the full disc that is there", gt=0, le=1, default=1)
 
 
 class KnownMass(Block):
     """A part of known mass."""
 
-    name: Annotated[str, Text("Name of the part")]
-    mass: Annotated[float, Quantity("m_b", "kg", "Mass of the part", ge=0)]
-    inertia: Annotated[float, Quantity("J_b", "kg*m**2", "Moment of inertia of the part about the shaft's axis", ge=0)] = 0
+    name = Text("Name of the part")
+    mass = Quantity("m_b", "kg", "Mass of the part", ge=0)
+    inertia = Quantity("J_b", "kg*m**2", "Moment of inertia of the part about the shaft's axis", ge=0, default=0)
 
 
 class ShaftBody(Inputs):
     """Keys of ``shaft_body``."""
 
-    discs: Annotated[list[Disc], Text("Sections of the shaft and parts on it, as discs")]
-    bodies: Annotated[list[KnownMass], Text("Parts of known mass")] = []  # noqa: RUF012
+    discs = parts(Disc, "Sections of the shaft and parts on it, as discs")
+    bodies = parts(KnownMass, "Parts of known mass", optional=True)
 
 
 OF_DISC = {key: f"discs.{key}" for key in ("diameter", "bore", "width", "density", "fill")}

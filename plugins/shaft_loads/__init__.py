@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import isclose
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import (
-    POINTS,
     Block,
     Chapter,
     ExampleBlock,
@@ -27,10 +26,13 @@ from diecut_report.api import (
     Text,
     Wired,
     abscissa,
+    block,
     computed_curve,
     inner,
     m,
+    parts,
     pi,
+    samples,
 )
 from diecut_report.mechanics.timing.engagement import motor_response
 from diecut_report.mechanics.timing.intervals import exact_turns
@@ -42,63 +44,62 @@ from diecut_report.mechanics.timing.shaft_curves import PIECES, PieceRows, Shaft
 class LoadCurve(Block):
     """A curve of a mechanism, and how it is taken over."""
 
-    name: Annotated[str, Text("Name of the part that it acts on")]
-    mechanism: Annotated[Any, MechanismInput("Mechanism whose curve it is")]
-    curve: Annotated[str, Text("Name of the curve")]
-    turns_per_sheet: Annotated[str, Text("Revolutions of the mechanism's shaft per sheet, a number or a ratio such as 1/2", symbol="i")] = "1"
-    offset: Annotated[float, Quantity("Φ_0", "deg", "Main-shaft angle of the mechanism's own zero", ge=-3600, le=3600)] = 0
-    ratio: Annotated[float, Quantity("k", "1", "Factor on the curve; negative where it acts the other way")] = 1
+    name = Text("Name of the part that it acts on")
+    mechanism = MechanismInput("Mechanism whose curve it is")
+    curve = Text("Name of the curve")
+    turns_per_sheet = Text("Revolutions of the mechanism's shaft per sheet, a number or a ratio such as 1/2", symbol="i", default="1")
+    offset = Quantity("Φ_0", "deg", "Main-shaft angle of the mechanism's own zero", ge=-3600, le=3600, default=0)
+    ratio = Quantity("k", "1", "Factor on the curve; negative where it acts the other way", default=1)
 
 
 class Torque(LoadCurve):
     """A torque on a part."""
 
-    inertia: Annotated[float, Quantity("J", "kg*m**2", "Inertia that turns an angular acceleration into a torque; 0 for a torque", ge=0)] = 0
-    efficiency: Annotated[float, Quantity("η", "1", "Efficiency of the way from this shaft to the torque", gt=0, le=1)] = 1
-    lag: Annotated[float,
-        Quantity("Φ_τ", "deg", "Angle of the main shaft in the time constant with which a motor behind a flywheel follows the torque; 0: at once",
-            ge=0)] = 0
+    inertia = Quantity("J", "kg*m**2", "Inertia that turns an angular acceleration into a torque; 0 for a torque", ge=0, default=0)
+    efficiency = Quantity("η", "1", "Efficiency of the way from this shaft to the torque", gt=0, le=1, default=1)
+    lag = Quantity("Φ_τ", "deg", "Angle of the main shaft in the time constant with which a motor behind a flywheel follows the torque; 0: at once",
+        ge=0, default=0)
 
 
 class Force(LoadCurve):
     """A force on a part."""
 
-    turns_per_sheet: Annotated[str, Text("Revolutions of the mechanism's shaft per sheet, a number or a ratio such as 1/2", symbol="i_F")] = "1"
-    offset: Annotated[float, Quantity("Φ_F", "deg", "Main-shaft angle of the mechanism's own zero", ge=-3600, le=3600)] = 0
-    ratio: Annotated[float, Quantity("k_F", "1", "Factor on the curve; negative where it acts the other way")] = 1
-    inertia: Annotated[float, Quantity("J_F", "kg*m**2", "Inertia that turns an angular acceleration into a torque; 0 for others", ge=0)] = 0
-    lever: Annotated[float, Quantity("r", "mm", "Radius at which a torque acts as this force; 0 for a force", ge=0)] = 0
-    absolute: Annotated[bool, Text("The curve counts by its absolute value: the pull of a chain on its sprocket")] = False
-    constant: Annotated[float, Quantity("F_0", "N", "Force that acts all the time")] = 0
+    turns_per_sheet = Text("Revolutions of the mechanism's shaft per sheet, a number or a ratio such as 1/2", symbol="i_F", default="1")
+    offset = Quantity("Φ_F", "deg", "Main-shaft angle of the mechanism's own zero", ge=-3600, le=3600, default=0)
+    ratio = Quantity("k_F", "1", "Factor on the curve; negative where it acts the other way", default=1)
+    inertia = Quantity("J_F", "kg*m**2", "Inertia that turns an angular acceleration into a torque; 0 for others", ge=0, default=0)
+    lever = Quantity("r", "mm", "Radius at which a torque acts as this force; 0 for a force", ge=0, default=0)
+    absolute = Text("The curve counts by its absolute value: the pull of a chain on its sprocket", default=False)
+    constant = Quantity("F_0", "N", "Force that acts all the time", default=0)
 
 
 class Hub(Block):
     """A part whose joint with its shaft passes the torque at its teeth or chain less what its own inertia takes."""
 
-    name: Annotated[str, Text("Name of the part")]
-    torque: Annotated[str, Text("Name of the torque at its teeth or chain, or balance for that which balances the others")]
-    inertia: Annotated[str, Text("Name of the torque of its inertia")]
+    name = Text("Name of the part")
+    torque = Text("Name of the torque at its teeth or chain, or balance for that which balances the others")
+    inertia = Text("Name of the torque of its inertia")
 
 
 class Motion(Block):
     """How the shaft swings or turns in steps."""
 
-    mechanism: Annotated[Any, MechanismInput("Mechanism that moves the shaft")]
-    curve: Annotated[str, Text("Name of the curve of its angle")]
-    turns_per_sheet: Annotated[str, Text("Revolutions of the mechanism's shaft per sheet, a number or a ratio such as 1/2", symbol="i_m")] = "1"
-    offset: Annotated[float, Quantity("Φ_m", "deg", "Main-shaft angle of the mechanism's own zero", ge=-3600, le=3600)] = 0
-    ratio: Annotated[float, Quantity("k_m", "1", "Factor on the angle")] = 1
+    mechanism = MechanismInput("Mechanism that moves the shaft")
+    curve = Text("Name of the curve of its angle")
+    turns_per_sheet = Text("Revolutions of the mechanism's shaft per sheet, a number or a ratio such as 1/2", symbol="i_m", default="1")
+    offset = Quantity("Φ_m", "deg", "Main-shaft angle of the mechanism's own zero", ge=-3600, le=3600, default=0)
+    ratio = Quantity("k_m", "1", "Factor on the angle", default=1)
 
 
 class ShaftLoads(Inputs):
     """Keys of ``shaft_loads``."""
 
-    main_turns: Annotated[int, Quantity("N_m", "1", "Revolutions of the main shaft in the cycle", ge=1, le=1000, integer=True)]
-    torques: Annotated[list[Torque], Text("Torques on the parts")] = []  # noqa: RUF012
-    hubs: Annotated[list[Hub], Text("Parts whose inertia counts at their own place")] = []  # noqa: RUF012
-    forces: Annotated[list[Force], Text("Forces on the parts")] = []  # noqa: RUF012
-    motion: Annotated[Motion | None, Text("How the shaft swings or turns in steps; without it, it turns steadily")] = None
-    n_points: Annotated[int, POINTS] = 720
+    main_turns = Quantity("N_m", "1", "Revolutions of the main shaft in the cycle", ge=1, le=1000, integer=True)
+    torques = parts(Torque, "Torques on the parts", optional=True)
+    hubs = parts(Hub, "Parts whose inertia counts at their own place", optional=True)
+    forces = parts(Force, "Forces on the parts", optional=True)
+    motion = block(Motion, "How the shaft swings or turns in steps; without it, it turns steadily", optional=True)
+    n_points = samples(720)
 
 
 OF_CURVE = ("name", "mechanism", "curve", "turns_per_sheet", "offset", "ratio")

@@ -168,12 +168,12 @@ def test_what_is_not_checked_is_counted_from_the_results() -> None:
 FREE = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm}\n"
 WITH_LIMIT = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 300 N*m}\n"
 CONTRADICTORY = """
-from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity, m
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, m
 
 
 class Twice(Inputs):
-    length: Annotated[float, Quantity("L", "mm", "Length", gt=0)]
-    beside: Annotated[float, Quantity("B", "mm", "Beside", gt=0)] = 10
+    length = Quantity("L", "mm", "Length", gt=0)
+    beside = Quantity("B", "mm", "Beside", gt=0, default=10)
 
 
 sizes = Chapter("Sizes")

@@ -21,12 +21,12 @@ Capture = pytest.CaptureFixture[str]
 PLUGIN = """
 import numpy as np
 from diecut_report.api import *
-from diecut_report.api import Annotated
+from diecut_report.api import samples
 
 
 class Disc(Inputs):
-    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)] = 50
-    n_points: Annotated[int, POINTS] = 36
+    radius = Quantity("r", "mm", "Radius", gt=0, default=50)
+    n_points = samples(36)
 
 
 @formula
@@ -240,7 +240,7 @@ from diecut_report.api import Chapter, Drawing, Inputs, Mechanism, Quantity, com
 
 
 class Arm(Inputs):
-    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)] = 10
+    arm = Quantity("a", "mm", "Arm", gt=0, default=10)
 
 
 def found(arm):

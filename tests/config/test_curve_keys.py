@@ -104,8 +104,6 @@ from typing import Any, ClassVar
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Block,
     Chapter,
     CurveInput,
@@ -113,26 +111,27 @@ from diecut_report.api import (
     Mechanism,
     OneOf,
     Quantity,
-    Text,
     abscissa,
     from_curve,
     m,
+    parts,
     reduction,
+    samples,
     total,
     value,
 )
 
 
 class Point(Block):
-    force: Annotated[float, Quantity("F_i", "N", "Load there")]
+    force = Quantity("F_i", "N", "Load there")
 
 
 class Way(Inputs):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("points",), ("curve",)),)
-    stroke: Annotated[float, Quantity("s", "mm", "Stroke", gt=0)] = 60
-    points: Annotated[list[Point] | None, Text("Load, point by point")] = None
-    curve: Annotated[Any | None, CurveInput("F_c", "N", "Load as a curve")] = None
-    n_points: Annotated[int, POINTS] = 36
+    one_of = (OneOf(("points",), ("curve",)),)
+    stroke = Quantity("s", "mm", "Stroke", gt=0, default=60)
+    points = parts(Point, "Load, point by point", optional=True)
+    curve = CurveInput("F_c", "N", "Load as a curve", optional=True)
+    n_points = samples(36)
 
 
 load = Chapter("Load")

@@ -193,10 +193,10 @@ def comments(text: str) -> Iterator[str]:
 @pytest.fixture
 def foreign(tmp_path: Path) -> Discovery:
     """A plugin without an example, and one with one."""
-    text = """from diecut_report.api import Annotated, Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Wired, m
+    text = """from diecut_report.api import Chapter, ExampleBlock, Inputs, Mechanism, Quantity, Wired, m
 class Hook(Inputs):
-    force: Annotated[float, Quantity("F", "kN", "Load", gt=0)]
-    angle: Annotated[float, Quantity("a", "deg", "Angle", gt=0, le=5)]
+    force = Quantity("F", "kN", "Load", gt=0)
+    angle = Quantity("a", "deg", "Angle", gt=0, le=5)
 step = Chapter("Hook")
 step.pull = 2 * m.force, "P", "N", "Pull"
 MECHANISM = Mechanism(kind="KIND", version="1", title="Hook", summary="A hook.", inputs=Hook, chapters=(step,)EXAMPLE)

@@ -180,11 +180,11 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, GivenPhase, Inputs, Mechanism, PhaseInput, computed
+from diecut_report.api import Chapter, GivenPhase, Inputs, Mechanism, PhaseInput, computed
 
 
 class Watch(Inputs):
-    watched: Annotated[Any, PhaseInput("A", "deg", "What is watched")]
+    watched = PhaseInput("A", "deg", "What is watched")
 
 
 def length(phase: GivenPhase) -> Any:

@@ -4,28 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import pytest
 
-from diecut_report.api import Block, ExampleBlock, Inputs, Quantity, Text, Wired
+from diecut_report.api import Block, ExampleBlock, Inputs, Quantity, Text, Wired, parts
 from diecut_report.declaration import faults
 from tests.declaration.test_faults import made
 
 
 class Tooth(Block):
-    height: Annotated[float, Quantity("h", "mm", "Height", gt=0)]
+    height = Quantity("h", "mm", "Height", gt=0)
 
 
 class Toothed(Inputs):
-    force: Annotated[float, Quantity("F", "N", "Force", gt=0)]
-    teeth: Annotated[list[Tooth], Text("Teeth")] = []  # noqa: RUF012
-    side: Annotated[Literal["left", "right"], Text("Side")] = "left"
+    force = Quantity("F", "N", "Force", gt=0)
+    teeth = parts(Tooth, "Teeth", optional=True)
+    side = Text("Side", ("left", "right"), default="left")
 
 
 class Turning(Inputs):
-    mass: Annotated[float | None, Quantity("m", "kg", "Mass", gt=0)] = None
-    stiffness: Annotated[float, Quantity("K", "N*m/rad", "Stiffness", gt=0, units=(("mass", "N/m"),))]
+    mass = Quantity("m", "kg", "Mass", gt=0, optional=True)
+    stiffness = Quantity("K", "N*m/rad", "Stiffness", gt=0, units=(("mass", "N/m"),))
 
 
 def told(inputs: Mapping[str, Any]) -> list[str]:

@@ -5,15 +5,13 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any
 
 import numpy as np
 import pytest
 
 from diecut_report.api import (
-    POINTS,
     Abscissa,
-    Annotated,
     BarGroup,
     Bars,
     Block,
@@ -54,8 +52,11 @@ from diecut_report.api import (
     Value,
     Vary,
     Words,
+    block,
     formula,
     m,
+    parts,
+    samples,
 )
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import Fault, faults
@@ -68,18 +69,18 @@ from tests.examples import few
 
 
 class Bar(Block):
-    length: Annotated[float, Quantity("l", "mm", "Length")]
+    length = Quantity("l", "mm", "Length")
 
 
 class Arm(Inputs):
-    force: Annotated[float, Quantity("F", "N", "Force")] = 5
-    arm: Annotated[float, Quantity("a", "mm", "Arm")] = 10
-    width: Annotated[float | None, Quantity("b", "mm", "Width")] = None
-    mode: Annotated[Literal["near", "away"], Text("Mode")] = "near"
-    remark: Annotated[str | None, Text("Remark")] = None
-    bars: Annotated[list[Bar], Text("Bars")] = []  # noqa: RUF012
-    motion: Annotated[Any | None, CurveInput("y", "mm", "Motion")] = None
-    n_points: Annotated[int, POINTS] = 36
+    force = Quantity("F", "N", "Force", default=5)
+    arm = Quantity("a", "mm", "Arm", default=10)
+    width = Quantity("b", "mm", "Width", optional=True)
+    mode = Text("Mode", ("near", "away"), default="near")
+    remark = Text("Remark", optional=True)
+    bars = parts(Bar, "Bars", optional=True)
+    motion = CurveInput("y", "mm", "Motion", optional=True)
+    n_points = samples(36)
 
 
 @formula
@@ -144,21 +145,20 @@ def require(**changes: Any) -> Require:
     return Require(**{"id": "long", "condition": is_long, "key": "arm", "message": "is {arm}", **changes})
 
 
-def with_input(declared: Any, default: Any = ...) -> type[Inputs]:
-    own = {"__annotations__": {"extra": declared}, "__module__": __name__}
-    return type("Extra", (Arm,), own if default is ... else {**own, "extra": default})
+def with_input(declared: Any) -> type[Inputs]:
+    return type(Arm)("Extra", (Arm,), {"extra": declared, "__module__": __name__})
 
 
 class Torn(Arm):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("force",), ("torc",)),)
+    one_of = (OneOf(("force",), ("torc",)),)
 
 
 class Laid(Arm):
-    curve_keys: ClassVar[dict[str, str]] = {"force": "force_curve"}
+    curve_keys = {"force": "force_curve"}
 
 
 class Needed(Inputs):
-    ratio: Annotated[float, Quantity("i", "1", "Ratio")]
+    ratio = Quantity("i", "1", "Ratio")
 
 
 PARTNER = Mechanism(kind="both", version="1", title="", summary="", inputs=Needed, chapters=())
@@ -243,10 +243,6 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "both are made with mode=near and with width",
     ),
     "a step that is never made": (made(value("x", needs=("width",), lacks=("width",))), "step x: is never calculated"),
-    "a curve that may be left out and may not be None": (
-        made(inputs=with_input(Annotated[Any, CurveInput("z", "mm", "Lift")], None)),
-        "input extra: has the default None, but may not be None; annotate it as Any | None, or give it a value",
-    ),
     "two checks of one id": (made(checks=(check(), check(limit=4.0))), "check strong: has the id of another check"),
     "two figures of one id": (made(figures=(plot(), plot())), "figure turn: has the id of another figure"),
     "no symbol": (made(value("x", description="")), "step x: has no symbol or no description"),
@@ -254,7 +250,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "one symbol for an input and a step": (made(value("x", "F")), "step x: has the symbol F of force"),
     "the symbol of the samples": (
         made(value("x", "N")),
-        "step x: has the symbol N of n_points (POINTS, at test_faults.py:",
+        "step x: has the symbol N of n_points (samples, at test_faults.py:",
     ),
     # tokens
     "a need that is not an input": (
@@ -483,19 +479,15 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     # inputs
     "a default out of its bounds": (
-        made(inputs=with_input(Annotated[float, Quantity("x", "mm", "X", gt=0)], -3)),
+        made(inputs=with_input(Quantity("x", "mm", "X", gt=0, default=-3))),
         "input extra: the default -3 mm is out of range; allowed: > 0 mm",
     ),
     "a default that is not allowed": (
-        made(inputs=with_input(Annotated[Literal["red", "blue"], Text("Colour")], "rad")),
+        made(inputs=with_input(Text("Colour", ("red", "blue"), default="rad"))),
         "has the default 'rad' (did you mean 'red'?)",
     ),
-    "a plain int": (
-        made(inputs=with_input(int, 2)),
-        "input extra: is a plain int, of which nothing is known; write extra: Annotated[int, Quantity(",
-    ),
     "an input in an unknown unit": (
-        made(inputs=with_input(Annotated[float, Quantity("x", "mmm", "X")], 1)),
+        made(inputs=with_input(Quantity("x", "mmm", "X", default=1))),
         "input extra: has the unit 'mmm'",
     ),
     "a curve on an unknown key": (
@@ -555,7 +547,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
 
 
 class Spring(Block):
-    rate: Annotated[float, Quantity("c", "N/mm", "Rate")]
+    rate = Quantity("c", "N/mm", "Rate")
 
 
 @formula
@@ -693,7 +685,7 @@ FAULTS |= {
         "step w: its function has the parameters force, arm, and takes names arm, force: each is given by its position; where",
     ),
     "a field of a block without its need": (
-        made(value("x", formula=same.of(value=m.extra.rate)), inputs=with_input(Annotated[Spring | None, Text("Spring")], None)),
+        made(value("x", formula=same.of(value=m.extra.rate)), inputs=with_input(block(Spring, "Spring", optional=True))),
         "step x: takes extra.rate",
     ),
     "a need of a figure": (made(figures=(replace(plot(), needs=("widht",)),)), "figure turn: needs names widht"),
@@ -704,7 +696,7 @@ FAULTS |= {
     "a symbol in LaTeX": (made(value("x", r"\frac{a}{b}")), r"step x: has the symbol \frac{a}{b} with \ { }; a symbol is plain text"),
     "a symbol in dollars": (made(value("x", "$x_1$")), "step x: has the symbol $x_1$ with $"),
     "a whole number in a unit": (
-        made(inputs=with_input(Annotated[int, Quantity("z", "mm", "Z", integer=True)], 3)),
+        made(inputs=with_input(Quantity("z", "mm", "Z", integer=True, default=3))),
         "input extra: is a whole number in mm; a count has the unit 1",
     ),
 }  # fmt: skip
@@ -721,7 +713,7 @@ ZEROS = Crossings(id="zero", symbol="φ_0", unit="deg", description="Zeros", of=
 
 
 class Placed(Arm):
-    peak_at: Annotated[float, Quantity("φ_p", "deg", "Place")] = 3
+    peak_at = Quantity("φ_p", "deg", "Place", default=3)
 
 
 FACT: Any = Fact(id="width", words="Wide", condition=is_long)
@@ -792,7 +784,7 @@ def assert_told(mechanism: Mechanism, words: str) -> list[Fault]:
 
 
 def test_the_authors_test_fails_by_a_mistake() -> None:
-    mechanism, words = FAULTS["a plain int"]
+    mechanism, words = FAULTS["a default out of its bounds"]
     with pytest.raises(AssertionError, match=re.escape(words)):
         check_mechanism(mechanism)
 
@@ -824,8 +816,8 @@ from diecut_report.api import *
 
 
 class Twice(Inputs):
-    arm: Annotated[float, Quantity("a", "mm", "Arm")] = 10
-    arm: Annotated[float, Quantity("a", "mm", "Arm")] = 20
+    arm = Quantity("a", "mm", "Arm", default=10)
+    arm = Quantity("a", "mm", "Arm", default=20)
 
 
 @formula
@@ -873,8 +865,8 @@ def test_a_formula_that_cannot_be_printed_is_told_once() -> None:
 
 
 class Sheets(Inputs):
-    sheets: Annotated[int, Quantity("N", "1", "Sheets of a stack", integer=True)]
-    n_points: Annotated[int, POINTS] = 36
+    sheets = Quantity("N", "1", "Sheets of a stack", integer=True)
+    n_points = samples(36)
 
 
 def test_an_input_with_the_symbol_of_the_samples_is_told_at_its_own_line() -> None:
@@ -883,7 +875,7 @@ def test_an_input_with_the_symbol_of_the_samples_is_told_at_its_own_line() -> No
     own = Mechanism(kind="sheets", version="1", title="Sheets", summary="", inputs=Sheets, chapters=(chapter,))
     (fault,) = faults(own)
     lines = Path(__file__).read_text("utf-8").splitlines()
-    at = next(number for number, line in enumerate(lines, 1) if line.startswith("    sheets: "))
+    at = next(number for number, line in enumerate(lines, 1) if line.startswith("    sheets = "))
     assert str(fault).startswith(
-        f"{Path(__file__).name}:{at}: input sheets: has the symbol N of n_points (POINTS, at {Path(__file__).name}:{at + 1})"
+        f"{Path(__file__).name}:{at}: input sheets: has the symbol N of n_points (samples, at {Path(__file__).name}:{at + 1})"
     )

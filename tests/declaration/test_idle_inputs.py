@@ -20,7 +20,7 @@ def test_an_input_that_nothing_takes_is_told_with_its_line() -> None:
     found = list(idle_inputs(many(PLOT)))
     assert named(many(PLOT)) == ["parts.depth", "idle"]
     lines = Path(used_inputs.__file__).read_text("utf-8").splitlines()
-    line = next(number for number, text in enumerate(lines, 1) if text.strip().startswith("idle:"))
+    line = next(number for number, text in enumerate(lines, 1) if text.strip().startswith("idle ="))
     assert found[1] == (
         f"used_inputs.py:{line}: input idle: nothing uses it, so it affects no result; use it in a step, or remove it"
     )

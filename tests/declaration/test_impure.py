@@ -23,14 +23,14 @@ from time import perf_counter as ticks
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, computed
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, computed
 
 TABLE = Path(__file__).read_text("utf-8")
 {module}
 
 
 class Arm(Inputs):
-    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)] = 10
+    arm = Quantity("a", "mm", "Arm", gt=0, default=10)
 
 
 def helper(arm):

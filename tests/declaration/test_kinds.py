@@ -17,7 +17,6 @@ import pytest
 from diecut_report.api import (
     Abscissa,
     Accumulated,
-    Annotated,
     Chapter,
     Check,
     Derivative,
@@ -59,17 +58,17 @@ from diecut_report.quantities.units import DIMENSIONS, unit
 
 
 class Wheel(Inputs):
-    speed: Annotated[float, Quantity("ω", "rpm", "Angular speed", gt=0)] = 100
-    rate: Annotated[float, Quantity("n", "1/min", "Turns", gt=0)] = 100
-    angle: Annotated[float, Quantity("φ", "deg", "Angle", gt=0)] = 30
-    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)] = 40
-    velocity: Annotated[float, Quantity("v", "m/s", "Speed", gt=0)] = 2
-    torque: Annotated[float, Quantity("M", "N*m", "Torque", gt=0)] = 5
-    inertia: Annotated[float, Quantity("J", "kg*m**2", "Inertia", gt=0)] = 3
-    stiffness: Annotated[float, Quantity("c", "N*m/rad", "Stiffness", gt=0)] = 3
-    mass: Annotated[float, Quantity("m", "kg", "Mass", gt=0)] = 3
-    share: Annotated[float, Quantity("k", "1", "Share", gt=0)] = 0.5
-    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 36
+    speed = Quantity("ω", "rpm", "Angular speed", gt=0, default=100)
+    rate = Quantity("n", "1/min", "Turns", gt=0, default=100)
+    angle = Quantity("φ", "deg", "Angle", gt=0, default=30)
+    radius = Quantity("r", "mm", "Radius", gt=0, default=40)
+    velocity = Quantity("v", "m/s", "Speed", gt=0, default=2)
+    torque = Quantity("M", "N*m", "Torque", gt=0, default=5)
+    inertia = Quantity("J", "kg*m**2", "Inertia", gt=0, default=3)
+    stiffness = Quantity("c", "N*m/rad", "Stiffness", gt=0, default=3)
+    mass = Quantity("m", "kg", "Mass", gt=0, default=3)
+    share = Quantity("k", "1", "Share", gt=0, default=0.5)
+    n_points = Quantity("N", "1", "Samples", ge=36, integer=True, default=36)
 
 
 def wheel(*steps: Step, checks: tuple[Check, ...] = ()) -> Mechanism:

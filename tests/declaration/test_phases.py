@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Annotated, Chapter, Constant, Inputs, Mechanism, Phase, Quantity, abscissa, m
+from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Phase, Quantity, abscissa, m, samples
 from diecut_report.declaration import faults
 
 
 class Knife(Inputs):
-    begins: Annotated[float, Quantity("φ_1", "deg", "Where it begins")]
-    ends: Annotated[float, Quantity("φ_2", "deg", "Where it ends")]
-    blade: Annotated[float, Quantity("l", "mm", "Length")]
-    guard: Annotated[float | None, Quantity("φ_3", "deg", "Guard")] = None
-    speed: Annotated[float, Quantity("ω", "rpm", "Speed")]
-    n_points: Annotated[int, POINTS] = 36
+    begins = Quantity("φ_1", "deg", "Where it begins")
+    ends = Quantity("φ_2", "deg", "Where it ends")
+    blade = Quantity("l", "mm", "Length")
+    guard = Quantity("φ_3", "deg", "Guard", optional=True)
+    speed = Quantity("ω", "rpm", "Speed")
+    n_points = samples(36)
 
 
 Declare = Callable[[Chapter], None]

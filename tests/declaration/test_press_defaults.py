@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Any
 
 import pytest
 
@@ -20,7 +20,7 @@ def a_turn_each(productivity: Any) -> Any:
 
 def told(unit: str, press: FromPress) -> list[str]:
     class Driven(Inputs):
-        speed: Annotated[float | None, Quantity("ω", unit, "Speed", press=press)] = None
+        speed = Quantity("ω", unit, "Speed", press=press, optional=True)
 
     return [str(fault) for fault in faults(replace(made(), inputs=Driven))]
 
@@ -55,11 +55,3 @@ def test_an_example_is_made_for_a_press_that_there_may_be() -> None:
 def test_a_number_of_another_kind_is_told() -> None:
     (text,) = told("rpm", FromPress("press.productivity"))
     assert "input speed: in rpm takes press.productivity, which is in 1/h; name a formula between them" in text
-
-
-def test_a_number_of_the_press_for_an_input_that_must_be_given_is_told() -> None:
-    class Driven(Inputs):
-        speed: Annotated[float, Quantity("n", "1/min", "Speed", press=FromPress("press.productivity"))]
-
-    (text,) = (str(fault) for fault in faults(replace(made(), inputs=Driven)))
-    assert "input speed: must be given, so that press.productivity is never taken; write Annotated[float | None" in text

@@ -5,13 +5,12 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
 import pytest
 
 from diecut_report.api import (
-    POINTS,
     BarGroup,
     Bars,
     Block,
@@ -30,7 +29,9 @@ from diecut_report.api import (
     m,
     own_series,
     own_table,
+    parts,
     pick,
+    samples,
 )
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
@@ -51,18 +52,18 @@ RODS = own_series(title="Rods", unit="mm", values=(1, 2), sources=SOURCES)
 
 
 class Wheel(Block):
-    width: Annotated[float | None, Quantity("b_i", "mm", "Width of a wheel")] = None
+    width = Quantity("b_i", "mm", "Width of a wheel", optional=True)
 
 
 class Shaft(Inputs):
-    bearing: Annotated[Literal["small", "big"], Text("Bearing")] = "small"
-    teeth: Annotated[float, Quantity("z", "1", "Teeth")] = 13
-    length: Annotated[float, Quantity("l", "mm", "Length")] = 13
-    bore: Annotated[float | None, Quantity("d_g", "mm", "Bore")] = None
-    count: Annotated[float | None, Quantity("z_x", "1", "Count")] = None
-    force: Annotated[float | None, Quantity("F", "N", "Force")] = None
-    wheels: Annotated[list[Wheel], Text("Wheels")] = []  # noqa: RUF012
-    n_points: Annotated[int, POINTS] = 36
+    bearing = Text("Bearing", ("small", "big"), default="small")
+    teeth = Quantity("z", "1", "Teeth", default=13)
+    length = Quantity("l", "mm", "Length", default=13)
+    bore = Quantity("d_g", "mm", "Bore", optional=True)
+    count = Quantity("z_x", "1", "Count", optional=True)
+    force = Quantity("F", "N", "Force", optional=True)
+    wheels = parts(Wheel, "Wheels", optional=True)
+    n_points = samples(36)
 
 
 def told(declare: Callable[[Chapter], None], *figures: Any) -> list[str]:
@@ -234,7 +235,7 @@ from typing import Annotated
 from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, interpolated, table_beside
 
 class Own(Inputs):
-    teeth: Annotated[float, Quantity("z", "1", "Teeth")] = 13
+    teeth = Quantity("z", "1", "Teeth", default=13)
 
 all_ = Chapter("All")
 all_.y = interpolated(table_beside(__file__, "factors.yaml"), of="teeth"), "Y", "1", "Factor"

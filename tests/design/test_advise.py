@@ -154,14 +154,14 @@ def test_a_share_of_any_size_is_told_without_a_power_of_ten(share: float, told: 
 
 SCREWED = '''
 """A screw that holds a bracket."""
-from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, Quantity, Source, m
+from diecut_report.api import Block, Chapter, Check, Inputs, Mechanism, Quantity, Source, block, m
 
 class Screw(Block):
-    preload: Annotated[float, Quantity("F_V", "kN", "Preload", gt=0)]
+    preload = Quantity("F_V", "kN", "Preload", gt=0)
 
 class Bracket(Inputs):
-    force: Annotated[float, Quantity("F", "kN", "Force", gt=0)]
-    screw: Annotated[Screw, "The screw"]
+    force = Quantity("F", "kN", "Force", gt=0)
+    screw = block(Screw, "The screw")
 
 joint = Chapter("Joint")
 joint.opening = 5 * m.force, "F_o", "kN", "Force that opens the joint", "lever"
@@ -237,10 +237,10 @@ from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text,
 
 
 class Pin(Inputs):
-    bore: Annotated[float, Quantity("d", "mm", "Bore", listed=(10, 12, 15, 17, 20, 25, 30, 35, 40, 45))]
-    count: Annotated[int, Quantity("n", "1", "Pins", ge=1, integer=True)] = 2
-    grade: Annotated[Literal["soft", "middle", "hard"], Text("Grade")] = "soft"
-    force: Annotated[float, Quantity("F", "N", "Force", gt=0)]
+    bore = Quantity("d", "mm", "Bore", listed=(10, 12, 15, 17, 20, 25, 30, 35, 40, 45))
+    count = Quantity("n", "1", "Pins", ge=1, integer=True, default=2)
+    grade = Text("Grade", ("soft", "middle", "hard"), default="soft")
+    force = Quantity("F", "N", "Force", gt=0)
 
 
 pin = Chapter("Pin")
@@ -374,14 +374,14 @@ def test_a_number_of_a_part_is_asked_for_by_the_name_by_which_it_is_varied(name:
 
 
 SLIDE = """
-from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity, m
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, m
 
 
 class Slide(Inputs):
-    crank: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)]
-    base: Annotated[float, Quantity("b", "mm", "Base of the slide", gt=0)] = 60
-    stroke_needed: Annotated[float, Quantity("H_n", "mm", "Stroke that is needed", gt=0)] = 100
-    room: Annotated[float, Quantity("H_r", "mm", "Room of the stroke", gt=0)] = 200
+    crank = Quantity("r", "mm", "Radius of the crank", gt=0)
+    base = Quantity("b", "mm", "Base of the slide", gt=0, default=60)
+    stroke_needed = Quantity("H_n", "mm", "Stroke that is needed", gt=0, default=100)
+    room = Quantity("H_r", "mm", "Room of the stroke", gt=0, default=200)
 
 
 chapter = Chapter("Stroke")

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Abscissa, Annotated, Chapter, Constant, Inputs, Mechanism, Quantity, Value, formula, m, pi
+from diecut_report.api import Abscissa, Chapter, Constant, Inputs, Mechanism, Quantity, Value, formula, m, pi
 from diecut_report.declaration.formula_checks import dimensions
 from diecut_report.formulas.expression import FormulaError
 from diecut_report.formulas.formula import Formula, evaluate
@@ -127,9 +127,9 @@ def test_a_named_call_computes_what_the_function_computes() -> None:
 
 
 class Bar(Inputs):
-    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)] = 3
-    depth: Annotated[float, Quantity("d", "mm", "Depth", gt=0)] = 7
-    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=4, integer=True)] = 8
+    radius = Quantity("r", "mm", "Radius", gt=0, default=3)
+    depth = Quantity("d", "mm", "Depth", gt=0, default=7)
+    n_points = Quantity("N", "1", "Samples", ge=4, integer=True, default=8)
 
 
 def bar(rule: Formula, **names: str) -> Mechanism:

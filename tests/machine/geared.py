@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
-
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
     Block,
     Chapter,
     Inputs,
@@ -23,7 +20,9 @@ from diecut_report.api import (
     lookup,
     m,
     own_table,
+    parts,
     reduction,
+    samples,
 )
 
 BEARINGS = own_table(
@@ -48,20 +47,20 @@ LIFTS = own_table(
 
 
 class Wheel(Block):
-    count: Annotated[float, Quantity("z_i", "1", "Teeth of a wheel", gt=0)]
-    grade: Annotated[Literal["soft", "hard"], Text("Grade of a wheel")] = "soft"
-    strength: Annotated[float | None, Quantity("σ_i", "MPa", "Strength of a wheel")] = None
+    count = Quantity("z_i", "1", "Teeth of a wheel", gt=0)
+    grade = Text("Grade of a wheel", ("soft", "hard"), default="soft")
+    strength = Quantity("σ_i", "MPa", "Strength of a wheel", optional=True)
 
 
 class Geared(Inputs):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("bearing",), ("bore_given",)),)
+    one_of = (OneOf(("bearing",), ("bore_given",)),)
 
-    bearing: Annotated[Literal["6204", "6205"] | None, Text("Bearing")] = None
-    bore_given: Annotated[float | None, Quantity("d_g", "mm", "Bore", gt=0)] = None
-    teeth: Annotated[float, Quantity("z", "1", "Teeth", gt=0)] = 17
-    reach: Annotated[float, Quantity("r", "1", "Reach of the swing", gt=0)] = 4
-    wheels: Annotated[list[Wheel], Text("Wheels")] = []  # noqa: RUF012
-    n_points: Annotated[int, POINTS] = 36
+    bearing = Text("Bearing", ("6204", "6205"), optional=True)
+    bore_given = Quantity("d_g", "mm", "Bore", gt=0, optional=True)
+    teeth = Quantity("z", "1", "Teeth", gt=0, default=17)
+    reach = Quantity("r", "1", "Reach of the swing", gt=0, default=4)
+    wheels = parts(Wheel, "Wheels", optional=True)
+    n_points = samples(36)
 
 
 shaft = Chapter("Shaft")

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, Literal
+from typing import Any
 
 import numpy as np
 
 from diecut_report.api import (
     Abscissa,
     Accumulated,
-    Annotated,
     Block,
     ByText,
     Chapter,
@@ -37,11 +36,13 @@ from diecut_report.api import (
     Value,
     View,
     Words,
+    block,
     chart_panel,
     formula,
     line,
     m,
     own_table,
+    parts,
 )
 
 SERIES = {
@@ -52,28 +53,26 @@ WEIGHTS = own_table(title="Weights", unit="kg", rows={"rope": 0.5, "chain": 2.0}
 
 
 class Post(Block):
-    x: Annotated[float, Quantity("x", "m", "Place of the post")]
-    grip: Annotated[Literal["smooth", "rough"], Text("Surface of the post")] = "smooth"
+    x = Quantity("x", "m", "Place of the post")
+    grip = Text("Surface of the post", ("smooth", "rough"), default="smooth")
 
 
 class Fence(Block):
-    posts: Annotated[list[Post], Text("Posts in order")]
+    posts = parts(Post, "Posts in order")
 
 
 class Loop(Inputs):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("pull",), ("mass", "gravity")),)
+    one_of = (OneOf(("pull",), ("mass", "gravity")),)
 
-    fence: Annotated[Fence | None, Text("The fence")] = None
-    material: Annotated[Literal["rope", "chain"], Text("What is laid around")] = "rope"
-    pull: Annotated[float | None, Quantity("F", "N", "Pull", gt=0)] = None
-    mass: Annotated[float | None, Quantity("m", "kg", "Mass that pulls", gt=0)] = None
-    gravity: Annotated[float | None, Quantity("g", "m/s**2", "Gravity", gt=0)] = None
-    visits: Annotated[
-        float | None, Quantity("n", "1/h", "Visits an hour", press=FromPress("press.productivity", optional=True))
-    ] = None
-    swing: Annotated[float, Quantity("a", "m", "Swing of the rope", gt=0)] = 1
-    wave: Annotated[Any | None, CurveInput("w", "m", "Wave over a turn")] = None
-    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 90
+    fence = block(Fence, "The fence", optional=True)
+    material = Text("What is laid around", ("rope", "chain"), default="rope")
+    pull = Quantity("F", "N", "Pull", gt=0, optional=True)
+    mass = Quantity("m", "kg", "Mass that pulls", gt=0, optional=True)
+    gravity = Quantity("g", "m/s**2", "Gravity", gt=0, optional=True)
+    visits = Quantity("n", "1/h", "Visits an hour", press=FromPress("press.productivity", optional=True), optional=True)
+    swing = Quantity("a", "m", "Swing of the rope", gt=0, default=1)
+    wave = CurveInput("w", "m", "Wave over a turn", optional=True)
+    n_points = Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True, default=90)
 
 
 gap = formula(lambda x, x_next: abs(x_next - x))
@@ -148,9 +147,9 @@ ROPE = Chapter(
 
 
 class Two(Inputs):
-    one: Annotated[float | None, Quantity("L_1", "m", "Length of the loop", gt=0)] = None
-    other: Annotated[float, Quantity("h_1", "m", "Height of the loop", gt=0)]
-    shape: Annotated[Any | None, CurveInput("h", "m", "Its height")] = None
+    one = Quantity("L_1", "m", "Length of the loop", gt=0, optional=True)
+    other = Quantity("h_1", "m", "Height of the loop", gt=0)
+    shape = CurveInput("h", "m", "Its height", optional=True)
 
 
 COMPARED = Mechanism(

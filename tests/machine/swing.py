@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from diecut_report.api import (
     Abscissa,
     Accumulated,
-    Annotated,
     Breakpoints,
     Case,
     Chapter,
@@ -42,21 +41,19 @@ RATIOS = np.linspace(0.5, 2, 4)
 
 
 class Swing(Inputs):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("inertia",), ("mass",)), OneOf(("lift",), ("motion",)))
+    one_of = (OneOf(("inertia",), ("mass",)), OneOf(("lift",), ("motion",)))
 
-    inertia: Annotated[float | None, Quantity("I", "kg*m**2", "Inertia, where the link turns", gt=0)] = None
-    mass: Annotated[float | None, Quantity("m", "kg", "Mass, where the link slides", gt=0)] = None
-    stiffness: Annotated[float, Quantity("K", "N*m/rad", "Stiffness", gt=0, units=(("mass", "N/m"),))] = 100
-    lift: Annotated[float | None, Quantity("h", "deg", "Lift of the link", gt=0, le=400, units=LENGTH)] = None
-    motion: Annotated[
-        Any | None, CurveInput("y_c", "deg", "Motion by reference", referred=True, units=(("mass", "mm"),))
-    ] = None
-    duration: Annotated[float, Quantity("T", "s", "Time that is calculated", gt=0)] = 2
-    ripple: Annotated[float, Quantity("δ", "s", "Time in which curves may turn back", gt=0)] = 1
-    share: Annotated[float, Quantity("s_0", "1", "Share of the motion's period at which it begins", ge=0, lt=1)] = 0
-    rate: Annotated[float | None, Quantity("n", "1/s", "Periods of the motion in a second", gt=0)] = None
-    grade: Annotated[str, Text("Grade of the link")] = "plain"
-    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 48
+    inertia = Quantity("I", "kg*m**2", "Inertia, where the link turns", gt=0, optional=True)
+    mass = Quantity("m", "kg", "Mass, where the link slides", gt=0, optional=True)
+    stiffness = Quantity("K", "N*m/rad", "Stiffness", gt=0, units=(("mass", "N/m"),), default=100)
+    lift = Quantity("h", "deg", "Lift of the link", gt=0, le=400, units=LENGTH, optional=True)
+    motion = CurveInput("y_c", "deg", "Motion by reference", referred=True, units=(("mass", "mm"),), optional=True)
+    duration = Quantity("T", "s", "Time that is calculated", gt=0, default=2)
+    ripple = Quantity("δ", "s", "Time in which curves may turn back", gt=0, default=1)
+    share = Quantity("s_0", "1", "Share of the motion's period at which it begins", ge=0, lt=1, default=0)
+    rate = Quantity("n", "1/s", "Periods of the motion in a second", gt=0, optional=True)
+    grade = Text("Grade of the link", default="plain")
+    n_points = Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True, default=48)
 
 
 passed = formula(lambda time, duration: time / duration)

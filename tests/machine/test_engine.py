@@ -9,19 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import (
-    Annotated,
-    Chapter,
-    CurveInput,
-    Inputs,
-    Mechanism,
-    Require,
-    Value,
-    as_angle,
-    formula,
-    m,
-    pi,
-)
+from diecut_report.api import Chapter, CurveInput, Inputs, Mechanism, Require, Value, as_angle, formula, m, pi
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import Discovery
@@ -247,7 +235,7 @@ def test_repeated_parts_may_differ_in_their_optional_keys() -> None:
 
 def test_a_required_curve_may_not_be_empty() -> None:
     class Needy(Inputs):
-        curve: Annotated[Any, CurveInput("M", "N*m", "Torque")]
+        curve = CurveInput("M", "N*m", "Torque")
 
     with pytest.raises(ValueError, match="curve or a list"):
         Needy.model_validate({"curve": None})

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import jsonschema
 import pytest
 
-from diecut_report.api import Block, Derivative, FromPress, Inputs, Mechanism, Quantity, SpectrumLine, Step
+from diecut_report.api import Block, Derivative, FromPress, Inputs, Mechanism, Quantity, SpectrumLine, Step, block
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema, kind_schema
 from diecut_report.declaration.formula_checks import check_mechanism
@@ -269,19 +269,17 @@ def test_the_contract_test_finds_what_is_wrong_in_either_form(name: str, changes
 
 
 class Part(Block):
-    size: Annotated[float, Quantity("b", "m", "Size", units=(("mass", "s"),))]
+    size = Quantity("b", "m", "Size", units=(("mass", "s"),))
 
 
 class Nested(Inputs):
-    mass: Annotated[float | None, Quantity("m", "kg", "Mass")] = None
-    part: Part | None = None
+    mass = Quantity("m", "kg", "Mass", optional=True)
+    part = block(Part, "Part", optional=True)
 
 
 class OfPress(Inputs):
-    rate: Annotated[
-        float | None, Quantity("n", "1/h", "Rate", press=FromPress("press.productivity", optional=True))
-    ] = None
-    time: Annotated[float, Quantity("t", "s", "Time", units=(("rate", "1"),))]
+    rate = Quantity("n", "1/h", "Rate", press=FromPress("press.productivity", optional=True), optional=True)
+    time = Quantity("t", "s", "Time", units=(("rate", "1"),))
 
 
 @pytest.mark.parametrize(

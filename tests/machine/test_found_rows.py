@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
 import pytest
 
 from diecut_report.api import (
-    POINTS,
     Block,
     Chapter,
     Drawing,
@@ -26,7 +25,9 @@ from diecut_report.api import (
     m,
     own_table,
     part,
+    parts,
     pick,
+    samples,
     value,
 )
 from diecut_report.declaration import faults
@@ -50,14 +51,14 @@ RATINGS = np.array([13.5e3, 14.875e3])
 
 
 class Place(Inputs):
-    load: Annotated[float, Quantity("F", "kN", "Load", gt=0)] = 14
-    given: Annotated[Literal["small", "big"] | None, Text("Bearing")] = None
-    is_wet: Annotated[bool, Text("Wet")] = False
-    factor: Annotated[float, Quantity("f", "1", "Factor", gt=0)] = 1
+    load = Quantity("F", "kN", "Load", gt=0, default=14)
+    given = Text("Bearing", ("small", "big"), optional=True)
+    is_wet = Text("Wet", default=False)
+    factor = Quantity("f", "1", "Factor", gt=0, default=1)
 
 
 class Bar(Block):
-    length: Annotated[float | None, Quantity("l", "m", "Length of a bar")] = None
+    length = Quantity("l", "m", "Length of a bar", optional=True)
 
 
 def found(load: Any) -> Any:
@@ -204,7 +205,7 @@ def test_texts_are_tried_one_for_each_trial_or_one_for_all() -> None:
 
 def test_numbers_of_parts_are_tried_where_some_have_none() -> None:
     class Bars(Place):
-        bars: Annotated[list[Bar], Text("Bars")] = []  # noqa: RUF012
+        bars = parts(Bar, "Bars", optional=True)
 
     mechanism = made(again({"bars.length": (np.array([1.0, 2.0]), None), "given": "big"}, ("first",)))
     chapter = Chapter("More", needs=("bars",), absent="none")
@@ -246,14 +247,14 @@ SERIES = (100.0, 160.0, 200.0)
 
 
 class Drum(Block):
-    width: Annotated[float, Quantity("b", "mm", "Width")]
+    width = Quantity("b", "mm", "Width")
 
 
 class Lift(Inputs):
-    power: Annotated[float, Quantity("P", "kW", "Power")] = 544
-    rating: Annotated[float | None, Quantity("P_g", "kW", "Rating")] = None
-    drums: Annotated[list[Drum], Text("Drums")] = []  # noqa: RUF012
-    n_points: Annotated[int, POINTS] = 36
+    power = Quantity("P", "kW", "Power", default=544)
+    rating = Quantity("P_g", "kW", "Rating", optional=True)
+    drums = parts(Drum, "Drums", optional=True)
+    n_points = samples(36)
 
 
 def lift(rule: Any = "above", index: int = 1, *, whole: bool = False, **options: Any) -> Mechanism:

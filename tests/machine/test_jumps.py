@@ -10,8 +10,6 @@ import numpy as np
 import pytest
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Chapter,
     Check,
     Inputs,
@@ -27,6 +25,7 @@ from diecut_report.api import (
     m,
     pi,
     reduction,
+    samples,
     value,
 )
 from diecut_report.config.loader import load_config
@@ -76,10 +75,10 @@ DEGREE = np.pi / 180
 
 
 class Wheel(Inputs):
-    moment: Annotated[float, Quantity("M", "N*m", "Moment")] = 81
-    start: Annotated[float, Quantity("φ_1", "deg", "Start")] = 100
-    end: Annotated[float, Quantity("φ_2", "deg", "End")] = 102
-    n_points: Annotated[int, POINTS] = 36
+    moment = Quantity("M", "N*m", "Moment", default=81)
+    start = Quantity("φ_1", "deg", "Start", default=100)
+    end = Quantity("φ_2", "deg", "End", default=102)
+    n_points = samples(36)
 
 
 @formula(printed_as="w")
@@ -310,9 +309,9 @@ def test_ten_thousand_places_among_ten_thousand_joints_take_little_memory() -> N
 
 
 class Arm(Inputs):
-    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)]
-    place: Annotated[float, Quantity("φ_p", "deg", "Place", gt=0)]
-    n_points: Annotated[int, POINTS] = 36
+    arm = Quantity("a", "mm", "Arm", gt=0)
+    place = Quantity("φ_p", "deg", "Place", gt=0)
+    n_points = samples(36)
 
 
 ROUGH: dict[str, tuple[str, Any]] = {

@@ -10,8 +10,6 @@ import numpy as np
 import pytest
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Chapter,
     Chart,
     Inputs,
@@ -29,6 +27,7 @@ from diecut_report.api import (
     polyline,
     reduction,
     rigid,
+    samples,
 )
 from diecut_report.machine.numerics.domain import Domain
 from diecut_report.machine.steps.run import calculate
@@ -37,8 +36,8 @@ from tests.machines import drive
 
 
 class Wave(Inputs):
-    shift: Annotated[float, Quantity("c", "m", "Middle of the wave")] = 0
-    n_points: Annotated[int, POINTS] = 36
+    shift = Quantity("c", "m", "Middle of the wave", default=0)
+    n_points = samples(36)
 
 
 def wave(drawn: str = "height") -> Mechanism:

@@ -4,12 +4,24 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Block, Chapter, Inputs, Mechanism, Quantity, Text, abscissa, crossings, m, running
+from diecut_report.api import (
+    Block,
+    Chapter,
+    Inputs,
+    Mechanism,
+    Quantity,
+    abscissa,
+    crossings,
+    m,
+    parts,
+    running,
+    samples,
+)
 from diecut_report.declaration import faults
 from diecut_report.formulas.tree import Node
 from diecut_report.machine.calculation import Calculation
@@ -26,13 +38,13 @@ from diecut_report.api import *
 
 
 class Spring(Block):
-    name: Annotated[str, Text("Name")]
-    force: Annotated[float, Quantity("F_i", "N", "Force")]
+    name = Text("Name")
+    force = Quantity("F_i", "N", "Force")
 
 
 class Springs(Inputs):
-    springs: Annotated[list[Spring], Text("Springs")]
-    allowed: Annotated[float, Quantity("F_z", "N", "Allowed force")] = 10
+    springs = parts(Spring, "Springs")
+    allowed = Quantity("F_z", "N", "Allowed force", default=10)
 
 
 def check(id, named_by=""):
@@ -78,8 +90,8 @@ def test_two_parts_of_one_name_are_refused(tmp_path: Path, what: str) -> None:
 
 
 class Wave(Inputs):
-    height: Annotated[float, Quantity("h", "mm", "Height", gt=0)] = 2
-    n_points: Annotated[int, POINTS] = 36
+    height = Quantity("h", "mm", "Height", gt=0, default=2)
+    n_points = samples(36)
 
 
 wave = Chapter("Wave")
@@ -122,11 +134,11 @@ def test_a_name_that_nothing_has_is_told_with_the_plugin_and_the_nearest() -> No
 
 
 class Shaft(Block):
-    ratio: Annotated[float, Quantity("i_k", "1", "Ratio", gt=0)]
+    ratio = Quantity("i_k", "1", "Ratio", gt=0)
 
 
 class Shafts(Inputs):
-    shafts: Annotated[list[Shaft], Text("Shafts")]
+    shafts = parts(Shaft, "Shafts")
 
 
 train = Chapter("Train")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,6 +24,7 @@ from diecut_report.api import (
     computed,
     computed_curve,
     m,
+    parts,
     reduction,
 )
 from diecut_report.declaration.formula_checks import check_mechanism
@@ -37,12 +38,12 @@ from diecut_report.results.checks import check_results
 
 
 class Peg(Block):
-    place: Annotated[float, Quantity("x_i", "mm", "Place")]
+    place = Quantity("x_i", "mm", "Place")
 
 
 class Row(Inputs):
-    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
-    pegs: Annotated[list[Peg], Quantity("", "1", "Pegs")]
+    width = Quantity("b", "mm", "Width", gt=0)
+    pegs = parts(Peg, "Pegs")
 
 
 def calculated(number: Any = 1.0, clash: Any = None, machines: int = 1) -> Calculation:
@@ -108,19 +109,19 @@ def test_a_row_has_a_number_for_each_part(made: Any) -> None:
 
 
 class Other(Block):
-    other: Annotated[Any, MechanismInput("Mechanism that is asked")]
+    other = MechanismInput("Mechanism that is asked")
 
 
 class AskingOne(Inputs):
-    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
-    other: Annotated[Any, MechanismInput("Mechanism that is asked")]
-    pegs: Annotated[list[Peg], Quantity("", "1", "Pegs")]
+    width = Quantity("b", "mm", "Width", gt=0)
+    other = MechanismInput("Mechanism that is asked")
+    pegs = parts(Peg, "Pegs")
 
 
 class Asking(Inputs):
-    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
-    others: Annotated[list[Other], Quantity("", "1", "Others")]
-    pegs: Annotated[list[Peg], Quantity("", "1", "Pegs")]
+    width = Quantity("b", "mm", "Width", gt=0)
+    others = parts(Other, "Others")
+    pegs = parts(Peg, "Pegs")
 
 
 @pytest.mark.parametrize("in_list", [False, True])
@@ -190,11 +191,11 @@ def test_a_truth_value_is_printed_as_yes_or_no_and_what_serves_others_alone_is_n
 class Ramp(Inputs):
     """A force that jumps at a place of a bar, and two points that are judged."""
 
-    force: Annotated[Any, Varying("F", "N", "Force", extremes=True, words=("none",))]
-    jump: Annotated[float, Quantity("x_j", "m", "Place of the jump", gt=0, lt=10)] = 4
-    allowed: Annotated[float, Quantity("[S]", "N", "Allowed force", gt=0)] = 5
-    grade: Annotated[float, Quantity("g", "1", "Grade", listed=(1, 2.5))] = 1
-    n_points: Annotated[int, Quantity("N", "1", "Samples", integer=True, ge=4)] = 8
+    force = Varying("F", "N", "Force", extremes=True, words=("none",))
+    jump = Quantity("x_j", "m", "Place of the jump", gt=0, lt=10, default=4)
+    allowed = Quantity("[S]", "N", "Allowed force", gt=0, default=5)
+    grade = Quantity("g", "1", "Grade", listed=(1, 2.5), default=1)
+    n_points = Quantity("N", "1", "Samples", integer=True, ge=4, default=8)
 
 
 class Bar:

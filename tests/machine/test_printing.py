@@ -13,19 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.api import (
-    POINTS,
-    Annotated,
-    Chapter,
-    Constant,
-    Inputs,
-    Mechanism,
-    Quantity,
-    Value,
-    abscissa,
-    formula,
-    m,
-)
+from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Quantity, Value, abscissa, formula, m, samples
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.formulas.formula import Formula, evaluate
@@ -118,8 +106,8 @@ SHARE = Constant(2.0, "k", "1")
 
 
 class Bar(Inputs):
-    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 100
-    other: Annotated[float, Quantity("b", "mm", "Other length", gt=0)] = 100
+    length = Quantity("l", "mm", "Length", gt=0, default=100)
+    other = Quantity("b", "mm", "Other length", gt=0, default=100)
 
 
 def item(rule: Formula, **lengths: float) -> dict[str, Any]:
@@ -313,9 +301,9 @@ def test_the_report_says_at_the_chapters_head_where_curves_are_shown() -> None:
 class Turned(Inputs):
     """A crank that is shown at an angle of its own."""
 
-    shown: Annotated[float, Quantity("φ_0", "deg", "Where it is shown", ge=0)] = 30
-    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)] = 100
-    n_points: Annotated[int, POINTS] = 36
+    shown = Quantity("φ_0", "deg", "Where it is shown", ge=0, default=30)
+    radius = Quantity("r", "mm", "Radius", gt=0, default=100)
+    n_points = samples(36)
 
 
 @pytest.mark.parametrize(("shown", "printed"), [(30, "30"), (390, "30")])
@@ -370,8 +358,8 @@ def test_a_great_number_of_a_formula_has_no_row_of_zeros() -> None:
 class InCases(Inputs):
     """Inputs of a formula of cases."""
 
-    strength: Annotated[float, Quantity("R_m", "MPa", "Strength", gt=0)]
-    given: Annotated[float, Quantity("K_0", "1", "Factor, 0 where it is not given")] = 0
+    strength = Quantity("R_m", "MPa", "Strength", gt=0)
+    given = Quantity("K_0", "1", "Factor, 0 where it is not given", default=0)
 
 
 KPSI = Constant(6.894757e6, "1 kpsi", "Pa")

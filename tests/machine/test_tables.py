@@ -6,14 +6,13 @@ import re
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
 from diecut_report.api import (
-    POINTS,
     BarGroup,
     Bars,
     Block,
@@ -24,7 +23,6 @@ from diecut_report.api import (
     Polar,
     Quantity,
     Series,
-    Text,
     abscissa,
     chart_panel,
     interpolated,
@@ -33,8 +31,10 @@ from diecut_report.api import (
     lookup,
     m,
     own_table,
+    parts,
     pick,
     reduction,
+    samples,
 )
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
@@ -348,9 +348,9 @@ KINDS = {"log-x": "x", "log-y": "y", "log-log": "z"}
 
 
 class Bearing(Inputs):
-    speed: Annotated[float, Quantity("n", "rpm", "Speed", gt=0)]
-    swing: Annotated[float, Quantity("Δn", "rpm", "Swing of the speed", ge=0)]
-    n_points: Annotated[int, POINTS] = 36
+    speed = Quantity("n", "rpm", "Speed", gt=0)
+    swing = Quantity("Δn", "rpm", "Swing of the speed", ge=0)
+    n_points = samples(36)
 
 
 chapter = Chapter("Bearing")
@@ -455,14 +455,14 @@ MOTORS = own_table(
 
 
 class Column(Block):
-    bore: Annotated[float, Quantity("D_i", "mm", "Bore of a column", gt=0)]
+    bore = Quantity("D_i", "mm", "Bore of a column", gt=0)
 
 
 class Lift(Inputs):
-    needed: Annotated[float, Quantity("D_n", "mm", "Bore that is needed", gt=0)] = 30
-    bore_given: Annotated[float | None, Quantity("D_g", "mm", "Bore of another cylinder", gt=0)] = None
-    power: Annotated[float, Quantity("P_n", "kW", "Power that is needed", gt=0)] = 1
-    columns: Annotated[list[Column], Text("Columns")] = []  # noqa: RUF012
+    needed = Quantity("D_n", "mm", "Bore that is needed", gt=0, default=30)
+    bore_given = Quantity("D_g", "mm", "Bore of another cylinder", gt=0, optional=True)
+    power = Quantity("P_n", "kW", "Power that is needed", gt=0, default=1)
+    columns = parts(Column, "Columns", optional=True)
 
 
 sizes = Chapter("Sizes")

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
-
 import numpy as np
 
 from diecut_report.api import (
     Abscissa,
-    Annotated,
     Block,
     Breakpoints,
     Case,
@@ -30,8 +27,10 @@ from diecut_report.api import (
     Total,
     Value,
     Words,
+    block,
     formula,
     m,
+    parts,
     prefixed,
 )
 
@@ -41,25 +40,25 @@ LONG = Constant(0.5, "a_l", "m")
 
 
 class Pair(Block):
-    driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driver", ge=12, integer=True)]
-    driven_teeth: Annotated[int, Quantity("z_2", "1", "Number of teeth of the driven gear", ge=12, integer=True)]
-    label: Annotated[str | None, Text("Name of the pair")] = None
+    driver_teeth = Quantity("z_1", "1", "Teeth of the driver", ge=12, integer=True)
+    driven_teeth = Quantity("z_2", "1", "Number of teeth of the driven gear", ge=12, integer=True)
+    label = Text("Name of the pair", optional=True)
 
 
 class Spring(Block):
-    stiffness: Annotated[float, Quantity("c", "N/mm", "Stiffness", gt=0)]
+    stiffness = Quantity("c", "N/mm", "Stiffness", gt=0)
 
 
 class Toy(Inputs):
-    force: Annotated[float, Quantity("F", "kN", "Force", gt=0)] = 2
-    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0, lt=1000)] = 100
-    step_angle: Annotated[float, Quantity("φ_s", "deg", "Place of the step", ge=0, lt=360)] = 120
-    gears: Annotated[list[Pair], Text("Gear pairs")] = []  # noqa: RUF012
-    spring: Annotated[Spring | None, Text("Spring, if there is one")] = None
-    torque_curve: Annotated[Any | None, CurveInput("M", "N*m", "Torque over a turn")] = None
-    target: Annotated[float, Quantity("t", "1", "What the root is of", gt=0)] = 2000
-    grade: Annotated[Literal["fine", "coarse"], Text("Grade of the toy")] = "fine"
-    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True)] = 90
+    force = Quantity("F", "kN", "Force", gt=0, default=2)
+    arm = Quantity("a", "mm", "Arm", gt=0, lt=1000, default=100)
+    step_angle = Quantity("φ_s", "deg", "Place of the step", ge=0, lt=360, default=120)
+    gears = parts(Pair, "Gear pairs", optional=True)
+    spring = block(Spring, "Spring, if there is one", optional=True)
+    torque_curve = CurveInput("M", "N*m", "Torque over a turn", optional=True)
+    target = Quantity("t", "1", "What the root is of", gt=0, default=2000)
+    grade = Text("Grade of the toy", ("fine", "coarse"), default="fine")
+    n_points = Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True, default=90)
 
 
 moment = formula(lambda force, arm: force * arm)

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
-from diecut_report.api import Annotated, Inputs, Text, formula, number
+from diecut_report.api import Inputs, Text, formula, number
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, evaluate
 from diecut_report.mechanics import motion_laws
@@ -209,7 +209,7 @@ def test_what_is_no_unit_rise_is_not_registered(own_laws: None, changes: dict[st
 
 
 class Chosen(Inputs):
-    law: Annotated[str, Text("Law", options=LAWS)] = "cycloidal"
+    law = Text("Law", options=LAWS, default="cycloidal")
 
 
 def test_an_input_takes_the_name_of_a_law_and_nothing_else() -> None:

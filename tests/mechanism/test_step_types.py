@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity, abscissa, m
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, abscissa, m, samples
 from diecut_report.declaration import faults
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.machine.printing.page import section_items
@@ -66,8 +66,8 @@ swing = recipe(Swing)
 
 
 class Wave(Inputs):
-    size: Annotated[float, Quantity("a", "mm", "Size of the wave", gt=0)] = 20
-    n_points: Annotated[int, POINTS] = 36
+    size = Quantity("a", "mm", "Size of the wave", gt=0, default=20)
+    n_points = samples(36)
 
 
 def wave(unit: str = "mm", of: str = "height", level: float = 1.0) -> Mechanism:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, Literal
+from typing import Any
 
 import numpy as np
 
 from diecut_report.api import (
     GRAVITY,
-    POINTS,
-    Annotated,
     BarGroup,
     Bars,
     Block,
@@ -35,6 +33,7 @@ from diecut_report.api import (
     accumulated,
     as_angle,
     as_number,
+    block,
     case,
     choice,
     circle,
@@ -46,6 +45,7 @@ from diecut_report.api import (
     lookup,
     m,
     part,
+    parts,
     pi,
     pick,
     point,
@@ -53,6 +53,7 @@ from diecut_report.api import (
     reduction,
     root,
     running,
+    samples,
     standard_series,
     told,
     total,
@@ -65,49 +66,49 @@ from diecut_report.api import (
 
 
 class Pulley(Block):
-    diameter: Annotated[float, Quantity("D_i", "mm", "Diameter of the pulley", gt=0)]
-    journal_diameter: Annotated[float, Quantity("d_i", "mm", "Diameter of its journals", gt=0)]
-    journal_friction: Annotated[float, Quantity("f_i", "1", "Friction in its bearings", ge=0, lt=1)] = 0.02
-    wrap: Annotated[float, Quantity("α_i", "deg", "Angle of wrap of the belt", gt=0, le=180)] = 180
+    diameter = Quantity("D_i", "mm", "Diameter of the pulley", gt=0)
+    journal_diameter = Quantity("d_i", "mm", "Diameter of its journals", gt=0)
+    journal_friction = Quantity("f_i", "1", "Friction in its bearings", ge=0, lt=1, default=0.02)
+    wrap = Quantity("α_i", "deg", "Angle of wrap of the belt", gt=0, le=180, default=180)
 
 
 class Backstop(Block):
-    radius: Annotated[float, Quantity("r_b", "mm", "Radius at which the pawl holds", gt=0)]
-    allowable_force: Annotated[float, Quantity("[F_p]", "kN", "Force that the pawl may carry", gt=0)]
+    radius = Quantity("r_b", "mm", "Radius at which the pawl holds", gt=0)
+    allowable_force = Quantity("[F_p]", "kN", "Force that the pawl may carry", gt=0)
 
 
 class Elevator(Inputs):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("capacity",), ("volume_rate",)),)
+    one_of = (OneOf(("capacity",), ("volume_rate",)),)
 
-    capacity: Annotated[float | None, Quantity("Q", "t/h", "Waste that is to be lifted", gt=0)] = None
-    volume_rate: Annotated[float | None, Quantity("V_t", "m**3/h", "Volume of waste that is to be lifted", gt=0)] = None
-    material: Annotated[Literal["board", "paper", "foil"], Text("What the waste is made of")] = "board"
-    bulk_density: Annotated[float, Quantity("γ", "kg/m**3", "Density of the loose waste", gt=0)] = 120
-    height: Annotated[float, Quantity("H", "m", "Height of lift", gt=0, le=60)]
-    head_diameter: Annotated[float, Quantity("D", "mm", "Diameter of the head drum", gt=0)] = 500
-    head_speed: Annotated[float, Quantity("ω", "rpm", "Speed of the head drum", gt=0)]
-    head_wrap: Annotated[float, Quantity("α", "deg", "Angle of wrap at the head drum", gt=0, le=270)] = 180
-    lagging: Annotated[Literal["bare", "rubber"], Text("Lagging of the head drum")] = "rubber"
-    belt_width: Annotated[float, Quantity("B", "mm", "Width of the belt", gt=0)] = 300
-    belt_mass: Annotated[float, Quantity("q_b", "kg/m", "Mass of the belt", gt=0)] = 6
-    bucket_mass: Annotated[float, Quantity("m_e", "kg", "Mass of an empty bucket", gt=0)] = 5
-    bucket_volume: Annotated[float, Quantity("V", "L", "Volume of a bucket", gt=0)] = 14
-    bucket_pitch: Annotated[float, Quantity("p", "mm", "Distance of the buckets", gt=0)] = 400
-    filling: Annotated[float, Quantity("ψ", "%", "Share of a bucket that may be filled", gt=0, le=100)] = 75
-    scoop_start: Annotated[float, Quantity("φ_1", "deg", "Turn of the drum at which a bucket enters the waste", ge=0, lt=360)] = 100
-    scoop_end: Annotated[float, Quantity("φ_2", "deg", "Turn of the drum at which it leaves the waste", gt=0, le=360)] = 160
-    pretension: Annotated[float | None, Quantity("T_0", "N", "Pull of the take-up on each strand", ge=0)] = None
-    chute_drop: Annotated[float, Quantity("h", "mm", "Chute's edge below the top of the head drum", gt=0)] = 600
-    efficiency: Annotated[float, Quantity("η", "%", "Efficiency of gear and belt drive", gt=0, le=100)] = 90
-    small_pulley: Annotated[float, Quantity("d_1", "mm", "Smaller pulley of the belt drive", gt=0)] = 140
-    large_pulley: Annotated[float, Quantity("d_2", "mm", "Greater pulley of the belt drive", gt=0)] = 280
-    wanted_centre: Annotated[float, Quantity("C_w", "mm", "Wanted distance of the pulleys' shafts", gt=0)] = 500
-    allowable_pull: Annotated[float, Quantity("[T]", "kN", "Pull that the belt may carry", gt=0)] = 10
-    allowable_pulley_load: Annotated[float, Quantity("[F_i]", "kN", "Load that each pulley's shaft may carry", gt=0)] = 6
-    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Torque that the head shaft may carry", gt=0)] = None
-    pulleys: Annotated[list[Pulley], Text("Pulleys that turn the belt, without the head drum")]
-    backstop: Annotated[Backstop | None, Text("Backstop, which holds the belt when the drive stops")] = None
-    n_points: Annotated[int, POINTS] = 360
+    capacity = Quantity("Q", "t/h", "Waste that is to be lifted", gt=0, optional=True)
+    volume_rate = Quantity("V_t", "m**3/h", "Volume of waste that is to be lifted", gt=0, optional=True)
+    material = Text("What the waste is made of", ("board", "paper", "foil"), default="board")
+    bulk_density = Quantity("γ", "kg/m**3", "Density of the loose waste", gt=0, default=120)
+    height = Quantity("H", "m", "Height of lift", gt=0, le=60)
+    head_diameter = Quantity("D", "mm", "Diameter of the head drum", gt=0, default=500)
+    head_speed = Quantity("ω", "rpm", "Speed of the head drum", gt=0)
+    head_wrap = Quantity("α", "deg", "Angle of wrap at the head drum", gt=0, le=270, default=180)
+    lagging = Text("Lagging of the head drum", ("bare", "rubber"), default="rubber")
+    belt_width = Quantity("B", "mm", "Width of the belt", gt=0, default=300)
+    belt_mass = Quantity("q_b", "kg/m", "Mass of the belt", gt=0, default=6)
+    bucket_mass = Quantity("m_e", "kg", "Mass of an empty bucket", gt=0, default=5)
+    bucket_volume = Quantity("V", "L", "Volume of a bucket", gt=0, default=14)
+    bucket_pitch = Quantity("p", "mm", "Distance of the buckets", gt=0, default=400)
+    filling = Quantity("ψ", "%", "Share of a bucket that may be filled", gt=0, le=100, default=75)
+    scoop_start = Quantity("φ_1", "deg", "Turn of the drum at which a bucket enters the waste", ge=0, lt=360, default=100)
+    scoop_end = Quantity("φ_2", "deg", "Turn of the drum at which it leaves the waste", gt=0, le=360, default=160)
+    pretension = Quantity("T_0", "N", "Pull of the take-up on each strand", ge=0, optional=True)
+    chute_drop = Quantity("h", "mm", "Chute's edge below the top of the head drum", gt=0, default=600)
+    efficiency = Quantity("η", "%", "Efficiency of gear and belt drive", gt=0, le=100, default=90)
+    small_pulley = Quantity("d_1", "mm", "Smaller pulley of the belt drive", gt=0, default=140)
+    large_pulley = Quantity("d_2", "mm", "Greater pulley of the belt drive", gt=0, default=280)
+    wanted_centre = Quantity("C_w", "mm", "Wanted distance of the pulleys' shafts", gt=0, default=500)
+    allowable_pull = Quantity("[T]", "kN", "Pull that the belt may carry", gt=0, default=10)
+    allowable_pulley_load = Quantity("[F_i]", "kN", "Load that each pulley's shaft may carry", gt=0, default=6)
+    allowable_torque = Quantity("[M]", "N*m", "Torque that the head shaft may carry", gt=0, optional=True)
+    pulleys = parts(Pulley, "Pulleys that turn the belt, without the head drum")
+    backstop = block(Backstop, "Backstop, which holds the belt when the drive stops", optional=True)
+    n_points = samples(360)
 
 
 # --- calculation

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Abscissa, Annotated, Chapter, Inputs, Mechanism, Quantity, Value, formula
+from diecut_report.api import Abscissa, Chapter, Inputs, Mechanism, Quantity, Value, formula
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.machine.steps.run import calculate
@@ -43,9 +43,9 @@ def train(**changes: Any) -> Calculation:
 class SineLoad(Inputs):
     """A torque that swings once a turn."""
 
-    mean: Annotated[float, Quantity("M_0", "N*m", "Mean torque", gt=0)] = 100
-    swing: Annotated[float, Quantity("M_s", "N*m", "Swing of the torque", ge=0)] = 100
-    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 90
+    mean = Quantity("M_0", "N*m", "Mean torque", gt=0, default=100)
+    swing = Quantity("M_s", "N*m", "Swing of the torque", ge=0, default=100)
+    n_points = Quantity("N", "1", "Samples", ge=36, integer=True, default=90)
 
 
 @formula

@@ -265,13 +265,13 @@ def test_a_ring_stands_for_each_line() -> None:
 PLUGIN = """
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Quantity, abscissa, m, pi
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, abscissa, m, pi, samples
 
 
 class Feeder(Inputs):
-    end: Annotated[float, Quantity("φ_e", "deg", "End of the carrying")] = 120
-    rate: Annotated[float, Quantity("n", "1/h", "Turns")] = 6000
-    n_points: Annotated[int, POINTS] = 36
+    end = Quantity("φ_e", "deg", "End of the carrying", default=120)
+    rate = Quantity("n", "1/h", "Turns", default=6000)
+    n_points = samples(36)
 
 
 chapter = Chapter("Motion")

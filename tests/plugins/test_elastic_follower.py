@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from functools import cache
 from itertools import pairwise
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -358,9 +358,9 @@ def test_the_input_of_another_follower_is_the_law_itself(law: str, damping: floa
 class Moved(Inputs):
     """When the toy moves."""
 
-    begin: Annotated[float, Quantity("b", "1", "Share at which the motion begins", ge=0, lt=1)] = 0.3
-    lasts: Annotated[float, Quantity("d", "1", "Share that it takes", gt=0, lt=1)] = 0.4
-    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 90
+    begin = Quantity("b", "1", "Share at which the motion begins", ge=0, lt=1, default=0.3)
+    lasts = Quantity("d", "1", "Share that it takes", gt=0, lt=1, default=0.4)
+    n_points = Quantity("N", "1", "Samples", ge=36, integer=True, default=90)
 
 
 begins = formula(lambda begin: 2 * pi * begin)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 import pytest
@@ -147,7 +147,7 @@ def test_numbers_of_any_size_give_the_same_ratios(size: float) -> None:
 class Turn(Inputs):
     """Samples alone."""
 
-    n_points: Annotated[int, Quantity("N", "1", "Samples", ge=36, integer=True)] = 90
+    n_points = Quantity("N", "1", "Samples", ge=36, integer=True, default=90)
 
 
 same = formula(lambda angle: angle)

@@ -12,7 +12,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.api import Annotated, Inputs, Mechanism, Source, Text
+from diecut_report.api import Inputs, Mechanism, Source, block
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train.figures import TOOTHED_BELT_FIGURES, layout
@@ -31,7 +31,7 @@ from tests.plugins.drive_trains import check, checked, train
 
 
 class BeltDrive(Inputs):
-    toothed_belt: Annotated[ToothedBelt | None, Text("Toothed belt")] = None
+    toothed_belt = block(ToothedBelt, "Toothed belt", optional=True)
 
 
 MECHANISM = Mechanism(

@@ -168,8 +168,8 @@ from typing import Annotated, Any
 from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, Value, formula
 
 class Balance(Inputs):
-    up: Annotated[float, Quantity("M_1", "N*m", "Moment up")]
-    down: Annotated[float, Quantity("M_2", "N*m", "Moment down", gt=0)]
+    up = Quantity("M_1", "N*m", "Moment up")
+    down = Quantity("M_2", "N*m", "Moment down", gt=0)
 
 @formula
 def rest(up: Any, down: Any) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
 import pytest
@@ -142,8 +142,8 @@ def test_advice_of_many_random_machines_makes_its_check_hold(kind: str) -> None:
 
 
 class Pin(Inputs):
-    grade: Annotated[Literal["soft", "hard"], Text("Grade")] = "soft"
-    bore: Annotated[float, Quantity("d", "mm", "Bore", gt=0)] = 10
+    grade = Text("Grade", ("soft", "hard"), default="soft")
+    bore = Quantity("d", "mm", "Bore", gt=0, default=10)
 
 
 def pin(*checks: Check, advise: tuple[AdviceWay, ...]) -> Mechanism:
@@ -176,9 +176,9 @@ def test_a_text_that_makes_another_check_fail_says_so() -> None:
 
 
 class Spring(Inputs):
-    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
-    room: Annotated[float, Quantity("B", "mm", "Room for it", gt=0)] = 100_000
-    damping: Annotated[float, Quantity("d", "1", "Damping", ge=0)] = 1
+    width = Quantity("b", "mm", "Width", gt=0)
+    room = Quantity("B", "mm", "Room for it", gt=0, default=100_000)
+    damping = Quantity("d", "1", "Damping", ge=0, default=1)
 
 
 def spring(advise: tuple[AdviceWay, ...]) -> Mechanism:

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from typing import Any, ClassVar, Literal
+from typing import Any
 
 import numpy as np
 import pytest
 
 from diecut_report.api import (
-    POINTS,
     Abscissa,
-    Annotated,
     Block,
     Chapter,
     Check,
@@ -22,8 +20,11 @@ from diecut_report.api import (
     Quantity,
     Text,
     Value,
+    block,
     formula,
     m,
+    parts,
+    samples,
     value,
 )
 from diecut_report.config.plugins import Discovery
@@ -44,17 +45,17 @@ from diecut_report.testing.contract import _strange_partners
 
 
 class Rung(Block):
-    load: Annotated[float, Quantity("F", "N", "Load of the bar")]
-    rated: Annotated[float | None, Quantity("F_r", "N", "Rated load")] = None
+    load = Quantity("F", "N", "Load of the bar")
+    rated = Quantity("F_r", "N", "Rated load", optional=True)
 
 
 class Rack(Inputs):
-    bars: Annotated[list[Rung], Text("Bars")]
-    strength: Annotated[float, Quantity("F_z", "N", "Strength")] = 10
-    swing: Annotated[float, Quantity("a", "N", "Amplitude")] = 3
-    phase: Annotated[float, Quantity("α", "rad", "Phase")] = 0.1
-    play: Annotated[float, Quantity("j", "mm", "Play")] = 0.3
-    n_points: Annotated[int, POINTS] = 36
+    bars = parts(Rung, "Bars")
+    strength = Quantity("F_z", "N", "Strength", default=10)
+    swing = Quantity("a", "N", "Amplitude", default=3)
+    phase = Quantity("α", "rad", "Phase", default=0.1)
+    play = Quantity("j", "mm", "Play", default=0.3)
+    n_points = samples(36)
 
 
 @formula
@@ -239,22 +240,22 @@ def test_the_report_shows_the_worst_part_and_a_table_of_all() -> None:
 
 
 class Stop(Block):
-    reach: Annotated[float, Quantity("a", "N", "Reach", gt=0)]
-    allowable_reach: Annotated[float | None, Quantity("[a]", "N", "Allowed reach", gt=0)] = None
+    reach = Quantity("a", "N", "Reach", gt=0)
+    allowable_reach = Quantity("[a]", "N", "Allowed reach", gt=0, optional=True)
 
 
 class Bar(Inputs):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("load",), ("weight", "tare"), optional=True),)
+    one_of = (OneOf(("load",), ("weight", "tare"), optional=True),)
 
-    force: Annotated[float, Quantity("F", "N", "Force", gt=0)] = 8
-    rated: Annotated[float | None, Quantity("F_r", "N", "Rated force", gt=0)] = None
-    least: Annotated[float | None, Quantity("F_l", "N", "Least force", gt=0)] = None
-    width: Annotated[float | None, Quantity("b", "N", "Width", gt=0)] = None
-    load: Annotated[float | None, Quantity("L", "N", "Load", gt=0)] = None
-    weight: Annotated[float | None, Quantity("W", "N", "Weight", gt=0)] = None
-    tare: Annotated[float | None, Quantity("T", "N", "Tare", gt=0)] = None
-    material: Annotated[Literal["steel", "wood"], Text("Material")] = "wood"
-    stop: Annotated[Stop | None, Text("Stop")] = None
+    force = Quantity("F", "N", "Force", gt=0, default=8)
+    rated = Quantity("F_r", "N", "Rated force", gt=0, optional=True)
+    least = Quantity("F_l", "N", "Least force", gt=0, optional=True)
+    width = Quantity("b", "N", "Width", gt=0, optional=True)
+    load = Quantity("L", "N", "Load", gt=0, optional=True)
+    weight = Quantity("W", "N", "Weight", gt=0, optional=True)
+    tare = Quantity("T", "N", "Tare", gt=0, optional=True)
+    material = Text("Material", ("steel", "wood"), default="wood")
+    stop = block(Stop, "Stop", optional=True)
 
 
 bar_check = partial(check, title="Bar")

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Chapter, Erratum, Inputs, Mechanism, Quantity, Source, abscissa, computed, m
+from diecut_report.api import Chapter, Erratum, Inputs, Mechanism, Quantity, Source, abscissa, computed, m, samples
 from diecut_report.machine.calculation import Calculation, Unproven
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
@@ -54,8 +54,8 @@ def test_a_quantity_that_does_not_apply_is_absent(force: float) -> None:
 
 
 class Cam(Inputs):
-    rise: Annotated[float, Quantity("φ_r", "deg", "Rise", gt=0)]
-    n_points: Annotated[int, POINTS] = 36
+    rise = Quantity("φ_r", "deg", "Rise", gt=0)
+    n_points = samples(36)
 
 
 def cam(rise: float | list[float], start: float, way: float = 1.0) -> Calculation:

@@ -49,10 +49,7 @@ def test_a_typed_quantity_is_what_the_page_says(typed: str, unit: str, told: str
 def declared(folder: Path, formula: str, given: str, unit: str) -> ModuleType:
     """A plugin that has the formula as its only step."""
     inputs = re.findall(r"(\w+) in `(\S+)`", given.rstrip("`") + "`")
-    keys = [
-        f'    {name}: Annotated[float, Quantity("s_{n}", "{own}", "Input", gt=0)]'
-        for n, (name, own) in enumerate(inputs)
-    ]
+    keys = [f'    {name} = Quantity("s_{n}", "{own}", "Input", gt=0)' for n, (name, own) in enumerate(inputs)]
     file = folder / f"row_{next(COUNT)}.py"
     lines = [
         "import numpy as np",
@@ -82,11 +79,11 @@ def test_a_formula_has_the_dimension_that_the_page_says(tmp_path: Path, formula:
 
 
 PLUGIN = """
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, m
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, m
 
 
 class Given(Inputs):
-    force: Annotated[float, Quantity("F", "N", "Force", gt=0)]
+    force = Quantity("F", "N", "Force", gt=0)
 
 
 chapter = Chapter("Force")

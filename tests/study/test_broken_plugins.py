@@ -31,13 +31,23 @@ import numpy as np
 from pydantic import field_validator
 
 from diecut_report.api import (
-    POINTS, Abscissa, Annotated, Computed, FromPress, Inputs, Mechanism, Quantity, Chapter, Text, Value, formula)
+    Abscissa,
+    Chapter,
+    Computed,
+    FromPress,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Value,
+    formula,
+    samples,
+)
 
 
 class Breaking(Inputs):
-    x: Annotated[float, Quantity("x", "mm", "Length", gt=0)] = 1.0
-    y: Annotated[float | None, Quantity("y", "1/h", "Rate", gt=0)] = None
-    n_points: Annotated[int, POINTS] = 36
+    x = Quantity("x", "mm", "Length", gt=0, default=1.0)
+    y = Quantity("y", "1/h", "Rate", gt=0, optional=True)
+    n_points = samples(36)
     # inputs
 
 
@@ -184,7 +194,7 @@ def test_a_continued_run_tells_it_again(tmp_path: Path, capfd: Capture) -> None:
 
 
 def test_a_default_of_the_press_that_breaks_leaves_no_mechanism_out_in_silence(tmp_path: Path, capfd: Capture) -> None:
-    press = 'z: Annotated[float | None, Quantity("z", "1/h", "Z", gt=0, press=FromPress("press.productivity", strange))] = None'
+    press = 'z = Quantity("z", "1/h", "Z", gt=0, press=FromPress("press.productivity", strange))'
     helper = '@formula\ndef strange(x: Any) -> Any:\n    return x * {}["nothing"]\n\n\n'
     assert ran(tmp_path, VALUE.format("twice"), capfd, press, helper=helper)[0] == 3
     assert {row["status"] for row in rows(tmp_path)} == {"error"}

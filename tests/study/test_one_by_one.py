@@ -79,11 +79,11 @@ def test_a_machine_that_array_code_refuses_costs_no_other(tmp_path: Path) -> Non
 REACH = """\
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, computed
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, computed
 
 
 class Speeds(Inputs):
-    speed: Annotated[float, Quantity("n", "1", "Speed", gt=0)] = 1.0
+    speed = Quantity("n", "1", "Speed", gt=0, default=1.0)
 
 
 def share(speed):

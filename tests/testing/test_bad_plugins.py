@@ -16,12 +16,11 @@ Capture = pytest.CaptureFixture[str]
 PLUGIN = """\
 import numpy as np
 
-from diecut_report.api import (
-    Annotated, Chapter, Inputs, Mechanism, Quantity, computed, m)
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, computed, m
 
 
 class Bad(Inputs):
-    x: Annotated[float, Quantity("x", "mm", "Length", gt=0)] = 10
+    x = Quantity("x", "mm", "Length", gt=0, default=10)
 
 
 def code(x):
@@ -37,28 +36,28 @@ MECHANISM = Mechanism(kind="faulty", version="1", title="T", summary="", inputs=
 """
 COMPUTED = 'chapter.b = computed(code, ("x",), "by code"), "b", "mm", "B"'
 BAD = {  # what stands where in the plugin, and what is told of it
-    "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:19)"),
+    "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:18)"),
     "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (1.0.0) has contract 2; install a newer version"),
     "older contract": ({"head": "CONTRACT = 0"}, "has contract 2; use a newer version of the plugin"),
     "name of another version": (
         {"head": "from diecut_report.api import Wormhole"},
-        "diecut_report.api of this version (1.0.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:19)",
+        "diecut_report.api of this version (1.0.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:18)",
     ),
-    "exception": ({"code": "raise RuntimeError('fell over')"}, "RuntimeError: fell over (faulty.py:12)"),
-    "end of the program": ({"code": "raise SystemExit(0)"}, "SystemExit: 0 (faulty.py:12)"),
-    "not a number": ({"code": "return x * np.nan"}, "B (b) has no value with these inputs (faulty.py:17)"),
-    "infinite": ({"code": "return x * np.inf"}, "B (b) has no value with these inputs (faulty.py:17)"),
-    "wrong shape": ({"code": "return np.ones((3, 4))"}, "faulty.py:17: step b: its function code gives an array of shape (3, 4)"),
-    "nothing": ({"code": "pass"}, "faulty.py:17: step b: its function code gives None; it must return a number"),
+    "exception": ({"code": "raise RuntimeError('fell over')"}, "RuntimeError: fell over (faulty.py:11)"),
+    "end of the program": ({"code": "raise SystemExit(0)"}, "SystemExit: 0 (faulty.py:11)"),
+    "not a number": ({"code": "return x * np.nan"}, "B (b) has no value with these inputs (faulty.py:16)"),
+    "infinite": ({"code": "return x * np.inf"}, "B (b) has no value with these inputs (faulty.py:16)"),
+    "wrong shape": ({"code": "return np.ones((3, 4))"}, "faulty.py:16: step b: its function code gives an array of shape (3, 4)"),
+    "nothing": ({"code": "pass"}, "faulty.py:16: step b: its function code gives None; it must return a number"),
     "output that is not declared": (
-        {"step": 'chapter.b = m.q, "b", "mm", "B"'}, "faulty.py:17: step b: takes q, which nothing gives",
+        {"step": 'chapter.b = m.q, "b", "mm", "B"'}, "faulty.py:16: step b: takes q, which nothing gives",
     ),
     "message that names nothing": (
-        {"step": 'chapter.require("r", m.x > 0, key="x", message="is {nope}")'}, "faulty.py:17: step r: the message names nope",
+        {"step": 'chapter.require("r", m.x > 0, key="x", message="is {nope}")'}, "faulty.py:16: step r: the message names nope",
     ),
     "prepared without what is taken": (
         {"code": "return {}", "step": 'chapter.prepared("p", code, ("x",))\nchapter.b = computed(lambda p: p["q"], ("p",), "m"), "b", "mm", "B"'},
-        "KeyError: 'q' (faulty.py:18)",
+        "KeyError: 'q' (faulty.py:17)",
     ),
 }  # fmt: skip
 TWO = 'chapter.b = m.q, "b", "mm", "B"\nchapter.c = m.r, "c", "mm", "C"'
@@ -96,7 +95,7 @@ def test_each_invalid_declaration_has_its_line(tmp_path: Path, capfd: Capture) -
     assert main(["check-plugin", "faulty", "--plugins", plugin(tmp_path, step=TWO)]) == 3
     *_, head, first, second = capfd.readouterr().out.splitlines()
     assert head.endswith("faulty.py has invalid declarations:") and "\\n" not in head
-    assert re.search(r"^ {6}\S*faulty\.py:17: step b: takes q", first) and "faulty.py:18: step c: takes r" in second
+    assert re.search(r"^ {6}\S*faulty\.py:16: step b: takes q", first) and "faulty.py:17: step c: takes r" in second
 
 
 def test_two_plugins_of_one_kind_are_both_told_and_the_others_stand(tmp_path: Path, capfd: Capture) -> None:

@@ -113,9 +113,9 @@ def odd(body: str) -> tuple[tuple[str, str], ...]:
 
 TOO_SOFT = ("wire**4 / (8", "wire**3 / (8")
 MISTAKES = {  # the rule, what it finds, the changes of the plugin, and what is told
-    "dimensions": ("dimensions", "fail", (TOO_SOFT,), r"toggle.py:58: spring_rate: .*gives Pa, declared is N/m"),
+    "dimensions": ("dimensions", "fail", (TOO_SOFT,), r"toggle.py:57: spring_rate: .*gives Pa, declared is N/m"),
     "an input that nothing takes": (
-        "inputs", "fail", (("    # A limit", '    spare: Annotated[float, Quantity("z", "mm", "Spare")] = 1\n    # A limit'),),
+        "inputs", "fail", (("    # A limit", '    spare = Quantity("z", "mm", "Spare", default=1)\n    # A limit'),),
         r"toggle.py:\d+: input spare: nothing uses it",
     ),
     "a figure": (
@@ -130,7 +130,7 @@ MISTAKES = {  # the rule, what it finds, the changes of the plugin, and what is 
     ),
     "an extreme value": (
         "hostile", "fail", odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5"),
-        r"toggle.py:44: travel: with 100000: the plugin breaks: .*KeyError: False \(toggle.py:56\)",
+        r"toggle.py:43: travel: with 100000: the plugin breaks: .*KeyError: False \(toggle.py:55\)",
     ),
 }  # fmt: skip
 
@@ -346,7 +346,7 @@ def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setattr("diecut_report.testing.contract.MAX_RULE_SECONDS", 0.2)
     tried = test.tried_alone("example")
     assert tried.status == "broke"
-    assert "it did not finish within 0.2 s" in tried.faults[0] and "toggle.py:56" in tried.faults[0]
+    assert "it did not finish within 0.2 s" in tried.faults[0] and "toggle.py:55" in tried.faults[0]
 
 
 def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
@@ -444,7 +444,7 @@ def test_what_came_of_extreme_values_is_told_in_words(tmp_path: Path, monkeypatc
 def test_authors_may_assert_the_contract(tmp_path: Path) -> None:
     keys = {"springs": [{"wire": "3 mm", "coil": "24 mm", "turns": 8}], "travel": "10 mm"}
     mechanism = contract(tmp_path, TOO_SOFT).mechanism
-    with pytest.raises(AssertionError, match=r"Dimensions of formulas: toggle.py:58: spring_rate: "):
+    with pytest.raises(AssertionError, match=r"Dimensions of formulas: toggle.py:57: spring_rate: "):
         check_contract(mechanism, keys)
 
 
@@ -476,7 +476,7 @@ def test_a_broken_rule_ends_with_1_and_without_a_machine_the_rest_is_not_tried(t
     (home / "examples" / "toggle.yaml").unlink()
     assert main(["check-plugin", str(home)]) == 1
     out = capfd.readouterr().out
-    assert "  fails  Dimensions of formulas\n      toggle.py:58: spring_rate: " in out
+    assert "  fails  Dimensions of formulas\n      toggle.py:57: spring_rate: " in out
     assert (
         "note  Example machine\n      no machine of this kind is available to test the rest; give a configuration"
         in out

@@ -6,7 +6,7 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import pytest
 
@@ -18,7 +18,7 @@ from tests.testing.test_check_plugin import toggle
 Capture = pytest.CaptureFixture[str]
 WRONG = ("wire**4 / (8", "wire**5 / (8")  # springs that are too soft, so that no check fails
 SAID = "The formulas of the plugin of 'toggle' have faults; do not rely on its results."
-FAULT = "  toggle.py:58: spring_rate: "
+FAULT = "  toggle.py:57: spring_rate: "
 
 
 def run(home: Path, *arguments: str) -> int:
@@ -88,9 +88,9 @@ def test_a_search_tells_it_at_its_end_and_on_its_page(tmp_path: Path, home: Path
 
 
 class Drum(Inputs):
-    rate: Annotated[float, Quantity("n", "1/min", "Rate", gt=0)] = 60
-    allowed: Annotated[float, Quantity("[n]", "1/min", "Allowed", gt=0)] = 60
-    mass: Annotated[float, Quantity("m", "kg", "Mass", gt=0)] = 1
+    rate = Quantity("n", "1/min", "Rate", gt=0, default=60)
+    allowed = Quantity("[n]", "1/min", "Allowed", gt=0, default=60)
+    mass = Quantity("m", "kg", "Mass", gt=0, default=1)
 
 
 BOTH = ("found", "twi" + "ce")  # the file itself names it once, at its step: code that names a result may take it

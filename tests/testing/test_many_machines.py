@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Chapter, Check, Computed, Inputs, Mechanism, Quantity, abscissa, computed, m
+from diecut_report.api import Chapter, Check, Computed, Inputs, Mechanism, Quantity, abscissa, computed, m, samples
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.checks import CheckClass
 from diecut_report.testing.contract import constant
@@ -18,7 +16,7 @@ from tests.declaration.test_faults import check, made
 class Rounded(Inputs):
     """An input that only says how many machines there are."""
 
-    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 10
+    length = Quantity("l", "mm", "Length", gt=0, default=10)
 
 
 def differences(check_class: CheckClass, each: float) -> list[str]:
@@ -54,8 +52,8 @@ def test_a_self_test_compares_rounding_which_is_not_the_same_twice(
 class Turned(Inputs):
     """A length on a turn."""
 
-    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 10
-    n_points: Annotated[int, POINTS] = 36
+    length = Quantity("l", "mm", "Length", gt=0, default=10)
+    n_points = samples(36)
 
 
 @pytest.mark.parametrize(("size", "found"), [(1e-15, []), (1e-6, ["apart"])])

@@ -315,9 +315,9 @@ GROUPS = (
         "Mechanism", "Chapter", "Steps", "Step", "prefixed", "Check", "Vary", "AdviceWay", "Source", "Erratum", "Partner", "Comparison", "Port",
         "Profile", "CurveTable", "ExampleBlock", "Wired", "ForEach", "CONTRACT",
     )),
-    Group("inputs", "Inputs", "What a user may give, as a pydantic model; validated values are SI.", (
-        "Inputs", "Block", "Annotated", "Quantity", "InOtherUnit", "Text", "OneOf", "CurveInput", "Varying", "Extremes", "Curve", "PhaseInput",
-        "MechanismInput", "FromPress", "FromTable", "POINTS",
+    Group("inputs", "Inputs", "What a user may give: keys that are declared by assignment; validated values are SI.", (
+        "Inputs", "Block", "Quantity", "samples", "Text", "parts", "block", "InOtherUnit", "OneOf", "CurveInput", "Varying", "Extremes", "Curve",
+        "PhaseInput", "MechanismInput", "FromPress", "FromTable",
     )),
     Group("formulas", "Formulas", "What computes, prints and is checked for its dimensions: an expression of quantities.", (
         "m", "Expression", "formula", "Formula", "ByText", "number", "pi", "Constant", "GRAVITY", "arccos", "as_number", "as_angle",
@@ -355,12 +355,9 @@ GROUPS = (
 TOLD = {  # names without a docstring of their own
     "AdviceWay": "A way in which a check may be made to hold: an input that is changed alone, by its key or as a `Vary`, "
     "or several keys whose inputs are changed together in one proportion.",
-    "Annotated": "Python's own `typing.Annotated`: joins the type of an input with what is declared of it.",
     "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 2` for which it is written.",
     "Cell": "What stands in a cell of a listing: a number in SI, a text, or `None` where there is nothing.",
     "GRAVITY": "The standard acceleration of free fall, 9.80665 m/s², a `Constant`.",
-    "POINTS": "The input with which curves are sampled, for `n_points: Annotated[int, POINTS] = 720`: "
-    "it says how densely they are listed, no more. It has the symbol N: a quantity of yours needs another.",
     "Expression": "What arithmetic with quantities gives: it is printed, computes, and is checked for its dimensions. For annotations.",
     "Point": "A place in a drawing: across and upwards, in metres.",
     "Recipe": "What `value(…)`, `reduction(…)` and the like give: how a quantity comes about, before it has an id. For annotations.",

@@ -24,7 +24,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
 from diecut_report.mechanism import steps
 from diecut_report.mechanism.checks import Check, by_part
-from diecut_report.mechanism.inputs import POINTS, Quantity, list_inputs
+from diecut_report.mechanism.inputs import Quantity, Samples, list_inputs
 from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.quantities.units import unit
 from diecut_report.results import checks
@@ -443,7 +443,7 @@ def _leaves(data: Any, path: KeyPath = ()) -> Iterator[tuple[KeyPath, Any]]:
 
 def _groups(given: Given, count: int) -> Iterator[tuple[Array, dict[Input, Any]]]:
     """Yield the variants that have the same texts, and as many points of their curves, by index."""
-    common = {asked: values for asked, values in given.items() if asked.unit is None or asked.meta is POINTS}
+    common = {asked: values for asked, values in given.items() if asked.unit is None or isinstance(asked.meta, Samples)}
     texts = {asked: np.asarray(values, dtype=object) for asked, values in common.items()}
     if not texts:
         yield np.arange(count), {}

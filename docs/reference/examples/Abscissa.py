@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Chapter,
     Inputs,
     Level,
@@ -24,14 +22,15 @@ from diecut_report.api import (
     m,
     pi,
     reduction,
+    samples,
 )
 
 
 class Slide(Inputs):
-    stroke: Annotated[float, Quantity("h", "mm", "Stroke", gt=0)]
-    pad: Annotated[float, Quantity("x_p", "mm", "Position at which the pad is met", gt=0)]
-    stiffness: Annotated[float, Quantity("c", "N/mm", "Stiffness of the pad", gt=0)]
-    n_points: Annotated[int, POINTS] = 72
+    stroke = Quantity("h", "mm", "Stroke", gt=0)
+    pad = Quantity("x_p", "mm", "Position at which the pad is met", gt=0)
+    stiffness = Quantity("c", "N/mm", "Stiffness of the pad", gt=0)
+    n_points = samples(72)
 
 
 motion = Chapter("Motion")

@@ -2,29 +2,16 @@
 
 from __future__ import annotations
 
-from diecut_report.api import (
-    Annotated,
-    Block,
-    Chapter,
-    Inputs,
-    Mechanism,
-    Quantity,
-    Text,
-    m,
-    neighbour,
-    part,
-    running,
-    total,
-)
+from diecut_report.api import Block, Chapter, Inputs, Mechanism, Quantity, m, neighbour, part, parts, running, total
 
 
 class Section(Block):
-    length: Annotated[float, Quantity("l", "mm", "Length of the section", gt=0)]
-    diameter: Annotated[float, Quantity("d", "mm", "Diameter of the section", gt=0)]
+    length = Quantity("l", "mm", "Length of the section", gt=0)
+    diameter = Quantity("d", "mm", "Diameter of the section", gt=0)
 
 
 class Spindle(Inputs):
-    sections: Annotated[list[Section], Text("Sections from left to right")]
+    sections = parts(Section, "Sections from left to right")
 
 
 rows = Chapter("Sections")

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
-from diecut_report.api import Annotated, ByText, Chapter, Expression, Inputs, Mechanism, Quantity, Text, m, pi
+from diecut_report.api import ByText, Chapter, Expression, Inputs, Mechanism, Quantity, Text, m, pi
 
 AREAS: dict[str, Expression] = {"square": m.size**2, "round": pi / 4 * m.size**2}
 
 
 class Bar(Inputs):
-    size: Annotated[float, Quantity("s", "mm", "Size of the section", gt=0)]
-    section: Annotated[Literal["square", "round"], Text("Section of the bar")]
+    size = Quantity("s", "mm", "Size of the section", gt=0)
+    section = Text("Section of the bar", ("square", "round"))
 
 
 areas = Chapter("Area")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import (
-    Annotated,
     Chapter,
     Chart,
     Inputs,
@@ -24,8 +23,8 @@ from diecut_report.api import (
 
 
 class Wedge(Inputs):
-    force: Annotated[float, Quantity("F", "N", "Force on the wedge", gt=0)]
-    wedge_angle: Annotated[float, Quantity("α", "deg", "Angle of the wedge", gt=0, lt=90)]
+    force = Quantity("F", "N", "Force on the wedge", gt=0)
+    wedge_angle = Quantity("α", "deg", "Angle of the wedge", gt=0, lt=90)
 
 
 spread = Chapter("Spreading")

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Block, Chapter, Inputs, Mechanism, Quantity, Text, total
+from diecut_report.api import Block, Chapter, Inputs, Mechanism, Quantity, parts, total
 
 
 class Cam(Block):
-    place: Annotated[float, Quantity("x", "mm", "Place on the shaft", ge=0)]
-    width: Annotated[float, Quantity("w", "mm", "Width of the cam", gt=0)]
+    place = Quantity("x", "mm", "Place on the shaft", ge=0)
+    width = Quantity("w", "mm", "Width of the cam", gt=0)
 
 
 class Camshaft(Inputs):
-    cams: Annotated[list[Cam], Text("Cams on the shaft")]
+    cams = parts(Cam, "Cams on the shaft")
 
 
 def overlapping(place, width):

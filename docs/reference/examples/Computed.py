@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Refusal, computed, m
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, Refusal, computed, m
 
 
 class Gears(Inputs):
-    ratio: Annotated[float, Quantity("i", "1", "Ratio that is wanted", gt=0, le=10)]
-    most: Annotated[int, Quantity("z_max", "1", "Most teeth of a wheel", ge=20, integer=True)] = 100
+    ratio = Quantity("i", "1", "Ratio that is wanted", gt=0, le=10)
+    most = Quantity("z_max", "1", "Most teeth of a wheel", ge=20, integer=True, default=100)
 
 
 def driver_teeth(ratio, most):

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Chapter,
     CurveInput,
     Inputs,
@@ -17,17 +13,18 @@ from diecut_report.api import (
     curve_period,
     from_curve,
     reduction,
+    samples,
 )
 
 
 class Press(Inputs):
-    load: Annotated[Any, CurveInput("F", "kN", "Load over a turn")]
-    n_points: Annotated[int, POINTS] = 72
+    load = CurveInput("F", "kN", "Load over a turn")
+    n_points = samples(72)
 
 
 class Follower(Inputs):
-    force: Annotated[Any, CurveInput("F_c", "kN", "Force of another mechanism", referred=True)]
-    n_points: Annotated[int, POINTS] = 72
+    force = CurveInput("F_c", "kN", "Force of another mechanism", referred=True)
+    n_points = samples(72)
 
 
 turn = Chapter("Turn")

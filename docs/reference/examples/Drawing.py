@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Chapter,
     Drawing,
     Inputs,
@@ -28,13 +26,14 @@ from diecut_report.api import (
     radius_dimension,
     region,
     rigid,
+    samples,
 )  # fmt: skip
 
 
 class CrankSlider(Inputs):
-    crank: Annotated[float, Quantity("r", "mm", "Crank", gt=0)]
-    rod: Annotated[float, Quantity("l", "mm", "Rod", gt=0)]
-    n_points: Annotated[int, POINTS] = 72
+    crank = Quantity("r", "mm", "Crank", gt=0)
+    rod = Quantity("l", "mm", "Rod", gt=0)
+    n_points = samples(72)
 
 
 motion = Chapter("Motion")

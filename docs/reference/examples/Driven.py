@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Chapter,
     Drawing,
     Driven,
@@ -23,15 +19,16 @@ from diecut_report.api import (
     m,
     pi,
     polyline,
+    samples,
 )
 
 TURN = 2 * np.pi
 
 
 class Line(Inputs):
-    runs: Annotated[Any, MechanismInput("Mechanism that runs with the shaft")]
-    offset: Annotated[float, Quantity("Φ_0", "deg", "Shaft angle of its zero", ge=0, lt=360)] = 0
-    n_points: Annotated[int, POINTS] = 72
+    runs = MechanismInput("Mechanism that runs with the shaft")
+    offset = Quantity("Φ_0", "deg", "Shaft angle of its zero", ge=0, lt=360, default=0)
+    n_points = samples(72)
 
 
 turn = Chapter("Turn")

@@ -5,32 +5,19 @@ from __future__ import annotations
 from diecut_report.api import (
     CONTRACT as KNOWN,
 )  # fmt: skip
-from diecut_report.api import (
-    Annotated,
-    Block,
-    Chapter,
-    ExampleBlock,
-    ForEach,
-    Inputs,
-    Mechanism,
-    Quantity,
-    Text,
-    Wired,
-    m,
-    total,
-)
+from diecut_report.api import Block, Chapter, ExampleBlock, ForEach, Inputs, Mechanism, Quantity, Wired, m, parts, total
 
 CONTRACT = 2  # the contract for which this module is written; a program with another one says so
 assert CONTRACT == KNOWN
 
 
 class Load(Block):
-    mass: Annotated[float, Quantity("m_k", "kg", "Mass on the hook", gt=0)]
+    mass = Quantity("m_k", "kg", "Mass on the hook", gt=0)
 
 
 class Hoist(Inputs):
-    loads: Annotated[list[Load], Text("What hangs on the hook")]
-    own_mass: Annotated[float, Quantity("m_0", "kg", "Mass of the hook", gt=0)]
+    loads = parts(Load, "What hangs on the hook")
+    own_mass = Quantity("m_0", "kg", "Mass of the hook", gt=0)
 
 
 masses = Chapter("Masses")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, inner, m, value
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, inner, m, value
 
 
 class Lines(Inputs):
-    one: Annotated[float, Quantity("n_1", "1/min", "Rate of one line", gt=0)]
-    other: Annotated[float, Quantity("n_2", "1/min", "Rate of the other line", gt=0)]
-    length: Annotated[float, Quantity("L", "mm", "Length of a sheet", gt=0)]
+    one = Quantity("n_1", "1/min", "Rate of one line", gt=0)
+    other = Quantity("n_2", "1/min", "Rate of the other line", gt=0)
+    length = Quantity("L", "mm", "Length of a sheet", gt=0)
 
 
 rates = Chapter("Rates")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, FromPress, Inputs, Mechanism, Quantity, formula, m
+from diecut_report.api import Chapter, FromPress, Inputs, Mechanism, Quantity, formula, m
 
 
 @formula
@@ -12,15 +12,11 @@ def doubled(rate):
 
 
 class Feeder(Inputs):
-    sheet_length: Annotated[
-        float | None,
-        Quantity("L", "mm", "Length of the sheet", gt=0, press=FromPress("press.sheet.length")),
-    ] = None
-    rate: Annotated[
-        float | None,
-        Quantity("k", "1/h", "Strokes", gt=0, press=FromPress("press.productivity", doubled)),
-    ] = None
-    share: Annotated[float, Quantity("s", "%", "Share of a stroke in which the sheet moves", gt=0, le=100)] = 50
+    sheet_length = Quantity(
+        "L", "mm", "Length of the sheet", gt=0, press=FromPress("press.sheet.length"), optional=True
+    )
+    rate = Quantity("k", "1/h", "Strokes", gt=0, press=FromPress("press.productivity", doubled), optional=True)
+    share = Quantity("s", "%", "Share of a stroke in which the sheet moves", gt=0, le=100, default=50)
 
 
 motion = Chapter("Motion")

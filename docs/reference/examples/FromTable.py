@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
-from diecut_report.api import Annotated, Chapter, FromTable, Inputs, Mechanism, OneOf, Quantity, Text, m, value
+from diecut_report.api import Chapter, FromTable, Inputs, Mechanism, OneOf, Quantity, Text, m, value
 
 
 class Sprocket(Inputs):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("chain",), ("pitch",)),)
-    from_tables: ClassVar[tuple[FromTable, ...]] = (FromTable("chain", "chains", {"pitch": "pitch"}),)
+    one_of = (OneOf(("chain",), ("pitch",)),)
+    from_tables = (FromTable("chain", "chains", {"pitch": "pitch"}),)
 
-    chain: Annotated[str | None, Text("Chain, an entry of the table chains")] = None
-    pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the chain", gt=0)] = None
-    teeth: Annotated[int, Quantity("z", "1", "Teeth", ge=9, integer=True)]
+    chain = Text("Chain, an entry of the table chains", optional=True)
+    pitch = Quantity("p", "mm", "Pitch of the chain", gt=0, optional=True)
+    teeth = Quantity("z", "1", "Teeth", ge=9, integer=True)
 
 
 length = Chapter("Length")

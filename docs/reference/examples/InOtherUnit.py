@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from diecut_report.api import Annotated, Chapter, InOtherUnit, Inputs, Mechanism, Quantity, computed
+from diecut_report.api import Chapter, InOtherUnit, Inputs, Mechanism, Quantity, computed
 
 
 class Valve(Inputs):
-    speed: Annotated[float, Quantity("ω", "rpm", "Speed of the main shaft", gt=0)]
-    delay: Annotated[Any, Quantity("φ", "deg", "Delay of the valve, also as a time", ge=0, or_unit="ms")]
+    speed = Quantity("ω", "rpm", "Speed of the main shaft", gt=0)
+    delay = Quantity("φ", "deg", "Delay of the valve, also as a time", ge=0, or_unit="ms")
 
 
 def delay_angle(delay, speed):

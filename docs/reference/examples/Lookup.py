@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from diecut_report.api import (
-    Annotated,
     Chapter,
     Inputs,
     Mechanism,
@@ -43,10 +40,10 @@ except StandardFault as fault:
 
 
 class Drive(Inputs):
-    bearing: Annotated[Literal["6204", "6205"], Text("Bearing")]
-    chain: Annotated[Literal["08B", "10B"], Text("Chain")]
-    teeth: Annotated[float, Quantity("z", "1", "Number of teeth of the pinion", gt=0)]
-    load: Annotated[float, Quantity("C_n", "kN", "Rating that the second bearing needs", gt=0)]
+    bearing = Text("Bearing", ("6204", "6205"))
+    chain = Text("Chain", ("08B", "10B"))
+    teeth = Quantity("z", "1", "Number of teeth of the pinion", gt=0)
+    load = Quantity("C_n", "kN", "Rating that the second bearing needs", gt=0)
 
 
 tables = Chapter("Tables")

@@ -6,23 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diecut_report.api import (
-    POINTS,
-    Annotated,
-    Chapter,
-    Curve,
-    Inputs,
-    Mechanism,
-    Quantity,
-    abscissa,
-    made_curve,
-    reduction,
-)
+from diecut_report.api import Chapter, Curve, Inputs, Mechanism, Quantity, abscissa, made_curve, reduction, samples
 
 
 class Cam(Inputs):
-    lift: Annotated[float, Quantity("h", "mm", "Lift", gt=0)]
-    n_points: Annotated[int, POINTS] = 72
+    lift = Quantity("h", "mm", "Lift", gt=0)
+    n_points = samples(72)
 
 
 @dataclass(frozen=True)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Check, Erratum, Inputs, Mechanism, Quantity, Source, m
+from diecut_report.api import Chapter, Check, Erratum, Inputs, Mechanism, Quantity, Source, m
 
 
 class Bracket(Inputs):
-    force: Annotated[float, Quantity("F", "kN", "Load", gt=0)]
-    arm: Annotated[float, Quantity("a", "mm", "Distance of the load from the wall", gt=0)]
-    width: Annotated[float, Quantity("b", "mm", "Width of the bar", gt=0)]
-    height: Annotated[float, Quantity("h", "mm", "Height of the bar", gt=0)]
-    allowable_stress: Annotated[float | None, Quantity("[σ]", "MPa", "Allowed bending stress", gt=0)] = None
+    force = Quantity("F", "kN", "Load", gt=0)
+    arm = Quantity("a", "mm", "Distance of the load from the wall", gt=0)
+    width = Quantity("b", "mm", "Width of the bar", gt=0)
+    height = Quantity("h", "mm", "Height of the bar", gt=0)
+    allowable_stress = Quantity("[σ]", "MPa", "Allowed bending stress", gt=0, optional=True)
 
 
 bending = Chapter("Bending", text="The bar is clamped at the wall and loaded at its end.")

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
-
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, OneOf, Quantity, m, value
+from diecut_report.api import Chapter, Inputs, Mechanism, OneOf, Quantity, m, value
 
 
 class Motor(Inputs):
-    one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("torque",), ("power", "speed")),)
+    one_of = (OneOf(("torque",), ("power", "speed")),)
 
-    torque: Annotated[float | None, Quantity("M", "N*m", "Torque", gt=0)] = None
-    power: Annotated[float | None, Quantity("P", "kW", "Power", gt=0)] = None
-    speed: Annotated[float | None, Quantity("n", "rpm", "Speed", gt=0)] = None
-    ratio: Annotated[float, Quantity("i", "1", "Ratio of the gear", gt=0)]
+    torque = Quantity("M", "N*m", "Torque", gt=0, optional=True)
+    power = Quantity("P", "kW", "Power", gt=0, optional=True)
+    speed = Quantity("n", "rpm", "Speed", gt=0, optional=True)
+    ratio = Quantity("i", "1", "Ratio of the gear", gt=0)
 
 
 torques = Chapter("Torques")

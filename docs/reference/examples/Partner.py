@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Comparison, Inputs, Mechanism, Partner, Quantity, Text, m
+from diecut_report.api import Chapter, Comparison, Inputs, Mechanism, Partner, Quantity, Text, m
 
 
 class Crank(Inputs):
-    radius: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)]
+    radius = Quantity("r", "mm", "Radius of the crank", gt=0)
 
 
 class Rod(Inputs):
-    crank: Annotated[str | None, Text("Crank that moves the rod; the only one of the press if it is left out")] = None
-    stroke: Annotated[float, Quantity("s", "mm", "Stroke", gt=0)]
+    crank = Text("Crank that moves the rod; the only one of the press if it is left out", optional=True)
+    stroke = Quantity("s", "mm", "Stroke", gt=0)
 
 
 class Both(Inputs):
-    crank_radius: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)]
-    rod_stroke: Annotated[float, Quantity("s", "mm", "Stroke of the rod", gt=0)]
+    crank_radius = Quantity("r", "mm", "Radius of the crank", gt=0)
+    rod_stroke = Quantity("s", "mm", "Stroke of the rod", gt=0)
 
 
 strokes = Chapter("Stroke")

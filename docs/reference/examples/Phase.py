@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Chapter,
     GivenMechanism,
     GivenPhase,
@@ -20,19 +16,20 @@ from diecut_report.api import (
     abscissa,
     computed,
     m,
+    samples,
 )  # fmt: skip
 
 
 class Knife(Inputs):
-    begin: Annotated[float, Quantity("φ_1", "deg", "Where the cut begins", ge=0, lt=360)]
-    end: Annotated[float, Quantity("φ_2", "deg", "Where the cut ends", ge=0, lt=360)]
-    speed: Annotated[float, Quantity("n", "rpm", "Speed", gt=0)]
-    n_points: Annotated[int, POINTS] = 72
+    begin = Quantity("φ_1", "deg", "Where the cut begins", ge=0, lt=360)
+    end = Quantity("φ_2", "deg", "Where the cut ends", ge=0, lt=360)
+    speed = Quantity("n", "rpm", "Speed", gt=0)
+    n_points = samples(72)
 
 
 class Guard(Inputs):
-    watched: Annotated[Any, PhaseInput("A", "deg", "Phase that is watched")]
-    mechanism: Annotated[Any, MechanismInput("Mechanism that is watched")]
+    watched = PhaseInput("A", "deg", "Phase that is watched")
+    mechanism = MechanismInput("Mechanism that is watched")
 
 
 turn = Chapter("Turn")

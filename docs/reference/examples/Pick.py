@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from diecut_report.api import (
-    Annotated,
     Chapter,
     Inputs,
     Mechanism,
@@ -26,11 +23,11 @@ STROKES = own_series(
 
 
 class Cylinder(Inputs):
-    power: Annotated[float, Quantity("P", "kW", "Power that is needed", gt=0)]
-    travel: Annotated[float, Quantity("s", "mm", "Travel that is needed", gt=0)]
-    belt: Annotated[float, Quantity("L", "mm", "Length of the belt that is needed", gt=0)]
-    section: Annotated[Literal["SPZ", "SPA"], Text("Section of the belt")]
-    rating_given: Annotated[float | None, Quantity("P_g", "kW", "Rating, where it is not picked", gt=0)] = None
+    power = Quantity("P", "kW", "Power that is needed", gt=0)
+    travel = Quantity("s", "mm", "Travel that is needed", gt=0)
+    belt = Quantity("L", "mm", "Length of the belt that is needed", gt=0)
+    section = Text("Section of the belt", ("SPZ", "SPA"))
+    rating_given = Quantity("P_g", "kW", "Rating, where it is not picked", gt=0, optional=True)
 
 
 sizes = Chapter("Sizes")

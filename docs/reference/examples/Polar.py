@@ -5,8 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     BarGroup,
     Bars,
     Chapter,
@@ -18,13 +16,14 @@ from diecut_report.api import (
     abscissa,
     m,
     reduction,
+    samples,
 )
 
 
 class Rotor(Inputs):
-    mean: Annotated[float, Quantity("M_m", "N*m", "Mean torque", gt=0)]
-    ripple: Annotated[float, Quantity("M_w", "N*m", "Ripple of the torque", ge=0)]
-    n_points: Annotated[int, POINTS] = 72
+    mean = Quantity("M_m", "N*m", "Mean torque", gt=0)
+    ripple = Quantity("M_w", "N*m", "Ripple of the torque", ge=0)
+    n_points = samples(72)
 
 
 torque = Chapter("Torque")

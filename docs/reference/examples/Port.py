@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Port, Quantity, abscissa, m, reduction
+from diecut_report.api import Chapter, Inputs, Mechanism, Port, Quantity, abscissa, m, reduction, samples
 
 
 class Stamp(Inputs):
-    radius: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)]
-    force: Annotated[float, Quantity("F", "N", "Force on the stamp", gt=0)]
-    crank_speed: Annotated[float, Quantity("ω", "rpm", "Speed of the crank", gt=0)]
-    n_points: Annotated[int, POINTS] = 72
+    radius = Quantity("r", "mm", "Radius of the crank", gt=0)
+    force = Quantity("F", "N", "Force on the stamp", gt=0)
+    crank_speed = Quantity("ω", "rpm", "Speed of the crank", gt=0)
+    n_points = samples(72)
 
 
 turn = Chapter("Turn")

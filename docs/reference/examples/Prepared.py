@@ -7,8 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
-    Annotated,
     Cell,
     Chapter,
     Inputs,
@@ -21,16 +19,17 @@ from diecut_report.api import (
     computed_curve,
     m,
     reduction,
+    samples,
 )
 
 PARTS = ["driver", "driven"]
 
 
 class Pair(Inputs):
-    ratio: Annotated[float, Quantity("i", "1", "Ratio", gt=0)]
-    torque: Annotated[float, Quantity("M", "N*m", "Torque of the driver", gt=0)]
-    ripple: Annotated[float, Quantity("w", "%", "Ripple of the torque", ge=0, le=100)]
-    n_points: Annotated[int, POINTS] = 72
+    ratio = Quantity("i", "1", "Ratio", gt=0)
+    torque = Quantity("M", "N*m", "Torque of the driver", gt=0)
+    ripple = Quantity("w", "%", "Ripple of the torque", ge=0, le=100)
+    n_points = samples(72)
 
 
 @dataclass(frozen=True)

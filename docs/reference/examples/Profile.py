@@ -4,25 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import (
-    POINTS,
-    Annotated,
-    Chapter,
-    CurveTable,
-    Inputs,
-    Mechanism,
-    Profile,
-    Quantity,
-    abscissa,
-    m,
-    reduction,
-)
+from diecut_report.api import Chapter, CurveTable, Inputs, Mechanism, Profile, Quantity, abscissa, m, reduction, samples
 
 
 class Disc(Inputs):
-    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)]
-    lift: Annotated[float, Quantity("h", "mm", "Lift", gt=0)]
-    n_points: Annotated[int, POINTS] = 72
+    radius = Quantity("r", "mm", "Radius", gt=0)
+    lift = Quantity("h", "mm", "Lift", gt=0)
+    n_points = samples(72)
 
 
 contour = Chapter("Contour")

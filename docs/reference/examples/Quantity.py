@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Text, m, pi, value
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, Text, m, pi, value
 
 
 class Wheel(Inputs):
-    speed: Annotated[float, Quantity("n", "rpm", "Speed of the wheel", gt=0, le=3000)]
-    teeth: Annotated[int, Quantity("z", "1", "Teeth of the wheel", ge=12, integer=True)]
-    pressure_angle: Annotated[float, Quantity("α", "deg", "Pressure angle", listed=(15, 20, 25))] = 20
-    use: Annotated[Literal["drive", "convey"], Text("What the wheel is for")] = "drive"
-    reversing: Annotated[bool, Text("Whether it turns both ways")] = False
+    speed = Quantity("n", "rpm", "Speed of the wheel", gt=0, le=3000)
+    teeth = Quantity("z", "1", "Teeth of the wheel", ge=12, integer=True)
+    pressure_angle = Quantity("α", "deg", "Pressure angle", listed=(15, 20, 25), default=20)
+    use = Text("What the wheel is for", ("drive", "convey"), default="drive")
+    reversing = Text("Whether it turns both ways", default=False)
 
 
 meshing = Chapter("Meshing")

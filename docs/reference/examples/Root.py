@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, m, root
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, m, root
 
 
 class Chain(Inputs):
-    span: Annotated[float, Quantity("a", "m", "Distance of the chain's ends", gt=0)]
-    length: Annotated[float, Quantity("L", "m", "Length of the chain", gt=0)]
+    span = Quantity("a", "m", "Distance of the chain's ends", gt=0)
+    length = Quantity("L", "m", "Length of the chain", gt=0)
 
 
 catenary = Chapter("Catenary")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Spectrum, SpectrumLine, m
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, Spectrum, SpectrumLine, m
 
 RATIOS = np.linspace(0.1, 3, 30)
 
@@ -21,7 +21,7 @@ def lines() -> list[SpectrumLine]:
 
 
 class Mount(Inputs):
-    ratio: Annotated[float, Quantity("η", "1", "Frequency to natural frequency", gt=0)]
+    ratio = Quantity("η", "1", "Frequency to natural frequency", gt=0)
 
 
 own = Chapter("Mount")

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, Step, Steps, m, prefixed
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, Step, Steps, m, prefixed
 
 
 class Beam(Inputs):
-    load: Annotated[float, Quantity("F", "kN", "Load", gt=0)]
-    span: Annotated[float, Quantity("L", "mm", "Span", gt=0)]
-    place: Annotated[float, Quantity("a", "mm", "Distance of the load from the left end", ge=0)]
+    load = Quantity("F", "kN", "Load", gt=0)
+    span = Quantity("L", "mm", "Span", gt=0)
+    place = Quantity("a", "mm", "Distance of the load from the left end", ge=0)
 
 
 family = Steps()

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from diecut_report.api import AdviceWay, Annotated, Chapter, Check, Inputs, Mechanism, Quantity, Vary, m
+from diecut_report.api import AdviceWay, Chapter, Check, Inputs, Mechanism, Quantity, Vary, m
 
 
 class Bracket(Inputs):
-    force: Annotated[float, Quantity("F", "N", "Force", gt=0)]
-    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)]
-    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
-    height: Annotated[float, Quantity("h", "mm", "Height", gt=0)]
-    allowable_stress: Annotated[float, Quantity("[σ]", "MPa", "Allowed stress", gt=0)] = 100
+    force = Quantity("F", "N", "Force", gt=0)
+    arm = Quantity("a", "mm", "Arm", gt=0)
+    width = Quantity("b", "mm", "Width", gt=0)
+    height = Quantity("h", "mm", "Height", gt=0)
+    allowable_stress = Quantity("[σ]", "MPa", "Allowed stress", gt=0, default=100)
 
 
 bending = Chapter("Bending")

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Curve, Extremes, Inputs, Mechanism, Varying, computed
+from diecut_report.api import Chapter, Curve, Extremes, Inputs, Mechanism, Varying, computed
 
 
 class Bolt(Inputs):
-    force: Annotated[Any, Varying("F", "kN", "Force: a number, {min, max}, or a curve", extremes=True)]
+    force = Varying("F", "kN", "Force: a number, {min, max}, or a curve", extremes=True)
 
 
 def amplitude(known):

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, m
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, m
 
 
 class Spring(Inputs):
-    stroke: Annotated[float, Quantity("s", "mm", "Stroke", gt=0)]
-    free_length: Annotated[float, Quantity("L_0", "mm", "Length without load", gt=0)]
-    solid_length: Annotated[float, Quantity("L_c", "mm", "Length with coils on coils", gt=0)]
+    stroke = Quantity("s", "mm", "Stroke", gt=0)
+    free_length = Quantity("L_0", "mm", "Length without load", gt=0)
+    solid_length = Quantity("L_c", "mm", "Length with coils on coils", gt=0)
 
 
 travel = Chapter("Travel")

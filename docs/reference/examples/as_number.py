@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity, arccos, as_angle, as_number, m, pi
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, arccos, as_angle, as_number, m, pi
 
 
 class Belt(Inputs):
-    wrap: Annotated[float, Quantity("β", "deg", "Angle of wrap", gt=0)]
-    friction: Annotated[float, Quantity("μ", "1", "Friction", gt=0)]
-    mass: Annotated[float, Quantity("m", "kg", "Mass", gt=0)]
-    radius: Annotated[float, Quantity("r", "mm", "Radius", gt=0)]
-    speed: Annotated[float, Quantity("ω", "rpm", "Angular speed", gt=0)]
-    lift: Annotated[float, Quantity("s", "mm", "Lift along the rim", ge=0)]
+    wrap = Quantity("β", "deg", "Angle of wrap", gt=0)
+    friction = Quantity("μ", "1", "Friction", gt=0)
+    mass = Quantity("m", "kg", "Mass", gt=0)
+    radius = Quantity("r", "mm", "Radius", gt=0)
+    speed = Quantity("ω", "rpm", "Angular speed", gt=0)
+    lift = Quantity("s", "mm", "Lift along the rim", ge=0)
 
 
 belt = Chapter("Belt")

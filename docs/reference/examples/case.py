@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Annotated, Case, Chapter, Inputs, Mechanism, Quantity, case, choice, m
+from diecut_report.api import Case, Chapter, Inputs, Mechanism, Quantity, case, choice, m
 
 
 class Column(Inputs):
-    slenderness: Annotated[float, Quantity("λ", "1", "Slenderness", gt=0)]
+    slenderness = Quantity("λ", "1", "Slenderness", gt=0)
 
 
 buckling = Chapter("Buckling")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from diecut_report.api import (
     GRAVITY,
-    Annotated,
     Chapter,
     Constant,
     Formula,
@@ -36,11 +35,11 @@ def ring(outer, inner):
 
 
 class Link(Inputs):
-    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)]
-    rod: Annotated[float, Quantity("b", "mm", "Rod", gt=0)]
-    base: Annotated[float, Quantity("c", "mm", "Base", gt=0)]
-    outer: Annotated[float, Quantity("d_1", "mm", "Outer diameter of the rod", gt=0)]
-    inner: Annotated[float, Quantity("d_2", "mm", "Inner diameter of the rod", ge=0)]
+    arm = Quantity("a", "mm", "Arm", gt=0)
+    rod = Quantity("b", "mm", "Rod", gt=0)
+    base = Quantity("c", "mm", "Base", gt=0)
+    outer = Quantity("d_1", "mm", "Outer diameter of the rod", gt=0)
+    inner = Quantity("d_2", "mm", "Inner diameter of the rod", ge=0)
 
 
 angles = Chapter("Angles and weight")

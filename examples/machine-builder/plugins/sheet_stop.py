@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Annotated, Chapter, Check, Inputs, Mechanism, Quantity, Source, m
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Source, m
 
 
 class SheetStop(Inputs):
-    sheet_mass: Annotated[float, Quantity("m", "g", "Mass of a sheet", gt=0)]
-    stop_mass: Annotated[float, Quantity("m_a", "g", "Mass of the stop's bar", gt=0)]
-    speed: Annotated[float, Quantity("v", "m/s", "Speed with which the sheet arrives", gt=0)]
-    stiffness: Annotated[float, Quantity("c", "N/mm", "Stiffness of the stop's springs", gt=0)]
-    room: Annotated[float, Quantity("s", "mm", "Way for which there is room", gt=0)]
-    allowable_force: Annotated[float | None, Quantity("[F]", "N", "Force that bends no edge", gt=0)] = None
+    sheet_mass = Quantity("m", "g", "Mass of a sheet", gt=0)
+    stop_mass = Quantity("m_a", "g", "Mass of the stop's bar", gt=0)
+    speed = Quantity("v", "m/s", "Speed with which the sheet arrives", gt=0)
+    stiffness = Quantity("c", "N/mm", "Stiffness of the stop's springs", gt=0)
+    room = Quantity("s", "mm", "Way for which there is room", gt=0)
+    allowable_force = Quantity("[F]", "N", "Force that bends no edge", gt=0, optional=True)
 
 
 impact = Chapter(

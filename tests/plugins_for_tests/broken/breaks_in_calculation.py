@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Annotated, Chapter, Computed, Inputs, Mechanism, Quantity
+from diecut_report.api import Chapter, Computed, Inputs, Mechanism, Quantity
 
 
 class Fragile(Inputs):
-    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 10
+    length = Quantity("l", "mm", "Length", gt=0, default=10)
 
 
 def breaking(length: Any) -> Any:

@@ -4,26 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import (
-    Annotated,
-    Chapter,
-    Comparison,
-    Computed,
-    Inputs,
-    Mechanism,
-    Quantity,
-    Value,
-    formula,
-    m,
-)
+from diecut_report.api import Chapter, Comparison, Computed, Inputs, Mechanism, Quantity, Value, formula, m
 
 
 class Rod(Inputs):
-    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 10
+    length = Quantity("l", "mm", "Length", gt=0, default=10)
 
 
 class Both(Inputs):
-    arm: Annotated[float, Quantity("a", "mm", "Arm of the lever")]
+    arm = Quantity("a", "mm", "Arm of the lever")
 
 
 @formula

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
     Abscissa,
-    Annotated,
     Block,
     Case,
     Chapter,
@@ -26,9 +24,12 @@ from diecut_report.api import (
     Text,
     Total,
     Value,
+    block,
     formula,
     m,
+    parts,
     pi,
+    samples,
 )
 
 
@@ -38,30 +39,30 @@ def turn_for_each_sheet(productivity: Any) -> Any:
 
 
 class Part(Block):
-    length: Annotated[float, Quantity("l", "mm", "Length of the part", gt=0)]
-    label: Annotated[str | None, Text("Name of the part")] = None
+    length = Quantity("l", "mm", "Length of the part", gt=0)
+    label = Text("Name of the part", optional=True)
 
 
 class Spring(Block):
-    stiffness: Annotated[float, Quantity("c", "N/mm", "Stiffness", gt=0)]
+    stiffness = Quantity("c", "N/mm", "Stiffness", gt=0)
 
 
 class Lever(Inputs):
-    force: Annotated[float, Quantity("F", "kN", "Force", gt=0)]
-    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0, le=1000)] = 100
-    grade: Annotated[Literal["fine", "coarse"], Text("Grade")] = "fine"
-    remark: Annotated[str | None, Text("Remark")] = None
-    hard: Annotated[bool, Text("Whether it is hardened")] = False
-    width: Annotated[float | None, Quantity("b", "mm", "Width; with it the pressure", gt=0)] = None
-    speed: Annotated[
-        float | None, Quantity("ω", "rpm", "Speed", gt=0, press=FromPress("press.productivity", turn_for_each_sheet))
-    ] = None
-    teeth: Annotated[int, Quantity("z", "1", "Teeth", ge=12, integer=True)] = 20
-    parts: Annotated[list[Part], Text("Parts in a row")] = []  # noqa: RUF012
-    spring: Annotated[Spring | None, Text("Spring")] = None
-    load: Annotated[Any | None, CurveInput("M_l", "N*m", "Load over a turn")] = None
-    allowable_moment: Annotated[float | None, Quantity("[M]", "N*m", "Allowed moment", gt=0)] = None
-    n_points: Annotated[int, POINTS] = 36
+    force = Quantity("F", "kN", "Force", gt=0)
+    arm = Quantity("a", "mm", "Arm", gt=0, le=1000, default=100)
+    grade = Text("Grade", ("fine", "coarse"), default="fine")
+    remark = Text("Remark", optional=True)
+    hard = Text("Whether it is hardened", default=False)
+    width = Quantity("b", "mm", "Width; with it the pressure", gt=0, optional=True)
+    speed = Quantity(
+        "ω", "rpm", "Speed", gt=0, press=FromPress("press.productivity", turn_for_each_sheet), optional=True
+    )
+    teeth = Quantity("z", "1", "Teeth", ge=12, integer=True, default=20)
+    parts = parts(Part, "Parts in a row", optional=True)
+    spring = block(Spring, "Spring", optional=True)
+    load = CurveInput("M_l", "N*m", "Load over a turn", optional=True)
+    allowable_moment = Quantity("[M]", "N*m", "Allowed moment", gt=0, optional=True)
+    n_points = samples(36)
 
 
 @formula

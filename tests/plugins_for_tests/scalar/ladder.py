@@ -7,14 +7,14 @@ from typing import Any
 
 from scipy.optimize import brentq
 
-from diecut_report.api import Annotated, Chapter, Check, Computed, Inputs, Mechanism, Quantity
+from diecut_report.api import Chapter, Check, Computed, Inputs, Mechanism, Quantity
 
 
 class Ladder(Inputs):
-    long: Annotated[float, Quantity("a", "m", "Longer ladder", gt=0)] = 4.0
-    short: Annotated[float, Quantity("b", "m", "Shorter ladder", gt=0)] = 3.0
-    crossing: Annotated[float, Quantity("c", "m", "Height of their crossing", gt=0)] = 1.0
-    least: Annotated[float, Quantity("w_min", "m", "Least width", gt=0)] = 2.0
+    long = Quantity("a", "m", "Longer ladder", gt=0, default=4.0)
+    short = Quantity("b", "m", "Shorter ladder", gt=0, default=3.0)
+    crossing = Quantity("c", "m", "Height of their crossing", gt=0, default=1.0)
+    least = Quantity("w_min", "m", "Least width", gt=0, default=2.0)
 
 
 def width(long: Any, short: Any, crossing: Any) -> Any:

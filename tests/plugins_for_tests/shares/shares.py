@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from diecut_report.api import (
-    POINTS,
     Abscissa,
-    Annotated,
     Chapter,
     Check,
     CurveInput,
@@ -21,24 +19,25 @@ from diecut_report.api import (
     Text,
     Value,
     formula,
+    samples,
 )
 
 
 class Shares(Inputs):
-    share: Annotated[float, Quantity("k", "%", "Share", gt=0, le=100)] = 5
-    slope: Annotated[float, Quantity("s", "mm/m", "Slope")] = 2
-    ratio: Annotated[float, Quantity("i", "1", "Ratio", gt=0)] = 1.5
-    angle: Annotated[float, Quantity("α", "°", "Angle", ge=-180, le=180)] = 20
-    turn: Annotated[float, Quantity("β", "deg", "Turn")] = 10
-    speed: Annotated[float, Quantity("ω", "rpm", "Speed", gt=0)] = 60
-    rate: Annotated[float, Quantity("n", "1/h", "Rate", gt=0)] = 3600
-    force: Annotated[float, Quantity("F", "kN", "Force", gt=0)] = 1
-    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 100
-    count: Annotated[int, Quantity("z", "1", "Count", ge=1, integer=True)] = 3
-    grade: Annotated[Literal["fine", "coarse", "1e5", "no"], Text("Grade")] = "fine"
-    hard: Annotated[bool, Text("Whether it is hardened")] = False
-    profile: Annotated[Any | None, CurveInput("p", "%", "Profile over a turn")] = None
-    n_points: Annotated[int, POINTS] = 36
+    share = Quantity("k", "%", "Share", gt=0, le=100, default=5)
+    slope = Quantity("s", "mm/m", "Slope", default=2)
+    ratio = Quantity("i", "1", "Ratio", gt=0, default=1.5)
+    angle = Quantity("α", "°", "Angle", ge=-180, le=180, default=20)
+    turn = Quantity("β", "deg", "Turn", default=10)
+    speed = Quantity("ω", "rpm", "Speed", gt=0, default=60)
+    rate = Quantity("n", "1/h", "Rate", gt=0, default=3600)
+    force = Quantity("F", "kN", "Force", gt=0, default=1)
+    length = Quantity("l", "mm", "Length", gt=0, default=100)
+    count = Quantity("z", "1", "Count", ge=1, integer=True, default=3)
+    grade = Text("Grade", ("fine", "coarse", "1e5", "no"), default="fine")
+    hard = Text("Whether it is hardened", default=False)
+    profile = CurveInput("p", "%", "Profile over a turn", optional=True)
+    n_points = samples(36)
 
 
 @formula
