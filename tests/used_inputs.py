@@ -67,5 +67,5 @@ def many(*figures: Any) -> Mechanism:
                      figures=figures)  # fmt: skip
 
 
-PLOT = Plot(id="p", title="P", caption="P", abscissa="a",
-            panels=(Panel(title="P", unit="mm", series=(), levels=(Level(value="level", label="l"),)),))  # fmt: skip
+PLOT = Plot("p", "P", "P", abscissa="a",
+            panels=(Panel("P", "mm", series=(), levels=(Level("level", "l"),)),))  # fmt: skip

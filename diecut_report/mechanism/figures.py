@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
@@ -65,7 +65,7 @@ class View(Protocol):
         """Return what a function of the view makes, made once for all places of what moves: an outline that only turns."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Series:
     """Declare one curve in a plot."""
 
@@ -73,7 +73,7 @@ class Series:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Level:
     """Declare a horizontal line at a quantity's value."""
 
@@ -81,7 +81,7 @@ class Level:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Mark:
     """Declare a marked point: ids of its place and its value. Of the greatest size of a curve (``abs_max``) it stands on the curve."""
 
@@ -90,7 +90,7 @@ class Mark:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Span:
     """Declare a marked range of the abscissa between two quantities."""
 
@@ -99,7 +99,7 @@ class Span:
     label: str
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Panel:
     """Declare one diagram of a plot: curves of one unit over the abscissa.
 
@@ -116,18 +116,18 @@ class Panel:
     range: Range | None = None
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Figure:
     """Declare what all figures have; ``needs`` names the optional inputs without which it is left out."""
 
     id: str
     title: str
     caption: str
-    needs: tuple[str, ...] = ()
+    needs: tuple[str, ...] = field(default=(), kw_only=True)
     at: str = placed()
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Plot(Figure):
     """Declare diagrams one below the other over a common abscissa."""
 
@@ -135,7 +135,7 @@ class Plot(Figure):
     panels: tuple[Panel, ...]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Polar(Figure):
     """Declare curves over an angle, as distance from the pole; negative values are drawn with another line.
 
@@ -148,14 +148,14 @@ class Polar(Figure):
     range: Range | None = None
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Bars(Figure):
     """Declare bars in groups: each group has its own unit, each bar the id of a quantity."""
 
     groups: tuple[BarGroup, ...]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class BarGroup:
     """Declare bars of one unit; a bar is a label and the id of its quantity, subtracted ones with ``-ID``.
 
@@ -177,7 +177,7 @@ class Driven:
     period: float
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Drawing(Figure):
     """Declare a drawing to scale: ``build`` gives its shapes from the calculated machine, in metres.
 
@@ -198,7 +198,7 @@ class Drawing(Figure):
     drives: Callable[[View], Sequence[Driven]] | None = None
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Chart(Figure):
     """Declare diagrams of lines that are not curves of the results: ``build`` gives its panels (``chart_panel``) from the machine.
 

@@ -225,55 +225,55 @@ def _panel(
     named: bool = False,
 ) -> Panel:
     """A panel with the phases II and IV shaded; ``named`` where no curve lies on the bottom edge, where their names stand."""
-    drawn = tuple(Series(curve=curve, label=words) for curve, words in series)
+    drawn = tuple(Series(curve, words) for curve, words in series)
     phases = (("angle_dwell", "dwell_angle", "II"), ("angle_stop", "angle_start", "IV"))
-    spans = tuple(Span(start=start, end=end, label=name if named else "") for start, end, name in phases)
-    return Panel(title=title, unit=unit, series=drawn, marks=marks, levels=levels, spans=spans)
+    spans = tuple(Span(start, end, name if named else "") for start, end, name in phases)
+    return Panel(title, unit, series=drawn, marks=marks, levels=levels, spans=spans)
 
 
 FIGURES = (
-    Drawing(id="rolling", title="Gear and sector", build=rolling, moving=rolling_at, over="disc_angle",
+    Drawing("rolling", "Gear and sector", build=rolling, moving=rolling_at, over="disc_angle",
             caption="Pitch circles to scale: the sector at the start of the dwell (dark) and at its end (light). The arc A₁A₂ of the gear equals "
                     "the arc of the sector that rolls off on it, so the gear stands still (figure 3 of 003)."),
-    Plot(id="phase_diagram", title="Phase diagram of the sector", abscissa="disc_angle",
+    Plot("phase_diagram", "Phase diagram of the sector", abscissa="disc_angle",
          caption="Angle of the sector relative to the disc over a turn of the disc (figure 4 of 003). " + BETWEEN,
          panels=(_panel("Angle of the sector", "deg", ("sector_angle", "γ"), named=True),)),
-    Chart(id="radius_ratio", title="Radius of the gear over the dwell", build=ratio_over_dwell,
+    Chart("radius_ratio", "Radius of the gear over the dwell", build=ratio_over_dwell,
           caption="The longer the dwell, the smaller the gear (figure 5 of 003), for this sweep of the sector. Beyond the first line the return "
                   "is shorter than the accepted minimum, beyond the second one dwell, stop and start would take the whole revolution."),
-    Plot(id="sector_speed", title="Speed of the sector by phase", abscissa="disc_angle",
+    Plot("sector_speed", "Speed of the sector by phase", abscissa="disc_angle",
          caption="Speed and acceleration of the sector relative to the disc, speed per revolution of the disc (figure 6 of 003). " + SHADED,
          panels=(_panel("Speed", "rad", ("sector_speed", "ω₃")), _panel("Acceleration", "rad/s**2", ("sector_acceleration", "ε₃"), named=True))),
-    Plot(id="gear_motion", title="Motion of the gear over a turn", abscissa="disc_angle",
+    Plot("gear_motion", "Motion of the gear over a turn", abscissa="disc_angle",
          caption="Angle, speed (per revolution of the disc, figure 7 of 003) and acceleration of the gear, which drives the conveyor. " + SHADED,
          panels=(_panel("Angle", "deg", ("gear_angle", "φ₁")),
-                 _panel("Speed", "rad", ("gear_speed", "ω₁"), marks=(Mark(x="gear_speed_peak_at", y="gear_speed_peak", label="maximum"),)),
+                 _panel("Speed", "rad", ("gear_speed", "ω₁"), marks=(Mark("gear_speed_peak_at", "gear_speed_peak", "maximum"),)),
                  _panel("Acceleration", "rad/s**2", ("gear_acceleration", "ε₁"), named=True))),
-    Plot(id="sheet", title="Motion of the sheet", abscissa="disc_angle", needs=SHEET,
+    Plot("sheet", "Motion of the sheet", abscissa="disc_angle", needs=SHEET,
          caption="Position, velocity and acceleration of the sheet over a cycle. " + SHADED,
          panels=(_panel("Position", "mm", ("sheet_position", "x")), _panel("Velocity", "m/s", ("sheet_velocity", "V")),
                  _panel("Acceleration", "m/s**2", ("sheet_acceleration", "a_s"), named=True))),
-    Chart(id="laws", title="Motion laws for the same dwell", build=laws_compared,
+    Chart("laws", "Motion laws for the same dwell", build=laws_compared,
           caption="Speed and acceleration of the gear by each law of motion, each with its maximum value, for the same dwell and the same sweeps "
                   "of the sector. A law with a lower peak velocity stops the sector sooner and leaves its return more time."),
-    Plot(id="torque", title="Torque", abscissa="disc_angle", needs=TORQUE,
+    Plot("torque", "Torque", abscissa="disc_angle", needs=TORQUE,
          caption="Torque at the shafts of disc and gear, without losses; negative where the conveyor drives back. " + SHADED,
          panels=(_panel("Torque", "N*m", ("drive_torque", "disc"), ("gear_torque", "gear"), named=True),)),
-    *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=partial(one_cam, number=number),
+    *(Drawing(f"cam_{number}", f"Cam {number}", build=partial(one_cam, number=number),
               moving=partial(_cam_at, number=number), over="disc_angle", needs=CAMS,
               caption=f"Cam {number} to scale, with the path of its roller's centre (dashed) and that of the pin O₃ (dash-dotted); arm and roller in "
               "the middle of the dwell, light: where the sector stops. The cam stands still, the disc turns counter-clockwise; its angle counts "
               "from the right.")
       for number in "12"),
-    Plot(id="cam_angles", title="Pressure angle and curvature of the cams", abscissa="disc_angle", needs=CAMS,
+    Plot("cam_angles", "Pressure angle and curvature of the cams", abscissa="disc_angle", needs=CAMS,
          caption="Pressure angle, and curvature of the pitch curves: positive where convex, negative where concave. " + SHADED,
          panels=(_panel("Pressure angle", "deg", ("cam_1_pressure_angle", "cam 1"), ("cam_2_pressure_angle", "cam 2"),
-                        levels=(Level(value="max_pressure_angle", label="accepted"),)),
+                        levels=(Level("max_pressure_angle", "accepted"),)),
                  _panel("Curvature", "1/m", ("cam_1_curvature", "cam 1"), ("cam_2_curvature", "cam 2"), named=True))),
-    Plot(id="roller_forces", title="Forces on the rollers", abscissa="disc_angle", needs=(*CAMS, *TORQUE),
+    Plot("roller_forces", "Forces on the rollers", abscissa="disc_angle", needs=(*CAMS, *TORQUE),
          caption="Force of each cam on its roller: one pushes the sector one way, the other pushes it back. " + SHADED,
          panels=(_panel("Force", "N", ("roller_force_1", "roller 1"), ("roller_force_2", "roller 2")),)),
-    Plot(id="contact", title="Contact pressure of the rollers", abscissa="disc_angle", needs=(*CAMS, *LOADED),
+    Plot("contact", "Contact pressure of the rollers", abscissa="disc_angle", needs=(*CAMS, *LOADED),
          caption="Maximum pressure in the line contact of roller and cam. " + SHADED,
          panels=(_panel("Pressure", "MPa", ("contact_pressure_1", "cam 1"), ("contact_pressure_2", "cam 2")),)),
 )  # fmt: skip

@@ -255,9 +255,9 @@ def placement(view: View) -> list[Shape]:
 
 FIGURES = (
     Drawing(
-        id="positions",
-        title="Knife, board and counter-knife",
-        caption="To scale at start, middle and end of the cut; the knife turns clockwise about its shaft, the edge's centre O₁ moves on the "
+        "positions",
+        "Knife, board and counter-knife",
+        "To scale at start, middle and end of the cut; the knife turns clockwise about its shaft, the edge's centre O₁ moves on the "
         "light circle. The cross marks the cutting point; thick: the board on the counter-knife (hatched). Only the part of the edge "
         "that cuts is drawn, with 6° more at both ends.",
         build=positions,
@@ -265,29 +265,29 @@ FIGURES = (
         over="knife_angle",
     ),
     Drawing(
-        id="front",
-        title="Working front",
-        caption="Board, edge and counter-knife in the middle of the cut, to scale. At the cross the board is cut through; along a the edge is in "
+        "front",
+        "Working front",
+        "Board, edge and counter-knife in the middle of the cut, to scale. At the cross the board is cut through; along a the edge is in "
         "the board; the cut advances to the right. Dashed: the upper face where the board is cut.",
         build=front,
     ),
     Chart(
-        id="motion",
-        title="Motion over the cut",
-        caption="Cutting point, shear angle with its usual limits, speed of the cutting point and sliding ratio of the edge, from start to end of "
+        "motion",
+        "Motion over the cut",
+        "Cutting point, shear angle with its usual limits, speed of the cutting point and sliding ratio of the edge, from start to end of "
         "the cut.",
         build=motion,
     ),
     Chart(
-        id="load",
-        title="Force and torque over the cut",
-        caption="Downward force F_v on the board, with the smaller one by virtual work, F_w; torque at the knife's shaft with its components.",
+        "load",
+        "Force and torque over the cut",
+        "Downward force F_v on the board, with the smaller one by virtual work, F_w; torque at the knife's shaft with its components.",
         build=load,
     ),
     Chart(
-        id="placement",
-        title="Position of the board",
-        caption="Shear angle, force and torque for other distances of the board's front edge from the axis, all else unchanged: further away the "
+        "placement",
+        "Position of the board",
+        "Shear angle, force and torque for other distances of the board's front edge from the axis, all else unchanged: further away the "
         "edge is steeper and the force smaller.",
         build=placement,
     ),

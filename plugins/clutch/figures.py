@@ -158,25 +158,25 @@ def _force_line(view: View, angles: Array, friction: float | Array, name: str) -
 
 FIGURES = (
     Drawing(
-        id="section",
-        title="Section through the wedge",
-        caption="Half section above the axis, engaged: the cone, driven in by P_1, lifts the shoe and presses it against the drum with P. The "
+        "section",
+        "Section through the wedge",
+        "Half section above the axis, engaged: the cone, driven in by P_1, lifts the shoe and presses it against the drum with P. The "
         "shoe's width and the wedge angle are to scale, the other dimensions are not.",
         build=section,
     ),
     Drawing(
-        id="force_triangle",
-        title="Force triangle of the wedge",
-        caption="Forces on the ring of shoes, to scale, head to tail: N_2 and its friction from the cone, P from the drum, P_1 from the stop "
+        "force_triangle",
+        "Force triangle of the wedge",
+        "Forces on the ring of shoes, to scale, head to tail: N_2 and its friction from the cone, P from the drum, P_1 from the stop "
         "that locates the shoes axially. Light: the force between cone and shoes once P_1 is removed and friction has reversed; right of "
         "the vertical the shoes push the cone out, left of it they hold it.",
         build=force_triangle,
         unit="kN",
     ),
     Chart(
-        id="engagement_force",
-        title="Engagement force versus wedge angle",
-        caption="Axial force for the same torque versus wedge angle, for several coefficients of friction between cone and shoes. Left of the "
+        "engagement_force",
+        "Engagement force versus wedge angle",
+        "Axial force for the same torque versus wedge angle, for several coefficients of friction between cone and shoes. Left of the "
         "self-locking limit the cone has to be pulled out.",
         build=force_over_angle,
     ),

@@ -226,9 +226,9 @@ def _slack(timing: Timing) -> list[Shape]:
 
 FIGURES = (
     Drawing(
-        id="cyclogram",
-        title="Cyclogram",
-        caption="Operating phases of each mechanism over the common period of the main shaft; below, for each interlock, what must be contained "
+        "cyclogram",
+        "Cyclogram",
+        "Operating phases of each mechanism over the common period of the main shaft; below, for each interlock, what must be contained "
         "(brackets) within what contains it (light), with the smallest margins at the start and at the end. Shaded: dwell.",
         build=rows,
         moving=at_angle,
@@ -237,40 +237,39 @@ FIGURES = (
         schematic=True,
     ),
     Drawing(
-        id="rings",
-        title="Circular cyclogram",
-        caption="One common period, clockwise from the top, a ring for each line. From inside to outside: working (heavy), at rest (full), "
+        "rings",
+        "Circular cyclogram",
+        "One common period, clockwise from the top, a ring for each line. From inside to outside: working (heavy), at rest (full), "
         "leaving room for others (dashed).",
         build=rings,
         schematic=True,
     ),
     Chart(
-        id="ways",
-        title="Displacements and slack",
-        caption="Displacements of the lines over the common period of the main shaft; a transport advances with each step. Where an offset is "
+        "ways",
+        "Displacements and slack",
+        "Displacements of the lines over the common period of the main shaft; a transport advances with each step. Where an offset is "
         "solved: the minimum slack of all interlocks versus the offset; between the vertical lines all interlocks hold.",
         needs=("rates_agree",),
         build=moving,
     ),
     Chart(
-        id="clearance",
-        title="Clearance over the carriages",
-        caption="The minimum height that the cylinder leaves over all carriages; where none is below it, its radius "
-        "is shown.",
+        "clearance",
+        "Clearance over the carriages",
+        "The minimum height that the cylinder leaves over all carriages; where none is below it, its radius is shown.",
         needs=("rates_agree", "station"),
         build=clearing,
     ),
     Chart(
-        id="torques",
-        title="Torques at the main shaft",
-        caption="The torques of the lines at the main shaft and their sum; negative where a line drives the shaft.",
+        "torques",
+        "Torques at the main shaft",
+        "The torques of the lines at the main shaft and their sum; negative where a line drives the shaft.",
         needs=("rates_agree", "takes_torque"),
         build=taking,
     ),
     Chart(
-        id="energies",
-        title="Kinetic energies",
-        caption="The kinetic energies of the lines and their sum: energy released by one line while another absorbs it needs no flywheel.",
+        "energies",
+        "Kinetic energies",
+        "The kinetic energies of the lines and their sum: energy released by one line while another absorbs it needs no flywheel.",
         needs=("rates_agree", "energy_known"),
         build=swinging,
     ),

@@ -28,7 +28,7 @@ from diecut_report.api import (
     rigid,
 )
 
-STROKES = (Span(start="dead_center_outer", end="dead_center_inner", label="forward stroke"),)
+STROKES = (Span("dead_center_outer", "dead_center_inner", "forward stroke"),)
 
 
 def _crank_length(view: View) -> float:
@@ -134,15 +134,15 @@ def moving(view: View, place: float) -> list[Shape]:
 
 def _panel(title: str, unit: str, *series: tuple[str, str], **more: Any) -> Panel:
     """Curves with their labels over a turn of the crank, the forward stroke shaded."""
-    drawn = tuple(Series(curve=curve, label=words) for curve, words in series)
-    return Panel(title=title, unit=unit, series=drawn, spans=STROKES, **more)
+    drawn = tuple(Series(curve, words) for curve, words in series)
+    return Panel(title, unit, series=drawn, spans=STROKES, **more)
 
 
 FIGURES = (
     Drawing(
-        id="linkage",
-        title="Linkage",
-        caption="The linkage to scale at the crank angle of the maximum torque, light: in its dead centres. With a crank length and a pinion "
+        "linkage",
+        "Linkage",
+        "The linkage to scale at the crank angle of the maximum torque, light: in its dead centres. With a crank length and a pinion "
         "also sector, pinion and cylinder (dashed, light: at the ends of its travel). The pinion's shaft is fixed, and a chain moves the "
         "carriages of the cylinder; the positions of the pinion around the sector and of the travel are arbitrary.",
         build=linkage,
@@ -151,9 +151,9 @@ FIGURES = (
         scaled_by="crank_length",
     ),
     Plot(
-        id="motion",
-        title="Motion of the cylinder",
-        caption="Displacement, velocity and acceleration over a turn of the crank (figure 2 of 000).",
+        "motion",
+        "Motion of the cylinder",
+        "Displacement, velocity and acceleration over a turn of the crank (figure 2 of 000).",
         abscissa="crank_angle",
         panels=(
             _panel("Displacement", "mm", ("displacement", "S")),
@@ -162,16 +162,16 @@ FIGURES = (
         ),
     ),
     Plot(
-        id="moments",
-        title="Moments on the cylinder",
-        caption="Moment of the inertia forces and total moment on the cylinder's axis; the jumps are where cutting begins and ends.",
+        "moments",
+        "Moments on the cylinder",
+        "Moment of the inertia forces and total moment on the cylinder's axis; the jumps are where cutting begins and ends.",
         abscissa="crank_angle",
         panels=(_panel("Moment", "N*m", ("total_moment", "total moment"), ("inertia_moment", "inertia forces")),),
     ),
     Plot(
-        id="torque",
-        title="Torque at the crank",
-        caption="Torque over a revolution of the crank with its extremes, mean and root mean square (figure 3 of "
+        "torque",
+        "Torque at the crank",
+        "Torque over a revolution of the crank with its extremes, mean and root mean square (figure 3 of "
         "000); negative: the cylinder drives.",
         abscissa="crank_angle",
         panels=(
@@ -179,26 +179,26 @@ FIGURES = (
                 "Torque",
                 "N*m",
                 ("crank_torque", "torque"),
-                levels=(Level(value="crank_torque_mean", label="mean"), Level(value="crank_torque_rms", label="rms")),
+                levels=(Level("crank_torque_mean", "mean"), Level("crank_torque_rms", "rms")),
                 marks=(
-                    Mark(x="crank_torque_max_at", y="crank_torque_max", label="maximum driving"),
-                    Mark(x="crank_torque_min_at", y="crank_torque_min", label="maximum braking"),
+                    Mark("crank_torque_max_at", "crank_torque_max", "maximum driving"),
+                    Mark("crank_torque_min_at", "crank_torque_min", "maximum braking"),
                 ),
             ),
         ),
     ),
     Polar(
-        id="torque_polar",
-        title="Torque over the crank circle",
-        caption="Absolute torque as distance from the centre over the crank angle; dashed where the cylinder drives.",
+        "torque_polar",
+        "Torque over the crank circle",
+        "Absolute torque as distance from the centre over the crank angle; dashed where the cylinder drives.",
         abscissa="crank_angle",
         unit="N*m",
-        series=(Series(curve="crank_torque", label="torque"),),
+        series=(Series("crank_torque", "torque"),),
     ),
     Plot(
-        id="joint_forces",
-        title="Force in the coupler",
-        caption="Force along the coupler, tension positive; its joints and the crank's bearing carry it.",
+        "joint_forces",
+        "Force in the coupler",
+        "Force along the coupler, tension positive; its joints and the crank's bearing carry it.",
         abscissa="crank_angle",
         needs=("crank_length",),
         panels=(
@@ -208,14 +208,14 @@ FIGURES = (
                 ("coupler_force", "coupler"),
                 ("crank_bearing_force_x", "crank's bearing, along the frame"),
                 ("crank_bearing_force_y", "crank's bearing, normal to it"),
-                marks=(Mark(x="coupler_tension_max_at", y="coupler_tension_max", label="maximum tension"),),
+                marks=(Mark("coupler_tension_max_at", "coupler_tension_max", "maximum tension"),),
             ),
         ),
     ),
     Plot(
-        id="tooth_forces",
-        title="Tooth force of the sector",
-        caption="Tangential force between the teeth of sector and pinion; where it changes its sign the flanks change.",
+        "tooth_forces",
+        "Tooth force of the sector",
+        "Tangential force between the teeth of sector and pinion; where it changes its sign the flanks change.",
         abscissa="crank_angle",
         needs=("pinion_radius",),
         panels=(_panel("Tangential force", "kN", ("tooth_force", "tooth force")),),

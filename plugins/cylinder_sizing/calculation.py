@@ -207,20 +207,20 @@ def cross_section(view: View) -> list[Shape]:
 
 FIGURES = (
     Drawing(
-        id="cross_section",
-        title="Cross-section",
-        caption="Section normal to the axis, to scale, with the flat over the die as in the dwell; dashed: the segment that is cut away. The "
+        "cross_section",
+        "Cross-section",
+        "Section normal to the axis, to scale, with the flat over the die as in the dwell; dashed: the segment that is cut away. The "
         "cross marks the centre of mass.",
         build=cross_section,
     ),
     Bars(
-        id="breakdown",
-        title="Mass and inertia",
-        caption="Contributions of the full cylinder, segment, bore and their overlap.",
+        "breakdown",
+        "Mass and inertia",
+        "Contributions of the full cylinder, segment, bore and their overlap.",
         groups=(
             BarGroup(
-                label="Mass",
-                unit="kg",
+                "Mass",
+                "kg",
                 bars=(
                     ("full cylinder", "solid_mass"),
                     ("segment", "-segment_mass"),
@@ -230,8 +230,8 @@ FIGURES = (
                 ),
             ),
             BarGroup(
-                label="Moment of inertia",
-                unit="kg*m**2",
+                "Moment of inertia",
+                "kg*m**2",
                 bars=(
                     ("full cylinder", "inertia_solid"),
                     ("segment", "-inertia_segment"),

@@ -170,22 +170,22 @@ def length(view: View) -> list[dict[str, Any]]:
 
 FIGURES = (
     Drawing(
-        id="block",
-        title="Damper block",
-        caption="The block to scale, free and at its maximum deflection, with its pad on the right. A compressed block is drawn with constant "
+        "block",
+        "Damper block",
+        "The block to scale, free and at its maximum deflection, with its pad on the right. A compressed block is drawn with constant "
         "volume.",
         build=block,
     ),
     Chart(
-        id="force",
-        title="Force versus deflection",
-        caption="Total force of the dampers; the area below the line is the energy absorbed.",
+        "force",
+        "Force versus deflection",
+        "Total force of the dampers; the area below the line is the energy absorbed.",
         build=force,
     ),
     Chart(
-        id="length",
-        title="Length versus stress",
-        caption="Length that absorbs the energy at a given stress; marked: the adopted length and the resulting stress. Above the level the "
+        "length",
+        "Length versus stress",
+        "Length that absorbs the energy at a given stress; marked: the adopted length and the resulting stress. Above the level the "
         "block buckles.",
         build=length,
     ),

@@ -99,9 +99,9 @@ def _loads(view: View, a: float) -> list[Shape]:
 
 
 VBELT_LAYOUT = Drawing(
-    id="vbelt_layout",
-    title="V-belt",
-    caption="The belt drive to scale with the wraps: 1 the motor pulley, 2 the flywheel pulley. With the direction of rotation shown by the "
+    "vbelt_layout",
+    "V-belt",
+    "The belt drive to scale with the wraps: 1 the motor pulley, 2 the flywheel pulley. With the direction of rotation shown by the "
     "arrow beside the belt, the upper span is the tight side; the arrows at the axes are the static loads of the belts on the shafts.",
     build=vbelt_layout,
 )
@@ -229,9 +229,9 @@ def chain(view: View) -> list[Shape]:
 
 
 CHAIN = Drawing(
-    id="chain",
-    title="Kinematic chain",
-    caption="Shafts with their mean speed, torque and power, losses included; the shafts are numbered from the motor. Not to scale.",
+    "chain",
+    "Kinematic chain",
+    "Shafts with their mean speed, torque and power, losses included; the shafts are numbered from the motor. Not to scale.",
     build=chain,
     schematic=True,
 )
@@ -281,18 +281,18 @@ def cylinder_on_belt(view: View) -> list[Shape]:
 
 TOOTHED_BELT_FIGURES = (
     Drawing(
-        id="toothed_belt_rolling",
-        title="Cylinder on the toothed belt",
-        caption="The cylinder on the die to scale with its pulley (dash-dotted: pitch circle) and the belt; the arrows show the velocities of "
+        "toothed_belt_rolling",
+        "Cylinder on the toothed belt",
+        "The cylinder on the die to scale with its pulley (dash-dotted: pitch circle) and the belt; the arrows show the velocities of "
         "carriage and belt. The die lies below: the belt runs over the pulley where this engages away from the die, and below it where "
         "it engages on the die side.",
         build=cylinder_on_belt,
         needs=("toothed_belt",),
     ),
     Drawing(
-        id="toothed_belt_layout",
-        title="Toothed belt",
-        caption="The belt's pitch line over its pulleys to scale; at each axis the number of the pulley, in the order in which the belt meets "
+        "toothed_belt_layout",
+        "Toothed belt",
+        "The belt's pitch line over its pulleys to scale; at each axis the number of the pulley, in the order in which the belt meets "
         "it, and its wrap; the first one drives. The arrow beside the longest span points along the order. The die lies below: the "
         "cylinder (thin circle) is drawn on it where one of the pulleys is fixed to the cylinder.",
         build=belt_layout,
@@ -302,30 +302,30 @@ TOOTHED_BELT_FIGURES = (
 
 
 TURN = Plot(
-    id="energy",
-    title="Torque and energy over a turn",
-    caption="Torque at the flywheel shaft, negative where the load drives, with its mean, which the motor delivers; and the excess energy that "
+    "energy",
+    "Torque and energy over a turn",
+    "Torque at the flywheel shaft, negative where the load drives, with its mean, which the motor delivers; and the excess energy that "
     "the load has taken since the start of the revolution. The fluctuation ΔE is the height between the dashed lines.",
     abscissa="output_angle",
     needs=("torque_curve",),
     panels=(
         Panel(
-            title="Torque at the flywheel's shaft",
-            unit="N*m",
-            series=(Series(curve="flywheel_torque", label="torque"),),
-            levels=(Level(value="flywheel_torque_mean", label="mean"),),
+            "Torque at the flywheel's shaft",
+            "N*m",
+            series=(Series("flywheel_torque", "torque"),),
+            levels=(Level("flywheel_torque_mean", "mean"),),
         ),
         Panel(
-            title="Energy from the flywheel",
-            unit="J",
-            series=(Series(curve="excess_energy", label="energy"),),
+            "Energy from the flywheel",
+            "J",
+            series=(Series("excess_energy", "energy"),),
             levels=(
-                Level(value="excess_energy_max", label="upper end of ΔE"),
-                Level(value="excess_energy_min", label="lower end of ΔE"),
+                Level("excess_energy_max", "upper end of ΔE"),
+                Level("excess_energy_min", "lower end of ΔE"),
             ),
             marks=(
-                Mark(x="excess_energy_max_at", y="excess_energy_max", label="flywheel slowest"),
-                Mark(x="excess_energy_min_at", y="excess_energy_min", label="flywheel fastest"),
+                Mark("excess_energy_max_at", "excess_energy_max", "flywheel slowest"),
+                Mark("excess_energy_min_at", "excess_energy_min", "flywheel fastest"),
             ),
         ),
     ),

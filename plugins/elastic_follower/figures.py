@@ -129,9 +129,9 @@ CAPTION = (
     "magnified by the factor shown."
 )
 DRAWINGS = (
-    Drawing(id="turning_link", title="Link on its elastic drive", caption=CAPTION, unit="1", build=turned, moving=turning, over="time",
+    Drawing("turning_link", "Link on its elastic drive", CAPTION, unit="1", build=turned, moving=turning, over="time",
             needs=("inertia",)),
-    Drawing(id="sliding_link", title="Link on its elastic drive", caption=CAPTION, build=slid, moving=sliding, over="time", needs=("mass",)),
+    Drawing("sliding_link", "Link on its elastic drive", CAPTION, build=slid, moving=sliding, over="time", needs=("mass",)),
 )  # fmt: skip
 
 
@@ -223,18 +223,18 @@ def own_dampings(view: View) -> list[Shape]:
 def motion(body: str, position: str, acceleration: str) -> Plot:
     """Input and driven link over time, of a turning or a sliding link."""
     return Plot(
-        id="motion",
-        title="Input and driven link",
-        caption="The driven link follows the input through the elastic drive and continues to oscillate when the input rests. The rigid "
+        "motion",
+        "Input and driven link",
+        "The driven link follows the input through the elastic drive and continues to oscillate when the input rests. The rigid "
                 "acceleration is that of the input.",
         abscissa="time",
         needs=(body,),
         panels=(
-            Panel(title="Position", unit=position, series=(Series(curve="input", label="input"), Series(curve="response", label="driven link"))),
-            Panel(title="Deflection of the drive", unit=position, series=(Series(curve="deflection", label="z"),)),
-            Panel(title="Acceleration", unit=acceleration,
-                  series=(Series(curve="rigid_acceleration", label="rigid drive"), Series(curve="acceleration", label="driven link")),
-                  marks=(Mark(x="acceleration_peak_at", y="acceleration_peak", label="maximum"),)),
+            Panel("Position", position, series=(Series("input", "input"), Series("response", "driven link"))),
+            Panel("Deflection of the drive", position, series=(Series("deflection", "z"),)),
+            Panel("Acceleration", acceleration,
+                  series=(Series("rigid_acceleration", "rigid drive"), Series("acceleration", "driven link")),
+                  marks=(Mark("acceleration_peak_at", "acceleration_peak", "maximum"),)),
         ),
     )  # fmt: skip
 
@@ -249,15 +249,15 @@ FIGURES = (
     motion("inertia", "deg", "rad/s**2"),
     motion("mass", "mm", "m/s**2"),
     Chart(
-        id="laws",
-        title="Laws of motion on this drive",
-        caption="All laws, as single rises, over the natural periods within the rise, with this machine's damping and its point. The lower part "
+        "laws",
+        "Laws of motion on this drive",
+        "All laws, as single rises, over the natural periods within the rise, with this machine's damping and its point. The lower part "
                 "shows which law loads the link least: both the law's own peak (A of the law) and the amplification by the drive count. A motion "
                 "of several parts, given as a curve, requires more than a single rise of the same height and duration.",
         build=laws,
     ),
-    Chart(id="own_spectrum", title="Spectrum of this motion", needs=CURVE, build=own_dampings,
+    Chart("own_spectrum", "Spectrum of this motion", needs=CURVE, build=own_dampings,
           caption="The motion of the curve on drives of other stiffness, for five damping ratios, with this machine's point."),
-    Chart(id="spectrum_1", title="Spectrum of the laws of motion", caption=SPECTRUM_CAPTION, build=dampings(FIRST_LAWS)),
-    Chart(id="spectrum_2", title="Spectrum of the laws of motion, continued", caption=SPECTRUM_CAPTION, build=dampings(OTHER_LAWS)),
+    Chart("spectrum_1", "Spectrum of the laws of motion", SPECTRUM_CAPTION, build=dampings(FIRST_LAWS)),
+    Chart("spectrum_2", "Spectrum of the laws of motion, continued", SPECTRUM_CAPTION, build=dampings(OTHER_LAWS)),
 )  # fmt: skip

@@ -199,34 +199,34 @@ def _told(name: str) -> str:
 
 FIGURES = (
     Drawing(
-        id="mesh",
-        title="Teeth in mesh",
-        caption="Transverse section to scale, the pinion below: involutes, and roots as cut by the rounded tips of the rack. Dash-dotted: the "
+        "mesh",
+        "Teeth in mesh",
+        "Transverse section to scale, the pinion below: involutes, and roots as cut by the rounded tips of the rack. Dash-dotted: the "
                 "working pitch circles and the line of action; dashed: the base circles; light: the tip circles. The path of contact runs from A "
                 "to E; here contact is at the pitch point C.",
         build=mesh,
     ),
     Drawing(
-        id="roots",
-        title="Critical sections of the tooth roots",
-        caption="Normal section of the virtual spur gears, to scale. Light: the tangents at 30°, which touch the root fillet at its critical "
+        "roots",
+        "Critical sections of the tooth roots",
+        "Normal section of the virtual spur gears, to scale. Light: the tangents at 30°, which touch the root fillet at its critical "
                 "section; the load acts at the outer point of single pair tooth contact, h_Fe is its moment arm about that section.",
         build=roots,
     ),
     Bars(
-        id="stresses",
-        title="Stresses and safety factors",
-        caption="Contact and tooth root stresses of both gears, and their safety factors.",
+        "stresses",
+        "Stresses and safety factors",
+        "Contact and tooth root stresses of both gears, and their safety factors.",
         groups=(
             BarGroup(
-                label="Contact stress",
-                unit="MPa",
+                "Contact stress",
+                "MPa",
                 bars=(("nominal", "nominal_contact_stress"), ("pinion", "contact_stress_1"), ("wheel", "contact_stress_2")),
             ),
-            BarGroup(label="Tooth root stress", unit="MPa", bars=(("pinion", "root_stress_1"), ("wheel", "root_stress_2"))),
+            BarGroup("Tooth root stress", "MPa", bars=(("pinion", "root_stress_1"), ("wheel", "root_stress_2"))),
             BarGroup(
-                label="Safety",
-                unit="1",
+                "Safety",
+                "1",
                 bars=(
                     ("flank, pinion", "pitting_safety_1"),
                     ("flank, wheel", "pitting_safety_2"),
@@ -238,22 +238,22 @@ FIGURES = (
         needs=(DYNAMIC_KNOWN,),
     ),
     Chart(
-        id="reserves",
-        title="Safety factors versus module",
-        caption="Ratio of the safety factors of flank and root to the required ones, with other modules of the preferred series and all else "
+        "reserves",
+        "Safety factors versus module",
+        "Ratio of the safety factors of flank and root to the required ones, with other modules of the preferred series and all else "
                 "unchanged; where the centre distance is given, with other face widths.",
         build=reserves,
         needs=(DYNAMIC_KNOWN,),
     ),
     Plot(
-        id="force_over_cycle",
-        title="Force and contact stress over the cycle",
-        caption="Tangential force at the reference circle, with the sign of the torque, and the pinion's contact "
+        "force_over_cycle",
+        "Force and contact stress over the cycle",
+        "Tangential force at the reference circle, with the sign of the torque, and the pinion's contact "
                 "stress.",
         abscissa="cycle_angle",
         panels=(
-            Panel(title="Tangential force", unit="N", series=(Series(curve="tangential_force_curve", label="F_t"),)),
-            Panel(title="Contact stress of the pinion", unit="MPa", series=(Series(curve="contact_stress_curve", label="σ_H1"),)),
+            Panel("Tangential force", "N", series=(Series("tangential_force_curve", "F_t"),)),
+            Panel("Contact stress of the pinion", "MPa", series=(Series("contact_stress_curve", "σ_H1"),)),
         ),
         needs=("torque_curve", DYNAMIC_KNOWN),
     ),

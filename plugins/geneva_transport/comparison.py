@@ -154,14 +154,14 @@ def _same_dwell(view: View) -> list[Shape]:
 
 
 def _both(label: str, unit: str, cam: str, geneva: str) -> BarGroup:
-    return BarGroup(label=label, unit=unit, bars=(("cam-gear", cam), ("Geneva", geneva)))
+    return BarGroup(label, unit, bars=(("cam-gear", cam), ("Geneva", geneva)))
 
 
 FIGURES = (
     Bars(
-        id="peaks",
-        title="Dwell and peaks",
-        caption="Dwell as a fraction of the cycle, maximum velocity in units of S/T, maximum acceleration in units of S/T², and maximum power in "
+        "peaks",
+        "Dwell and peaks",
+        "Dwell as a fraction of the cycle, maximum velocity in units of S/T, maximum acceleration in units of S/T², and maximum power in "
         "units of m·S²/T³, which is also the ratio of the torques.",
         groups=(
             _both("Dwell", "%", "dwell_share", "geneva_dwell"),
@@ -171,15 +171,15 @@ FIGURES = (
         ),
     ),
     Chart(
-        id="cycle",
-        title="Motion of the sheet by both drives",
-        caption="Over a cycle that begins with the cam-gear's dwell; both motions have the same middle.",
+        "cycle",
+        "Motion of the sheet by both drives",
+        "Over a cycle that begins with the cam-gear's dwell; both motions have the same middle.",
         build=cycle,
     ),
     Chart(
-        id="same_dwell",
-        title="Cam-gear with the Geneva drive's dwell",
-        caption="Acceleration of the sheet versus the sweep of stop and start, up to the sweep that leaves a tenth of the cycle for the return.",
+        "same_dwell",
+        "Cam-gear with the Geneva drive's dwell",
+        "Acceleration of the sheet versus the sweep of stop and start, up to the sweep that leaves a tenth of the cycle for the return.",
         build=_same_dwell,
     ),
 )

@@ -260,39 +260,39 @@ def engagement(view: View) -> list[Shape]:
 
 FIGURES = (
     Drawing(
-        id="entry",
-        title="Geneva drive at the roller's entry",
-        caption="Wheel, crank with roller and locking disc to scale at the instant of entry: crank and slot are perpendicular to each other, and "
+        "entry",
+        "Geneva drive at the roller's entry",
+        "Wheel, crank with roller and locking disc to scale at the instant of entry: crank and slot are perpendicular to each other, and "
         "the disc's edge is on the line of centres. Light: the roller's path, the roller in the middle of the motion and at its exit.",
         build=at_entry,
         moving=turning,
         over="crank_angle",
     ),
     Drawing(
-        id="positions",
-        title="Middle of the motion, and dwell",
-        caption="Left: in the middle of the motion the disc's cut-out lets the arms pass. Right: in the dwell the disc holds the wheel.",
+        "positions",
+        "Middle of the motion, and dwell",
+        "Left: in the middle of the motion the disc's cut-out lets the arms pass. Right: in the dwell the disc holds the wheel.",
         build=positions,
     ),
     Chart(
-        id="motion",
-        title="Motion of the wheel over a turn",
-        caption="Angle, speed and acceleration of the wheel over a revolution of the crank, with the motion in the middle. The speed begins and "
+        "motion",
+        "Motion of the wheel over a turn",
+        "Angle, speed and acceleration of the wheel over a revolution of the crank, with the motion in the middle. The speed begins and "
         "ends without a jump, the acceleration jumps at entry and exit. " + COUNTED,
         build=motion,
     ),
     Chart(
-        id="sheet",
-        title="Motion of the sheet over a turn",
-        caption="Position, velocity and acceleration of the sheet over a revolution of the crank, with the motion in the middle. "
+        "sheet",
+        "Motion of the sheet over a turn",
+        "Position, velocity and acceleration of the sheet over a revolution of the crank, with the motion in the middle. "
         + COUNTED,
         needs=("sprocket_teeth", "chain_pitch"),
         build=sheet,
     ),
     Chart(
-        id="engagement",
-        title="Torque and roller force over the engagement",
-        caption="Before the middle the roller drives the wheel; after it the wheel drives the crank, and the roller bears on the other flank of "
+        "engagement",
+        "Torque and roller force over the engagement",
+        "Before the middle the roller drives the wheel; after it the wheel drives the crank, and the roller bears on the other flank of "
         "the slot. " + COUNTED,
         needs=("driven_inertia",),
         build=engagement,

@@ -183,17 +183,17 @@ def _direction(view: View, phi: float) -> float:
 
 
 PLANETARY_DRAWN = Drawing(
-    id="planetary_drive", title="Planetary drive", needs=("planetary",), build=planetary, moving=planetary_at,
+    "planetary_drive", "Planetary drive", needs=("planetary",), build=planetary, moving=planetary_at,
     over="crank_angle",
     caption=CAPTION + "The planet (dashed) rolls inside a circle of twice its size (dash-dotted); the edge moves straight up and down.",
 )  # fmt: skip
 CRANK_SLIDER_DRAWN = Drawing(
-    id="crank_slider_drive", title="Crank-slider drive", needs=("crank_slider",), build=crank_slider, moving=crank_slider_at,
+    "crank_slider_drive", "Crank-slider drive", needs=("crank_slider",), build=crank_slider, moving=crank_slider_at,
     over="crank_angle",
     caption=CAPTION + "The length of the knife below the rod is arbitrary.",
 )  # fmt: skip
 CRANK_ROCKER_DRAWN = Drawing(
-    id="crank_rocker_drive", title="Crank-rocker drive", needs=("crank_rocker",), build=crank_rocker, moving=crank_rocker_at,
+    "crank_rocker_drive", "Crank-rocker drive", needs=("crank_rocker",), build=crank_rocker, moving=crank_rocker_at,
     over="crank_angle",
     caption=CAPTION + "The angle between rocker and knife arm is arbitrary; here the arm is level at the lowest point.",
 )  # fmt: skip
@@ -317,21 +317,21 @@ def over_stroke(view: View) -> list[Shape]:
 
 
 FIGURES = (
-    *(Chart(id=f"{drive.key}_motion", title=f"Motion of the edge: {drive.name}", needs=(drive.key,), build=over_turn(drive),
+    *(Chart(f"{drive.key}_motion", f"Motion of the edge: {drive.name}", needs=(drive.key,), build=over_turn(drive),
             caption="Displacement, velocity and acceleration over the crank angle, counted upwards, with the working stroke shaded "
             f"(figure 2{drive.letter} of 004).")
       for drive in ALL),
-    Chart(id="from_lowest", title="The drives from their lowest point", build=from_lowest,
+    Chart("from_lowest", "The drives from their lowest point", build=from_lowest,
           caption="Speed and acceleration of the edge with the lowest points of all drives aligned, the working strokes shaded; after it the "
                   "rollers lead the signature at their speed (figure 3 of 004)."),
-    Drawing(id="comparison", title="Comparison of the drives", build=table, schematic=True,
+    Drawing("comparison", "Comparison of the drives", build=table, schematic=True,
             caption="Values of each drive and, in brackets, their ratio to those of the best drive, the one with the lowest maximum acceleration "
                     "in the working stroke. Factor: ratio of the acceleration at the end to that of a harmonic motion of the same stroke, so "
                     "that stroke times factor is proportional to the acceleration at the end."),
-    Chart(id="over_stroke", title="Acceleration versus stroke", build=over_stroke,
+    Chart("over_stroke", "Acceleration versus stroke", build=over_stroke,
           caption="Acceleration at the lowest point if each drive is scaled as a whole (for the crank-rocker: its knife arm) at this speed. It "
                   "increases with the stroke. The distance between the lines at one stroke is due to the type of drive."),
-    Chart(id="crank_slider_first_order", title="Crank-slider: exact and first-order form", needs=(CRANK_SLIDER.key,), build=first_order,
+    Chart("crank_slider_first_order", "Crank-slider: exact and first-order form", needs=(CRANK_SLIDER.key,), build=first_order,
           caption="Acceleration of the edge by both forms, and the difference between the exact form and the form of first order in the ratio of "
                   "crank to rod, r/l, for displacement, velocity and acceleration. Everything else is calculated with the exact form."),
     PLANETARY_DRAWN,

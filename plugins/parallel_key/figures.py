@@ -69,19 +69,19 @@ def _bearing(view: View, half: float, bottom: float, crown: float) -> list[Shape
 LOADS = ((phrase("regular"), ""), (phrase("maximum"), "_peak"))
 FIGURES = (
     Drawing(
-        id="section",
-        title="Section through shaft, key and hub",
-        caption="To scale. Marked: the bearing height in the shaft keyway (left) and in the hub (right).",
+        "section",
+        "Section through shaft, key and hub",
+        "To scale. Marked: the bearing height in the shaft keyway (left) and in the hub (right).",
         build=section,
     ),
     Bars(
-        id="pressures",
-        title="Pressures and allowable values",
-        caption="Pressures on shaft, hub and key under the equivalent and the maximum torque, each with its allowable value.",
+        "pressures",
+        "Pressures and allowable values",
+        "Pressures on shaft, hub and key under the equivalent and the maximum torque, each with its allowable value.",
         groups=tuple(
             BarGroup(
-                label=f"{part.capitalize()}",
-                unit="MPa",
+                f"{part.capitalize()}",
+                "MPa",
                 bars=tuple(
                     bar
                     for words, load in LOADS
@@ -92,11 +92,11 @@ FIGURES = (
         ),
     ),
     Plot(
-        id="torque",
-        title="Torque over the cycle",
-        caption="Torque as given, over one revolution of the cycle angle.",
+        "torque",
+        "Torque over the cycle",
+        "Torque as given, over one revolution of the cycle angle.",
         abscissa="cycle_angle",
-        panels=(Panel(title="Torque", unit="N*m", series=(Series(curve="torque_over_cycle", label="T"),)),),
+        panels=(Panel("Torque", "N*m", series=(Series("torque_over_cycle", "T"),)),),
         needs=("torque_curve",),
     ),
 )

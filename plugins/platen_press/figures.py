@@ -224,33 +224,33 @@ def thickness(view: View) -> list[Shape]:
 
 FIGURES = (
     Drawing(
-        id="machine",
-        title="Crank, rods and platen",
-        caption="The mechanism to scale a sixth of a revolution before the dead centre, with journal, crank pin and platen's pin; light: the "
+        "machine",
+        "Crank, rods and platen",
+        "The mechanism to scale a sixth of a revolution before the dead centre, with journal, crank pin and platen's pin; light: the "
                 "platen closed and open. The size of the platen and the position of the die on it are arbitrary.",
         build=machine,
         moving=turning,
         over="crank_angle",
     ),
     Chart(
-        id="cutting",
-        title="Displacement, speed and torque around the dead centre",
-        caption="Figure 3 of 001: before the dead centre the board is cut and the rods elongate, so that the platen is slower than its drive; "
+        "cutting",
+        "Displacement, speed and torque around the dead centre",
+        "Figure 3 of 001: before the dead centre the board is cut and the rods elongate, so that the platen is slower than its drive; "
                 "after it the platen stands until the rods have relaxed. Torque from cutting, elongation and inertia, torque from friction, and "
                 "their sum; while the rods relax they drive the crank.",
         build=cutting,
     ),
     Chart(
-        id="forces",
-        title="Force and elongation of the rods around the dead centre",
-        caption="Figure 2 of 001: the force of both rods increases with the elongation up to the dead centre and decreases with it while the "
+        "forces",
+        "Force and elongation of the rods around the dead centre",
+        "Figure 2 of 001: the force of both rods increases with the elongation up to the dead centre and decreases with it while the "
                 "platen stands. A force or weight offset from the axis of the guides adds the guides' friction while the platen moves.",
         build=forces,
     ),
     Chart(
-        id="source",
-        title="Torque while cutting, compared with eq. 14",
-        caption="At the dead centre both give the friction of the joints alone, P_max·X less the share of the inertia force. Before it the force "
+        "source",
+        "Torque while cutting, compared with eq. 14",
+        "At the dead centre both give the friction of the joints alone, P_max·X less the share of the inertia force. Before it the force "
                 "has an arm too: that of crank and rods, or, in eq. 14, a shorter one by the platen's slower true speed. Arm and force together "
                 "make the peaks before the dead centre. The 5100 N·m that 001 prints for its machine lie 2 % above P_max·X, friction alone at "
                 "the dead centre, where the force is maximum: both torques pass it before, and the number leaves out the peak of its own "
@@ -258,30 +258,30 @@ FIGURES = (
         build=beside_source,
     ),
     Chart(
-        id="thickness",
-        title="Thickness of the board",
-        caption="A thicker board with the same maximum force is met sooner, where the arm is longer: not only the work increases, as 001 "
+        "thickness",
+        "Thickness of the board",
+        "A thicker board with the same maximum force is met sooner, where the arm is longer: not only the work increases, as 001 "
                 "concludes, but also the maximum torque.",
         build=thickness,
     ),
     Drawing(
-        id="relaxed",
-        title="Relaxed rods and friction",
-        caption="The shaft to scale where the rods have relaxed: as long as the line of the rods passes the shaft at a distance a_d less than "
+        "relaxed",
+        "Relaxed rods and friction",
+        "The shaft to scale where the rods have relaxed: as long as the line of the rods passes the shaft at a distance a_d less than "
                 "the friction arm X, the rods do not drive the crank.",
         build=relaxed,
     ),
     Plot(
-        id="turn",
-        title="Motion and torque over a revolution",
-        caption="Displacement, speed and torque over a revolution of the crank from the inner dead centre.",
+        "turn",
+        "Motion and torque over a revolution",
+        "Displacement, speed and torque over a revolution of the crank from the inner dead centre.",
         abscissa="crank_angle",
         panels=(
-            Panel(title="Displacement", unit="mm", series=(Series(curve="platen_displacement", label="u"),)),
-            Panel(title="Speed", unit="m/s", series=(Series(curve="platen_velocity_true", label="true"),
-                                                     Series(curve="platen_velocity_first_order", label="ideal, first order"))),
-            Panel(title="Torque", unit="N*m", series=(Series(curve="torque", label="M"),),
-                  marks=(Mark(x="torque_max_at", y="torque_max", label="maximum"),)),
+            Panel("Displacement", "mm", series=(Series("platen_displacement", "u"),)),
+            Panel("Speed", "m/s", series=(Series("platen_velocity_true", "true"),
+                                                     Series("platen_velocity_first_order", "ideal, first order"))),
+            Panel("Torque", "N*m", series=(Series("torque", "M"),),
+                  marks=(Mark("torque_max_at", "torque_max", "maximum"),)),
         ),
     ),
 )  # fmt: skip

@@ -158,19 +158,19 @@ PARTNERS = (
 
 FIGURES = (
     Plot(
-        id="crank_inertia",
-        title="Equivalent inertia at the crank",
-        caption="The inertia of equal kinetic energy over a revolution of the crank: zero where the cylinder stands, and different in the two "
+        "crank_inertia",
+        "Equivalent inertia at the crank",
+        "The inertia of equal kinetic energy over a revolution of the crank: zero where the cylinder stands, and different in the two "
         "strokes because the unbalance swings. Its mean is used for the run-up.",
         abscissa="crank_angle",
         needs=steps.CYLINDER,
         panels=(
             Panel(
-                title="Equivalent inertia",
-                unit="kg*m**2",
-                series=(Series(curve="crank_inertia", label="at the crank"),),
-                levels=(Level(value="crank_inertia_mean", label="mean"),),
-                marks=(Mark(x="crank_inertia_max_at", y="crank_inertia_max", label="maximum"),),
+                "Equivalent inertia",
+                "kg*m**2",
+                series=(Series("crank_inertia", "at the crank"),),
+                levels=(Level("crank_inertia_mean", "mean"),),
+                marks=(Mark("crank_inertia_max_at", "crank_inertia_max", "maximum"),),
             ),
         ),
     ),

@@ -144,13 +144,13 @@ CYCLE = (
 
 FIGURES = (
     Drawing(
-        id="loop",
-        title="Chain over its sprockets",
-        caption="To scale: pitch circles (dash-dotted), the joints that lie on them (light) and the chain's line.",
+        "loop",
+        "Chain over its sprockets",
+        "To scale: pitch circles (dash-dotted), the joints that lie on them (light) and the chain's line.",
         build=loop,
     ),
     *(
-        Chart(id="tension", title="Tension over the cycle", caption=CYCLE, build=build, needs=needs)
+        Chart("tension", "Tension over the cycle", CYCLE, build=build, needs=needs)
         for needs, build in (
             ((DRIVE, "torque_curve"), tension_at_even_speed),
             ((CONVEYOR, "acceleration_curve", "velocity"), tension_at_even_speed),
@@ -158,9 +158,9 @@ FIGURES = (
         )
     ),
     Chart(
-        id="velocity",
-        title="Velocity within two teeth",
-        caption="The driving sprocket runs at constant speed; where a joint meets it the velocity has a kink and its slope jumps.",
+        "velocity",
+        "Velocity within two teeth",
+        "The driving sprocket runs at constant speed; where a joint meets it the velocity has a kink and its slope jumps.",
         build=velocity_within_teeth,
     ),
 )

@@ -72,15 +72,15 @@ def lives(view: View) -> list[Shape]:
 
 FIGURES = (
     Chart(
-        id="loads",
-        title="Equivalent load over the cycle",
-        caption="Values of each bearing, with the maximum and the equivalent load of the life.",
+        "loads",
+        "Equivalent load over the cycle",
+        "Values of each bearing, with the maximum and the equivalent load of the life.",
         build=loads_over_cycle,
     ),
     Chart(
-        id="lives",
-        title="Life compared with the required life",
-        caption="Logarithmic: 0 is the required life, 1 ten times that. A bearing that stands has no life.",
+        "lives",
+        "Life compared with the required life",
+        "Logarithmic: 0 is the required life, 1 ten times that. A bearing that stands has no life.",
         build=lives,
     ),
 )

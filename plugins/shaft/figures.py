@@ -80,40 +80,32 @@ def _bearing(view: View, name: str, told: str, highest: float) -> list[Shape]:
 
 
 ALONG = Plot(
-    id="along",
-    title="Moments, torque, stress and deflection along the shaft",
-    caption="The bending moment in both planes at the instant of its maximum; the maximum bending moment and the maximum absolute torque over "
+    "along",
+    "Moments, torque, stress and deflection along the shaft",
+    "The bending moment in both planes at the instant of its maximum; the maximum bending moment and the maximum absolute torque over "
     "the cycle at each position; the maximum stress without notches; the deflection at the instant of its maximum.",
     abscissa="position",
     panels=(
         Panel(
-            title="Bending moment",
-            unit="N*m",
+            "Bending moment",
+            "N*m",
             series=(
-                Series(curve="bending_moment", label="maximum over the cycle"),
-                Series(curve="moment_xy", label="in x–y at its instant"),
-                Series(curve="moment_xz", label="in x–z at its instant"),
+                Series("bending_moment", "maximum over the cycle"),
+                Series("moment_xy", "in x–y at its instant"),
+                Series("moment_xz", "in x–z at its instant"),
             ),
         ),
-        Panel(title="Torque", unit="N*m", series=(Series(curve="torque", label="maximum over the cycle"),)),
-        Panel(
-            title="Nominal stress", unit="MPa", series=(Series(curve="stress_along", label="maximum over the cycle"),)
-        ),
-        Panel(title="Deflection", unit="um", series=(Series(curve="deflection", label="at its maximum"),)),
+        Panel("Torque", "N*m", series=(Series("torque", "maximum over the cycle"),)),
+        Panel("Nominal stress", "MPa", series=(Series("stress_along", "maximum over the cycle"),)),
+        Panel("Deflection", "um", series=(Series("deflection", "at its maximum"),)),
     ),
 )
 REACTIONS = Plot(
-    id="reactions",
-    title="Reactions over the cycle",
-    caption="Forces of the bearings on the shaft, as they load the bearings over a cycle.",
+    "reactions",
+    "Reactions over the cycle",
+    "Forces of the bearings on the shaft, as they load the bearings over a cycle.",
     abscissa="cycle_angle",
-    panels=(
-        Panel(
-            title="Reaction",
-            unit="kN",
-            series=(Series(curve="reaction_a", label="bearing A"), Series(curve="reaction_b", label="bearing B")),
-        ),
-    ),
+    panels=(Panel("Reaction", "kN", series=(Series("reaction_a", "bearing A"), Series("reaction_b", "bearing B"))),),
 )
 TOLD = 20.0  # a safety above that is drawn there
 
@@ -189,29 +181,29 @@ def _amplitudes(view: View) -> list[Shape]:
 
 FIGURES = (
     Drawing(
-        id="shaft",
-        title="Shaft",
-        caption="To scale: sections with their bore, bearings (triangles; the locating one filled), loads (arrows) and notches (marks).",
+        "shaft",
+        "Shaft",
+        "To scale: sections with their bore, bearings (triangles; the locating one filled), loads (arrows) and notches (marks).",
         build=shaft,
     ),
     ALONG,
     REACTIONS,
     Chart(
-        id="safety",
-        title="Safety factor against fatigue at each location",
-        caption="Of several locations at one position the minimum; values above 20 are drawn at 20.",
+        "safety",
+        "Safety factor against fatigue at each location",
+        "Of several locations at one position the minimum; values above 20 are drawn at 20.",
         build=_places,
     ),
     Chart(
-        id="amplitudes",
-        title="Stress amplitudes",
-        caption="Each location with its notch factors; the named one has the minimum safety factor.",
+        "amplitudes",
+        "Stress amplitudes",
+        "Each location with its notch factors; the named one has the minimum safety factor.",
         build=_amplitudes,
     ),
     Chart(
-        id="goodman",
-        title="Goodman diagram of the governing location",
-        caption="Equivalent amplitude over equivalent mean stress, both with the notch factors.",
+        "goodman",
+        "Goodman diagram of the governing location",
+        "Equivalent amplitude over equivalent mean stress, both with the notch factors.",
         build=_goodman,
     ),
 )

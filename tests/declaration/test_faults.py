@@ -137,8 +137,8 @@ def made(*more: Step, first: tuple[Step, ...] = STEPS, **changes: Any) -> Mechan
 
 
 def plot(series: str = "torque", unit: str = "N*m", abscissa: str = "angle", **panel: Any) -> Figure:
-    drawn = Panel(title="Torque", unit=unit, series=(Series(curve=series, label="T"),), **panel)
-    return Plot(id="turn", title="Turn", caption="", abscissa=abscissa, panels=(drawn,))
+    drawn = Panel("Torque", unit, series=(Series(series, "T"),), **panel)
+    return Plot("turn", "Turn", "", abscissa=abscissa, panels=(drawn,))
 
 
 def require(**changes: Any) -> Require:
@@ -466,15 +466,11 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     "no abscissa": (made(figures=(plot(abscissa="moment"),)), "the abscissa is moment, which is not an Abscissa"),
     "a level that is not always there": (
-        made(value("x", needs=("width",)), figures=(plot(levels=(Level(value="x", label="x"),)),)),
+        made(value("x", needs=("width",)), figures=(plot(levels=(Level("x", "x"),)),)),
         "draws x, which nothing gives without width",
     ),
     "a bar in another unit": (
-        made(
-            figures=(
-                Bars(id="b", title="", caption="", groups=(BarGroup(label="", unit="N", bars=(("M", "-moment"),)),)),
-            )
-        ),
+        made(figures=(Bars("b", "", "", groups=(BarGroup("", "N", bars=(("M", "-moment"),)),)),)),
         "draws moment, in N*m, on an axis in N",
     ),
     # inputs

@@ -33,4 +33,4 @@ def test_what_a_figure_names_has_a_use(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_what_only_a_drawings_code_names_has_a_use() -> None:
-    assert "drawn" not in named(many(Drawing(id="d", title="D", caption="D", build=draw)))
+    assert "drawn" not in named(many(Drawing("d", "D", "D", build=draw)))

@@ -197,8 +197,8 @@ def turned(limits: Any) -> list[str]:
         chapter.turn = abscissa(period=2 * np.pi), "φ", "deg", "Turn"
         chapter.sine = np.sin(m.turn), "s", "1", "Sine"
 
-    panel = Panel(title="Sine", unit="1", series=(Series(curve="sine", label="s"),), range=limits)
-    return told(declare, Plot(id="p", title="P", caption="", abscissa="turn", panels=(panel,)))
+    panel = Panel("Sine", "1", series=(Series("sine", "s"),), range=limits)
+    return told(declare, Plot("p", "P", "", abscissa="turn", panels=(panel,)))
 
 
 @pytest.mark.parametrize(("limits", "words"), RANGES.values(), ids=RANGES)
@@ -216,10 +216,10 @@ def test_ranges_of_polar_diagrams_and_of_bars_are_judged_too() -> None:
         chapter.sine = np.sin(m.turn), "s", "1", "Sine"
 
     def drawn(limits: Any) -> list[str]:
-        series, bars = (Series(curve="sine", label="s"),), (("z", "teeth"),)
-        polar = Polar(id="p", title="P", caption="", abscissa="turn", unit="1", series=series, range=limits)
-        group = BarGroup(label="G", unit="1", bars=bars, range=limits)
-        return told(declare, polar, Bars(id="b", title="B", caption="", groups=(group,)))
+        series, bars = (Series("sine", "s"),), (("z", "teeth"),)
+        polar = Polar("p", "P", "", abscissa="turn", unit="1", series=series, range=limits)
+        group = BarGroup("G", "1", bars=bars, range=limits)
+        return told(declare, polar, Bars("b", "B", "", groups=(group,)))
 
     assert drawn((0, None)) == drawn(("teeth", None)) == drawn(None) == []
     of_polar, of_bars = drawn((2, 1))

@@ -93,7 +93,7 @@ MECHANISM = Mechanism(
     inputs=Geared,
     chapters=(shaft, wheels, turning),
     figures=(
-        Plot(id="lifts", title="Lift", caption="The lift.", abscissa="turn",
-             panels=(Panel(title="Lift", unit="mm", series=(Series(curve="lift", label="h"),)),)),
+        Plot("lifts", "Lift", "The lift.", abscissa="turn",
+             panels=(Panel("Lift", "mm", series=(Series("lift", "h"),)),)),
     ),
 )  # fmt: skip

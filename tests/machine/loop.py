@@ -166,7 +166,7 @@ MECHANISM = Mechanism(
     summary="A rope around posts.",
     inputs=Loop,
     chapters=(POSTS, ROPE),
-    figures=(Chart(id="sweep", title="Sweep", caption="Height over the swing.", build=sweep),),
+    figures=(Chart("sweep", "Sweep", "Height over the swing.", build=sweep),),
     exports=(Profile(id="rope", title="Rope", columns=("height", "area")),),
     comparisons=(
         Comparison(

@@ -338,7 +338,7 @@ def test_a_drawing_that_gives_no_shapes_is_told(drawn: Any, given: str) -> None:
     def drum(view: Any) -> Any:
         return drawn
 
-    mechanism = replace(lift(), figures=(Drawing(id="drum", title="Drum", caption="", build=drum),))
+    mechanism = replace(lift(), figures=(Drawing("drum", "Drum", "", build=drum),))
     [figure] = figures(run_beyond(mechanism))
     assert figure.type == "failed"
     assert figure.error.startswith(f"drum gives {given}; return a list of what circle, polyline,")

@@ -47,9 +47,9 @@ def wave(drawn: str = "height") -> Mechanism:
     chapter.height = m.shift + np.sin(m.angle), "h", "m", "Height"
     chapter.depth = -m.height, "d", "m", "Depth"
     chapter.size = reduction("abs_max", of="height"), "h_m", "m", "Greatest size"
-    marks = (Mark(x="size_at", y="size", label="greatest"),)
-    panel = Panel(title="Height", unit="m", series=(Series(curve=drawn, label="h"),), marks=marks)
-    plot = Plot(id="wave", title="Wave", caption="", abscissa="angle", panels=(panel,))
+    marks = (Mark("size_at", "size", "greatest"),)
+    panel = Panel("Height", "m", series=(Series(drawn, "h"),), marks=marks)
+    plot = Plot("wave", "Wave", "", abscissa="angle", panels=(panel,))
     return Mechanism(kind="wave", version="1", title="", summary="", inputs=Wave, chapters=(chapter,), figures=(plot,))
 
 
@@ -74,7 +74,7 @@ def test_a_size_beside_another_curve_stays_a_size() -> None:
 
 
 def test_a_chart_without_panels_is_left_out() -> None:
-    empty = Chart(id="none", title="None", caption="", build=lambda view: [])
+    empty = Chart("none", "None", "", build=lambda view: [])
     mechanism = replace(wave(), figures=(empty, *wave().figures))
     assert [each.id for each in figures(calculate(mechanism, {"shift": 0.0, "n_points": 36}))] == ["wave"]
 

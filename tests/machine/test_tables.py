@@ -232,13 +232,13 @@ def figured(figure: Any) -> FigureRecord:
 
 
 def round_diagram(limits: Any) -> FigureRecord:
-    drawn = (Series(curve="lift", label="h"),)
-    return figured(Polar(id="p", title="Lift", caption="", abscissa="turn", unit="mm", series=drawn, range=limits))
+    drawn = (Series("lift", "h"),)
+    return figured(Polar("p", "Lift", "", abscissa="turn", unit="mm", series=drawn, range=limits))
 
 
 def barred(limits: Any) -> FigureRecord:
-    group = BarGroup(label="Bores", unit="mm", bars=(("one", "bore"), ("less", "-lift_max")), range=limits)
-    return figured(Bars(id="b", title="Bars", caption="", groups=(group,)))
+    group = BarGroup("Bores", "mm", bars=(("one", "bore"), ("less", "-lift_max")), range=limits)
+    return figured(Bars("b", "Bars", "", groups=(group,)))
 
 
 def test_a_polar_diagram_has_the_range_of_its_distances() -> None:
@@ -265,7 +265,7 @@ def test_a_charts_panel_has_a_range_in_its_unit() -> None:
         panel = chart_panel(
             "Lift", "mm", "Turn", "φ", "deg", lines=[line([0, 1], [0.001, np.nan], "h")], range=limits, **more
         )
-        drawn = Chart(id="own", title="Own", caption="", build=lambda view: [panel])
+        drawn = Chart("own", "Own", "", build=lambda view: [panel])
         return figures(calculate(replace(MECHANISM, figures=(drawn,)), flatten(Geared(bearing="6204"))))[0]
 
     assert chart((0, 2)).panels[0].range == [0, 0.002]

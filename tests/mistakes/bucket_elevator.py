@@ -264,14 +264,14 @@ CHECKS = (
 )
 
 FIGURES = (
-    Plot(id="turn", title="One turn of the head drum", caption="Force on the waste and torque over a turn.", abscissa="angle",
-         panels=(Panel(title="Force on the waste", unit="N", series=(Series(curve="normal_force", label="N_w"),),
-                       marks=(Mark(x="press_max_at", y="press_max", label="greatest"),)),
-                 Panel(title="Torque", unit="N*m", series=(Series(curve="shaft_torque", label="M"),),
-                       levels=(Level(value="torque_mean", label="mean"),)))),
-    Drawing(id="head", title="Head drum", caption="The head drum, to scale.", build=head_drawing),
-    Bars(id="pulls", title="Pulls", caption="Components of the pull.",
-         groups=(BarGroup(label="Pull", unit="N", bars=(("waste", "lift_force"), ("scooping", "scoop_force"), ("all", "circumferential_pull"))),)),
+    Plot("turn", "One turn of the head drum", "Force on the waste and torque over a turn.", abscissa="angle",
+         panels=(Panel("Force on the waste", "N", series=(Series("normal_force", "N_w"),),
+                       marks=(Mark("press_max_at", "press_max", "greatest"),)),
+                 Panel("Torque", "N*m", series=(Series("shaft_torque", "M"),),
+                       levels=(Level("torque_mean", "mean"),)))),
+    Drawing("head", "Head drum", "The head drum, to scale.", build=head_drawing),
+    Bars("pulls", "Pulls", "Components of the pull.",
+         groups=(BarGroup("Pull", "N", bars=(("waste", "lift_force"), ("scooping", "scoop_force"), ("all", "circumferential_pull"))),)),
 )
 
 MECHANISM = Mechanism(

@@ -51,7 +51,7 @@ def panels(view: View) -> list[Shape]:
 
 MECHANISM = Mechanism(
     kind="wedge", version="1.0", title="Wedge", summary="A wedge spreads.", inputs=Wedge, chapters=(spread,),
-    figures=(Chart(id="over_angle", title="Spreading force", caption="It falls with the angle.", build=panels),),
+    figures=(Chart("over_angle", "Spreading force", "It falls with the angle.", build=panels),),
 )  # fmt: skip
 
 PRESS = """

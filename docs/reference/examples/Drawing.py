@@ -79,7 +79,7 @@ def shapes(view: View) -> list[Shape]:
 MECHANISM = Mechanism(
     kind="crank_slider", version="1.0", title="Crank drive", summary="A crank drive.", inputs=CrankSlider, chapters=(motion,),
     figures=(
-        Drawing(id="drive", title="Crank drive", caption="To scale at 60° of the crank.", build=shapes, moving=pose, over="angle"),
+        Drawing("drive", "Crank drive", "To scale at 60° of the crank.", build=shapes, moving=pose, over="angle"),
     ),
 )  # fmt: skip
 

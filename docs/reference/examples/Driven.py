@@ -53,7 +53,7 @@ MECHANISM = Mechanism(
     kind="line", version="1.0", title="Line", summary="Runs with the shaft.", inputs=Line, chapters=(turn,),
     figures=(
         Drawing(
-            id="line", title="Line", caption="Its period.", schematic=True, build=lambda view: bar(view, 0.0), moving=bar, over="shaft",
+            "line", "Line", "Its period.", schematic=True, build=lambda view: bar(view, 0.0), moving=bar, over="shaft",
             drives=lambda view: [Driven(view.prepared("name"), view["offset"], TURN)],
         ),
     ),

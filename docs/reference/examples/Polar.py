@@ -34,10 +34,10 @@ torque.torque_max = reduction("max", of="torque"), "M_max", "N*m", "Maximum torq
 MECHANISM = Mechanism(
     kind="rotor", version="1.0", title="Rotor", summary="Torque of a rotor.", inputs=Rotor, chapters=(torque,),
     figures=(
-        Polar(id="about", title="Torque about the axis", caption="Distance from the pole: torque.", abscissa="angle", unit="N*m",
-              series=(Series(curve="torque", label="torque"),)),
-        Bars(id="parts", title="Parts of the torque", caption="Mean, ripple and greatest.",
-             groups=(BarGroup(label="torque", unit="N*m", bars=(("mean", "mean"), ("ripple", "ripple"), ("greatest", "torque_max"))),)),
+        Polar("about", "Torque about the axis", "Distance from the pole: torque.", abscissa="angle", unit="N*m",
+              series=(Series("torque", "torque"),)),
+        Bars("parts", "Parts of the torque", "Mean, ripple and greatest.",
+             groups=(BarGroup("torque", "N*m", bars=(("mean", "mean"), ("ripple", "ripple"), ("greatest", "torque_max"))),)),
     ),
 )  # fmt: skip
 

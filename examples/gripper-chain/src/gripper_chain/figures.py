@@ -48,42 +48,42 @@ def wear(view: View) -> list[Shape]:
 
 FIGURES = (
     Drawing(
-        id="loop",
-        title="Chain, bars and stations",
-        caption="The loop to scale: sprockets as polygons, the upper strand with its stations, the slack strand as a catenary, the gripper bars.",
+        "loop",
+        "Chain, bars and stations",
+        "The loop to scale: sprockets as polygons, the upper strand with its stations, the slack strand as a catenary, the gripper bars.",
         build=loop,
     ),
     Plot(
-        id="tooth",
-        title="Polygon effect over a tooth",
-        caption="While the sprocket turns by a tooth the velocity rises and falls; where the next joint comes up, the acceleration jumps from "
+        "tooth",
+        "Polygon effect over a tooth",
+        "While the sprocket turns by a tooth the velocity rises and falls; where the next joint comes up, the acceleration jumps from "
         "its minimum to its maximum value.",
         abscissa="sprocket_angle",
         panels=(
             Panel(
-                title="Velocity",
-                unit="m/s",
-                series=(Series(curve="velocity", label="v_θ"),),
-                levels=(Level(value="chain_speed", label="mean"),),
+                "Velocity",
+                "m/s",
+                series=(Series("velocity", "v_θ"),),
+                levels=(Level("chain_speed", "mean"),),
                 range=(None, None),
             ),
-            Panel(title="Acceleration", unit="m/s**2", series=(Series(curve="acceleration", label="a_θ"),)),
+            Panel("Acceleration", "m/s**2", series=(Series("acceleration", "a_θ"),)),
             Panel(
-                title="Pull of a chain",
-                unit="N",
-                series=(Series(curve="tension", label="F_θ"),),
-                marks=(Mark(x="tension_max_at", y="tension_max", label="maximum"),),
+                "Pull of a chain",
+                "N",
+                series=(Series("tension", "F_θ"),),
+                marks=(Mark("tension_max_at", "tension_max", "maximum"),),
             ),
         ),
     ),
     Bars(
-        id="pulls",
-        title="Components of the pull",
-        caption="Components of the maximum pull of a chain.",
+        "pulls",
+        "Components of the pull",
+        "Components of the maximum pull of a chain.",
         groups=(
             BarGroup(
-                label="Pull",
-                unit="N",
+                "Pull",
+                "N",
                 bars=(
                     ("slack strand", "slack_tension"),
                     ("centrifugal", "centrifugal_tension"),
@@ -95,17 +95,17 @@ FIGURES = (
         ),
     ),
     Chart(
-        id="wear",
-        title="Wear",
-        caption="A worn chain hangs deeper and pulls less at its slack side, until the sprockets are moved apart.",
+        "wear",
+        "Wear",
+        "A worn chain hangs deeper and pulls less at its slack side, until the sprockets are moved apart.",
         build=wear,
     ),
     Plot(
-        id="grippers",
-        title="Grippers over a turn of the main shaft",
-        caption="Opening of the grippers that pass the pick-up point.",
+        "grippers",
+        "Grippers over a turn of the main shaft",
+        "Opening of the grippers that pass the pick-up point.",
         abscissa="main_angle",
         needs=("cam",),
-        panels=(Panel(title="Opening", unit="mm", series=(Series(curve="gripper_opening", label="h_φ"),)),),
+        panels=(Panel("Opening", "mm", series=(Series("gripper_opening", "h_φ"),)),),
     ),
 )
