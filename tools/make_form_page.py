@@ -12,7 +12,7 @@ from typing import Any
 
 from diecut_report import api, testing
 from diecut_report.mechanism.steps import Options, StepCondition
-from tools.site.api_examples import FOLDER, example_of
+from tools.site.api_examples import FOLDER, TYPES, example_of
 from tools.site.markup import code, plain, table
 from tools.site.reference import (
     GROUPS,
@@ -23,6 +23,7 @@ from tools.site.reference import (
     is_own,
     is_recipe,
     methods,
+    named,
     paragraphs,
     short,
     signature,
@@ -65,7 +66,7 @@ OPTIONS = """\
 
 Calls of a chapter take `needs` and `lacks` alone.
 """
-STEPLESS = {"phase": "Phase", "listing": "ListedColumn", "add": "Steps"}  # calls whose example is that of another name
+STEPLESS = {"add": "Steps"}  # calls whose example is that of another name
 MEANINGS = {
     "source": 'where the formula comes from, as it is printed beside it: `"ISO 281, 5.2"`, or the id of a `Source`',
     "source_symbol": "the letter that the source uses, where it is another one",
@@ -128,7 +129,7 @@ def _calls() -> Iterator[str]:
     for name in dict.fromkeys([*(name for name in vars(api.Steps) if name in offered), *offered]):
         if inspect.isfunction(offered[name]):
             step = "".join(part.capitalize() for part in name.split("_"))
-            yield from _call(name, offered[name], step if step in api.__all__ else "")
+            yield from _call(name, offered[name], step if step in TYPES else "")
 
 
 def _call(name: str, method: Any, step: str) -> Iterator[str]:
@@ -136,9 +137,9 @@ def _call(name: str, method: Any, step: str) -> Iterator[str]:
     yield from (f"### `chapter.{name}`", "", *_signature(f"chapter.{name}", method))
     own = list(paragraphs(method))
     if step:  # whose words are the longer ones; of the call's those that name nothing else anew
-        is_same = inspect.getdoc(method) == inspect.getdoc(getattr(api, step))
+        is_same = inspect.getdoc(method) == inspect.getdoc(TYPES[step])
         own = [] if is_same else [each for each in own[1:] if not each.startswith("``")]
-    yield from (_text(each) for each in ((*paragraphs(getattr(api, step)), *own) if step else own))
+    yield from (_text(each) for each in ((*paragraphs(TYPES[step]), *own) if step else own))
     yield from _example(step or STEPLESS.get(name, ""))
 
 
@@ -147,7 +148,7 @@ def _is_step(name: str) -> bool:
 
 
 def _name(name: str) -> Iterator[str]:
-    thing = getattr(api, name)
+    thing = named(name)
     if name in TOLD:
         yield from (f"### `{name}`", "", TOLD[name], "")
     else:

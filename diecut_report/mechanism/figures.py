@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.mechanism.names import placed
+from diecut_report.mechanism.names import here, placed
 from diecut_report.quantities.formatting import si
 
 Point = tuple[float, float]
@@ -124,7 +124,7 @@ class Figure:
     title: str
     caption: str
     needs: tuple[str, ...] = field(default=(), kw_only=True)
-    at: str = placed()
+    at: str = field(default_factory=here, kw_only=True, repr=False, compare=False)
 
 
 @dataclass(frozen=True, eq=False)

@@ -296,7 +296,8 @@ def _worded(model: type[Block], suffix: str, words: Mapping[str, str]) -> type[B
         assert meta is not None, "keys of a block are declared by assignment"
         symbol = f"{meta.symbol}{',' if '_' in meta.symbol else '_'}{suffix}" if suffix and meta.symbol else meta.symbol
         keys[name] = replace(meta, symbol=symbol, description=_with_words(meta.description, words, name))
-    return type(model)(f"{model.__name__}_{suffix}" if suffix else model.__name__, (model,), keys)
+    made: type[Block] = KeysByAssignment(f"{model.__name__}_{suffix}" if suffix else model.__name__, (model,), keys)
+    return made
 
 
 def _with_words(description: str, words: Mapping[str, str], name: str) -> str:

@@ -10,7 +10,6 @@ import numpy as np
 from diecut_report.api import (
     Chapter,
     Formula,
-    Value,
     Vary,
     computed,
     m,
@@ -41,11 +40,11 @@ CHAPTERS = (
 )
 
 
-def _rating() -> tuple[tuple[frozenset[str], Value], ...]:
+def _rating() -> tuple[tuple[frozenset[str], Any], ...]:
     """The steps of the rating that the safeties follow from, in their order, each with the inputs that it needs."""
     known = {load.DYNAMIC_KNOWN}
-    steps = [
-        (frozenset(chapter.needs), step) for chapter in CHAPTERS for step in chapter.steps if isinstance(step, Value)
+    steps: list[tuple[frozenset[str], Any]] = [
+        (frozenset(chapter.needs), step) for chapter in CHAPTERS for step in chapter.steps if hasattr(step, "formula")
     ]
     wanted = set(SAFETIES)
     for _, step in reversed(steps):
@@ -78,7 +77,7 @@ def least_module(given: Mapping[str, Any]) -> Any:
     return np.where(held.any(axis=1), first, 0.0)[:, None]
 
 
-def _value(step: Value, known: dict[str, Any]) -> Any:
+def _value(step: Any, known: dict[str, Any]) -> Any:
     assert isinstance(step.formula, Formula), phrase("the rating has no formula that a text chooses")
     return step.formula(*(known[name] for name in step.formula.parameters))
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Interpolated, Steps, formula, interpolated, own_table, pi
+from diecut_report.api import Steps, formula, interpolated, own_table, pi
 
 # fmt: off
 
@@ -80,7 +80,7 @@ between.table_y = (interpolated(FACTORS, of="held_axial", column="Y", key="beari
 def table_factors(axial: Array, static_rating: Array, f0: Array) -> tuple[Array, Array]:
     """Return e and Y of deep groove ball bearings."""
     relative = np.asarray(held.function(relative_axial.function(f0, axial, static_rating)))
-    e, y = (step.between.function(relative) for step in between.steps if isinstance(step, Interpolated))
+    e, y = (step.between.function(relative) for step in between.steps if hasattr(step, "between"))
     return e, y
 
 

@@ -21,7 +21,6 @@ Capture = pytest.CaptureFixture[str]
 PLUGIN = """
 import numpy as np
 from diecut_report.api import *
-from diecut_report.api import samples
 
 
 class Disc(Inputs):

@@ -15,20 +15,13 @@ import pint
 import pytest
 
 from diecut_report.api import (
-    Abscissa,
-    Accumulated,
     Chapter,
     Check,
-    Derivative,
     Formula,
     Inputs,
     Mechanism,
     Quantity,
-    Reduction,
-    Root,
     Step,
-    Value,
-    Words,
     arccos,
     as_angle,
     as_number,
@@ -53,6 +46,7 @@ from diecut_report.declaration.formula_checks import (
 from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import Node, unsaid
 from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.steps import Abscissa, Accumulated, Derivative, Reduction, Root, Value, Words
 from diecut_report.mechanism.steps.interpolated import Between
 from diecut_report.quantities.units import DIMENSIONS, unit
 

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Phase, Quantity, abscissa, m, samples
+from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Quantity, abscissa, m, samples
 from diecut_report.declaration import faults
+from diecut_report.mechanism.steps import Phase
 
 
 class Knife(Inputs):

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Abscissa, Chapter, Constant, Inputs, Mechanism, Quantity, Value, formula, m, pi
+from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Quantity, formula, m, pi
 from diecut_report.declaration.formula_checks import dimensions
 from diecut_report.formulas.expression import FormulaError
 from diecut_report.formulas.formula import Formula, evaluate
@@ -19,6 +19,7 @@ from diecut_report.formulas.tree import Node
 from diecut_report.machine.numerics.curves import Program
 from diecut_report.machine.printing.page import section_items
 from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.steps import Abscissa, Value
 from diecut_report.report.equations import Equations, Typesetter
 from diecut_report.report.mathematics import Latex, Linear
 from diecut_report.report.text import Catalogue

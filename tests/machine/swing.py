@@ -7,33 +7,35 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
-    Abscissa,
-    Accumulated,
-    Breakpoints,
     Case,
     Chapter,
-    Choice,
-    Computed,
-    Crossings,
     Curve,
     CurveInput,
-    CurvePeriod,
-    Derivative,
-    FromCurve,
     Inputs,
     Mechanism,
     OneOf,
     Quantity,
-    Reduction,
-    Require,
     Spectrum,
     SpectrumLine,
     Text,
-    Value,
     formula,
     m,
     number,
     pi,
+)
+from diecut_report.mechanism.steps import (
+    Abscissa,
+    Accumulated,
+    Breakpoints,
+    Choice,
+    Computed,
+    Crossings,
+    CurvePeriod,
+    Derivative,
+    FromCurve,
+    Reduction,
+    Require,
+    Value,
 )
 
 LENGTH, SPEED = (("mass", "mm"),), (("mass", "m/s"),)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, CurveInput, Inputs, Mechanism, Require, Value, as_angle, formula, m, pi
+from diecut_report.api import Chapter, CurveInput, Inputs, Mechanism, as_angle, formula, m, pi
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import Discovery
@@ -22,7 +22,7 @@ from diecut_report.machine.numerics.extremes import Spots, around, vertices
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.mechanism.inputs import Quantity
-from diecut_report.mechanism.steps import Choice, Root
+from diecut_report.mechanism.steps import Choice, Require, Root, Value
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import AbsentRecord
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, known_paths

@@ -10,7 +10,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from diecut_report.api import Block, Derivative, FromPress, Inputs, Mechanism, Quantity, SpectrumLine, Step, block
+from diecut_report.api import Block, FromPress, Inputs, Mechanism, Quantity, SpectrumLine, Step, block
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema, kind_schema
 from diecut_report.declaration.formula_checks import check_mechanism
@@ -18,6 +18,7 @@ from diecut_report.errors import UserError
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import form_keys, in_all_units, in_form, in_unit
 from diecut_report.mechanism.inputs import flatten, meta_of
+from diecut_report.mechanism.steps import Derivative
 from diecut_report.press import Press
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue

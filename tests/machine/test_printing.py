@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Quantity, Value, abscissa, formula, m, samples
+from diecut_report.api import Chapter, Constant, Inputs, Mechanism, Quantity, abscissa, formula, m, samples
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.formulas.formula import Formula, evaluate
@@ -23,6 +23,7 @@ from diecut_report.machine.printing.page import definitions, items, section_item
 from diecut_report.machine.printing.substitution import _constant, _quantity, bounded
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
+from diecut_report.mechanism.steps import Value
 from diecut_report.quantities.formatting import number_text, shortest, told
 from diecut_report.quantities.units import unit
 from diecut_report.report.chapters.chapters import chapter as chapter_of

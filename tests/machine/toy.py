@@ -5,33 +5,35 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import (
-    Abscissa,
     Block,
-    Breakpoints,
     Case,
     Chapter,
     Check,
-    Choice,
     Constant,
-    Crossings,
     CurveInput,
-    FromCurve,
     Inputs,
     Mechanism,
-    Pick,
     Quantity,
-    Reduction,
-    Require,
-    Root,
     Text,
-    Total,
-    Value,
-    Words,
     block,
     formula,
     m,
     parts,
     prefixed,
+)
+from diecut_report.mechanism.steps import (
+    Abscissa,
+    Breakpoints,
+    Choice,
+    Crossings,
+    FromCurve,
+    Pick,
+    Reduction,
+    Require,
+    Root,
+    Total,
+    Value,
+    Words,
 )
 
 HEAVY = Constant(5000, "F_h", "N")

@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Abscissa, Chapter, Inputs, Mechanism, Quantity, Value, formula
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, formula
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.steps import Abscissa, Value
 from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import checks, inputs

@@ -15,11 +15,12 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline, make_interp_spline
 
-from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, formula, m, pi
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, formula, m, pi
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import motion_laws
+from diecut_report.mechanism.steps import Abscissa, Breakpoints, Value
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.results.mechanism import mechanism_results

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, formula, m
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, formula, m
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.steps import Abscissa, Breakpoints, Value
 from diecut_report.press import Press
 from tests.configs import HEAD, saved
 from tests.examples import few

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from diecut_report.api import (
-    Abscissa,
     Block,
     Chapter,
     Check,
@@ -19,7 +18,6 @@ from diecut_report.api import (
     OneOf,
     Quantity,
     Text,
-    Value,
     block,
     formula,
     m,
@@ -33,6 +31,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.mechanism.names import Misdeclared
+from diecut_report.mechanism.steps import Abscissa, Value
 from diecut_report.report.chapters.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue

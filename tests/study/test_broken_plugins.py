@@ -30,18 +30,8 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import field_validator
 
-from diecut_report.api import (
-    Abscissa,
-    Chapter,
-    Computed,
-    FromPress,
-    Inputs,
-    Mechanism,
-    Quantity,
-    Value,
-    formula,
-    samples,
-)
+from diecut_report.api import Chapter, FromPress, Inputs, Mechanism, Quantity, formula, samples
+from diecut_report.mechanism.steps import Abscissa, Computed, Value
 
 
 class Breaking(Inputs):

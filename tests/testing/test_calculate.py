@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, Mechanism, Step, Value, formula, m
+from diecut_report.api import Chapter, Mechanism, Step, formula, m
 from diecut_report.config.loader import load_config
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.errors import PluginError
+from diecut_report.mechanism.steps import Value
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.testing.machines import Refused, calculate, load

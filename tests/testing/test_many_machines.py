@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, Check, Computed, Inputs, Mechanism, Quantity, abscissa, computed, m, samples
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, abscissa, computed, m, samples
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.checks import CheckClass
+from diecut_report.mechanism.steps import Computed
 from diecut_report.testing.contract import constant
 from diecut_report.testing.machines import MachineCase, unlike_curves, unlike_verdicts
 from tests.declaration.test_faults import check, made

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 from diecut_report import api
 from diecut_report.config.plugins import LIST, Discovery
+from diecut_report.mechanism import steps
 from diecut_report.press import Press
 from diecut_report.results.mechanism_record import QuantityRecord
 from diecut_report.results.model import ResultsRecord
@@ -25,6 +26,8 @@ from tools.site.sources import ROOT
 FOLDER = ROOT / "docs" / "reference" / "examples"
 HEAD = {"schema_version": "1", "project": "{title: Example}", "press": "{name: Example}"}
 SAID = ("PRESS", "TABLES", "GIVES")
+TYPES = {name: each for name, each in vars(steps).items() if isinstance(each, type) and issubclass(each, steps.Step)}
+"""The types of steps, which authors declare by calls: the words and fields of each are told with its call."""
 
 
 class ApiExample(NamedTuple):
@@ -65,7 +68,7 @@ def _read(file: Path) -> ApiExample:
     tree = ast.parse(text)
     names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
     used = {own for own, called in _imported(tree).items() if called in names}
-    shows = frozenset(used | {type_of(own) for own in used} | set(_declared(tree))) & {*api.__all__}
+    shows = frozenset(used | {type_of(own) for own in used} | set(_declared(tree))) & {*api.__all__, *TYPES}
     values = {name: value for name, value in _assigned(tree) if name in SAID}
     kinds = {_kind(value): name for name, value in _assigned(tree) if _is_mechanism(value)}
     words = " ".join((ast.get_docstring(tree) or "").split())

@@ -15,7 +15,7 @@ from diecut_report.mechanism.steps import Step
 from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.style import SizesSize
 from diecut_report.report.text import Catalogue
-from tools.site.api_examples import ApiExample, example_of, run
+from tools.site.api_examples import TYPES, ApiExample, example_of, run
 from tools.site.drawing_page import drawing_page
 from tools.site.formulas import functions_page
 from tools.site.markup import code, contents, fenced, html, plain, table
@@ -61,7 +61,7 @@ def _page(group: Group) -> Iterator[str]:
         if not has_place(name):
             continue
         yield from (f"## {code(name)}", "")
-        yield from _told(name, getattr(api, name))
+        yield from _told(name, named(name))
         yield from _example(name, group)
 
 
@@ -83,10 +83,14 @@ def _told(name: str, thing: Any) -> Iterator[str]:
         yield from _methods(name, thing)
 
 
+def named(name: str) -> Any:
+    """Return what a name stands for: one of the interface, or a type of step."""
+    return getattr(api, name, None) or TYPES[name]
+
+
 def call_of(name: str) -> str:
     """Return the name of the call that declares a type of step, where the name is that of one: of ``MadeCurve`` it is ``made_curve``."""
-    thing = getattr(api, name)
-    is_step = inspect.isclass(thing) and issubclass(thing, Step)
+    is_step = name in TYPES and name not in api.__all__
     return (
         "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name).lstrip("_")
         if is_step
@@ -96,7 +100,7 @@ def call_of(name: str) -> str:
 
 def is_recipe(name: str) -> bool:
     """Return whether a call says how a quantity is given."""
-    return name == "inner" or (name in api.__all__ and any(call_of(each) == name != each for each in api.__all__))
+    return name == "inner" or (name in api.__all__ and any(call_of(each) == name != each for each in TYPES))
 
 
 def has_place(name: str) -> bool:
@@ -122,7 +126,7 @@ def declaration(name: str) -> str:
 def words_of(name: str) -> list[Any]:
     """Return what tells of a step: of what gives a quantity its call, of others the type, and the call where it says something else."""
     own = declared_by(name)
-    thing = getattr(api, name)
+    thing = named(name)
     return (
         [own] if is_recipe(call_of(name)) else [thing, *([own] if inspect.getdoc(own) != inspect.getdoc(thing) else [])]
     )
@@ -335,7 +339,7 @@ GROUPS = (
         "Total", "total", "Neighbour", "neighbour", "Running", "running", "Part", "part", "Clash",
     )),
     Group("plain-code", "Plain code", "Objects that plain code makes once, and what several steps take of them.", (
-        "Prepared", "ComputedCurve", "computed_curve", "PartNames", "PartTable", "PartCurves", "ListedColumn", "Cell",
+        "Prepared", "ComputedCurve", "computed_curve", "PartNames", "PartTable", "PartCurves", "Listing", "ListedColumn", "Cell",
     )),
     Group("phases", "Phases", "When a mechanism does something, and how others take part in it.", ("Phase", "GivenPhase", "GivenMechanism")),
     Group("tables", "Tables and series", "Numbers of standards and of an author's own tables.", (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Chapter, Computed, Inputs, Mechanism, Quantity
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, computed
 
 
 class Fragile(Inputs):
@@ -15,26 +15,14 @@ def breaking(length: Any) -> Any:
     raise RuntimeError("the plugin fell over")
 
 
+only = Chapter("Only")
+only.result = computed(breaking, takes=("length",), method="none"), "r", "mm", "Result"
+
 MECHANISM = Mechanism(
     kind="breaks_in_calculation",
     version="1",
     title="Fragile",
     summary="",
     inputs=Fragile,
-    chapters=(
-        Chapter(
-            "Only",
-            steps=(
-                Computed(
-                    id="result",
-                    symbol="r",
-                    unit="mm",
-                    description="Result",
-                    function=breaking,
-                    takes=("length",),
-                    method="none",
-                ),
-            ),
-        ),
-    ),
+    chapters=(only,),
 )

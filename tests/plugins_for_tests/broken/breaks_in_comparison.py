@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Chapter, Comparison, Computed, Inputs, Mechanism, Quantity, Value, formula, m
+from diecut_report.api import Chapter, Comparison, Inputs, Mechanism, Quantity, computed, m
 
 
 class Rod(Inputs):
@@ -15,14 +15,12 @@ class Both(Inputs):
     arm = Quantity("a", "mm", "Arm of the lever")
 
 
-@formula
-def same(length: Any) -> Any:
-    return length
-
-
 def breaking(arm: Any) -> Any:
     raise RuntimeError("the comparison fell over")
 
+
+both = Chapter("Only")
+both.ratio = computed(breaking, takes=("arm",), method="none"), "r", "mm", "Ratio"
 
 COMPARISON = Mechanism(
     kind="rod_comparison",
@@ -30,31 +28,19 @@ COMPARISON = Mechanism(
     title="Lever and rod compared",
     summary="",
     inputs=Both,
-    chapters=(
-        Chapter(
-            "Only",
-            steps=(
-                Computed(
-                    id="ratio",
-                    symbol="r",
-                    unit="mm",
-                    description="Ratio",
-                    function=breaking,
-                    takes=("arm",),
-                    method="none",
-                ),
-            ),
-        ),
-    ),
+    chapters=(both,),
 )
-LENGTH = Value(id="result", symbol="r", unit="mm", description="Result", formula=same.of(length=m.length))
+
+only = Chapter("Only")
+only.result = +m.length, "r", "mm", "Result"
+
 MECHANISM = Mechanism(
     kind="breaks_in_comparison",
     version="1",
     title="Rod",
     summary="",
     inputs=Rod,
-    chapters=(Chapter("Only", steps=(LENGTH,)),),
+    chapters=(only,),
     comparisons=(
         Comparison(kinds=("lever", "breaks_in_comparison"), mechanism=COMPARISON, takes={"arm": ("lever", "arm")}),
     ),

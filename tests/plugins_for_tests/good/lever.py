@@ -7,29 +7,28 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
-    Abscissa,
     Block,
-    Case,
     Chapter,
     Check,
-    Choice,
     CurveInput,
-    FromCurve,
     FromPress,
     Inputs,
     Mechanism,
     Quantity,
-    Reduction,
-    Require,
     Text,
-    Total,
-    Value,
+    abscissa,
     block,
+    case,
+    choice,
     formula,
+    from_curve,
     m,
     parts,
     pi,
+    reduction,
     samples,
+    total,
+    value,
 )
 
 
@@ -65,35 +64,24 @@ class Lever(Inputs):
     n_points = samples(36)
 
 
-@formula
-def moment(force: Any, arm: Any) -> Any:
-    return force * arm
+lever = Chapter("Lever")
+lever.require("teeth_limit", m.teeth <= 100, key="teeth", message="is {teeth}; a hundred at most")
+lever.moment = m.force * m.arm, "M", "N*m", "Moment"
+lever.arm = m.inputs.arm, "a", "mm", "Arm as used"
+lever.pressure = value(m.force / (m.width * m.arm), needs=("width",)), "p", "MPa", "Pressure"
+lever.size = choice(case("small", "z < 17", m.teeth < 17), case("large", "z ≥ 17")), "s", "1", "Size"
 
+turn = Chapter("Turn")
+turn.angle = abscissa(2 * np.pi), "φ", "deg", "Angle"
+turn.torque = m.moment * np.sin(m.angle), "T", "N*m", "Torque"
+turn.torque_max = reduction("max", of="torque"), "T_max", "N*m", "Greatest"
 
-@formula
-def quotient(force: Any, width: Any, arm: Any) -> Any:
-    return force / (width * arm)
+row = Chapter("Parts", needs=("parts",))
+row.length = total("sum", of="parts.length"), "L", "mm", "Length of all parts"
 
-
-@formula
-def wave(angle: Any, moment: Any) -> Any:
-    return moment * np.sin(angle)
-
-
-@formula
-def same(length: Any) -> Any:
-    return length
-
-
-@formula
-def at_most_hundred(teeth: Any) -> Any:
-    return teeth <= 100
-
-
-@formula
-def few(teeth: Any) -> Any:
-    return teeth < 17
-
+load = Chapter("Load", needs=("load",))
+load.taken = from_curve("load", abscissa="angle"), "T_l", "N*m", "Load"
+load.taken_max = reduction("max", of="taken"), "T_lm", "N*m", "Greatest load"
 
 MECHANISM = Mechanism(
     kind="lever",
@@ -101,62 +89,7 @@ MECHANISM = Mechanism(
     title="Lever",
     summary="A force on an arm.",
     inputs=Lever,
-    chapters=(
-        Chapter(
-            "Lever",
-            steps=(
-                Require(
-                    id="teeth_limit", condition=at_most_hundred, key="teeth", message="is {teeth}; a hundred at most"
-                ),
-                Value(id="moment", symbol="M", unit="N*m", description="Moment", formula=moment),
-                Value(id="arm", symbol="a", unit="mm", description="Arm as used", formula=same.of(length=m.inputs.arm)),
-                Value(
-                    id="pressure", symbol="p", unit="MPa", description="Pressure", formula=quotient, needs=("width",)
-                ),
-                Choice(
-                    unit="1",
-                    id="size",
-                    symbol="s",
-                    description="Size",
-                    cases=(Case("small", "z < 17", few), Case("large", "z ≥ 17")),
-                ),
-            ),
-        ),
-        Chapter(
-            "Turn",
-            steps=(
-                Abscissa(id="angle", symbol="φ", unit="deg", description="Angle", period=2 * np.pi),
-                Value(id="torque", symbol="T", unit="N*m", description="Torque", formula=wave),
-                Reduction(
-                    id="torque_max", symbol="T_max", unit="N*m", description="Greatest", of="torque", operation="max"
-                ),
-            ),
-        ),
-        Chapter(
-            "Parts",
-            needs=("parts",),
-            steps=(
-                Total(
-                    id="length",
-                    symbol="L",
-                    unit="mm",
-                    description="Length of all parts",
-                    of="parts.length",
-                    operation="sum",
-                ),
-            ),
-        ),
-        Chapter(
-            "Load",
-            needs=("load",),
-            steps=(
-                FromCurve(id="taken", symbol="T_l", unit="N*m", description="Load", given="load", abscissa="angle"),
-                Reduction(
-                    id="taken_max", symbol="T_lm", unit="N*m", description="Greatest load", of="taken", operation="max"
-                ),
-            ),
-        ),
-    ),
+    chapters=(lever, turn, row, load),
     checks=(
         Check(
             id="moment",

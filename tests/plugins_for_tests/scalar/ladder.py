@@ -7,7 +7,7 @@ from typing import Any
 
 from scipy.optimize import brentq
 
-from diecut_report.api import Chapter, Check, Computed, Inputs, Mechanism, Quantity
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, computed
 
 
 class Ladder(Inputs):
@@ -27,29 +27,22 @@ def width(long: Any, short: Any, crossing: Any) -> Any:
     return brentq(residual, 0, min(a, b) * (1 - 1e-12), xtol=1e-15)
 
 
+alley = Chapter("Alley")
+alley.width = (
+    computed(width, takes=("long", "short", "crossing"), method="root of 1/√(a² − w²) + 1/√(b² − w²) = 1/c"),
+    "w",
+    "m",
+    "Width of the alley",
+    "geometry",
+)
+
 MECHANISM = Mechanism(
     kind="ladder",
     version="1",
     title="Crossing ladders",
     summary="Width of an alley in which two ladders cross.",
     inputs=Ladder,
-    chapters=(
-        Chapter(
-            "Alley",
-            steps=(
-                Computed(
-                    id="width",
-                    symbol="w",
-                    unit="m",
-                    description="Width of the alley",
-                    source="geometry",
-                    function=width,
-                    takes=("long", "short", "crossing"),
-                    method="root of 1/√(a² − w²) + 1/√(b² − w²) = 1/c",
-                ),
-            ),
-        ),
-    ),
+    chapters=(alley,),
     checks=(
         Check(
             id="wide",

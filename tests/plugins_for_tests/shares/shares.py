@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from diecut_report.api import (
-    Abscissa,
     Chapter,
     Check,
     CurveInput,
-    FromCurve,
     Inputs,
     Mechanism,
     Quantity,
-    Reduction,
     Text,
-    Value,
-    formula,
+    abscissa,
+    from_curve,
+    m,
+    reduction,
     samples,
 )
 
@@ -40,20 +37,15 @@ class Shares(Inputs):
     n_points = samples(36)
 
 
-@formula
-def work(force: Any, length: Any, share: Any, angle: Any, turn: Any, slope: Any) -> Any:
-    return force * length * share * np.cos(angle) * np.cos(turn) * slope
+work = Chapter("Work")
+work.work = m.force * m.length * m.share * np.cos(m.angle) * np.cos(m.turn) * m.slope, "W", "J", "Work"
+work.power = m.work * m.speed * m.ratio * m.count, "P", "W", "Power"
+work.rated = m.work * m.rate, "P_r", "W", "Power at the rate"
 
-
-@formula
-def power(work: Any, speed: Any, ratio: Any, count: Any) -> Any:
-    return work * speed * ratio * count
-
-
-@formula
-def per_turn(work: Any, rate: Any) -> Any:
-    return work * rate
-
+profile = Chapter("Profile", needs=("profile",))
+profile.place = abscissa(2 * np.pi), "φ", "deg", "Place"
+profile.taken = from_curve("profile", abscissa="place"), "p", "%", "Profile"
+profile.taken_max = reduction("max", of="taken"), "p_m", "%", "Greatest"
 
 MECHANISM = Mechanism(
     kind="shares",
@@ -61,25 +53,7 @@ MECHANISM = Mechanism(
     title="Shares",
     summary="Inputs of many units.",
     inputs=Shares,
-    chapters=(
-        Chapter(
-            "Work",
-            steps=(
-                Value(id="work", symbol="W", unit="J", description="Work", formula=work),
-                Value(id="power", symbol="P", unit="W", description="Power", formula=power),
-                Value(id="rated", symbol="P_r", unit="W", description="Power at the rate", formula=per_turn),
-            ),
-        ),
-        Chapter(
-            "Profile",
-            needs=("profile",),
-            steps=(
-                Abscissa(id="place", symbol="φ", unit="deg", description="Place", period=2 * np.pi),
-                FromCurve(id="taken", symbol="p", unit="%", description="Profile", given="profile", abscissa="place"),
-                Reduction(id="taken_max", symbol="p_m", unit="%", description="Greatest", of="taken", operation="max"),
-            ),
-        ),
-    ),
+    chapters=(work, profile),
     checks=(
         Check(
             id="power",
