@@ -14,10 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from diecut_report.formulas.expression import Expression, m, node_of, refuse
+from diecut_report.formulas.tree import Node
 from diecut_report.text.phrases import Phrase, phrase
 
 
-class Part(NamedTuple):
+class PointPart(NamedTuple):
     """Hold a quantity by which a point is declared: its id behind the point's, its letter, what gives it, its description."""
 
     name: str
@@ -37,7 +38,7 @@ class Demand(NamedTuple):
 
 
 Own = Callable[[str], Any]  # gives the quantities by which a point is declared, by their names
-Parts = Iterator[Part | Demand]
+Parts = Iterator[PointPart | Demand]
 
 
 class PlanePoint(NamedTuple):
@@ -48,8 +49,8 @@ class PlanePoint(NamedTuple):
 
     def parts(self, own: Own) -> Parts:
         """Yield both coordinates."""
-        yield Part("x", "x", self.x, phrase("{point}: x-coordinate"), output=True)
-        yield Part("y", "y", self.y, phrase("{point}: y-coordinate"), output=True)
+        yield PointPart("x", "x", self.x, phrase("{point}: x-coordinate"), output=True)
+        yield PointPart("y", "y", self.y, phrase("{point}: y-coordinate"), output=True)
 
 
 class Meeting(NamedTuple):
@@ -149,25 +150,33 @@ def _of_circles(first: Circle, second: Circle, sign: int, key: Any, own: Own) ->
     span, foot, height = own("span"), own("foot"), own("height")
     apart = phrase("is too short: the circles that meet in “{point}” lie farther apart than both radii together")
     within = phrase("is too unlike the other radius: of the circles that meet in “{point}” one lies within the other")
-    yield Part("span", "d", distance(first.center, second.center), phrase("{point}: distance of the circles' centres"))
+    yield PointPart(
+        "span", "d", distance(first.center, second.center), phrase("{point}: distance of the circles' centres")
+    )
     yield Demand("in_reach", span < first.radius + second.radius, key, apart)
     yield Demand("not_within", span > abs(first.radius - second.radius), key, within)
     along = phrase("{point}: distance from the first centre, along the line of centres")
-    yield Part("foot", "a", (span**2 + first.radius**2 - second.radius**2) / (2 * span), along)
-    yield Part("height", "h", np.sqrt(first.radius**2 - foot**2), phrase("{point}: distance from the line of centres"))
+    yield PointPart("foot", "a", (span**2 + first.radius**2 - second.radius**2) / (2 * span), along)
+    yield PointPart(
+        "height", "h", np.sqrt(first.radius**2 - foot**2), phrase("{point}: distance from the line of centres")
+    )
     yield from on_link(first.center, second.center, span, foot, _times(sign, height)).parts(own)
 
 
 def _on_line(circle: Circle, line: Line, sign: int, key: Any, own: Own) -> Parts:
     way, vector, length = _way(line.start, circle.center), _unit(line.angle), 1
     if line.through is not None:
-        yield Part("length", "l", distance(line.start, line.through), phrase("{point}: distance of the line's points"))
+        yield PointPart(
+            "length", "l", distance(line.start, line.through), phrase("{point}: distance of the line's points")
+        )
         vector, length = _way(line.start, line.through), own("length")
     beside = _square(_over(_cross(vector, way), length))
     missed = phrase("is too short: the circle and the line that meet in “{point}” do not reach each other")
     yield Demand("in_reach", beside < circle.radius**2, key, missed)
-    yield Part("foot", "a", _over(_dot(vector, way), length), phrase("{point}: distance of the centre, along the line"))
-    yield Part("height", "h", np.sqrt(circle.radius**2 - beside), phrase("{point}: half the chord of the circle"))
+    yield PointPart(
+        "foot", "a", _over(_dot(vector, way), length), phrase("{point}: distance of the centre, along the line")
+    )
+    yield PointPart("height", "h", np.sqrt(circle.radius**2 - beside), phrase("{point}: half the chord of the circle"))
     yield from _beside(line.start, vector, length, own("foot") + _times(sign, own("height"))).parts(own)
 
 
@@ -206,7 +215,7 @@ def _plus(one: Any, other: Any) -> Any:
 
 def _minus(one: Any, other: Any) -> Any:
     sign, size = _signed(other)
-    return _plus(one, size) if sign < 0 else one if _is(other, 0) else -other if _is(one, 0) else one - other
+    return _plus(one, size) if sign < 0 else one if _is(other, 0) else _negated(other) if _is(one, 0) else one - other
 
 
 def _times(one: Any, other: Any) -> Any:
@@ -214,7 +223,12 @@ def _times(one: Any, other: Any) -> Any:
     if _is(left, 0) or _is(right, 0):
         return 0
     size = right if _is(left, 1) else left if _is(right, 1) else left * right
-    return size if sign == other_sign else -size
+    return size if sign == other_sign else _negated(size)
+
+
+def _negated(one: Any) -> Any:
+    node = node_of(one)
+    return Expression(Node("-", node.args[::-1])) if node.op == "-" else -one
 
 
 def _over(one: Any, other: Any) -> Any:

@@ -13,7 +13,7 @@ from scipy.integrate import dblquad, quad
 from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, m
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.mechanics import sections
-from diecut_report.mechanics.sections import Section
+from diecut_report.mechanics.sections import CrossSection
 
 B, H, T = 0.05, 0.03, 0.004
 D, BORE = 0.06, 0.02
@@ -46,7 +46,7 @@ SIZES = {"round_bar": (D,), "tube": (D, BORE), "rectangle": (B, H), "box": (B, H
 
 @pytest.mark.parametrize("name", SIZES)
 def test_areas_and_second_moments_are_integrals(name: str) -> None:
-    section: Section = getattr(sections, name)(*SIZES[name])
+    section: CrossSection = getattr(sections, name)(*SIZES[name])
     width, height = (B, H) if name in ("rectangle", "box") else (D, D)
     area, about_y, about_z = (over(name, of) for of in (lambda y, z: 1.0, lambda y, z: z**2, lambda y, z: y**2))
     assert section.area == pytest.approx(area, rel=1e-9)
@@ -62,7 +62,7 @@ def test_areas_and_second_moments_are_integrals(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["round_bar", "tube"])
 def test_a_circle_is_twisted_by_its_polar_second_moment(name: str) -> None:
-    section: Section = getattr(sections, name)(*SIZES[name])
+    section: CrossSection = getattr(sections, name)(*SIZES[name])
     polar = over(name, lambda y, z: y**2 + z**2)
     assert section.torsion_moment == pytest.approx(polar, rel=1e-9)
     assert section.torsion_modulus == pytest.approx(polar / (D / 2), rel=1e-9)
@@ -103,9 +103,9 @@ def test_the_limits_of_a_shape_are_other_shapes() -> None:
 
 @pytest.mark.parametrize("name", SIZES)
 def test_many_sections_are_each_alone(name: str) -> None:
-    many: Section = getattr(sections, name)(*(size * np.array([1.0, 2.0]) for size in SIZES[name]))
+    many: CrossSection = getattr(sections, name)(*(size * np.array([1.0, 2.0]) for size in SIZES[name]))
     for row, factor in enumerate((1.0, 2.0)):
-        alone: Section = getattr(sections, name)(*(size * factor for size in SIZES[name]))
+        alone: CrossSection = getattr(sections, name)(*(size * factor for size in SIZES[name]))
         assert [getattr(many, each.name)[row] for each in fields(many)] == pytest.approx(
             list(asdict(alone).values()), rel=1e-15
         )
@@ -123,7 +123,7 @@ UNITS = {"area": "mm**2", "modulus": "mm**3", "modulus_z": "mm**3", "torsion_mod
 @pytest.mark.parametrize("name", SIZES)
 def test_their_dimensions_balance(name: str) -> None:
     sizes: tuple[Any, ...] = (m.width, m.height, m.wall)[: len(SIZES[name])]
-    section: Section = getattr(sections, name)(*sizes)
+    section: CrossSection = getattr(sections, name)(*sizes)
     chapter = Chapter("Section")
     for number, each in enumerate(fields(section)):
         chapter[each.name] = getattr(section, each.name), f"A_{number}", UNITS.get(each.name, "mm**4"), each.name
