@@ -138,11 +138,7 @@ def meet(circle: Circle, other: Circle | Line, side: str, key: Any = None) -> Me
         refuse(Phrase("side is {given}, not {sides}", given=repr(side), sides=" or ".join(map(repr, sides))))
     key = circle.radius if key is None else key
     if not isinstance(key, str) and not getattr(key, "id", ""):
-        refuse(
-            phrase(
-                "the first radius is no input; name the one to be changed where these do not meet: meet(…, key=m.length)"
-            )
-        )
+        refuse(phrase("the first radius is no input; name the one to be changed here: meet(…, key=m.length)"))
     return Meeting(partial(parts, 1 if side == sides[0] else -1, key))
 
 
@@ -150,32 +146,26 @@ def _of_circles(first: Circle, second: Circle, sign: int, key: Any, own: Own) ->
     span, foot, height = own("span"), own("foot"), own("height")
     apart = phrase("is too short: the circles that meet in “{point}” lie farther apart than both radii together")
     within = phrase("is too unlike the other radius: of the circles that meet in “{point}” one lies within the other")
-    yield PointPart(
-        "span", "d", distance(first.center, second.center), phrase("{point}: distance of the circles' centres")
-    )
+    yield PointPart("span", "d", distance(first.center, second.center), phrase("{point}: distance of the centres"))
     yield Demand("in_reach", span < first.radius + second.radius, key, apart)
     yield Demand("not_within", span > abs(first.radius - second.radius), key, within)
     along = phrase("{point}: distance from the first centre, along the line of centres")
     yield PointPart("foot", "a", (span**2 + first.radius**2 - second.radius**2) / (2 * span), along)
-    yield PointPart(
-        "height", "h", np.sqrt(first.radius**2 - foot**2), phrase("{point}: distance from the line of centres")
-    )
+    yield PointPart("height", "h", np.sqrt(first.radius**2 - foot**2), phrase("{point}: distance from that line"))
     yield from on_link(first.center, second.center, span, foot, _times(sign, height)).parts(own)
 
 
 def _on_line(circle: Circle, line: Line, sign: int, key: Any, own: Own) -> Parts:
     way, vector, length = _way(line.start, circle.center), _unit(line.angle), 1
     if line.through is not None:
-        yield PointPart(
-            "length", "l", distance(line.start, line.through), phrase("{point}: distance of the line's points")
-        )
+        apart = phrase("{point}: distance of the line's points")
+        yield PointPart("length", "l", distance(line.start, line.through), apart)
         vector, length = _way(line.start, line.through), own("length")
     beside = _square(_over(_cross(vector, way), length))
     missed = phrase("is too short: the circle and the line that meet in “{point}” do not reach each other")
     yield Demand("in_reach", beside < circle.radius**2, key, missed)
-    yield PointPart(
-        "foot", "a", _over(_dot(vector, way), length), phrase("{point}: distance of the centre, along the line")
-    )
+    along = phrase("{point}: distance of the centre, along the line")
+    yield PointPart("foot", "a", _over(_dot(vector, way), length), along)
     yield PointPart("height", "h", np.sqrt(circle.radius**2 - beside), phrase("{point}: half the chord of the circle"))
     yield from _beside(line.start, vector, length, own("foot") + _times(sign, own("height"))).parts(own)
 

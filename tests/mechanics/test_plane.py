@@ -246,9 +246,9 @@ def test_the_quantities_of_a_meeting_have_its_symbol_and_description() -> None:
     items = {item["id"]: item for item in section_items(calc)[0]["items"] if "id" in item}
     told = [(name, items[name]["symbol"], items[name]["description"]) for name in items if name.startswith("knee_")]
     assert told == [
-        ("knee_span", "d_B", "Knee joint: distance of the circles' centres"),
+        ("knee_span", "d_B", "Knee joint: distance of the centres"),
         ("knee_foot", "a_B", "Knee joint: distance from the first centre, along the line of centres"),
-        ("knee_height", "h_B", "Knee joint: distance from the line of centres"),
+        ("knee_height", "h_B", "Knee joint: distance from that line"),
         ("knee_x", "x_B", "Knee joint: x-coordinate"),
         ("knee_y", "y_B", "Knee joint: y-coordinate"),
     ]
