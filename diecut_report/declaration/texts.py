@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import lru_cache
 from itertools import chain, combinations
@@ -98,7 +98,8 @@ def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
     for name in own:
         value = getattr(declared, name)
         if name in SAID:
-            yield from (DeclaredText(text, told) for text in ([value] if isinstance(value, str) else value))
+            whole = [value] if isinstance(value, str) else value
+            yield from (DeclaredText(text, told) for each in whole for text in _own_texts(each))
         elif name == "bars":
             yield from (DeclaredText(label, told) for label, _ in value)
         elif isinstance(declared, Case) and isinstance(value, str):  # what a choice gives
@@ -107,6 +108,12 @@ def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
             yield from _of_declared(value)
     if isinstance(declared, Spectrum):
         yield from (DeclaredText(line.description, told) for line in declared.lines())
+
+
+def _own_texts(text: str) -> Iterable[str]:
+    """A text; of one of the program that is filled with the plugin's, as of a point's coordinates, these alone."""
+    values = text.values.values() if isinstance(text, Phrase) else ()
+    return [each for each in values if isinstance(each, Phrase)] or [text]
 
 
 # ``needs`` and ``lacks``: each names an input that there is, or a text that it may be.

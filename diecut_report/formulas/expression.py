@@ -47,7 +47,8 @@ def _text(node: Node) -> str:
     return text if len(text) <= SHOWN else f"{text[:SHOWN]}…"
 
 
-OWN = ("numpy", "functools", "diecut_report.formulas", "diecut_report.mechanism")  # modules in which no author writes
+# modules in which no author writes
+OWN = ("numpy", "functools", *(f"diecut_report.{room}" for room in ("formulas", "mechanics", "mechanism")))
 GENERATED = "<string>"  # the code of a dataclass
 
 

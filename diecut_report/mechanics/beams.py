@@ -8,28 +8,14 @@ axis to that direction; a moment is positive where it bends the beam towards pos
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.expression import GRAVITY, as_number, pi
-from diecut_report.formulas.formula import formula
+from diecut_report.formulas.expression import GRAVITY
 
 SAME_PLACE = 1e-9  # m, within which two places are one
 LUMPS = 8  # of each piece's mass
-
-
-@formula
-def second_moment(diameter: Any, bore: Any) -> Any:
-    """Second moment of area of a hollow circle about its diameter."""
-    return as_number(pi) * (diameter**4 - bore**4) / 64
-
-
-@formula
-def circle_area(diameter: Any, bore: Any) -> Any:
-    """Area of a hollow circle."""
-    return as_number(pi) * (diameter**2 - bore**2) / 4
 
 
 @dataclass(frozen=True)

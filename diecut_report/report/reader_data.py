@@ -30,7 +30,7 @@ from diecut_report.results.figure_record import (
 from diecut_report.results.mechanism_record import CurveRecord
 
 if TYPE_CHECKING:
-    from diecut_report.report.figures.labels import Line, PanelData
+    from diecut_report.report.figures.labels import ChartLine, PanelData
 
 
 # Rows of numbers for the page's scripts, each kept once, and the diagrams and drawings that share a cursor.
@@ -281,7 +281,7 @@ def _panel(panel: PanelData, raw: Panel, words: Catalogue, pool: ReaderRows) -> 
     }  # fmt: skip
 
 
-def _line(line: Line, pool: ReaderRows) -> Data:
+def _line(line: ChartLine, pool: ReaderRows) -> Data:
     known = np.maximum.accumulate(np.where(np.isfinite(line.x), np.arange(len(line.x)), 0))
     heights = np.where(np.isfinite(line.x), line.y, np.nan)
     return {"label": tidy(line.label), "x": pool.row(line.x[known], X_DIGITS), "y": pool.row(heights, Y_DIGITS)}

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import Loading, Supports
+from diecut_report.mechanics.sections import tube
 from diecut_report.plugins.shaft import formulas, statics
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import Cycle, Instants, side_by_side
@@ -282,6 +282,6 @@ def nominal_stress(statics: Statics, places: Array, side: Array) -> Array:
     )
     sides = statics.sides(places)
     forces = (_on_side(each, side) for each in (sides.axial_size, sides.bending, sides.torque_size))
-    modulus = 2 * beams.second_moment(size, bore) / size
-    stress = formulas.yield_stress(*forces, beams.circle_area(size, bore), modulus, 1.0, 1.0)
+    section = tube(size, bore)
+    stress = formulas.yield_stress(*forces, section.area, section.modulus, 1.0, 1.0)
     return np.asarray(np.max(stress, axis=1))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import Bent, Loading, Supports
+from diecut_report.mechanics.sections import tube
 from diecut_report.plugins.shaft.body import Body
 
 Array = NDArray[Any]
@@ -38,7 +39,7 @@ class ElasticShaft:
     def stiffness_of(self, x: Array) -> Array:
         """Return E I between one place and the next, (places - 1, variants)."""
         diameter, bore = self.section_between(x)
-        return np.asarray(self.modulus * beams.second_moment(diameter, bore))
+        return np.asarray(self.modulus * tube(diameter, bore).second_moment)
 
     def section_between(self, x: Array) -> tuple[Array, Array]:
         """Return diameter and bore between one place and the next."""
@@ -87,7 +88,7 @@ class ElasticShaft:
     def _weights(self) -> Array:
         """The mass between one place and the next, (places - 1, variants)."""
         diameter, bore = self.section_between(self.x)
-        return np.asarray(self.density * beams.circle_area(diameter, bore) * np.diff(self.x, axis=0))
+        return np.asarray(self.density * tube(diameter, bore).area * np.diff(self.x, axis=0))
 
     @cached_property
     def _unlike(self) -> tuple[Array, Array]:

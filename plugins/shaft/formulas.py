@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Constant, formula, number
+from diecut_report.mechanics.joints import equivalent_stress
 
 MEGAPASCAL = Constant(1e6, "1 MPa", "Pa")
 KPSI = Constant(6.894757e6, "1 kpsi", "Pa")
@@ -106,12 +107,6 @@ def size_of_notch(factor: Any, diameter: Any) -> Any:
     """How a size lowers the endurance of a notch with a factor (DIN 743-2, K_3), of 7.5 to 150 mm."""
     share = np.log(np.minimum(np.maximum(diameter / REFERENCE_SIZE, 1), 20)) / np.log(number(20))
     return 1 - 0.2 * np.log10(factor) * share
-
-
-@formula
-def equivalent_stress(normal: Any, shear: Any) -> Any:
-    """Von Mises stress of a normal and a shear stress (Shigley 7-4, 7-5)."""
-    return np.sqrt(normal**2 + 3 * shear**2)
 
 
 @formula

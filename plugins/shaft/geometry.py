@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Chapter, case, choice, computed, inner, lookup, m, number, total, value
-from diecut_report.mechanics import beams
+from diecut_report.mechanics.sections import tube
 from diecut_report.plugins.shaft import formulas
 from diecut_report.plugins.shaft.body import PRESS_FIT, body
 
@@ -36,7 +36,7 @@ sections.require("loads_on_shaft", m.loads.position <= m.length * (number(1) + 1
     "crank pin, has its offset), or lengthen the sections")
 sections.require("notches_on_shaft", m.notches.position <= m.length * (number(1) + 1e-9), key="notches.{index}.position", needs=("notches",),
     message="is beyond the shaft, whose sections are {length} long in all; move the notch to at most {length:down}")
-sections.section_mass = (inner(m.density * beams.circle_area(m.section_diameter, m.sections.bore) * m.sections.length), "m_k", "kg",
+sections.section_mass = (inner(m.density * tube(m.section_diameter, m.sections.bore).area * m.sections.length), "m_k", "kg",
     "Mass of the section", "geometry")
 sections.shaft_mass = total("sum", of="section_mass"), "m", "kg", "Mass of the shaft without mounted parts", "geometry"
 
@@ -68,8 +68,8 @@ places.place_step = inner((m.place_greater - m.place_diameter) / 2), "t", "mm", 
 places.require("fillets_fit", np.where(m.is_fillet > 0, m.place_radius, 0) <= m.place_step * (number(1) + 1e-9),
     key="sections.{index}.fillet_radius",
     message="is greater than the height of the step at the section's right end, so that it does not fit; take a smaller radius")
-places.place_area = inner(beams.circle_area.of(diameter=m.place_diameter, bore=m.place_bore)), "A", "mm**2", "Area of the section", "Shigley 3-11"
-places.place_modulus = (inner(2 * beams.second_moment(m.place_diameter, m.place_bore) / m.place_diameter), "W_b", "mm**3",
+places.place_area = inner(tube(m.place_diameter, m.place_bore).area), "A", "mm**2", "Area of the section", "Shigley 3-11"
+places.place_modulus = (inner(tube(m.place_diameter, m.place_bore).modulus), "W_b", "mm**3",
     "Section modulus in bending; in torsion twice this value", "Shigley 3-24")
 
 notches = Chapter("Notches")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
+from diecut_report.mechanics.sections import tube
 from diecut_report.plugins.shaft import formulas
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import COMPONENTS, Cycle, Gears, Instants
@@ -221,7 +222,7 @@ class Statics:
     def twist(self) -> Array:
         """Return the greatest twist between the outermost torques, (variants,)."""
         diameter, bore = self.elastic.section_between(self.x)
-        compliance = np.diff(self.x, axis=0) / (2 * self.shear * beams.second_moment(diameter, bore))
+        compliance = np.diff(self.x, axis=0) / (2 * self.shear * tube(diameter, bore).second_moment)
         middle = (self.x[:-1] + self.x[1:]) / 2
         torque, _ = beams.before_and_behind(middle, self.cycle.places, self.loads.torque)
         known = np.sum(torque * compliance[:, :, None], axis=0)
@@ -353,9 +354,9 @@ def _nominal(statics: Statics, sides: Sides) -> dict[str, Array]:
     diameter, bore = (
         np.take_along_axis(each[None], index, axis=1) for each in (statics.body.diameter, statics.body.bore)
     )
-    area, modulus = beams.circle_area(diameter, bore), 2 * beams.second_moment(diameter, bore) / diameter
+    section = tube(diameter, bore)
     forces = sides.axial_size, sides.bending, sides.torque_size
-    stress = formulas.nominal_stress(*forces, area[..., None], modulus[..., None])
+    stress = formulas.nominal_stress(*forces, section.area[..., None], section.modulus[..., None])
     found = {"nominal_axial": forces[0], "nominal_moment": forces[1], "nominal_torque": forces[2]}
     found |= {
         "nominal_diameter": diameter[..., None],

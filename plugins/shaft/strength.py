@@ -25,8 +25,8 @@ from diecut_report.api import (
     total,
     value,
 )
-from diecut_report.mechanics import beams
 from diecut_report.mechanics.load_cases import called
+from diecut_report.mechanics.sections import tube
 from diecut_report.plugins.shaft import curves, formulas
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.curves import UnderLoad
@@ -248,9 +248,9 @@ yielding.yield_case = (computed(lambda index, names: [called(int(each), names) f
     "that with the maximum stress", is_text=True, needs=CASES), *YIELD_CASE)
 yielding.yield_case = (computed(lambda length: [called(0)] * len(length), ("length",), "that with the maximum stress", is_text=True, lacks=CASES,
     printed=False, output=False), *YIELD_CASE)
-yielding.nominal_area = (inner(beams.circle_area.of(diameter=m.nominal_diameter, bore=m.nominal_bore)), "A_y", "mm**2", "Area at this location",
+yielding.nominal_area = (inner(tube(m.nominal_diameter, m.nominal_bore).area), "A_y", "mm**2", "Area at this location",
     "geometry")
-yielding.nominal_modulus = (inner(2 * beams.second_moment(m.nominal_diameter, m.nominal_bore) / m.nominal_diameter), "W_by", "mm**3",
+yielding.nominal_modulus = (inner(tube(m.nominal_diameter, m.nominal_bore).modulus), "W_by", "mm**3",
     "Section modulus at this location", "geometry")
 yielding.von_mises_max = (formulas.nominal_stress.of(axial_force=m.nominal_axial, moment=m.nominal_moment, torque=m.nominal_torque,
     area=m.nominal_area, modulus=m.nominal_modulus), "σ_vM", "MPa", "Maximum nominal stress", "Shigley 7-15")

@@ -10,14 +10,13 @@ from diecut_report.api import (
     Mechanism,
     Quantity,
     Text,
-    as_number,
     inner,
     m,
     parts,
-    pi,
     total,
     value,
 )
+from diecut_report.mechanics.sections import tube
 
 # fmt: off
 
@@ -54,7 +53,7 @@ BODIES = ("bodies",)
 body = Chapter("Mass and moment of inertia")
 body.require("bored", m.discs.bore < m.discs.diameter, key="discs.{index}.bore",
     message="is not smaller than the diameter of {part}; take a smaller bore")
-body.disc_mass = (inner(m.discs.fill * m.discs.density * as_number(pi) / 4 * (m.discs.diameter ** 2 - m.discs.bore ** 2) * m.discs.width,
+body.disc_mass = (inner(m.discs.fill * m.discs.density * tube(m.discs.diameter, m.discs.bore).area * m.discs.width,
     named_by="discs.name"), "m_k", "kg", "Mass of the section or part", "geometry")
 body.disc_inertia = (inner(m.disc_mass * (m.discs.diameter ** 2 + m.discs.bore ** 2) / 8, named_by="discs.name"), "J_k", "kg*m**2",
     "Moment of inertia of the section or part", "geometry")

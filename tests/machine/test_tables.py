@@ -47,7 +47,7 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.press import Press
 from diecut_report.quantities.units import unit
-from diecut_report.report.figures.labels import Across, Line, Note, PanelData
+from diecut_report.report.figures.labels import Across, ChartLine, Note, PanelData
 from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.figure_views import figures
 from diecut_report.study.definition.base_inputs import find_input
@@ -322,7 +322,7 @@ def test_in_a_study_what_may_be_given_is_given_for_all(tmp_path: Path, plugins: 
 def diagram(
     limits: tuple[float | None, float | None] | None, heights: list[float], *, zero: bool = True
 ) -> tuple[float, float]:
-    line = Line(np.arange(len(heights)), np.array(heights), "v")
+    line = ChartLine(np.arange(len(heights)), np.array(heights), "v")
     return PanelData(title="v", unit="1", across=Across("t", "t", "s", 0, 1), lines=[line], levels=[Note(0, heights[0], "")],
                  zero=zero, limits=limits).heights  # fmt: skip
 

@@ -152,18 +152,6 @@ def test_pieces_without_length_change_no_critical_speed() -> None:
     assert twice.speed == pytest.approx(once.speed, rel=1e-12)
 
 
-def test_a_hollow_circle_is_the_disc_without_its_hole() -> None:
-    disc, hole = np.pi * 0.03**2, np.pi * 0.01**2
-    assert float(beams.circle_area(0.06, 0.02)) == pytest.approx(disc - hole, rel=1e-12)
-
-
-def test_area_and_second_moment_of_a_hollow_circle_are_those_of_its_rings() -> None:
-    edges = np.linspace(0.03, 0.05, 20001)  # radii
-    radius, area = (edges[1:] + edges[:-1]) / 2, np.pi * np.diff(edges**2)
-    assert beams.circle_area(0.1, 0.06) == pytest.approx(area.sum(), rel=1e-12)
-    assert beams.second_moment(0.1, 0.06) == pytest.approx((area * radius**2 / 2).sum(), rel=1e-6)
-
-
 def test_the_nearest_point_is_the_one_that_a_search_of_all_finds() -> None:
     """Also where points coincide, and where a place is as far from two of them."""
     rng = np.random.default_rng(1)

@@ -18,7 +18,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.press import Press
 from diecut_report.report.chapters.steps import placed, rows_of
 from diecut_report.report.figures.by_type import DRAW
-from diecut_report.report.figures.labels import AWAY, SIZE, Across, LabelLayout, Line, Note, PanelData, SpanData
+from diecut_report.report.figures.labels import AWAY, SIZE, Across, ChartLine, LabelLayout, Note, PanelData, SpanData
 from diecut_report.report.figures.style import SizesSize, styled, text_size, wrapped
 from diecut_report.report.text import Catalogue, translated
 from diecut_report.results.figure_record import FigureRecord
@@ -136,7 +136,7 @@ def test_a_diagram_of_many_lines_is_as_wide_as_the_sheet() -> None:
 
 
 def _layout(
-    lines: list[Line], width: float = 182.0, height: float = 96.0, reach: float = 10.0, **more: Any
+    lines: list[ChartLine], width: float = 182.0, height: float = 96.0, reach: float = 10.0, **more: Any
 ) -> LabelLayout:
     """The texts of a diagram from 0 to ``reach``, so many points large."""
     across = Across("x", "x", "1", 0.0, reach)
@@ -160,7 +160,7 @@ def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
 def _crowded(line_count: int = 3) -> LabelLayout:
     """Five marks close together, a level through steep curves, and a named range, in a diagram 400 by 90 points large."""
     x = np.linspace(0.0, 10.0, 400)
-    lines = [Line(x, 5 + 5 * np.sin(8 * x + phase), "") for phase in (0.0, 1.0, 2.0)[:line_count]]
+    lines = [ChartLine(x, 5 + 5 * np.sin(8 * x + phase), "") for phase in (0.0, 1.0, 2.0)[:line_count]]
     marks = [Note(5.0 + 0.2 * n, 5.0, f"place {n} of five 1.234") for n in range(5)]
     return _layout(
         lines, 400.0, 90.0, marks=marks, levels=[Note(0.0, 5.0, "allowed")], spans=[SpanData(2.0, 8.0, "stroke")]
@@ -185,7 +185,7 @@ def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
 def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
     """A falling curve, above it the names of two verticals: a mark's name has room across both of them, or in the legend."""
     x = np.linspace(0.02, 0.9, 200)
-    layout = _layout([Line(x, 0.4 / (x + 0.4), "")], reach=0.9, marks=[Note(0.4444, 0.4 / 0.8444, "this machine 0.2727 (0.4444)")],
+    layout = _layout([ChartLine(x, 0.4 / (x + 0.4), "")], reach=0.9, marks=[Note(0.4444, 0.4 / 0.8444, "this machine 0.2727 (0.4444)")],
                      verticals=[Note(0.54, 0.0, "return too short"), Note(0.6, 0.0, "no return")])  # fmt: skip
     curve = np.concatenate(layout.lines)
     for text in layout.texts:
@@ -199,7 +199,7 @@ def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
 def test_the_name_of_a_level_hides_no_mark_and_cuts_no_line_across(what: str, heights: tuple[float, ...]) -> None:
     """Where these stand so near to each other that it has no room between them it stands in the legend."""
     notes = [Note(x, y, "") for x in np.linspace(0.5, 9.5, 6) for y in heights]
-    rising = Line(np.array([0.0, 10.0]), np.array([0.0, 10.0]), "")
+    rising = ChartLine(np.array([0.0, 10.0]), np.array([0.0, 10.0]), "")
     layout = _layout([rising], levels=[Note(0.0, 5.0, "allowed level")], **{what: notes})
     assert layout.told == [("levels", 0)] and not layout.texts
 
@@ -250,7 +250,7 @@ def test_a_name_does_not_cover_other_marks() -> None:
     turn = np.linspace(0, np.pi / 2, 91)
     places = [(0.0, 0.0), (20.0, 0.0), (30.0, 10.0), (60.0, 18.0), (73.0, 27.0), (43.1, 34.0), (43.3, 45.4)]
     marks = [Note(x, y, "notch 2 (keyseat end mill) 45.43 MPa (43.32 MPa)" if y > 40 else "") for x, y in places]
-    layout = _layout([Line(148 * np.cos(turn), 86 * np.sin(turn), "")], reach=148.0, marks=marks)
+    layout = _layout([ChartLine(148 * np.cos(turn), 86 * np.sin(turn), "")], reach=148.0, marks=marks)
     points = np.array([layout.frame.points(note.x, note.y) for note in marks])
     for text in layout.texts:
         wide, high = text_size(text.text, SIZE)
@@ -260,9 +260,9 @@ def test_a_name_does_not_cover_other_marks() -> None:
 @pytest.mark.usefixtures("style")
 def test_the_name_of_an_area_covers_no_line_within_it() -> None:
     x = np.linspace(0.0, 10.0, 100)
-    lines = [Line(x, 5 + 4 * np.sin(3 * x) * share, "") for share in (0.2, 0.4, 0.6, 0.8)]
-    lines += [Line(x, 0 * x + level, "") for level in (1, 2, 3, 4)]
-    assert _layout(lines, fills=[Line(x, 0 * x + 9.0, "whole tension")]).outside == [0]
+    lines = [ChartLine(x, 5 + 4 * np.sin(3 * x) * share, "") for share in (0.2, 0.4, 0.6, 0.8)]
+    lines += [ChartLine(x, 0 * x + level, "") for level in (1, 2, 3, 4)]
+    assert _layout(lines, fills=[ChartLine(x, 0 * x + 9.0, "whole tension")]).outside == [0]
 
 
 def test_a_symbol_does_not_stand_alone_on_the_last_line_of_a_title() -> None:

@@ -39,6 +39,7 @@ class MachineRun(Calculation):
     proves_nothing = roots_integrals.proves_nothing
     extreme = extremes.extreme
     beyond = extremes.outruns
+    fails = soundness.fails
     crossings = roots_integrals.all_crossings
     integral = roots_integrals.integral
     accumulate = roots_integrals.accumulate

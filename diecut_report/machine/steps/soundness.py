@@ -12,13 +12,14 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.formulas.expression import Expression, WrittenNumber, m
 from diecut_report.formulas.tree import Node, substitute, written
-from diecut_report.machine.calculation import Calculation, Side, Unproven
+from diecut_report.machine.calculation import Calculation, Found, Side, Unproven
 from diecut_report.machine.numerics import extremes, jumps
 from diecut_report.machine.numerics.conditions import BranchCondition, Singularity
 from diecut_report.machine.numerics.domain import shares
 from diecut_report.machine.numerics.jumps import JumpFault
+from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Check
-from diecut_report.mechanism.steps import Choice, Fact, Step, Value, read
+from diecut_report.mechanism.steps import Choice, Fact, Require, Step, Value, read
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
@@ -265,20 +266,51 @@ def _sides(check: Check, number: int) -> tuple[str | float, ...]:
 def _search(calc: Calculation, check: Check, number: int, step: Value) -> Array:
     """Note both sides where the first is furthest beyond the second, found by the search for all extremes; give what is left of its proof."""
     axis = next(calc.axis[name] for name in check.named if name in calc.curves)
-    axes, calc.axis, calc.curves[step.id] = calc.axis, {**calc.axis, step.id: axis}, step
-    found, place, middle = extremes.extreme(calc, step.id, 1.0)
-    residual = extremes.outruns(calc, step.id, found, 1.0)
+    (_, place, middle), residual = _greatest(calc, step, axis)
     demand, limit = (_there(calc, side, place, middle) for side in _sides(check, number))
     calc.judged[check.id, number] = Side(demand, limit, axis, place)
+    return residual
+
+
+def _greatest(calc: Calculation, step: Value, axis: str) -> tuple[Found, Array]:
+    """The greatest value of a curve that stands in for a comparison, and how far it is from being proved."""
+    axes, calc.axis, calc.curves[step.id] = calc.axis, {**calc.axis, step.id: axis}, step
+    found = extremes.extreme(calc, step.id, 1.0)
+    residual = extremes.outruns(calc, step.id, found[0], 1.0)
     calc.axis = axes
     del calc.curves[step.id]
-    return residual
+    return found, residual
 
 
 def _there(calc: Calculation, side: str | float, place: Array, middle: Array) -> Array:
     if not isinstance(side, str):
         return np.full(place.shape, side)
     return calc.sample(side, place, middle) if side in calc.curves else np.broadcast_to(calc[side], place.shape)
+
+
+# Conditions on curves: the place where each comparison fails most, or comes nearest to failing.
+
+
+def fails(calc: Calculation, step: Require, axis: str) -> dict[int, float]:
+    """Return the variants of which a comparison of a condition does not hold all over an abscissa, with the place where it fails most."""
+    for name in taken(step):
+        require(calc, step.id, name)
+    found: dict[int, float] = {}
+    for (sign, *_), gap in zip(step.comparisons, _gaps(step), strict=True):
+        (greatest, place, _), _ = _greatest(calc, gap, axis)
+        holds = greatest < 0 if sign in ("<", ">") else greatest <= 0
+        found = {int(variant): float(place[variant, 0]) for variant in np.flatnonzero(~holds)} | found
+    return found
+
+
+@cache
+def _gaps(step: Require) -> tuple[Value, ...]:
+    """A curve for each comparison of a condition, which is below zero where it holds."""
+    sides = [(a, b) if sign.startswith("<") else (b, a) for sign, a, b in step.comparisons]
+    return tuple(
+        Value(f"{step.id}.{i}", "", "1", step.id, Expression(Node("-", both)), output=False)
+        for i, both in enumerate(sides)
+    )
 
 
 # Facts that a machine does not meet: the steps that need them are left out.

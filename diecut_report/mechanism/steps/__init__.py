@@ -33,6 +33,7 @@ from diecut_report.mechanism.steps.interpolated import Interpolated
 from diecut_report.mechanism.steps.lookup import Lookup
 from diecut_report.mechanism.steps.phase import PREFIX, ROLES, Phase
 from diecut_report.mechanism.steps.pick import Pick
+from diecut_report.mechanism.steps.point import is_of_point, steps_of_point
 from diecut_report.mechanism.steps.prepared import Cell, ListedColumn, Listing, Prepared
 from diecut_report.mechanism.steps.reduction import Crossings, Reduction
 from diecut_report.mechanism.steps.require import Clash, Fact, Require
@@ -76,7 +77,10 @@ class Steps:
                 self.add(*step)
 
     def __setattr__(self, name: str, declared: Any) -> None:
-        """Declare a quantity: what gives it, its symbol, its unit, its description and, if it is not the last step's, its source."""
+        """Declare a quantity: what gives it, its symbol, its unit, its description and, if it is not the last step's, its source.
+
+        A point of the plane (``mechanics.plane``) is two, ``NAME_x`` and ``NAME_y``.
+        """
         is_quantity = isinstance(declared, tuple) and declared and not isinstance(declared[0], str | Step)
         if name in self.__dataclass_fields__ and not (is_quantity and len(declared) > 1):
             object.__setattr__(self, name, ids(declared))
@@ -92,7 +96,8 @@ class Steps:
             )
             raise Misdeclared(Phrase(template, id=name, given=_shown(declared)))
         gives, *told = declared
-        self.add((gives if isinstance(gives, Recipe) else Recipe(Value, (gives,), {})).step(name, *told))
+        given = gives if isinstance(gives, Recipe) else Recipe(Value, (gives,), {})
+        self.add(steps_of_point(given, name, *told) if is_of_point(given) else given.step(name, *told))
 
     def __getattr__(self, name: str) -> Any:
         """Raise AttributeError: a chapter gives no quantities back, and quantities are declared by assigning them."""

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
 from diecut_report.formulas import Array
+from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.checks import AdviceWay
 from diecut_report.mechanism.names import Written, formula_of
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import SilentStep
-from diecut_report.mechanism.steps.protocols import ROW, Kinds, StepEngine
+from diecut_report.mechanism.steps.protocols import CURVE, ROW, Kinds, Names, StepEngine
+from diecut_report.mechanism.steps.value import mixed_axes
+from diecut_report.quantities.formatting import told
+from diecut_report.text.phrases import Phrase, phrase
+
+ORDERED = ("<", "<=", ">", ">=")
 
 
 class Obstacle(SilentStep):
@@ -22,10 +28,11 @@ class Obstacle(SilentStep):
     key: str
     message: str
 
-    def report(self, calc: StepEngine, variant: int, places: Mapping[str, int]) -> None:
-        """Mark a variant with the message; what follows from impossible numbers says nothing more."""
+    def report(self, calc: StepEngine, variant: int, places: Mapping[str, int], at: str = "") -> None:
+        """Mark a variant with the message and, of a curve, the place; what follows from impossible numbers says nothing more."""
         if variant not in calc.flaws or calc.count == 1:
             words = "" if calc.is_partial else calc.filled(self.message, variant, places)
+            words = Phrase("{message} (at {place})", message=words, place=at) if words and at else words
             calc.refuse(variant, calc.filled(self.key, variant, places), words)
 
 
@@ -34,7 +41,8 @@ class Require(Obstacle):
     """Declare what must hold for the machine to be possible: where it does not, the message (``{id}`` prints a quantity) and its key.
 
     A condition on rows must hold for each part; message and key may name the first part that fails: ``{part}`` counted
-    from 1, ``{next}`` the one after it in the loop, ``{index}`` counted from 0 as in the file. ``advise`` names the inputs of which
+    from 1, ``{next}`` the one after it in the loop, ``{index}`` counted from 0 as in the file. One on curves, comparisons joined by ``&``, must
+    hold everywhere; the message is told with the place where it fails most. ``advise`` names the inputs of which
     values are found with which the machine is possible, as that of a check does.
     """
 
@@ -43,17 +51,45 @@ class Require(Obstacle):
     message: str
     advise: tuple[AdviceWay, ...] = ()
 
-    FORMULAS: ClassVar[dict[str, Kinds]] = {"condition": ROW}
+    FORMULAS: ClassVar[dict[str, Kinds]] = {"condition": CURVE}
     message_places = ("part", "next", "index")
+
+    @property
+    def comparisons(self) -> list[tuple[str, Node, Node]]:
+        """Return what is compared; nothing of a condition that is more than comparisons joined by ``&``."""
+        return _comparisons(formula_of(self.condition).spoken)
+
+    def faults(self, names: Names, when: object) -> Iterator[str]:
+        taken = formula_of(self.condition).parameters
+        yield from mixed_axes(taken, names)
+        if not self.comparisons and any({"curve", "abscissa"} & {g.kind for g in names.givers(name)} for name in taken):
+            yield phrase("takes a curve; of curves only comparisons are required, (a < b) & (b < c)")
 
     def can_be_judged(self, known: Collection[str]) -> bool:
         return all(name in known for name in formula_of(self.condition).parameters)
 
     def run(self, calc: StepEngine) -> None:
+        over = {calc.axis.get(name, name) for name in formula_of(self.condition).parameters} & calc.domains.keys()
+        if over:
+            self._run_over(over.pop(), calc)
+            return
         held = calc.apply(self.condition).astype(bool)
         for variant in np.flatnonzero(~held.all(axis=1)):
             part, count = int(np.argmin(held[variant])), held.shape[1]
             self.report(calc, int(variant), {"part": part + 1, "next": (part + 1) % count + 1, "index": part})
+
+    def _run_over(self, axis: str, calc: StepEngine) -> None:
+        abscissa = calc.steps[axis]
+        for variant, place in calc.fails(self, axis).items():
+            at = f"{abscissa.symbol} = {told(place, abscissa.unit)}" if np.isfinite(place) else ""
+            self.report(calc, variant, {}, at)
+
+
+def _comparisons(node: Node) -> list[tuple[str, Node, Node]]:
+    if node.op == "and":
+        parts = list(map(_comparisons, node.args))
+        return [each for part in parts for each in part] if all(parts) else []
+    return [node.args] if node.op == "cmp" and node.args[0] in ORDERED else []
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -19,6 +19,16 @@ def answer(symbolic: Any = None, numeric: Any = None, *, held: bool) -> Item:
     condition = {"condition": symbolic, "condition_substituted": numeric} if symbolic else {}
     result = {"text": "yes" if held else "no", "unit": "1"}
     return {"type": "choice", "words": "", "equation": None, "substituted": None, "result": result} | condition
+
+
+def mixed_axes(taken: Iterable[str], names: Names) -> Iterator[str]:
+    """Yield in words that quantities run over several abscissas or lists."""
+    own = {name: names.axes(name) for name in taken}
+    sole = {name: next(iter(axes)) for name, axes in own.items() if len(axes) == 1}
+    if len(set(sole.values())) > 1:
+        told = joined([Phrase("{name} runs over {axis}", name=name, axis=axis) for name, axis in sole.items()], ", ")
+        template = "mixes what runs over unlike places: {told}; take a single number of one of them first"
+        yield Phrase(template, told=told)
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,14 +63,7 @@ class FormulaStep(QuantityStep):
         return own.pop() if own else None
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
-        own = {name: names.axes(name) for name in self.takes()}
-        sole = {name: next(iter(axes)) for name, axes in own.items() if len(axes) == 1}
-        if len(set(sole.values())) > 1:
-            told = joined(
-                [Phrase("{name} runs over {axis}", name=name, axis=axis) for name, axis in sole.items()], ", "
-            )
-            template = "mixes what runs over unlike places: {told}; take a single number of one of them first"
-            yield Phrase(template, told=told)
+        yield from mixed_axes(self.takes(), names)
         if self.per_piece and not any(each.step is self and each.kind == "curve" for each in names.givers(self.id)):
             yield Phrase(
                 "has per_piece=True, which marks a flag of a curve's smooth pieces, but takes no curve and no abscissa; take it away"

@@ -16,7 +16,7 @@ from diecut_report.quantities.units import pretty, to_display, unit
 from diecut_report.report.chapters.tables import continuous, period_of, through_pole
 from diecut_report.report.figures.diagram import HEAD as CHARTS_HEAD
 from diecut_report.report.figures.diagram import STROKES, WIDTH, Diagram, further, titled
-from diecut_report.report.figures.labels import Across, Line, Note, PanelData, SpanData, limits_of, range_of
+from diecut_report.report.figures.labels import Across, ChartLine, Note, PanelData, SpanData, limits_of, range_of
 from diecut_report.report.figures.style import (
     ACCENT,
     INK,
@@ -114,7 +114,7 @@ def _of_curves(
     lines = []
     for series in panel.series:
         x, y = continuous(curves[series.curve], over, period)
-        lines.append(Line(x / unit(across).factor, y / unit(shown).factor, series.label))
+        lines.append(ChartLine(x / unit(across).factor, y / unit(shown).factor, series.label))
     factor = unit(across).factor
     return PanelData(
         title=panel.title,
@@ -151,9 +151,9 @@ def _of_lines(panel: ChartPanelRecord, words: Catalogue) -> PanelData:
     )
 
 
-def _line(line: LineRecord, across: str, shown: str) -> Line:
+def _line(line: LineRecord, across: str, shown: str) -> ChartLine:
     x, y = (np.array(numbers, dtype=float) for numbers in (line.x, line.y))
-    return Line(x / unit(across).factor, y / unit(shown).factor, line.label)
+    return ChartLine(x / unit(across).factor, y / unit(shown).factor, line.label)
 
 
 def _mark(mark: MarkRecord, across: str, shown: str, words: Catalogue) -> Note:

@@ -141,7 +141,7 @@ class Across(NamedTuple):
     high: float
 
 
-class Line(NamedTuple):
+class ChartLine(NamedTuple):
     """A line, or the edge of an area; NaN breaks it."""
 
     x: Array
@@ -172,8 +172,8 @@ class PanelData:
     title: str
     unit: str
     across: Across
-    lines: list[Line]
-    fills: list[Line] = field(default_factory=list)
+    lines: list[ChartLine]
+    fills: list[ChartLine] = field(default_factory=list)
     marks: list[Note] = field(default_factory=list)
     levels: list[Note] = field(default_factory=list)
     verticals: list[Note] = field(default_factory=list)
@@ -352,7 +352,7 @@ class LabelLayout:
                     yield kind, index
 
     # areas
-    def _inside(self, area: Line) -> bool:
+    def _inside(self, area: ChartLine) -> bool:
         """Writes an area's name into it, where it has room for it that covers no other line; whether it had."""
         text = marked(area.label)
         size = text_size(text, SIZE)
