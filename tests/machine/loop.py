@@ -22,29 +22,24 @@ from diecut_report.api import (
     StandardSeries,
     Text,
     View,
+    abscissa,
+    accumulated,
     block,
     chart_panel,
     formula,
+    from_curve,
     line,
+    lookup,
     m,
+    neighbour,
     own_table,
+    part,
     parts,
-)
-from diecut_report.mechanism.steps import (
-    Abscissa,
-    Accumulated,
-    Clash,
-    FromCurve,
-    Lookup,
-    Neighbour,
-    Part,
-    Pick,
-    Reduction,
-    Require,
-    Running,
-    Total,
-    Value,
-    Words,
+    pick,
+    reduction,
+    running,
+    total,
+    value,
 )
 
 SERIES = {
@@ -77,11 +72,8 @@ class Loop(Inputs):
     n_points = Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True, default=90)
 
 
-gap = formula(lambda x, x_next: abs(x_next - x))
-is_apart = formula(lambda gap: gap > 0)
 limp = formula(lambda turn, swing: swing * np.sin(turn))
 stiff = formula(lambda turn, swing: swing * np.sin(turn) ** 2)
-weight = formula(lambda mass, gravity: mass * gravity)
 
 
 FORMS = {"rope": limp, "chain": stiff}
@@ -105,47 +97,38 @@ def sweep(view: View) -> list[dict[str, Any]]:
             chart_panel("Height", "m", "Turn", "φ", "deg", lines=[line(turn, curves["height"], "chain")])]  # fmt: skip
 
 
-POSTS = Chapter(
-    "Posts",
-    needs=("fence",),
-    absent="no fence is given",
-    steps=(
-        Neighbour(id="x_next", symbol="x_n", unit="m", description="Place of the next post", of="fence.posts.x"),
-        Value(id="gap", symbol="d", unit="m", description="Gap", formula=gap.of(x=m.fence.posts.x)),
-        Require(id="apart", condition=is_apart, key="fence.posts.{index}.x",
-                message="post {part} stands at {fence.posts.x}, where post {next} stands"),
-        Clash(id="crowd", function=crowded, takes=("fence.posts.x",), key="fence.posts.{index}",
-              message="posts {part} and {other} stand at one place"),
-        Lookup(unit="1", id="friction", symbol="μ", description="Friction of the post", by="fence.posts.grip", table={"smooth": 0.1, "rough": 0.4}),
-        Running(id="way", symbol="s", unit="m", description="Way to the next post", of="gap", operation="sum", numbered="way_{}", first=2),
-        Total(id="length", symbol="L", unit="m", description="Length", of="gap", operation="sum"),
-        Total(id="narrowest", symbol="d_min", unit="m", description="Narrowest gap", of="gap", operation="min"),
-        Total(unit="1", id="friction_max", symbol="μ_max", description="Greatest friction", of="friction", operation="max"),
-        Total(id="first_gaps", symbol="d_+", unit="m", description="Greatest gap of posts right of the origin", of="gap",
-              operation="max", among="fence.posts.x"),
-        Part(id="last_gap", symbol="d_l", unit="m", description="Last gap", of="gap", index=-1),
-        Pick(id="stock", symbol="L_s", unit="mm", description="Length in stock", of="length", rule="above", series=SERIES, by="material"),
-        Words(id="told", description="Length in words", function=in_words, takes=("length",)),
-    ),
-)  # fmt: skip
+# fmt: off
 
-ROPE = Chapter(
-    "Rope",
-    steps=(
-        Lookup(id="weight", symbol="m_1", unit="g", description="Weight of the stuff", by="material", table=WEIGHTS),
-        Value(id="force", symbol="F_1", unit="N", description="Force", needs=("pull",), formula=m.pull),
-        Value(id="force", symbol="F_1", unit="N", description="Force", lacks=("pull",), formula=weight),
-        Value(unit="1", id="chained", symbol="c", description="Only of chains", needs=("material=chain",), formula=0),
-        Value(id="visited", symbol="n_1", unit="1/h", description="Visits", needs=("visits",), formula=m.visits),
-        Abscissa(id="turn", symbol="φ", unit="deg", description="Turn", period=2 * np.pi),
-        Value(id="height", symbol="h", unit="m", description="Height", formula=ByText("material", FORMS)),
-        Accumulated(id="area", symbol="A", unit="m", description="Area under the height", of="height"),
-        Reduction(id="height_max", symbol="h_max", unit="m", description="Greatest height", of="height", operation="max"),
-        Reduction(id="area_range", symbol="ΔA", unit="m", description="Range of the area", of="area", operation="range"),
-        FromCurve(id="wave_here", symbol="w", unit="m", description="Wave", given="wave", abscissa="turn", needs=("wave",)),
-        Accumulated(id="wave_area", symbol="A_w", unit="m", description="Area of the wave", of="wave_here", needs=("wave",)),
-    ),
-)  # fmt: skip
+POSTS = Chapter("Posts", needs=("fence",), absent="no fence is given")
+POSTS.x_next = neighbour(of="fence.posts.x"), "x_n", "m", "Place of the next post"
+POSTS.gap = abs(m.x_next - m.fence.posts.x), "d", "m", "Gap"
+POSTS.require("apart", m.gap > 0, key="fence.posts.{index}.x", message="post {part} stands at {fence.posts.x}, where post {next} stands")
+POSTS.clash("crowd", function=crowded, takes=("fence.posts.x",), key="fence.posts.{index}", message="posts {part} and {other} stand at one place")
+POSTS.friction = lookup({"smooth": 0.1, "rough": 0.4}, by="fence.posts.grip"), "μ", "1", "Friction of the post"
+POSTS.way = running("sum", of="gap", numbered="way_{}", first=2), "s", "m", "Way to the next post"
+POSTS.length = total("sum", of="gap"), "L", "m", "Length"
+POSTS.narrowest = total("min", of="gap"), "d_min", "m", "Narrowest gap"
+POSTS.friction_max = total("max", of="friction"), "μ_max", "1", "Greatest friction"
+POSTS.first_gaps = total("max", of="gap", among="fence.posts.x"), "d_+", "m", "Greatest gap of posts right of the origin"
+POSTS.last_gap = part(of="gap", index=-1), "d_l", "m", "Last gap"
+POSTS.stock = pick(of="length", rule="above", series=SERIES, by="material"), "L_s", "mm", "Length in stock"
+POSTS.words("told", function=in_words, takes=("length",))
+
+ROPE = Chapter("Rope")
+ROPE.weight = lookup(WEIGHTS, by="material"), "m_1", "g", "Weight of the stuff"
+ROPE.force = value(m.pull, needs=("pull",)), "F_1", "N", "Force"
+ROPE.force = value(m.mass * m.gravity, lacks=("pull",)), "F_1", "N", "Force"
+ROPE.chained = value(0, needs=("material=chain",)), "c", "1", "Only of chains"
+ROPE.visited = value(m.visits, needs=("visits",)), "n_1", "1/h", "Visits"
+ROPE.turn = abscissa(2 * np.pi), "φ", "deg", "Turn"
+ROPE.height = ByText("material", FORMS), "h", "m", "Height"
+ROPE.area = accumulated(of="height"), "A", "m", "Area under the height"
+ROPE.height_max = reduction("max", of="height"), "h_max", "m", "Greatest height"
+ROPE.area_range = reduction("range", of="area"), "ΔA", "m", "Range of the area"
+ROPE.wave_here = from_curve("wave", abscissa="turn", needs=("wave",)), "w", "m", "Wave"
+ROPE.wave_area = accumulated(of="wave_here", needs=("wave",)), "A_w", "m", "Area of the wave"
+
+# fmt: on
 
 
 class Two(Inputs):
@@ -154,12 +137,18 @@ class Two(Inputs):
     shape = CurveInput("h", "m", "Its height", optional=True)
 
 
+BOTH = Chapter("Both")
+BOTH.ratio = value(abs(m.other - m.one), needs=("one",)), "r", "m", "Ratio"
+BOTH.height = m.other, "h", "m", "Height"
+
 COMPARED = Mechanism(
-    kind="loop_comparison", version="1", title="Comparison of loops", summary="Which is longer.", inputs=Two,
-    chapters=(Chapter("Both", steps=(
-        Value(id="ratio", symbol="r", description="Ratio", needs=("one",), formula=gap.of(x=m.one, x_next=m.other), unit="m"),
-        Value(id="height", symbol="h", unit="m", description="Height", formula=m.other))),),
-)  # fmt: skip
+    kind="loop_comparison",
+    version="1",
+    title="Comparison of loops",
+    summary="Which is longer.",
+    inputs=Two,
+    chapters=(BOTH,),
+)
 
 MECHANISM = Mechanism(
     kind="loop",
