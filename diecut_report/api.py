@@ -5,7 +5,7 @@ from typing import Annotated
 from diecut_report.formulas.expression import GRAVITY, Constant, Expression, arccos, as_angle, as_number, m, number, pi
 from diecut_report.formulas.formula import Formula, formula
 from diecut_report.mechanism.chapters import Chapter, Steps, prefixed
-from diecut_report.mechanism.checks import AdviceWay, Check, Refusal, Vary
+from diecut_report.mechanism.checks import CURVE_ROUNDING, ROUNDING, AdviceWay, Check, Refusal, Vary
 from diecut_report.mechanism.curve_inputs import (
     CurveInput,
     FromTable,
@@ -88,6 +88,7 @@ from diecut_report.mechanism.recipes import (
     reduction,
     root,
     running,
+    self_test,
     total,
     value,
 )  # fmt: skip
@@ -123,6 +124,7 @@ from diecut_report.mechanism.steps import (
     Require,
     Root,
     Running,
+    SelfTest,
     Step,
     Total,
     Value,
@@ -137,8 +139,10 @@ from diecut_report.text.phrases import Phrase, joined, named, phrase, worded
 
 __all__ = [
     "CONTRACT",
+    "CURVE_ROUNDING",
     "GRAVITY",
     "POINTS",
+    "ROUNDING",
     "Abscissa",
     "Accumulated",
     "AdviceWay",
@@ -215,6 +219,7 @@ __all__ = [
     "Require",
     "Root",
     "Running",
+    "SelfTest",
     "Series",
     "Shape",
     "Source",
@@ -285,6 +290,7 @@ __all__ = [
     "rigid",
     "root",
     "running",
+    "self_test",
     "si",
     "standard_series",
     "standard_series_by",

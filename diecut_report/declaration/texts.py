@@ -98,7 +98,8 @@ def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
     for name in own:
         value = getattr(declared, name)
         if name in SAID:
-            yield from (DeclaredText(text, told) for text in ([value] if isinstance(value, str) else value))
+            own = [value] if isinstance(value, str) else value
+            yield from (DeclaredText(text, told) for text in own if not getattr(text, "values", None))
         elif name == "bars":
             yield from (DeclaredText(label, told) for label, _ in value)
         elif isinstance(declared, Case) and isinstance(value, str):  # what a choice gives

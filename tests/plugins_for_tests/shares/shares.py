@@ -21,6 +21,7 @@ from diecut_report.api import (
     Text,
     Value,
     formula,
+    m,
 )
 
 
@@ -82,16 +83,6 @@ MECHANISM = Mechanism(
         ),
     ),
     checks=(
-        Check(
-            id="power",
-            check_class="strength",
-            title="Power",
-            demand="power",
-            limit="rated",
-            unit="W",
-            demand_label="power",
-            limit_label="rated",
-            consequence="turn it more slowly.",
-        ),
+        Check("power", "strength", "Power", m.power, m.rated, limit_label="rated", consequence="turn it more slowly."),
     ),
 )
