@@ -3,7 +3,7 @@
 from diecut_report.formulas.expression import GRAVITY, Constant, Expression, arccos, as_angle, as_number, m, number, pi
 from diecut_report.formulas.formula import Formula, formula
 from diecut_report.mechanism.chapters import Chapter, Steps, prefixed
-from diecut_report.mechanism.checks import AdviceWay, Check, Refusal, Vary
+from diecut_report.mechanism.checks import CURVE_ROUNDING, ROUNDING, AdviceWay, Check, Refusal, Vary
 from diecut_report.mechanism.curve_inputs import (
     CurveInput,
     FromTable,
@@ -86,6 +86,7 @@ from diecut_report.mechanism.recipes import (
     reduction,
     root,
     running,
+    self_test,
     total,
     value,
 )  # fmt: skip
@@ -105,7 +106,9 @@ from diecut_report.text.phrases import Phrase, joined, named, phrase, worded
 
 __all__ = [
     "CONTRACT",
+    "CURVE_ROUNDING",
     "GRAVITY",
+    "ROUNDING",
     "AdviceWay",
     "BarGroup",
     "Bars",
@@ -224,6 +227,7 @@ __all__ = [
     "root",
     "running",
     "samples",
+    "self_test",
     "si",
     "standard_series",
     "standard_series_by",

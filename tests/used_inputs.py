@@ -61,7 +61,7 @@ def many(*figures: Any) -> Mechanism:
     chapter.sum = m.taken + m.formed + m.first + m.second, "S", "mm", "Sum"
     chapter.other = value(2 * m.taken, needs=("switch",)), "O", "mm", "Other"
     chapter.widths = total("sum", of="parts.width"), "W", "mm", "Widths"
-    check = Check(id="c", check_class="strength", title="C", demand="sum", limit="limited", unit="mm", demand_label="is", limit_label="may be",
+    check = Check("c", "strength", "C", "sum", "limited", unit="mm", demand_label="is", limit_label="may be",
                   consequence="make it less than {said}")  # fmt: skip
     return Mechanism(kind="many", version="1", title="Many", summary="Many.", inputs=Many, chapters=(chapter,), checks=(check,),
                      figures=figures)  # fmt: skip

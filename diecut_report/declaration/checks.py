@@ -103,7 +103,7 @@ def _ways(names: DeclaredNames, side: str | float) -> list[Node]:
 
 def _expanded(names: DeclaredNames, name: str, giver: Giver, deep: int) -> Node:
     step = giver.step
-    if type(step) is not Value or isinstance(step.formula, ByText) or not deep:
+    if not isinstance(step, Value) or isinstance(step.formula, ByText) or not deep:
         return Node("sym", (name,))
     formula = formula_of(step.formula)
     try:
@@ -232,11 +232,13 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
         for kind in sorted({giver.kind for giver in givers} - set(JUDGED)):
             yield Phrase("compares {name}, {instead}", name=name, instead=_instead(name, kind))
         units = {each for giver in givers if giver.kind in JUDGED for each in _units(names, giver, check)}
-        wrong = sorted(each for each in units if unit(each).kind != unit(check.unit).kind)
+        wrong = sorted(each for each in units if check.unit and unit(each).kind != unit(check.unit).kind)
         if wrong:
             yield Phrase("is in {unit}, {name} in {wrong}", unit=check.unit, name=name, wrong=", ".join(wrong))
     if not all(sides.values()):
         return
+    if all(giver.kind in JUDGED for givers in sides.values() for giver in givers):
+        yield from _unsaid(check)
     axes = {giver.axis for givers in sides.values() for giver in givers if giver.axis}
     if len(axes) > 1:
         template = "compares what runs over {axes}; compare numbers, or curves over one abscissa"
@@ -249,6 +251,14 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
     parts = OF_PARTS if any(names.kinds(name) == {"row"} for name in sides) else ()
     wrong_names = (text for when in made for text in unprintable(names, check.consequence, when, parts))
     yield from dict.fromkeys(Phrase("the consequence names {text}", text=text) for text in wrong_names)
+
+
+def _unsaid(check: Check) -> Iterator[str]:
+    """What its author left out, and nothing that it compares tells."""
+    for field in ("unit", "demand_label", "limit_label"):
+        if not getattr(check, field):
+            template = "has no {field}, and none follows from what it compares; write {field}="
+            yield Phrase(template, field=field)
 
 
 def _names_of_parts(names: DeclaredNames, check: Check) -> Iterator[str]:

@@ -465,16 +465,16 @@ def curve_units(mechanism: Mechanism) -> Iterator[str]:
 
 
 def relations(mechanism: Mechanism) -> Iterator[str]:
-    """Yield roots that are proved by a relation between quantities of unlike dimensions."""
+    """Yield roots and self-tests that are proved by a relation between quantities of unlike dimensions."""
     units = units_of(mechanism)
     sides: dict[str, list[Found]] = {}
     for step, part, formula in formulas(mechanism):
-        if part.part in ("left", "right"):
+        if part.part in ("left", "right", "scale"):
             sides.setdefault(step.id, []).append(_given(formula, units))
-    for name, (a, b) in sides.items():
-        if not alike(a, b):
+    for name, (one, *others) in sides.items():
+        for other in (each for each in others if not alike(one, each)):
             template = "{name}: the relation equals {one} with {other}"
-            yield Phrase(template, name=name, one=kind_text(a), other=kind_text(b))
+            yield Phrase(template, name=name, one=kind_text(one), other=kind_text(other))
 
 
 def _given(formula: Formula, units: dict[str, str]) -> Found:

@@ -26,6 +26,7 @@ from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
 
 ID = re.compile(r"[A-Za-z_]\w*(\.\w+)*")
+NO_ID = phrase("is not an id; write letters, digits and underscores")
 RESERVED = ("inputs", "checks")
 HOLDS = {
     "chapters": Chapter,
@@ -44,7 +45,8 @@ def faults(mechanism: Mechanism) -> list[Fault]:
     for chapter in () if found else mechanism.chapters:
         found += [fault(chapter, text) for text in tuple_faults(chapter, "needs")]
         found += [fault(step, text) for step in chapter.steps for text in _of_step(step)]
-    return found
+    nameless = [check for check in mechanism.checks if not ID.fullmatch(check.id)] if not found else []
+    return found + [fault(check, NO_ID) for check in nameless]
 
 
 def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
@@ -74,7 +76,7 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
 
 def _of_step(step: Step) -> Iterator[str]:
     if not ID.fullmatch(step.id):
-        yield phrase("is not an id; write letters, digits and underscores")
+        yield NO_ID
     elif step.id in RESERVED or iskeyword(step.id):  # inputs.KEY is a name; a formula takes a step as its argument
         template = "has a name that is reserved; choose another one than {reserved} or a word of Python"
         yield Phrase(template, reserved=", ".join(RESERVED))
@@ -169,7 +171,7 @@ def unknown_units_faults(mechanism: Mechanism) -> Iterator[Fault]:
         for text in _unknown([step.unit, *(own for _, own in step.units)]):
             yield fault(step, text)
     for check in mechanism.checks:
-        yield from (fault(check, text) for text in _unknown([check.unit]))
+        yield from (fault(check, text) for text in _unknown([check.unit] if check.unit else []))
     for figure in mechanism.figures:
         for text in _unknown(_drawn(figure)):
             yield fault(figure, text)

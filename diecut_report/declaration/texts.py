@@ -112,8 +112,8 @@ def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
 
 def _own_texts(text: str) -> Iterable[str]:
     """A text; of one of the program that is filled with the plugin's, as of a point's coordinates, these alone."""
-    values = text.values.values() if isinstance(text, Phrase) else ()
-    return [each for each in values if isinstance(each, Phrase)] or [text]
+    filled = isinstance(text, Phrase) and text.values
+    return [each for each in filled.values() if isinstance(each, Phrase)] if filled else [text]
 
 
 # ``needs`` and ``lacks``: each names an input that there is, or a text that it may be.

@@ -17,6 +17,7 @@ from diecut_report.mechanics.timing.intervals import TOUCHING, Interval, Interva
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps import PREFIX, Abscissa, Cell, ListedColumn, Listing, Phase
+from diecut_report.mechanism.steps.table_steps import SAME
 from diecut_report.quantities.formatting import listed_text, number_text, told
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
@@ -150,7 +151,6 @@ def speed_of(calc: Calculation, abscissa: str, row: int = 0) -> float | None:
 
 
 Data = dict[str, Any]
-SAME = 1e-9  # relative difference within which a number is that of a row
 TAKEN, MARK = phrase("taken"), "→"
 
 

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import lru_cache
-from typing import Any, Literal
+import reprlib
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, replace
+from functools import lru_cache, wraps
+from inspect import signature
+from typing import Any, Literal, TypeVar, get_args
 
 import numpy as np
 
+from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.mechanism.names import placed
+from diecut_report.formulas.expression import Expression
+from diecut_report.mechanism.names import Misdeclared, placed
 from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.phrases import Phrase, phrase
 
 CheckClass = Literal["safety", "function", "strength", "practice", "numerical"]
 ROUNDING = 1e-9  # relative: what is sized for its limit, or typed at it, reaches it
-UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
+CURVE_ROUNDING = 1e-6  # relative: what is integrated or found on curves, which is proved to 1e-8 of their size
 
 
 @dataclass(frozen=True)
@@ -41,9 +45,73 @@ AdviceWay = str | Vary | tuple[str, ...]
 """An input that is changed alone, or several that are changed together in one proportion."""
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+# What an author may write wrongly in a check before anything is known of what it compares.
+
+
+Declared = TypeVar("Declared")
+ORDER = 'Check("id", "class", "title", m.demand, m.limit, consequence="…")'
+WANTED = {
+    "id": phrase("its id"), "check_class": Phrase("its class ({known})", known=", ".join(get_args(CheckClass))), "title": phrase("its title"),
+    "demand": phrase("a quantity or a number as its demand"), "limit": phrase("a quantity or a number as its limit"),
+}  # fmt: skip
+"""What stands by its place, in words."""
+
+
+def told_calls(declared: type[Declared]) -> type[Declared]:
+    """Tell in words, with the author's line, what is wrong with how one is made."""
+    init = declared.__init__
+
+    @wraps(init)
+    def told(self: Declared, *args: Any, **options: Any) -> None:
+        try:
+            init(self, *args, **options)
+        except TypeError as wrong:
+            if not isinstance(wrong, Misdeclared):
+                _refuse_call(declared, args, options)
+            raise
+
+    declared.__init__ = told  # type: ignore[method-assign,assignment]
+    return declared
+
+
+def _refuse_call(declared: type, args: tuple[Any, ...], options: Mapping[str, Any]) -> None:
+    own = signature(declared)
+    given = {**dict(zip(own.parameters, args, strict=False)), **options}
+    judge(given)
+    for name in options.keys() - own.parameters.keys():
+        template = "{id} has no option {name}{near}"
+        raise Misdeclared(Phrase(template, id=given.get("id", ""), name=name, near=nearest(name, own.parameters)))
+    try:
+        own.bind(*args, **options)
+    except TypeError as wrong:
+        template = "check {id}: {wrong}; write {order}, and all else by its name"
+        raise Misdeclared(Phrase(template, id=given.get("id", ""), wrong=str(wrong), order=ORDER)) from None
+
+
+def judge(given: Mapping[str, Any]) -> None:
+    """Raise Misdeclared where one of the first five parts of a check is of another kind: they may stand in another order."""
+    for name in WANTED:
+        if name in given and not _is_sound(name, part := given[name]):
+            written = f"m.{part.id}" if isinstance(part, Expression) and part.id else reprlib.repr(part)
+            template = "check {id} has {given} in the place of {wanted}; write {order}"
+            told = {"id": "" if name == "id" else given.get("id", ""), "given": written, "order": ORDER}
+            raise Misdeclared(Phrase(template, told, wanted=WANTED[name]))
+
+
+def _is_sound(name: str, part: Any) -> bool:
+    if name in ("id", "check_class", "title"):
+        return isinstance(part, str) and (name != "check_class" or part in get_args(CheckClass))
+    return isinstance(part, str | Expression | int | float | np.number) and not isinstance(part, bool)
+
+
+@told_calls
+@dataclass(frozen=True, eq=False)
 class Check:
-    """Demand ``demand`` ≤ ``limit``, and ``at_least`` ≤ ``demand`` where that is given (ids, or plain numbers in ``unit``).
+    """Demand ``demand`` ≤ ``limit``, and ``at_least`` ≤ ``demand`` where that is given (quantities, or plain numbers in ``unit``).
+
+    Where nothing else is said, ``unit`` is that of the demand, or of the limit where the demand is a number; ``source`` is that of the
+    demand, or else of the limit. ``demand_label`` and ``limit_label`` are what the quantities are described as, beginning with a small
+    letter; an input that limits a result is "allowed", a number that does "accepted", and a number that is demanded "at least".
 
     The utilisation is demand / limit, and null where the limit is not above zero; of a two-sided check it is the worse of
     that and at_least / demand. A row over repeated parts is judged part by part, and the worst one governs; a curve where
@@ -58,7 +126,7 @@ class Check:
     ``advise`` names the inputs that may be changed, each way by itself: ("shaft_diameter", "key_length"). The values with
     which the check holds are found by calculating the mechanism with others, and are not written by hand.
 
-    ``check_class`` must be given: "safety" (somebody can be hurt), "function" (the machine does not do what it is for), "strength"
+    ``check_class`` is "safety" (somebody can be hurt), "function" (the machine does not do what it is for), "strength"
     (a part breaks, wears, slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
     not among the checks of the machine; where one fails the mechanism is in error).
 
@@ -80,14 +148,15 @@ class Check:
     """
 
     id: str
+    check_class: CheckClass
     title: str
     demand: str | float
     limit: str | float
-    unit: str
-    demand_label: str
-    limit_label: str
+    _: KW_ONLY
+    unit: str = ""
+    demand_label: str = ""
+    limit_label: str = ""
     consequence: str
-    check_class: CheckClass = UNDECLARED
     source: str = ""
     operator: Literal["<=", "<"] = "<="
     severity: Literal["fail", "warn"] = "fail"
@@ -109,6 +178,9 @@ class Check:
     advise: tuple[AdviceWay, ...] = ()
     index: int | None = None
     at: str = placed()
+
+    def __post_init__(self) -> None:
+        judge(vars(self))
 
     @property
     def pairs(self) -> tuple[tuple[str | float, str | float], ...]:

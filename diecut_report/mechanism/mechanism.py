@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache, reduce, wraps
 from itertools import product
@@ -12,12 +13,13 @@ from typing import Any, TypeVar
 import numpy as np
 
 from diecut_report.mechanism.chapters import Chapter, in_unit
+from diecut_report.mechanism.check_sides import CheckSides
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit
 from diecut_report.mechanism.figures import Figure, Spectrum
 from diecut_report.mechanism.inputs import Inputs, fields, keys, list_inputs, rules
 from diecut_report.mechanism.names import Misdeclared, When, ids, placed, with_ids
-from diecut_report.mechanism.steps import Fact, Phase, SilentStep, Step, names_ahead, read
+from diecut_report.mechanism.steps import Fact, Phase, SelfTest, SilentStep, Step, names_ahead, read
 from diecut_report.mechanism.steps.naming import with_texts
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase
@@ -275,6 +277,19 @@ class Mechanism:
             "spectra",
         ):
             object.__setattr__(self, name, ids(with_ids(getattr(self, name))))
+        object.__setattr__(self, "checks", self._full_checks())
+
+    def _full_checks(self) -> tuple[Check, ...]:
+        """The checks with what follows from the quantities that they compare, and those of self-tests; as they are where a part has another shape."""
+        model: Any = self.inputs  # as an author wrote it
+        has_inputs = isinstance(model, type) and issubclass(model, Inputs)
+        if not (has_inputs and _all_are(Chapter, self.chapters) and _all_are(Check, self.checks)):
+            return self.checks
+        steps = [step for chapter in self.chapters for step in chapter.steps]
+        known = {(check.id, check.at) for check in self.checks}
+        tests = (step.as_check for step in steps if isinstance(step, SelfTest))
+        every = (*self.checks, *(check for check in tests if (check.id, check.at) not in known))
+        return tuple(map(CheckSides(steps, self.inputs).full, every))
 
     @cached_property
     def steps(self) -> tuple[tuple[Chapter, Step], ...]:
@@ -335,6 +350,10 @@ class Mechanism:
         return frozenset(name for name, meta in fields(self.inputs) if isinstance(meta, CurveInput))
 
 
+def _all_are(kind: type, given: object) -> bool:
+    return isinstance(given, tuple | list) and all(isinstance(each, kind) for each in given)
+
+
 # The number of the contract between the program and its plugins: it grows when a plugin that was written before would no longer run.
 
 
@@ -381,8 +400,11 @@ def absent_partners_checks(mechanism: Mechanism, kinds: Collection[str], given: 
 @cache
 def without_checks(mechanism: Mechanism, ids: frozenset[str]) -> Mechanism:
     """Return a mechanism kind without some of its checks; the same object for the same ones, as calculations are remembered by it."""
-    kept = tuple(check for check in mechanism.checks if check.id not in ids)
-    return replace(mechanism, checks=kept) if ids else mechanism
+    if not ids:
+        return mechanism
+    found = copy(mechanism)
+    object.__setattr__(found, "checks", tuple(check for check in mechanism.checks if check.id not in ids))
+    return found
 
 
 def _givers(mechanism: Mechanism, name: str) -> Iterator[When]:

@@ -29,6 +29,7 @@ from diecut_report.mechanism.steps import (
     Reduction,
     Root,
     Running,
+    SelfTest,
     Total,
     Value,
 )
@@ -54,6 +55,7 @@ part = recipe(Part)
 lookup = recipe(Lookup)
 interpolated = recipe(Interpolated)
 pick = recipe(Pick)
+self_test = recipe(SelfTest)
 
 
 def inner(gives: Written, *, per_piece: bool = False, **options: Unpack[Options]) -> Recipe:

@@ -463,11 +463,9 @@ def finding_check(level: str, texts: Sequence[Phrase]) -> Check:
         (phrase("Torque carried"), phrase("parts that nothing joins to their shaft")) if is_failure
         else (phrase("Parts that fit each other"), phrase("doubtful places"))
     )  # fmt: skip
-    return Check(
-        id=CARRIED if is_failure else FITS, title=title, check_class="function" if is_failure else "practice",
-        severity="fail" if is_failure else "warn", demand=CARRIED if is_failure else FITS, limit=0.0, unit="1", demand_label=label,
-        limit_label=phrase("allowed"), consequence=Phrase("{findings}.", findings=joined(texts, "; ")),
-    )  # fmt: skip
+    return Check(CARRIED if is_failure else FITS, "function" if is_failure else "practice", title,
+        CARRIED if is_failure else FITS, 0.0, severity="fail" if is_failure else "warn", unit="1", demand_label=label,
+        limit_label=phrase("allowed"), consequence=Phrase("{findings}.", findings=joined(texts, "; ")))  # fmt: skip
 
 
 def note_findings(calc: Calculation, findings: Sequence[PlacedFinding]) -> None:

@@ -277,8 +277,6 @@ def usual_check(found: list[Outside]) -> Check:
         for each in found
     ]
     template = "{values}. Check the values and their units, and say where they come from."
-    return Check(
-        id=USUAL, title=phrase("Usual values"), check_class="practice", severity="warn", demand=USUAL, limit=0.0, unit="1",
+    return Check(USUAL, "practice", phrase("Usual values"), USUAL, 0.0, severity="warn", unit="1",
         demand_label=phrase("values outside their usual range"), limit_label=phrase("allowed"),
-        consequence=Phrase(template, values=joined(parts, "; ")),
-    )  # fmt: skip
+        consequence=Phrase(template, values=joined(parts, "; ")))  # fmt: skip

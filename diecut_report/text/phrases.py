@@ -13,8 +13,10 @@ from functools import reduce
 from types import MappingProxyType
 from typing import Any
 
-PLACE = re.compile(r"\{(\w[\w.]*(?::[a-z]+)?)\}")  # ``{name}``; ``{name:capital}`` begins with a capital letter
-CAPITAL = ":capital"
+PLACE = re.compile(
+    r"\{(\w[\w.]*(?::[a-z]+)?)\}"
+)  # ``{name}``; ``{name:capital}`` and ``{name:small}`` say how it begins
+CAPITAL, SMALL = ":capital", ":small"
 PLAIN = re.compile(r"[\w./@+'’-]+(?: [\w./@+'’-]+)*…?")  # names of people and files
 LONGEST_CELL = 80
 NOTHING: Mapping[str, str] = MappingProxyType({})
@@ -89,6 +91,8 @@ def filled(template: str, values: Mapping[str, str]) -> str:
     def said(place: re.Match[str]) -> str:
         name = place[1]
         text = values.get(name, place[0])
+        if name.endswith(SMALL) and text[1:2].islower():  # not that of ISO, nor of K factors
+            return text[:1].lower() + text[1:]
         return text[:1].upper() + text[1:] if name.endswith(CAPITAL) else text
 
     return PLACE.sub(said, template)
@@ -114,6 +118,11 @@ class MessageError(Exception):
 def capital(sentence: str) -> Phrase:
     """Return a sentence that begins with a capital letter."""
     return Phrase("{sentence:capital}", {f"sentence{CAPITAL}": sentence})
+
+
+def small(words: str) -> Phrase:
+    """Return words that begin with a small letter, unless they begin with a symbol or an abbreviation."""
+    return Phrase("{words:small}", {f"words{SMALL}": phrase(words)})
 
 
 def joined(parts: Iterable[str], between: str) -> str:

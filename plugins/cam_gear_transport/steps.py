@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
+    CURVE_ROUNDING,
     ByText,
     Case,
     Chapter,
@@ -22,6 +23,7 @@ from diecut_report.api import (
     number,
     pi,
     reduction,
+    self_test,
     value,
 )
 from diecut_report.mechanics import contact
@@ -246,5 +248,5 @@ torques.torque_peak = reduction("abs_max", of="drive_torque"), "M_peak", "N*m", 
 torques.torque_rms = reduction("rms", of="drive_torque"), "M_rms", "N*m", "Root mean square torque at the disc's shaft", "energy"
 torques.energy_turn = reduction("integral", of="drive_torque", output=False), "E_Σ", "J", "Work of the disc's torque per revolution", "energy"
 torques.kinetic_energy_max = m.conveyor_mass * m.sheet_velocity_max ** 2 / 2, "E_k", "J", "Maximum kinetic energy of the conveyor", "energy"
-torques.energy_residual = (inner(abs(m.energy_turn) / m.kinetic_energy_max), "r_E", "1",
-    "Ratio of the work per revolution to the maximum kinetic energy", "energy")
+torques.energy_residual = (self_test(m.energy_turn, 0, scale=m.kinetic_energy_max, within=CURVE_ROUNDING, check="energy_balance",
+    title="Energy balance over a revolution"), "r_E", "1", "Ratio of the work per revolution to the maximum kinetic energy", "conservation of energy")

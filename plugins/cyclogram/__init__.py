@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from diecut_report.api import Check, CurveTable, ExampleBlock, ForEach, Mechanism, Source, Wired
+from diecut_report.api import Check, CurveTable, ExampleBlock, ForEach, Mechanism, Source, Wired, m
 from diecut_report.plugins.cyclogram import steps
 from diecut_report.plugins.cyclogram.figures import FIGURES
 from diecut_report.plugins.cyclogram.inputs import Cyclogram
@@ -76,18 +76,12 @@ MECHANISM = Mechanism(
     key_results=("sheet_time", "offset_found", "best_margin", "clearance_least", "torque_mean", "torque_rms",
                  "torque_peak", "power_peak", "energy_fluctuation", "energy_exchange"),
     checks=(
-        Check(id="interlock", named_by="interlocks.name", check_class="function", title="Interlock",
-              demand="length_demand", limit="length_available", unit="deg",
-              demand_label="required with margins", limit_label="available", source="timing",
-              consequence="{interlock_verdict}"),
-        Check(id="equal_rates", check_class="function", title="Equal rates of press and lines",
-              demand="rate_error", limit=steps.LARGEST_RATE_ERROR, unit="1", demand_label="relative difference",
-              limit_label="accepted", source="kinematics",
-              consequence="{line_name} runs at another rate than the press; let its speed follow press.productivity."),
-        Check(id="carriage_height", check_class="function", title="Clearance height for the carriages",
-              demand="carriage_clearance", limit="clearance_least",
-              unit="mm", demand_label="required", limit_label="minimum over the period", source="geometry", asks_for=("station",),
-              only_beside=("cylinder_drive",),
+        Check("interlock", "function", "Interlock", m.length_demand, m.length_available, named_by="interlocks.name",
+              demand_label="required with margins", limit_label="available", source="timing", consequence="{interlock_verdict}"),
+        Check("equal_rates", "function", "Equal rates of press and lines", m.rate_error, steps.LARGEST_RATE_ERROR, demand_label="relative difference",
+              source="kinematics", consequence="{line_name} runs at another rate than the press; let its speed follow press.productivity."),
+        Check("carriage_height", "function", "Clearance height for the carriages", m.carriage_clearance, m.clearance_least, demand_label="required",
+              limit_label="minimum over the period", source="geometry", asks_for=("station",), only_beside=("cylinder_drive",),
               consequence="a carriage is hit; let the carriages stop elsewhere, lower them, or turn the transport by its offset."),
     ),
     figures=FIGURES,

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
+    CURVE_ROUNDING,
     GRAVITY,
     Chapter,
     Expression,
@@ -23,6 +24,7 @@ from diecut_report.api import (
     m,
     pi,
     reduction,
+    self_test,
     value,
 )
 from diecut_report.mechanics import circular_segment, four_bar
@@ -322,8 +324,9 @@ energy.technological_work = (2 * m.cutting_arc_fraction * m.cutting_moment * m.s
     "Work of the technological moment, two strokes")
 energy.kinetic_energy_max = (m.moved_inertia * (m.velocity_max / m.cylinder_radius) ** 2 / 2, "E_k", "J",
     "Maximum kinetic energy of the cylinder and of the shafts that swing with it, without the unbalance")
-energy.energy_residual = (abs(m.energy_turn - m.technological_work) / np.maximum(m.technological_work, m.kinetic_energy_max), "r_E", "1",
-    "Relative difference between energy and work")
+energy.energy_residual = (self_test(m.energy_turn, m.technological_work, scale=np.maximum(m.technological_work, m.kinetic_energy_max),
+    within=CURVE_ROUNDING, check="energy_balance", title="Energy balance over a revolution", output=True), "r_E", "1",
+    "Relative difference between energy and work", "conservation of energy")
 
 clearance = Chapter("Window of the carriages",
     text="The carriages pass while the lower edge of the turned flat leaves their clearance over the die: R(1 − cos(α − θ)) ≥ c_r on both sides of "

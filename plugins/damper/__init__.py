@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired
+from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired, m
 from diecut_report.plugins.damper.figures import FIGURES
 from diecut_report.plugins.damper.steps import SECTIONS, SLENDEREST, STOPPED, Damper
 
@@ -32,39 +32,30 @@ ADVISE = ("adopted_length", *RUBBER, Vary("damper_count", "up"), PAD, (*PAD, "ad
 LONGER, SOFTER = ("adopted_length", Vary("damper_count", "up")), ("adopted_length", *RUBBER)
 
 CHECKS = (
-    Check(id="strain", check_class="strength", title="Strain within the linear law", demand="strain", limit="max_strain", unit="1",
-        demand_label="strain", limit_label="linear up to", source="002 eq. 19",
+    Check("strain", "strength", "Strain within the linear law", m.strain, m.max_strain, demand_label="strain", limit_label="linear up to",
         consequence="the rubber is stiffer then than calculated, and the force greater.", advise=ADVISE),
-    Check(id="stress", check_class="strength", title="Compressive stress", demand="stress", limit="allowable_stress", unit="MPa",
-        sized_unless=("adopted_length",), demand_label="stress", limit_label="allowed", source="002 eq. 22",
+    Check("stress", "strength", "Compressive stress", m.stress, m.allowable_stress, sized_unless=("adopted_length",), demand_label="stress",
         consequence="the block is too short to take up the energy.", advise=ADVISE),
-    Check(id="dynamic_stiffness", check_class="strength", title="Stiffness of the rubber at the impact", demand="dynamic_stiffness_factor",
-        limit="stiffness_borne", unit="1", sized_unless=("adopted_length",), demand_label="ratio of dynamic to static stiffness",
-        limit_label="limit for the allowable stress", source="002 eq. 22",
+    Check("dynamic_stiffness", "strength", "Stiffness of the rubber at the impact", m.dynamic_stiffness_factor, m.stiffness_borne,
+        sized_unless=("adopted_length",), demand_label="ratio of dynamic to static stiffness", limit_label="limit for the allowable stress",
         consequence="at the speed of the impact the rubber is too stiff for the block's length.", advise=ADVISE),
-    Check(id="slenderness", check_class="strength", title="Buckling of the block", demand="slenderness", limit=SLENDEREST, unit="1",
-        demand_label="ratio of length to smaller side", limit_label="straight up to", source="block with clamped ends",
-        consequence="the block buckles before it has taken up the energy.", advise=ADVISE),
-    Check(id="driven_stress", check_class="strength", title="Stress with the drive still pushing", demand="driven_stress", limit="allowable_stress",
-        unit="MPa", demand_label="stress", limit_label="allowed", source="energy",
-        consequence="the work of the drive adds to the energy; it does not where it is let go before the stop.", advise=ADVISE),
-    Check(id="driven_strain", check_class="strength", title="Strain with the drive still pushing", demand="driven_strain", limit="max_strain",
-        unit="1", demand_label="strain", limit_label="linear up to", source="energy",
+    Check("slenderness", "strength", "Buckling of the block", m.slenderness, SLENDEREST, limit_label="straight up to",
+        source="block with clamped ends", consequence="the block buckles before it has taken up the energy.", advise=ADVISE),
+    Check("driven_stress", "strength", "Stress with the drive still pushing", m.driven_stress, m.allowable_stress, demand_label="stress",
+        source="energy", consequence="the work of the drive adds to the energy; it does not where it is let go before the stop.", advise=ADVISE),
+    Check("driven_strain", "strength", "Strain with the drive still pushing", m.driven_strain, m.max_strain, demand_label="strain",
+        limit_label="linear up to", source="energy",
         consequence="the work of the drive presses the rubber beyond its linear law; it does not where it is let go before the stop.", advise=ADVISE),
-    Check(id="force", check_class="strength", title="Force of a damper", demand="peak_force", limit="allowable_force", unit="N",
-        demand_label="maximum force", limit_label="allowed", source="input", consequence="carriage or frame yields.", advise=LONGER),
-    Check(id="deceleration", check_class="function", title="Deceleration of the stop", demand="peak_deceleration", limit="allowable_deceleration",
-        unit="m/s**2", demand_label="maximum deceleration", limit_label="allowed", source="input", consequence="the stop shakes the machine.",
-        advise=SOFTER),
-    Check(id="heat_power", check_class="strength", title="Heat of the dampers", demand="heat_power", limit="allowable_heat_power", unit="W",
-        demand_label="heat of one end", limit_label="allowed", source="input",
-        consequence="the rubber softens and ages; dampers that are met later (with a smaller velocity) or a rubber that loses less help."),
-    Check(id="driven_force", check_class="strength", title="Force of a damper with the drive", demand="driven_peak_force", limit="allowable_force",
-        unit="N", demand_label="maximum force", limit_label="allowed", source="input",
-        consequence="carriage or frame yields; a drive that is let go makes it less.", advise=LONGER),
-    Check(id="driven_deceleration", check_class="function", title="Deceleration with the drive", demand="driven_peak_deceleration",
-        limit="allowable_deceleration", unit="m/s**2", demand_label="maximum deceleration", limit_label="allowed", source="input",
+    Check("force", "strength", "Force of a damper", m.peak_force, m.allowable_force, demand_label="maximum force", source="input",
+        consequence="carriage or frame yields.", advise=LONGER),
+    Check("deceleration", "function", "Deceleration of the stop", m.peak_deceleration, m.allowable_deceleration, source="input",
         consequence="the stop shakes the machine.", advise=SOFTER),
+    Check("heat_power", "strength", "Heat of the dampers", m.heat_power, m.allowable_heat_power, demand_label="heat of one end", source="input",
+        consequence="the rubber softens and ages; dampers that are met later (with a smaller velocity) or a rubber that loses less help."),
+    Check("driven_force", "strength", "Force of a damper with the drive", m.driven_peak_force, m.allowable_force, demand_label="maximum force",
+        source="input", consequence="carriage or frame yields; a drive that is let go makes it less.", advise=LONGER),
+    Check("driven_deceleration", "function", "Deceleration with the drive", m.driven_peak_deceleration, m.allowable_deceleration,
+        demand_label="maximum deceleration", source="input", consequence="the stop shakes the machine.", advise=SOFTER),
 )  # fmt: skip
 
 MECHANISM = Mechanism(

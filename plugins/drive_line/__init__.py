@@ -177,8 +177,8 @@ MECHANISM = Mechanism(
     chapters=(joins, drives, rolling, belts, turning, brakes, held),
     sources=(Source("ISO 21771", "ISO 21771:2007, Gears. Cylindrical involute gears and gear pairs. Concepts and geometry."),),
     checks=(
-        Check(id="rolling", check_class="practice", severity="warn", title="Rolling of the cylinder", demand="rolling_error", limit=0.1, unit="%",
-              needs=("rolling",), demand_label="difference of the chain's travel and the radius", limit_label="accepted", source="kinematics",
+        Check("rolling", "practice", "Rolling of the cylinder", m.rolling_error, 0.1, severity="warn", needs=("rolling",),
+              demand_label="difference of the chain's travel and the radius",
               consequence="the cylinder slips on the board while it cuts; take a radius that the chain's travel makes."),
     ),
     assumptions=("Shafts and joins are rigid and without backlash; a V-belt loses a hundredth of its speed.",),

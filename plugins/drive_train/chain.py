@@ -22,6 +22,7 @@ from diecut_report.api import (
     pick,
     reduction,
     running,
+    self_test,
     total,
     value,
 )
@@ -137,6 +138,6 @@ balance.gear_loss = (value(m.output_speed * (1 - m.gears.efficiency) * (m.drivin
 balance.gears_loss = total("sum", of="gear_loss", needs=("gears",)), "P_V,g", "kW", "Mean power lost in all gears", "mechanics"
 balance.gears_loss = value(0, lacks=("gears",)), "P_V,g", "kW", "Mean power lost in gears: there are none", "mechanics"
 balance.losses_total = m.vbelt_loss + m.gears_loss, "P_V", "kW", "Mean power lost", "mechanics"
-balance.power_missing = inner(abs(m.shaft_1_power - m.losses_total - m.power_output)), "ΔP", "W", "Residual of the power balance"
-balance.power_rounding = (inner(1e-12 * (abs(m.shaft_1_power) + m.losses_total + (m.driving_mean + m.braking_mean) * m.output_speed), printed=False),
-    "[ΔP]", "W", "Residual permitted for rounding")
+balance.power_missing = (self_test(m.shaft_1_power, m.losses_total + m.power_output, check="power_balance", title="Power balance",
+    scale=abs(m.shaft_1_power) + (m.driving_mean + m.braking_mean) * m.output_speed), "r_P", "1",
+    "Residual of the power balance, relative to the sum of the powers without their signs", "conservation of energy")

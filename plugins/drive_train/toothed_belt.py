@@ -127,27 +127,22 @@ MARKS.is_cylinder_pulley = (lookup({"cylinder": 1.0, "other": -1.0}, by=f"{PULLE
 MARKS.has_teeth = inner(np.maximum(m.pulley_side, m.is_cylinder_pulley)), "τ", "1", "Pulley with teeth: 1, smooth: −1", "this method"
 
 LISTED_CHECKS = (
-    Check(id="teeth_in_mesh", check_class="practice", title="Teeth in mesh",
-          demand=FEWEST_IN_MESH, limit="teeth_in_mesh_min", unit="1", demand_label="required",
+    Check("teeth_in_mesh", "practice", "Teeth in mesh", FEWEST_IN_MESH, m.teeth_in_mesh_min, demand_label="required",
           limit_label="minimum of toothed pulleys", source="practice",
-          consequence="the belt's teeth shear or jump; a larger pulley or an idler outside that adds wrap helps.",
-          advise=(Vary(PITCH, "down"),)),
-    Check(id="belt_engagement", check_class="function", title="Side of the cylinder's pulley",
-          demand="engagement_angle", limit=90.0, unit="deg", operator="<",
-          demand_label="belt off the engaged side", limit_label="allowed", source="geometry",
+          consequence="the belt's teeth shear or jump; a larger pulley or an idler outside that adds wrap helps.", advise=(Vary(PITCH, "down"),)),
+    Check("belt_engagement", "function", "Side of the cylinder's pulley", m.engagement_angle, 90.0, operator="<",
+          demand_label="belt off the engaged side", limit_label="allowed",
           consequence="the pulleys lead the belt round the other side of the cylinder's pulley, so it runs at another speed than is "
           "calculated; change toothed_belt.engagement, or the places and sides of the pulleys (the die lies below, where y is less)."),
-    Check(id="driving_pulley_listed", check_class="function", title="Driving pulley in the list",
-          demand="driving_teeth_off", limit=NOT_WHOLE, unit="1", demand_label="difference in teeth", limit_label="accepted", source="this method",
+    Check("driving_pulley_listed", "function", "Driving pulley in the list", m.driving_teeth_off, NOT_WHOLE, demand_label="difference in teeth",
           consequence="the belt's length is that of another driving pulley than the one calculated; give the first of "
           "toothed_belt.pulleys a radius of {driving_pulley_pitch_radius}, {driving_pulley_teeth} teeth."),
-    Check(id="pulley_teeth_whole", check_class="function", title="Whole teeth of the pulleys",
-          demand="pulley_teeth_off_max", limit=NOT_WHOLE, unit="1",
-          demand_label="deviation from whole number", limit_label="accepted", source="this method",
+    Check("pulley_teeth_whole", "function", "Whole teeth of the pulleys", m.pulley_teeth_off_max, NOT_WHOLE,
+          demand_label="deviation from whole number",
           consequence="the pulley of radius {farthest_radius} in toothed_belt.pulleys would have {farthest_teeth} teeth; give it a radius of "
           "{farthest_whole_radius}."),
-    Check(id="cylinder_pulley_listed", check_class="function", title="The cylinder's pulley in the list",
-          demand="cylinder_teeth_off", limit=NOT_WHOLE, unit="1", demand_label="difference in teeth", limit_label="accepted", source="this method",
+    Check("cylinder_pulley_listed", "function", "The cylinder's pulley in the list", m.cylinder_teeth_off, NOT_WHOLE,
+          demand_label="difference in teeth",
           consequence="toothed_belt.driven_radius and the radius of the pulley with role: cylinder, {cylinder_pulley_radius}, are of one "
           "pulley; give both {driven_whole_radius}."),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired
+from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired, m
 from diecut_report.plugins.gear_pair import load, rating
 from diecut_report.plugins.gear_pair.figures import FIGURES
 from diecut_report.plugins.gear_pair.inputs import GEARS, ExternalGearPair
@@ -23,57 +23,49 @@ def _strength(gear: int) -> tuple[Check, Check]:
     """Pitting and breakage of one gear."""
     name = GEARS[gear]
     return (
-        Check(id=f"pitting_{gear}", check_class="strength", title=f"Pitting of the {name}", demand="required_pitting_safety",
-              limit=f"pitting_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety",
-              source="ISO 6336-2:2006", needs=(DYNAMIC_KNOWN,), founded=(f"life_factor_h_{gear}",),
-              consequence=f"the flanks of the {name} wear out by pitting; governing load case: {{pitting_case}}.",
+        Check(f"pitting_{gear}", "strength", f"Pitting of the {name}", m.required_pitting_safety, m[f"pitting_safety_{gear}"],
+              demand_label="required safety factor", limit_label="safety", source="ISO 6336-2:2006", needs=(DYNAMIC_KNOWN,),
+              founded=(f"life_factor_h_{gear}",), consequence=f"the flanks of the {name} wear out by pitting; governing load case: {{pitting_case}}.",
               advise=(Vary(f"sigma_h_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
-        Check(id=f"root_{gear}", check_class="strength", title=f"Tooth root of the {name}", demand="required_root_safety",
-              limit=f"root_safety_{gear}", unit="1", demand_label="required safety factor", limit_label="safety",
-              source="ISO 6336-3:2006", needs=(DYNAMIC_KNOWN,), founded=(f"life_factor_f_{gear}",),
-              consequence=f"teeth of the {name} break at the root; governing load case: {{root_case}}.",
+        Check(f"root_{gear}", "strength", f"Tooth root of the {name}", m.required_root_safety, m[f"root_safety_{gear}"],
+              demand_label="required safety factor", limit_label="safety", source="ISO 6336-3:2006", needs=(DYNAMIC_KNOWN,),
+              founded=(f"life_factor_f_{gear}",), consequence=f"teeth of the {name} break at the root; governing load case: {{root_case}}.",
               advise=(Vary(f"sigma_f_lim_{gear}", "up"), Vary("face_width", "up"), *MODULE)),
     )
 
 
 STRENGTH = [_strength(g) for g in GEARS]
 CHECKS = (STRENGTH[0][0], STRENGTH[1][0], STRENGTH[0][1], STRENGTH[1][1],
-    Check(id="contact_ratio", check_class="function", title="Contact ratio", demand=LEAST_CONTACT, limit="contact_ratio", unit="1",
-        demand_label="required", limit_label="contact ratio", source="practice",
-        consequence="a pair of teeth parts before the next one carries; less shift or tips that are not shortened raise it.",
+    Check("contact_ratio", "function", "Contact ratio", LEAST_CONTACT, m.contact_ratio, demand_label="required", limit_label="contact ratio",
+        source="practice", consequence="a pair of teeth parts before the next one carries; less shift or tips that are not shortened raise it.",
         advise=(Vary("addendum", "up"), ("teeth_1", "teeth_2"))),
-    Check(id="clearance", check_class="function", title="Tip clearance to the mating root", demand=0.0, limit="tip_clearance_least", unit="mm",
-        demand_label="required", limit_label="minimum tip clearance", source="ISO 21771", consequence="a tip meets the other gear's root.",
-        advise=ROOM),
-    Check(id="sector_teeth", check_class="function", title="Teeth of the sector", demand="teeth_needed", limit="sector.teeth_present", unit="1",
-        needs=("sector", "sector.teeth_present"), demand_label="required for the swing", limit_label="present", source="this method",
-        consequence="the pinion leaves the sector at the end of its swing.", advise=(Vary("sector.teeth_present", "up"),)),
-    Check(id="undercut", check_class="practice", title="Undercut", demand="shift_lacking", limit=0.0, unit="1", severity="warn",
-        demand_label="missing profile shift", limit_label="allowed", source="ISO 21771",
+    Check("clearance", "function", "Tip clearance to the mating root", 0.0, m.tip_clearance_least, demand_label="required",
+        consequence="a tip meets the other gear's root.", advise=ROOM),
+    Check("sector_teeth", "function", "Teeth of the sector", m.teeth_needed, m.sector.teeth_present, needs=("sector", "sector.teeth_present"),
+        demand_label="required for the swing", limit_label="present", consequence="the pinion leaves the sector at the end of its swing.",
+        advise=(Vary("sector.teeth_present", "up"),)),
+    Check("undercut", "practice", "Undercut", m.shift_lacking, 0.0, severity="warn", demand_label="missing profile shift", limit_label="allowed",
         consequence="the rack cuts the involute away near the root, and the root is weaker than calculated.",
         advise=("shift_1", "shift_2", ("shift_1", "shift_2"))),
-    Check(id="tip_thickness", check_class="practice", title="Tip thickness", demand="tip_thickness_wanted", limit="tip_thickness_least", unit="mm",
-        severity="warn", demand_label="usual, 0.2 modules", limit_label="thinner tip", source="practice",
-        consequence="thin tips chip where they are hardened; more teeth thicken them.",
+    Check("tip_thickness", "practice", "Tip thickness", m.tip_thickness_wanted, m.tip_thickness_least, severity="warn",
+        demand_label="usual, 0.2 modules", limit_label="thinner tip", consequence="thin tips chip where they are hardened; more teeth thicken them.",
         advise=(Vary("addendum", "down"), Vary("shift_1", "down"), Vary("shift_2", "down"), ("shift_1", "shift_2"))),
-    Check(id="tip_clearance", check_class="practice", title="Tip clearance", demand="tip_clearance_wanted", limit="tip_clearance_least", unit="mm",
-        severity="warn", demand_label="usual, 0.12 modules", limit_label="minimum tip clearance", source="practice",
-        consequence="little room for errors and dirt.", advise=ROOM),
-    Check(id="notch_parameter", check_class="practice", presumed=True, title="Notch at the root", demand="notch_parameter", limit=8.0, at_least=1.0,
-        unit="1", operator="<", severity="warn", demand_label="notch parameter", limit_label="range of Y_S", source="ISO 6336-3:2006, 7",
-        consequence="the stress correction Y_S does not hold there.", advise=("root_radius",)),
-    Check(id="face_width", check_class="practice", title="Face width", demand="face_width", limit="face_width_wanted", unit="mm", severity="warn",
-        demand_label="face width", limit_label="usual, 1.2 pinion diameters", source="practice",
-        consequence="so wide teeth bear at one end.", advise=(Vary("face_width", "down"), MODULE[0])),
-    Check(id="k_factors", check_class="practice", title="K factors", demand="factors_assumed", limit=0.0, unit="1", severity="warn",
-        founded=KEYS, demand_label="number of assumed factors", limit_label="accepted", source=ISO,
+    Check("tip_clearance", "practice", "Tip clearance", m.tip_clearance_wanted, m.tip_clearance_least, severity="warn",
+        demand_label="usual, 0.12 modules", consequence="little room for errors and dirt.", advise=ROOM),
+    Check("notch_parameter", "practice", "Notch at the root", m.notch_parameter, 8.0, presumed=True, at_least=1.0, operator="<", severity="warn",
+        demand_label="notch parameter", limit_label="range of Y_S", consequence="the stress correction Y_S does not hold there.",
+        advise=("root_radius",)),
+    Check("face_width", "practice", "Face width", m.face_width, m.face_width_wanted, severity="warn", demand_label="face width",
+        limit_label="usual, 1.2 pinion diameters", consequence="so wide teeth bear at one end.", advise=(Vary("face_width", "down"), MODULE[0])),
+    Check("k_factors", "practice", "K factors", m.factors_assumed, 0.0, severity="warn", founded=KEYS, demand_label="number of assumed factors",
+        source=ISO,
         consequence="{assumed_told} are assumed, not calculated; give the grade of accuracy, the speed and the slope of the shafts, with "
                     "which they are calculated, or their values."),
-    Check(id="dynamic_range", check_class="practice", title="Range of the dynamic factor", demand="speed_parameter", limit=METHOD_C, unit="m/s",
-        severity="warn", only_with=CALCULATED, presumed=True, demand_label="speed", limit_label="end of method C", source="IACS UR M56",
+    Check("dynamic_range", "practice", "Range of the dynamic factor", m.speed_parameter, METHOD_C, severity="warn", only_with=CALCULATED,
+        presumed=True, demand_label="speed", limit_label="end of method C", source="IACS UR M56",
         consequence="method C does not hold near the resonance; give dynamic_factor.", advise=(Vary("speed", "down"),)),
-    Check(id="grade_confirmed", check_class="practice", title="Sources of the dynamic factor", demand="grade", limit="grade_confirmed", unit="1",
-        severity="warn", only_with=CALCULATED, presumed=True, demand_label="grade", limit_label="confirmed by two sources", source=ISO,
+    Check("grade_confirmed", "practice", "Sources of the dynamic factor", m.grade, m.grade_confirmed, severity="warn", only_with=CALCULATED,
+        presumed=True, demand_label="grade", limit_label="confirmed by two sources", source=ISO,
         consequence="the coefficient K_1 of so coarse helical teeth is from one source; give dynamic_factor.", advise=(Vary("grade", "down"),)))
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
+    CURVE_ROUNDING,
     Chapter,
     Constant,
     abscissa,
@@ -35,7 +36,6 @@ CURVE = ("torque_curve",)
 CASES = ("load_cases",)
 OF_RUN = ("T_1,run", "N*m")
 SELDOM = 1e5  # load cycles up to which a load case does not count for pitting
-REVERSED = 1e-6  # share of the torque's size up to which the other sign is rounding
 
 cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referenced curve is mapped to one revolution of the cycle angle.")
 cycle.cycle_angle = abscissa(period=2 * np.pi, shown_at="torque_size_at"), "φ", "deg", "Cycle angle, one revolution per period of the torque"
@@ -68,7 +68,7 @@ for id, symbol, words, torque in (("pitting_case", "C_H", "pitting", "case_frequ
     case_of = (symbol, "1", f"Governing load case for {words}")
     load[id] = computed(governing_case, ("torque_run", "load_cases.name", torque), GREATEST, is_text=True, needs=CASES), *case_of
     load[id] = computed(governing_case, ("torque_run",), GREATEST, is_text=True, lacks=CASES, printed=False, output=False), *case_of
-load.reversing = (value((m.torque_max > REVERSED * m.torque_run) & (-m.torque_min > REVERSED * m.torque_run), needs=CURVE), "R_T", "1",
+load.reversing = (value((m.torque_max > CURVE_ROUNDING * m.torque_run) & (-m.torque_min > CURVE_ROUNDING * m.torque_run), needs=CURVE), "R_T", "1",
     "Reversing torque over the cycle: each tooth is bent in both directions", "this method")
 load.reversing = value(m.torque_run < 0, lacks=CURVE), "R_T", "1", "Reversing torque: a single torque does not reverse", "this method"
 load.alternating_factor = (value(m.inputs.alternating_factor, needs=("alternating_factor",)), "Y_M", "1", "Mean stress influence factor: as given",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, ExampleBlock, Mechanism, Port, Source, Vary, Wired
+from diecut_report.api import Check, ExampleBlock, Mechanism, Port, Source, Vary, Wired, m
 from diecut_report.plugins.geneva_transport import steps
 from diecut_report.plugins.geneva_transport.comparison import COMPARED
 from diecut_report.plugins.geneva_transport.figures import FIGURES
@@ -12,43 +12,33 @@ from diecut_report.plugins.geneva_transport.steps import CONVEYOR_NEEDS
 LOCKING = ("locking_radius", Vary("roller_radius", "down"), Vary("locking_clearance", "down"))
 
 CHECKS = (
-    Check(id="roller_clearance", check_class="function", title="Wall between two slots", demand="slot_width", limit="slot_spacing", unit="mm",
-        operator="<", demand_label="width of the slots", limit_label="distance of their inner ends", source="geometry",
+    Check("roller_clearance", "function", "Wall between two slots", m.slot_width, m.slot_spacing, operator="<",
+        limit_label="distance of their inner ends",
         consequence="neighbouring slots run into each other at their inner ends, the wall between them is {roller_clearance}.",
         advise=(Vary("roller_radius", "down"), Vary("center_distance", "up"))),
-    Check(id="arm_thickness", check_class="function", title="Arm between locking arc and slot", demand="locking_radius", limit="flank_distance",
-        unit="mm", operator="<", demand_label="radius of the locking arc", limit_label="distance of the slot's flank", source="geometry",
+    Check("arm_thickness", "function", "Arm between locking arc and slot", m.locking_radius, m.flank_distance, operator="<",
+        demand_label="radius of the locking arc", limit_label="distance of the slot's flank", source="geometry",
         consequence="the locking arc cuts into the slots, the tips of the wheel's arms would be {arm_tip} thick.", advise=LOCKING[:2]),
-    Check(id="locking_reach", check_class="function", title="Locking disc reaches the wheel", demand="rim_distance", limit="disc_radius", unit="mm",
-        operator="<", demand_label="distance of the wheel's rim", limit_label="radius of the locking disc", source="geometry",
-        consequence="the disc turns clear of the wheel, nothing holds it in the dwell.", advise=LOCKING),
-    Check(id="cutout", check_class="function", title="Arm tips clear the locking disc", demand="cutout_overlap", limit=0.01, unit="mm",
-        demand_label="overlap", limit_label="accepted", source="geometry",
+    Check("locking_reach", "function", "Locking disc reaches the wheel", m.rim_distance, m.disc_radius, operator="<",
+        demand_label="distance of the wheel's rim", consequence="the disc turns clear of the wheel, nothing holds it in the dwell.", advise=LOCKING),
+    Check("cutout", "function", "Arm tips clear the locking disc", m.cutout_overlap, 0.01, demand_label="overlap",
         consequence="in the engagement the tips of the arms meet the disc beside its cut-out, unless they are rounded off.", advise=LOCKING),
-    Check(id="sheet_acceleration", check_class="function", title="Acceleration of the sheet", demand="sheet_acceleration_max",
-        limit="allowable_sheet_acceleration", unit="m/s**2", demand_label="maximum acceleration", limit_label="allowed",
-        source="input", needs=(*CONVEYOR_NEEDS, "allowable_sheet_acceleration"),
+    Check("sheet_acceleration", "function", "Acceleration of the sheet", m.sheet_acceleration_max, m.allowable_sheet_acceleration,
+        demand_label="maximum acceleration", source="input", needs=(*CONVEYOR_NEEDS, "allowable_sheet_acceleration"),
         consequence="the sheet slips from the grippers or tears; a shorter step lowers it, too.",
         advise=(Vary("crank_speed", "down"), Vary("slots", "up"))),
-    Check(id="grippers", check_class="function", title="Holding force of the grippers", demand="sheet_force", limit="gripper_force", unit="N",
-        demand_label="force of the sheet on the grippers", limit_label="holding force of the grippers", source="mechanics",
-        needs=(*GRIPPED, "gripper_force"), consequence="the sheet slips out of the grippers, and the register is lost.",
-        advise=(Vary("crank_speed", "down"),)),
-    Check(id="contact_pressure", check_class="strength", title="Contact pressure of the roller", demand="contact_pressure",
-        limit="allowable_contact_pressure", unit="MPa", demand_label="contact pressure", limit_label="allowed", source="Hertz",
-        needs=("driven_inertia", "roller_width", "allowable_contact_pressure"),
+    Check("grippers", "function", "Holding force of the grippers", m.sheet_force, m.gripper_force, demand_label="force of the sheet on the grippers",
+        limit_label="holding force of the grippers", needs=(*GRIPPED, "gripper_force"),
+        consequence="the sheet slips out of the grippers, and the register is lost.", advise=(Vary("crank_speed", "down"),)),
+    Check("contact_pressure", "strength", "Contact pressure of the roller", m.contact_pressure, m.allowable_contact_pressure,
+        demand_label="contact pressure", needs=("driven_inertia", "roller_width", "allowable_contact_pressure"),
         consequence="roller and slot wear and pit; a smaller inertia lowers it, too.",
         advise=(Vary("roller_width", "up"), Vary("center_distance", "up"), Vary("slots", "up"))),
-    Check(id="torque", check_class="strength", title="Torque at the crank", demand="torque_peak", limit="allowable_torque", unit="N*m",
-        demand_label="maximum torque", limit_label="allowed", source="input",
+    Check("torque", "strength", "Torque at the crank", m.torque_peak, m.allowable_torque, demand_label="maximum torque", source="input",
         consequence="the crank's shaft and what drives it are overloaded; a smaller inertia lowers it, too.",
         advise=(Vary("crank_speed", "down"), Vary("slots", "up"))),
-    Check(id="sheet_play", check_class="function", title="Play of the sheet in the dwell", demand="sheet_play", limit="allowable_sheet_play",
-        unit="mm", demand_label="play", limit_label="allowed", source="input",
+    Check("sheet_play", "function", "Play of the sheet in the dwell", m.sheet_play, m.allowable_sheet_play, demand_label="play", source="input",
         consequence="the sheets lie out of register, unless an index pin holds the wheel.", advise=(Vary("locking_clearance", "down"),)),
-    Check(id="energy_balance", check_class="numerical", title="Energy balance over a revolution", demand="energy_residual", limit=1e-6, unit="1",
-        needs=("driven_inertia",), demand_label="ratio of work", limit_label="accepted", source="conservation of energy",
-        consequence="the calculation contradicts itself; do not use it."),
 )  # fmt: skip
 
 

@@ -4,7 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, abscissa, as_angle, case, choice, inner, m, pi, reduction, value
+from diecut_report.api import (
+    CURVE_ROUNDING,
+    Chapter,
+    abscissa,
+    as_angle,
+    case,
+    choice,
+    inner,
+    m,
+    pi,
+    reduction,
+    self_test,
+    value,
+)
 from diecut_report.mechanics import common, contact
 from diecut_report.plugins.geneva_transport import formulas
 from diecut_report.plugins.geneva_transport.inputs import GRIPPED
@@ -149,8 +162,9 @@ torque.kinetic_energy_max = (m.driven_inertia * (m.speed_ratio_peak * m.crank_sp
 torque.energy_turn = reduction("integral", of="torque", output=False), "E_Σ", "J", "Work of the torque over a revolution", "energy"
 torque.energy_lost = (inner(m.kinetic_energy_max * (1 - m.own_inertia / m.driven_inertia) * (1 / m.efficiency - m.efficiency)), "E_v", "J",
     "Energy that the gear behind the wheel takes in a step", "energy")
-torque.energy_residual = (inner(abs(m.energy_turn - m.energy_lost) / m.kinetic_energy_max), "r_E", "1",
-    "Ratio of the work over a revolution, but for the losses, to the energy of a step", "energy")
+torque.energy_residual = (self_test(m.energy_turn, m.energy_lost, scale=m.kinetic_energy_max, within=CURVE_ROUNDING, check="energy_balance",
+    title="Energy balance over a revolution"), "r_E", "1", "Ratio of the work over a revolution, but for the losses, to the energy of a step",
+    "conservation of energy")
 
 hertz = Chapter("Contact of roller and slot",
     text="A cylindrical roller on the plane flank of the slot, both of the same material; the load is uniform over the roller's width.",

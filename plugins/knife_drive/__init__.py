@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Erratum, ExampleBlock, Mechanism, Source, Vary
+from diecut_report.api import Check, Erratum, ExampleBlock, Mechanism, Source, Vary, m
 from diecut_report.plugins.knife_drive import comparison, drives, working
 from diecut_report.plugins.knife_drive.figures import FIGURES
 from diecut_report.plugins.knife_drive.inputs import KnifeDrive
@@ -13,32 +13,26 @@ def of_drive(drive: DriveKind) -> tuple[Check, ...]:
     """Paper in the working stroke, paper in the grip, depth, time on the table."""
     own, name = drive.key, f"{drive.name[0].upper()}{drive.name[1:]}"
     return (
-        Check(id=f"{own}_paper_acceleration", check_class="function", title=f"{name}: acceleration of the paper", demand=f"{own}_acceleration_peak",
-              limit="allowable_paper_acceleration", unit="m/s**2", demand_label="maximum in the working stroke", limit_label="allowed",
-              needs=(own,), source="004, after Fig. 3",
+        Check(f"{own}_paper_acceleration", "function", f"{name}: acceleration of the paper", m[f"{own}_acceleration_peak"],
+              m.allowable_paper_acceleration, demand_label="maximum in the working stroke", needs=(own,), source="004, after Fig. 3",
               consequence=f"the knife breaks or tears the paper at the fold; a shorter stroke than {{{own}_stroke}} is gentler.",
               advise=(Vary("cylinder_rate", "down"),)),
-        Check(id=f"{own}_grip_acceleration", check_class="function", title=f"{name}: acceleration in the grip", demand=f"{own}_grip_size",
-              limit="allowable_grip_acceleration", unit="m/s**2", demand_label="in the grip of the rollers", limit_label="allowed",
-              needs=(own,), source="004, after Fig. 3",
+        Check(f"{own}_grip_acceleration", "function", f"{name}: acceleration in the grip", m[f"{own}_grip_size"], m.allowable_grip_acceleration,
+              demand_label="in the grip of the rollers", needs=(own,), source="004, after Fig. 3",
               consequence="the rollers change the signature's speed too fast and may tear it.",
               advise=("roller_ratio", Vary("cylinder_rate", "down"), Vary("grip_angle", "up"))),
-        Check(id=f"{own}_depth", check_class="function", title=f"{name}: stroke over working depth",
-              demand="working_depth", limit=f"{own}_stroke", unit="mm",
-              needs=(own,), demand_label="working depth", limit_label="stroke", source="geometry",
+        Check(f"{own}_depth", "function", f"{name}: stroke over working depth", m.working_depth, m[f"{own}_stroke"], needs=(own,),
+              demand_label="working depth", limit_label="stroke", source="geometry",
               consequence=f"the edge never rises above the table; {drive.longer} makes the stroke greater.",
               advise=(Vary(f"{own}.{drive.stroke_key}", "up"), Vary("working_depth", "down"))),
-        Check(id=f"{own}_time_budget", check_class="function", title=f"{name}: time on the table",
-              demand=f"{own}_table_time", limit="signature_interval", unit="ms",
-              needs=(own, "signature_length"), demand_label="time of a signature on the table", limit_label="time between two signatures",
-              source="004, before Fig. 2",
+        Check(f"{own}_time_budget", "function", f"{name}: time on the table", m[f"{own}_table_time"], m.signature_interval,
+              needs=(own, "signature_length"), demand_label="time of a signature on the table", source="004, before Fig. 2",
               consequence="the next signature runs into the one that is still on the table; a shorter working stroke leaves more time.",
               advise=(Vary("roller_ratio", "up"),)),
     )  # fmt: skip
 
 
-IN_STEP = Check(id="in_step", check_class="function", title="Knife in step with the signatures", demand="stroke_error", limit=0, unit="1",
-    demand_label="deviation from one stroke per signature", limit_label="allowed", source="kinematics",
+IN_STEP = Check("in_step", "function", "Knife in step with the signatures", m.stroke_error, 0, limit_label="allowed",
     consequence="the knife misses signatures, or comes down onto one that it has folded; give drive_ratio 2.")  # fmt: skip
 CHECKS = (*(check for drive in ALL for check in of_drive(drive)), IN_STEP)
 

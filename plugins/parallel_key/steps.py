@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
+    CURVE_ROUNDING,
+    ROUNDING,
     Block,
     Chapter,
     Constant,
@@ -119,7 +121,6 @@ LONGEST = si(LENGTHS.values[-1], LENGTHS.unit)
 GIVEN = ("width",)
 DIMENSIONS = {"width": ("b", "b", "Width of the key"), "height": ("h", "h", "Height of the key"),
               "depth_shaft": ("t_1", "t1", "Depth of the shaft keyway"), "depth_hub": ("t_2", "t2", "Depth of the hub keyway")}
-ROUNDING = 1e-9  # relative: a diameter at the end of a row belongs to it
 LEAST_SHAFT = Constant(THINNEST, "d_0", "m")
 GREATEST_SHAFT = Constant(float(SHAFTS[-1]) * (1 + ROUNDING), "d_1", "m")
 LONGEST_KEY = Constant(LONGEST, "l_1", "m")
@@ -157,7 +158,6 @@ dimensions.require("bears", m.height_key > 0, key="chamfer",
 
 CURVE = ("torque_curve",)
 CASES = ("load_cases",)
-REVERSED = 1e-6  # share of the torque's size up to which the other sign is rounding
 ONE_SPEED = 1e-3  # relative difference of two speeds that are one
 METHOD = "DIN 6892:2012, method B"
 BY_LIFE = ("required_life",)
@@ -201,8 +201,8 @@ load.torque_peak = value(np.maximum(m.torque_run, m.torque_case), needs=CASES), 
 PEAK_CASE = ("C", "1", "Load case of the maximum torque")
 load.peak_case = (computed(governing_case, ("torque_run", "load_cases.name", "load_cases.torque"), GREATEST, is_text=True, needs=CASES), *PEAK_CASE)
 load.peak_case = computed(governing_case, ("torque_run",), GREATEST, is_text=True, lacks=CASES, printed=False, output=False), *PEAK_CASE
-load.reversing = (value((m.torque_greatest > REVERSED * m.torque_size) & (-m.torque_least > REVERSED * m.torque_size), needs=CURVE), "R_T", "1",
-    "Reversing torque over the cycle", "this method")
+load.reversing = (value((m.torque_greatest > CURVE_ROUNDING * m.torque_size) & (-m.torque_least > CURVE_ROUNDING * m.torque_size), needs=CURVE),
+    "R_T", "1", "Reversing torque over the cycle", "this method")
 load.reversing = value(m.torque_size < 0, lacks=CURVE), "R_T", "1", "Reversing torque: a single torque does not reverse", "this method"
 FLANKS = ("N_W", "1", "Number of load direction changes in the life")
 load.changes_of_flank = (value(m.reversing * m.flank_change_count * m.cycle_speed * m.required_life / (2 * pi), needs=(*CURVE, *BY_LIFE)), *FLANKS,

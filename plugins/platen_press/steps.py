@@ -8,6 +8,7 @@ from typing import Any, Self
 import numpy as np
 
 from diecut_report.api import (
+    CURVE_ROUNDING,
     GRAVITY,
     Case,
     Chapter,
@@ -24,6 +25,7 @@ from diecut_report.api import (
     pi,
     reduction,
     samples,
+    self_test,
     value,
 )
 from diecut_report.mechanics import slider_crank
@@ -401,8 +403,9 @@ work.friction_work = reduction("integral", of="torque_friction"), "W_f", "J", "W
 work.strain_energy = m.cutting_force_max * m.drive_deformation / 2, "W_e", "J", "Energy stored and returned by the rods", "energy"
 work.friction_share = m.friction_work / m.work_per_cycle, "k_f", "%", "Fraction of the work taken by friction"
 work.power_mean = m.work_per_cycle * m.cycles_per_hour, "P_mean", "W", "Mean power at the main shaft"
-work.energy_residual = (inner(abs(m.work_per_cycle - m.cutting_work - m.friction_work) / m.work_per_cycle), "r_E", "1",
-    "Relative difference between the work and its components", "conservation of energy")
+work.energy_residual = (self_test(m.work_per_cycle, m.cutting_work + m.friction_work, scale=m.work_per_cycle, within=CURVE_ROUNDING,
+    check="energy_balance", title="Energy balance over a cycle"), "r_E", "1", "Relative difference between the work and its components",
+    "conservation of energy")
 
 
 def _pressure(key: str, name: str, symbol: str, pins: str, radius: str) -> Chapter:

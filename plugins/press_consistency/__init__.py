@@ -2,123 +2,124 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, ExampleBlock, Level, Mark, Mechanism, Panel, Partner, Plot, Series, Vary, Wired
+from diecut_report.api import (
+    ROUNDING,
+    Check,
+    ExampleBlock,
+    Level,
+    Mark,
+    Mechanism,
+    Panel,
+    Partner,
+    Plot,
+    Series,
+    Vary,
+    Wired,
+    m,
+)
 from diecut_report.plugins.press_consistency import relations, steps
 from diecut_report.plugins.press_consistency.inputs import PressConsistency
 
-WHOLE = 1e-9  # by which pitches may miss a whole number
 FURTHEST_RATE = 0.02  # below the productivity, as for the speed of the drive train's output
 LARGEST_INERTIA_ERROR = 5.0  # percent
 
 MOTOR = (Vary("flywheel_inertia", "up"), Vary("motor_speed", "down"), Vary("motor_rated_torque", "up"))
 
 CHECKS = (
-    Check(id="timing", check_class="function", title="Timing of the press", demand=0.0, limit="timing_slack", unit="deg",
-        demand_label="required", limit_label="minimum slack of the interlocks", source="this method",
+    Check("timing", "function", "Timing of the press", 0.0, m.timing_slack, demand_label="required", limit_label="minimum slack of the interlocks",
+        source="this method",
         consequence="the mechanisms are in each other's way; the cyclogram says which, by how much, and which offset is best. Torques, motor and "
             "flywheel are then those of a press that cannot run: fix this first, then judge them."),
-    Check(id="format_rolled", check_class="function", presumed=True, title="Sheet in the feed direction and cylinder", demand="side_in_feed",
-        limit="working_length", unit="mm", demand_label="sheet in the feed direction",
-        limit_label="length that the cylinder unrolls", source="geometry",
+    Check("format_rolled", "function", "Sheet in the feed direction and cylinder", m.side_in_feed, m.working_length, presumed=True,
+        demand_label="sheet in the feed direction", limit_label="length that the cylinder unrolls", source="geometry",
         consequence="the sheet is not cut over its whole {feed_side}; take a larger cylinder or a smaller sheet."),
-    Check(id="format_generatrix", check_class="function", presumed=True, title="Sheet across the feed and cylinder", demand="side_across",
-        limit="generatrix_length", unit="mm", demand_label="sheet across the feed", limit_label="generatrix of the cylinder",
-        source="geometry", consequence="the sheet reaches beyond the cylinder's end; take a longer cylinder or a smaller sheet."),
-    Check(id="cylinder_sizes", check_class="function", presumed=True, title="One cylinder: sizes", demand="cylinder_sizes_apart", limit=0.0,
-        unit="1", demand_label="sizes given otherwise", limit_label="accepted", source="geometry",
+    Check("format_generatrix", "function", "Sheet across the feed and cylinder", m.side_across, m.generatrix_length, presumed=True,
+        demand_label="sheet across the feed", limit_label="generatrix of the cylinder", source="geometry",
+        consequence="the sheet reaches beyond the cylinder's end; take a longer cylinder or a smaller sheet."),
+    Check("cylinder_sizes", "function", "One cylinder: sizes", m.cylinder_sizes_apart, 0.0, presumed=True, demand_label="sizes given otherwise",
+        source="geometry",
         consequence="the drive or the dampers are calculated for another cylinder than the one that is sized: {cylinder_sizes}; refer to the "
             "cylinder there."),
-    Check(id="cylinder_loads", check_class="strength", severity="warn", presumed=True, title="One cylinder: masses and moments",
-        demand="cylinder_loads_short", limit=0.0, unit="1", demand_label="values less than the cylinder's", limit_label="accepted",
-        source="dynamics", consequence="forces and energies are calculated for a lighter cylinder than the one that is sized, or without its "
+    Check("cylinder_loads", "strength", "One cylinder: masses and moments", m.cylinder_loads_short, 0.0, severity="warn", presumed=True,
+        demand_label="values less than the cylinder's", source="dynamics",
+        consequence="forces and energies are calculated for a lighter cylinder than the one that is sized, or without its "
             "unbalance, or for less cutting: {cylinder_loads}; refer to the cylinder there."),
-    Check(id="step", check_class="function", title="Sheet and step", demand="side_in_feed", limit="sheet_step", unit="mm",
-        demand_label="sheet in the feed direction", limit_label="step of the transport", source="geometry",
+    Check("step", "function", "Sheet and step", m.side_in_feed, m.sheet_step, demand_label="sheet in the feed direction",
+        limit_label="step of the transport", source="geometry",
         consequence="the next sheet comes to lie on this one; the step must be longer, or the sheet shorter."),
-    Check(id="sheet_gap", check_class="function", title="Gap between two sheets", demand="sheet_gap", limit="step_room", unit="mm",
-        demand_label="required for grippers and carriage", limit_label="gap after a step", source="geometry",
+    Check("sheet_gap", "function", "Gap between two sheets", m.sheet_gap, m.step_room, demand_label="required for grippers and carriage",
+        limit_label="gap after a step",
         consequence="there is not room enough for grippers and carriage between two sheets; the step must be longer, or the sheet shorter."),
-    Check(id="actual_rate", check_class="function", presumed=True, title="Productivity and gears", demand="rate_asked", limit="least_rate",
-        unit="1/h", severity="warn", fails_beyond=1 / (1 - FURTHEST_RATE), tolerance=1e-6, demand_label="productivity",
-        limit_label="rate given by the gears", source="kinematics",
+    Check("actual_rate", "function", "Productivity and gears", m.rate_asked, m.least_rate, presumed=True, severity="warn",
+        fails_beyond=1 / (1 - FURTHEST_RATE), tolerance=1e-6, demand_label="productivity", limit_label="rate given by the gears", source="kinematics",
         consequence="the press makes {least_rate} and not {rate_asked}; choose pulleys and teeth nearer to the ratio, or set press.productivity to "
             "what they give."),
-    Check(id="true_rate", check_class="strength", presumed=True, title="Rate used for the loads", demand="true_rate", limit="productivity",
-        unit="1/h", severity="warn", fails_beyond=1 + FURTHEST_RATE, tolerance=1e-6, demand_label="rate under the mean torque",
-        limit_label="productivity used for the loads", source="kinematics",
+    Check("true_rate", "strength", "Rate used for the loads", m.true_rate, m.productivity, presumed=True, severity="warn",
+        fails_beyond=1 + FURTHEST_RATE, tolerance=1e-6, demand_label="rate under the mean torque", limit_label="productivity used for the loads",
         consequence="the motor turns faster than at its rated speed: accelerations, and what follows from them, are {load_rise} greater than "
             "calculated; set press.productivity to at least {true_rate:up}, and give the rate that is asked for as required_rate."),
-    Check(id="driven_inertia", check_class="strength", title="Inertia behind the clutch", demand="equal_inertia", limit="clutch_inertia",
-        unit="kg*m**2", tolerance=1e-3, demand_label="inertia of equal heat at the clutch, of the cylinder's drive alone",
-        limit_label="inertia used for the clutch",
-        source="energy",
-        presumed=True,
+    Check("driven_inertia", "strength", "Inertia behind the clutch", m.equal_inertia, m.clutch_inertia, tolerance=1e-3,
+        demand_label="inertia of equal heat at the clutch, of the cylinder's drive alone", limit_label="inertia used for the clutch", presumed=True,
         consequence="an engagement at {start_angle} makes {slip_heat} of heat in {slip_time}; the crank feels {crank_inertia_mean} in the mean and "
             "up to {crank_inertia_max} at {crank_inertia_max_at}: give the clutch a driven_inertia of at least {equal_inertia:up}."),
-    Check(id="coupled_inertia", check_class="strength", title="Other lines behind the clutch", demand="lines_beside", limit=0.0, unit="1",
-        severity="warn", needs=("drive",), demand_label="lines whose inertia is not compared", limit_label="accepted", source="this method",
+    Check("coupled_inertia", "strength", "Other lines behind the clutch", m.lines_beside, 0.0, severity="warn", needs=("drive",),
+        demand_label="lines whose inertia is not compared", source="this method",
         consequence="the inertia used for the clutch is compared with the cylinder's drive alone; of all that it drives ({clutch_lines}) the "
             "driven_inertia must be worked out by hand, at the angle where it is greatest."),
-    Check(id="clutch_position", check_class="function", title="Clutch and offsets of the lines", demand="lines_out_of_step", limit=0.0,
-        founded=("single_position",), unit="1", demand_label="drives that lose synchronism", limit_label="accepted", source="kinematics",
+    Check("clutch_position", "function", "Clutch and offsets of the lines", m.lines_out_of_step, 0.0, founded=("single_position",),
+        demand_label="drives that lose synchronism",
         consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "
             "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only.", advise=("single_position",)),
-    Check(id="carriages", check_class="strength", title="Mass of the carriages", demand="stopped_mass", limit="cylinder_mass", unit="kg",
-        severity="warn", only_with=("damper_mass", "carriage_mass"), source="dynamics", presumed=True,
-        demand_label="cylinder and carriages at the dampers", limit_label="in the drive",
+    Check("carriages", "strength", "Mass of the carriages", m.stopped_mass, m.cylinder_mass, severity="warn",
+        only_with=("damper_mass", "carriage_mass"), source="dynamics", presumed=True, demand_label="cylinder and carriages at the dampers",
+        limit_label="in the drive",
         consequence="the carriages move with the cylinder's axis, but the forces of drive, chain, joints and shafts are calculated without them: "
             "give the drive a cylinder_mass of at least {stopped_mass:up}."),
-    Check(id="damper_velocity", check_class="strength", title="Speed at the dampers", demand="contact_speed", limit="damper_velocity", unit="m/s",
-        severity="warn", demand_label="speed at contact", limit_label="speed used for the dampers", source="kinematics", presumed=True,
+    Check("damper_velocity", "strength", "Speed at the dampers", m.contact_speed, m.damper_velocity, severity="warn", demand_label="speed at contact",
+        limit_label="speed used for the dampers", presumed=True,
         consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and {way_outer} before the "
             "outer end: give the damper a velocity of at least {contact_speed:up}, or let it be met later."),
-    Check(id="damper_impacts", check_class="strength", title="Impacts of the dampers", demand="end_impacts", limit="damper_impacts", unit="1/h",
-        demand_label="impacts at one end", limit_label="impacts used for the dampers", source="kinematics", presumed=True,
+    Check("damper_impacts", "strength", "Impacts of the dampers", m.end_impacts, m.damper_impacts, demand_label="impacts at one end",
+        limit_label="impacts used for the dampers", presumed=True,
         consequence="dampers that are met before the end of the travel are met in every stroke, and their heat is calculated for fewer: give the "
             "damper an impacts_per_hour of at least {end_impacts:up}, or leave it out; or set its contact_distance to 0, to be met beyond the "
             "stroke only."),
-    Check(id="conveyor_mass", check_class="strength", title="Mass of the conveyor", demand="chain_mass", limit="conveyor_mass", unit="kg",
-        only_with=("chain_mass",), demand_label="mass accelerated by the chain", limit_label="mass used for the transport", source="dynamics",
-        presumed=True,
+    Check("conveyor_mass", "strength", "Mass of the conveyor", m.chain_mass, m.conveyor_mass, only_with=("chain_mass",),
+        demand_label="mass accelerated by the chain", limit_label="mass used for the transport", source="dynamics", presumed=True,
         consequence="torque, contact pressure and motor of the transport are calculated with less than the chain moves: give its conveyor_mass at "
             "least {chain_mass:up}, or take lighter chains and bars."),
-    Check(id="conveyor_inertia", check_class="practice", title="Inertia of the conveyor", demand="inertia_error", limit=LARGEST_INERTIA_ERROR,
-        unit="%", severity="warn", demand_label="difference", limit_label="accepted", source="energy", presumed=True,
+    Check("conveyor_inertia", "practice", "Inertia of the conveyor", m.inertia_error, LARGEST_INERTIA_ERROR, severity="warn",
+        demand_label="difference", presumed=True,
         consequence="conveyor and wheel have {moved_inertia} at the wheel's shaft, which is calculated with {wheel_inertia}; one of both is not "
             "that of this press."),
-    Check(id="wheel_side", check_class="strength", title="Inertia on the wheel's side", demand="moved_inertia", limit="wheel_inertia", unit="kg*m**2",
-        tolerance=1e-3, needs=("wheel_side_inertia",), demand_label="conveyor and parts that turn with the wheel",
-        limit_label="inertia used for the wheel", source="energy", presumed=True,
+    Check("wheel_side", "strength", "Inertia on the wheel's side", m.moved_inertia, m.wheel_inertia, tolerance=1e-3, needs=("wheel_side_inertia",),
+        demand_label="conveyor and parts that turn with the wheel", limit_label="inertia used for the wheel", presumed=True,
         consequence="torque, roller force and contact pressure of the wheel are greater than calculated; give it a driven_inertia of at least "
             "{moved_inertia:up}."),
-    Check(id="motor_thermal", check_class="strength", title="Heating of the motor", demand="motor_torque_rms", limit="motor_rated_torque", unit="N*m",
-        demand_label="root mean square torque", limit_label="rated torque", source="this method",
+    Check("motor_thermal", "strength", "Heating of the motor", m.motor_torque_rms, m.motor_rated_torque, demand_label="root mean square torque",
+        limit_label="rated torque", source="this method",
         consequence="the motor gets too hot; a greater slip or a greater reserve_factor of the drive train helps, too.", advise=MOTOR),
-    Check(id="motor_peak", check_class="strength", title="Peak torque of the motor", demand="motor_torque_peak", limit="breakdown_torque", unit="N*m",
-        demand_label="maximum torque", limit_label="breakdown torque", source="this method",
+    Check("motor_peak", "strength", "Peak torque of the motor", m.motor_torque_peak, m.breakdown_torque, demand_label="maximum torque",
+        limit_label="breakdown torque",
         consequence="the motor stalls; a greater slip, a larger breakdown torque or a greater reserve_factor of the drive train helps, too.",
         advise=MOTOR),
-    Check(id="speed_swing", check_class="function", title="Speed fluctuation", demand="speed_swing", limit="speed_fluctuation", unit="1",
-        severity="warn", demand_label="from the motor's slip", limit_label="accepted", source="this method",
-        consequence="the flywheel of {flywheel_inertia} swings more than accepted.", advise=(Vary("flywheel_inertia", "up"),)),
-    Check(id="cover_angle", check_class="function", presumed=True, title="Play of the wheel and timing", demand="cover_angle", limit="dwell_margin",
-        unit="deg", tolerance=1e-6, demand_label="angle used for the play", limit_label="angle left by the timing", source="geometry",
+    Check("speed_swing", "function", "Speed fluctuation", m.speed_swing, m.speed_fluctuation, severity="warn", demand_label="from the motor's slip",
+        limit_label="accepted", consequence="the flywheel of {flywheel_inertia} swings more than accepted.",
+        advise=(Vary("flywheel_inertia", "up"),)),
+    Check("cover_angle", "function", "Play of the wheel and timing", m.cover_angle, m.dwell_margin, presumed=True, tolerance=1e-6,
+        demand_label="angle used for the play", limit_label="angle left by the timing", source="geometry",
         consequence="the sheet must rest where the locking disc covers less of its arc than calculated; give the wheel a cover_angle of at most "
             "{dwell_margin:down}, or a longer dwell."),
-    Check(id="held_in_dwell", check_class="function", severity="warn", presumed=True, title="Phases within the wheel's dwell", demand=1.0,
-        only_with=("cover_angle",),
-        limit="held_in_dwell", unit="1", demand_label="required interlocks", limit_label="given", source="this method",
+    Check("held_in_dwell", "function", "Phases within the wheel's dwell", 1.0, m.held_in_dwell, severity="warn", presumed=True,
+        only_with=("cover_angle",), demand_label="required interlocks", limit_label="given", source="this method",
         consequence="nothing in the timing says what must lie within the wheel's dwell, so that its play is calculated for an angle that nothing "
             "holds; give the cyclogram an interlock within the wheel's dwell, or apart from its motion."),
-    Check(id="register", check_class="function", title="Play and register", demand="play_total", limit="register_tolerance", unit="mm",
-        demand_label="total play", limit_label="allowed", source="geometry",
+    Check("register", "function", "Play and register", m.play_total, m.register_tolerance, demand_label="total play",
         consequence="sheet and cut may lie further apart than allowed; take play out of the transport."),
-    Check(id="whole_pitches", check_class="function", title="Whole pitches per step", demand="pitch_error", limit=WHOLE, unit="1",
-        demand_label="deviation from a whole number", limit_label="accepted", source="geometry",
+    Check("whole_pitches", "function", "Whole pitches per step", m.pitch_error, ROUNDING,
         consequence="a step of {pitches} pitches stops the chain at another tooth each time; change the ratio or the sprocket so that it is a whole "
             "number."),
-    Check(id="whole_steps", check_class="function", title="Whole steps of the gripper chain", demand="loop_error", limit=WHOLE, unit="1",
-        only_with=("chain_links",), demand_label="deviation from a whole number", limit_label="accepted", source="geometry",
+    Check("whole_steps", "function", "Whole steps of the gripper chain", m.loop_error, ROUNDING, only_with=("chain_links",),
         consequence="gripper bars a step apart do not fit a loop of {loop_steps} steps; change the chain's links or the step."),
 )  # fmt: skip
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired
+from diecut_report.api import Check, ExampleBlock, Mechanism, Source, Vary, Wired, m
 from diecut_report.plugins.rolling_bearing import life, loads
 from diecut_report.plugins.rolling_bearing.figures import FIGURES
 from diecut_report.plugins.rolling_bearing.inputs import RollingBearing
@@ -17,38 +17,35 @@ SWINGS = "the life is calculated by the turned way and is optimistic; "
 # fmt: off
 
 CHECKS = (
-    Check(id="life", check_class="strength", title="Life", demand="required_life", limit="life_modified", unit="h", demand_label="required",
-        limit_label="modified rating life", source=LIFE, founded=("bearings.a_iso",), **OF_BEARING,
-        consequence="the bearing is worn out too soon; less load lets it live longer.", advise=(Vary("bearings.dynamic_rating", "up"),)),
-    Check(id="static", check_class="strength", title="Static safety factor", demand="static_required", limit="static_safety", unit="1",
-        demand_label="required", limit_label="static safety", source=FIXED, **OF_BEARING,
-        consequence="rolling elements dent the raceways; less load does not.", advise=(Vary("bearings.static_rating", "up"),)),
-    Check(id="min_load", check_class="practice", title="Minimum load", demand="least_load", limit="equivalent_load", unit="N", severity="warn",
-        demand_label="required", limit_label="mean load", source="SKF catalogue", **OF_BEARING,
-        consequence="rolling elements slide and do not roll; a preload avoids it.", advise=(Vary("bearings.dynamic_rating", "down"),)),
-    Check(id="load_level", check_class="practice", presumed=True, title="Validity of the rating life", demand="equivalent_load_max",
-        limit="valid_load", unit="N", severity="warn", demand_label="maximum load", limit_label="half the dynamic load rating",
-        source="ISO 281", **OF_BEARING, consequence="the raceways yield and the rating life does not hold.",
+    Check("life", "strength", "Life", m.required_life, m.life_modified, demand_label="required", source=LIFE, founded=("bearings.a_iso",),
+        **OF_BEARING, consequence="the bearing is worn out too soon; less load lets it live longer.",
         advise=(Vary("bearings.dynamic_rating", "up"),)),
-    Check(id="axial", check_class="practice", title="Axial load", demand="axial_overload", limit=6.89, unit="1", severity="warn",
-        demand_label="relative axial force", limit_label="end of the table", source="ISO 281, table 3", **OF_BEARING,
+    Check("static", "strength", "Static safety factor", m.static_required, m.static_safety, demand_label="required", limit_label="static safety",
+        source=FIXED, **OF_BEARING, consequence="rolling elements dent the raceways; less load does not.",
+        advise=(Vary("bearings.static_rating", "up"),)),
+    Check("min_load", "practice", "Minimum load", m.least_load, m.equivalent_load, severity="warn", demand_label="required", limit_label="mean load",
+        **OF_BEARING, consequence="rolling elements slide and do not roll; a preload avoids it.", advise=(Vary("bearings.dynamic_rating", "down"),)),
+    Check("load_level", "practice", "Validity of the rating life", m.equivalent_load_max, m.valid_load, presumed=True, severity="warn",
+        demand_label="maximum load", limit_label="half the dynamic load rating", source="ISO 281", **OF_BEARING,
+        consequence="the raceways yield and the rating life does not hold.", advise=(Vary("bearings.dynamic_rating", "up"),)),
+    Check("axial", "practice", "Axial load", m.axial_overload, 6.89, severity="warn", demand_label="relative axial force",
+        limit_label="end of the table", **OF_BEARING,
         consequence="the balls run over the edge of the raceway; take a larger bearing, or one for axial loads."),
-    Check(id="oscillation", check_class="practice", title="Swing", demand="critical_swing", limit="swing", unit="deg", severity="warn",
-        demand_label="required", limit_label="swing", source="practice", **OF_BEARING,
+    Check("oscillation", "practice", "Swing", m.critical_swing, m.swing, severity="warn", demand_label="required", limit_label="swing",
+        source="practice", **OF_BEARING,
         consequence=SWINGS + "fretting and false brinelling govern: take a needle cage, a full complement or a plain bearing."),
-    Check(id="dwell", check_class="practice", title="Minimum swing", demand=20.0, limit="swing", unit="deg", severity="warn", demand_label="required",
-        limit_label="swing", source="SKF catalogue", **OF_BEARING,
-        consequence="a rating life does not apply to so small a swing; take a plain bearing or a flexure."),
-    Check(id="tilt", check_class="strength", title="Misalignment", demand="bearings.tilt", limit="tilt_limit", unit="mrad", severity="warn",
-        fails_beyond=2, demand_label="misalignment", limit_label="permissible", source="maker's catalogue", **OF_BEARING,
+    Check("dwell", "practice", "Minimum swing", 20.0, m.swing, severity="warn", demand_label="required", limit_label="swing", source="SKF catalogue",
+        **OF_BEARING, consequence="a rating life does not apply to so small a swing; take a plain bearing or a flexure."),
+    Check("tilt", "strength", "Misalignment", m.bearings.tilt, m.tilt_limit, severity="warn", fails_beyond=2, demand_label="misalignment",
+        limit_label="permissible", source="maker's catalogue", **OF_BEARING,
         consequence="the load crowds to an edge, the life is shorter than calculated, and beyond twice the permitted tilt the raceways break there; "
             "take a self-aligning bearing with its permitted_tilt, or a stiffer shaft."),
-    Check(id="speed", check_class="practice", title="Speed", demand="speed_max", limit="bearings.limiting_speed", unit="rpm", severity="warn",
-        demand_label="maximum speed", limit_label="limiting speed", source="maker's catalogue", **OF_BEARING,
+    Check("speed", "practice", "Speed", m.speed_max, m.bearings.limiting_speed, severity="warn", demand_label="maximum speed",
+        limit_label="limiting speed", source="maker's catalogue", **OF_BEARING,
         consequence="the bearing runs hot; take a smaller one, or oil in place of grease."),
-    Check(id="mean_bounds", check_class="numerical", title="Bounds of the mean load", demand="equivalent_load", limit="equivalent_load_max",
-        at_least="arithmetic_load", unit="N", demand_label="mean load", limit_label="maximum load", at_least_label="arithmetic mean", tolerance=1e-6,
-        source="inequality of the means", consequence="the integral of the loads is wrong."),
+    Check("mean_bounds", "numerical", "Bounds of the mean load", m.equivalent_load, m.equivalent_load_max, at_least=m.arithmetic_load,
+        demand_label="mean load", limit_label="maximum load", at_least_label="arithmetic mean", tolerance=1e-6, source="inequality of the means",
+        consequence="the integral of the loads is wrong."),
 )
 
 

@@ -10,7 +10,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Chapter, ListedColumn, Phrase, Refusal, computed, joined, m, phrase, si, standard_series
+from diecut_report.api import (
+    ROUNDING,
+    Chapter,
+    ListedColumn,
+    Phrase,
+    Refusal,
+    computed,
+    joined,
+    m,
+    phrase,
+    si,
+    standard_series,
+)
 from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
@@ -19,7 +31,6 @@ PREFERRED = standard_series("renard_r40_lengths")
 SERIES = np.array([si(value, PREFERRED.unit) for value in PREFERRED.values if value <= THICKEST])
 ROUNDS = 6  # through all sections, until none gets thinner: of the first one all sizes, then so many below the own one
 WINDOW = 8
-ROUNDING = 1e-9
 HELD = (
     ("required_fatigue_safety", "fatigue_safety", "fatigue"),
     ("required_yield_safety", "yield_safety", "yield"),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import (
+    ROUNDING,
     Case,
     Chapter,
     Refusal,
@@ -36,7 +37,6 @@ from diecut_report.plugins.shaft.formulas import MEGAPASCAL, MILLIMETRE
 # fmt: off
 
 Array = NDArray[Any]
-ROUNDING = 1e-9  # relative: a diameter at the end of a size belongs to it
 
 
 def by_size(sizes: Array, values: Any, diameter: Array) -> Array:

@@ -182,8 +182,7 @@ sizes.residual = abs(m.doubled - m.length - m.beside), "R", "mm", "Residual"
 
 MECHANISM = Mechanism(
     kind="twice", version="1", title="Twice", summary="", inputs=Twice, chapters=(sizes,),
-    checks=(Check(id="balance", check_class="numerical", title="Balance", demand="residual", limit=1e-6, unit="mm", demand_label="rest",
-                  limit_label="accepted", consequence="do not use it."),),
+    checks=(Check("balance", "numerical", "Balance", m.residual, 1e-6, consequence="do not use it."),),
 )
 """
 CHAIN = (

@@ -167,8 +167,8 @@ joint = Chapter("Joint")
 joint.opening = 5 * m.force, "F_o", "kN", "Force that opens the joint", "lever"
 MECHANISM = Mechanism(
     kind="bracket", version="1.0", title="Bracket", summary="A screw holds a bracket.", inputs=Bracket, chapters=(joint,), key_results=("opening",),
-    checks=(Check(id="joint", check_class="strength", title="Joint", demand="opening", limit="screw.preload", unit="kN", demand_label="force",
-                  limit_label="preload", source="lever", consequence="the joint opens.", advise=("screw.preload",)),),
+    checks=(Check("joint", "strength", "Joint", m.opening, m.screw.preload, demand_label="force", limit_label="preload",
+                  consequence="the joint opens.", advise=("screw.preload",)),),
     sources=(Source("lever", "Lever arms, by measure."),),
 )
 '''
@@ -248,8 +248,7 @@ pin.strength = lookup({"soft": 1.0, "middle": 2.0, "hard": 4.0}, by="grade"), "[
 pin.pressure = m.force / (m.count * m.bore**2), "p", "MPa", "Pressure"
 MECHANISM = Mechanism(
     kind="pin", version="1", title="Pin", summary="A pin.", inputs=Pin, chapters=(pin,),
-    checks=(Check(id="pressure", check_class="strength", title="Pressure", demand="pressure", limit="strength", unit="MPa",
-                  demand_label="pressure", limit_label="allowed", consequence="the pin gives way."),),
+    checks=(Check("pressure", "strength", "Pressure", m.pressure, m.strength, limit_label="allowed", consequence="the pin gives way."),),
 )
 """
 # 1 N/mm² of two pins: 400 N and a bore of 20 mm give 0.5; 1000 N give 1.25: 25 mm, three pins, or the next grade
@@ -388,12 +387,9 @@ chapter = Chapter("Stroke")
 chapter.stroke = m.crank + m.base, "H", "mm", "Stroke"
 chapter.share = m.stroke_needed / m.stroke, "s", "1", "Share of the stroke that is used"
 checks = (
-    Check(id="stroke", check_class="function", title="Stroke", demand="stroke_needed", limit="stroke", unit="mm",
-          demand_label="needed", limit_label="stroke", consequence="the sheet does not arrive."),
-    Check(id="room", check_class="function", title="Room", demand="stroke", limit="room", unit="mm",
-          demand_label="stroke", limit_label="room", consequence="the slide runs against the frame."),
-    Check(id="crank", check_class="practice", title="Crank", demand="crank", limit="base", unit="mm",
-          demand_label="crank", limit_label="base", severity="warn", consequence="the slide stands badly."),
+    Check("stroke", "function", "Stroke", m.stroke_needed, m.stroke, demand_label="needed", consequence="the sheet does not arrive."),
+    Check("room", "function", "Room", m.stroke, m.room, limit_label="room", consequence="the slide runs against the frame."),
+    Check("crank", "practice", "Crank", m.crank, m.base, severity="warn", consequence="the slide stands badly."),
 )
 
 MECHANISM = Mechanism(kind="slide", version="1.0", title="Slide", summary="Slides", inputs=Slide, chapters=(chapter,), checks=checks)

@@ -190,9 +190,7 @@ def test_a_jump_of_which_nothing_is_left_is_no_fault() -> None:
 
 
 def test_a_choice_and_a_check_on_a_curve_are_searched_too() -> None:
-    check = Check(
-        id="weak", title="", demand="torque", limit=100.0, unit="N*m", demand_label="", limit_label="", consequence=""
-    )
+    check = Check("weak", "strength", "", m.torque, 100.0, consequence="")
     with pytest.raises(Unproven, match="jumps inside a smooth piece"):
         run(wheel(FORMULAS["a narrow window"], checks=(check,)))
     chapter = Chapter("Turn")

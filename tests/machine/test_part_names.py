@@ -48,8 +48,7 @@ class Springs(Inputs):
 
 
 def check(id, named_by=""):
-    return Check(id=id, check_class="strength", title=id, demand="springs.force", limit="allowed", unit="N",
-                 demand_label="force", limit_label="allowed", consequence="x.", named_by=named_by)
+    return Check(id, "strength", id, m.springs.force, m.allowed, consequence="x.", named_by=named_by)
 
 
 chapter = Chapter("All")

@@ -257,10 +257,8 @@ MECHANISM = Mechanism(
     inputs=Ramp,
     chapters=(chapter,),
     checks=(
-        Check(
-            id="force", check_class="strength", title="Force", demand="doubled", limit="allowed", unit="N", demand_label="force",
-            limit_label="allowed", consequence="the {word} breaks.",
-        ),
+        Check("force", "strength", "Force", "doubled", "allowed", unit="N", demand_label="force", limit_label="allowed",
+            consequence="the {word} breaks."),
     ),
 )  # fmt: skip
 

@@ -141,11 +141,9 @@ MECHANISM = Mechanism(
                        Reduction(id="taken_max", symbol="M_tmax", unit="N*m", description="Its greatest value", of="taken", operation="max"),
                        Reduction(id="taken_mean", symbol="M_tm", unit="N*m", description="Its mean", of="taken", operation="mean"))),
     ),
-    checks=(Check(id="rated", check_class="strength", title="Rated",
-                  demand="moment", limit="rated", unit="N*m", demand_label="moment", limit_label="rated",
-                  consequence="take a greater one."),
-            Check(id="light", check_class="strength", title="Light",
-                  demand="twice", limit=900.0, unit="N*m", demand_label="twice", limit_label="most",
+    checks=(Check("rated", "strength", "Rated", "moment", "rated", unit="N*m", demand_label="moment",
+                  limit_label="rated", consequence="take a greater one."),
+            Check("light", "strength", "Light", "twice", 900.0, unit="N*m", demand_label="twice", limit_label="most",
                   consequence="too much.", severity="warn", operator="<")),
 )  # fmt: skip
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
+    CURVE_ROUNDING,
     GRAVITY,
     BarGroup,
     Bars,
@@ -54,6 +55,7 @@ from diecut_report.api import (
     root,
     running,
     samples,
+    self_test,
     standard_series,
     told,
     total,
@@ -200,6 +202,8 @@ shaft.scoop_pull = (np.where(m.is_scooping > 0, m.scoop_force * 2 * pi / (m.scoo
 shaft.shaft_torque = (m.lift_force + m.scoop_pull) * m.head_diameter / 2, "M", "N*m", "Torque of the head shaft"
 shaft.torque_max = reduction("max", of="shaft_torque"), "M_max", "N*m", "Maximum torque"
 shaft.torque_mean = reduction("mean", of="shaft_torque"), "M_m", "N*m", "Mean torque"
+shaft.mean_error = (self_test(m.torque_mean, (m.lift_force + m.scoop_force) * m.head_diameter / 2, within=CURVE_ROUNDING), "e_M", "1",
+    "Mean torque against that of the pull", "statics")
 shaft.work = accumulated(of="shaft_torque"), "W", "J", "Work since the top"
 
 
@@ -244,23 +248,17 @@ def head_drawing(view: View) -> list[Shape]:
 
 
 CHECKS = (
-    Check(id="filling", check_class="strength", title="Filling of the buckets",
-          demand="filling_needed", limit="filling", unit="%", demand_label="needed",
-          limit_label="allowed", consequence="the buckets run over; {filling_advice}, or raise head_speed from {head_speed}."),
-    Check(id="slip", check_class="strength", title="Slip of the belt",
-          demand="slack_needed", limit="slack_pull", unit="N", demand_label="slack strand needs",
-          limit_label="it has", consequence="the belt slips: raise pretension."),
-    Check(id="pull", check_class="strength", title="Pull of the belt", demand="tight_pull", limit="allowable_pull", unit="kN", demand_label="pull",
-          limit_label="allowed", consequence="a stronger belt is needed.", source="S1"),
-    Check(id="pulley_load", check_class="strength", title="Load of the pulleys", demand="pulley_load", limit="allowable_pulley_load", unit="kN",
-          demand_label="load", limit_label="allowed", consequence="stronger shafts are needed."),
-    Check(id="torque", check_class="strength", title="Torque of the head shaft", demand="shaft_torque", limit="allowable_torque", unit="N*m",
-          demand_label="torque", limit_label="allowed", consequence="a stronger shaft is needed.", needs=("allowable_torque",)),
-    Check(id="pawl", check_class="strength", title="Force of the pawl",
-          demand="pawl_force", limit="backstop.allowable_force", unit="kN", demand_label="force",
-          limit_label="allowed", consequence="place the pawl farther out.", needs=("backstop",)),
-    Check(id="wrap", check_class="strength", title="Wrap of the smaller pulley", demand=120, limit="small_wrap", unit="deg", demand_label="at least",
-          limit_label="has", consequence="move the shafts apart.", severity="warn"),
+    Check("filling", "strength", "Filling of the buckets", m.filling_needed, m.filling,
+          consequence="the buckets run over; {filling_advice}, or raise head_speed from {head_speed}."),
+    Check("slip", "strength", "Slip of the belt", m.slack_needed, m.slack_pull, demand_label="slack strand needs", limit_label="it has",
+          consequence="the belt slips: raise pretension."),
+    Check("pull", "strength", "Pull of the belt", m.tight_pull, m.allowable_pull, unit="kN", consequence="a stronger belt is needed.", source="S1"),
+    Check("pulley_load", "strength", "Load of the pulleys", m.pulley_load, m.allowable_pulley_load, consequence="stronger shafts are needed."),
+    Check("torque", "strength", "Torque of the head shaft", m.shaft_torque, m.allowable_torque, consequence="a stronger shaft is needed.",
+          needs=("allowable_torque",)),
+    Check("pawl", "strength", "Force of the pawl", m.pawl_force, m.backstop.allowable_force, consequence="place the pawl farther out.",
+          needs=("backstop",)),
+    Check("wrap", "practice", "Wrap of the smaller pulley", 120, m.small_wrap, consequence="move the shafts apart.", severity="warn"),
 )
 
 FIGURES = (

@@ -378,18 +378,34 @@ def test_in_a_study_self_tests_make_errors_and_what_is_not_checked_has_columns()
     assert list(found.faults) == [1] and "Bar" in found.faults[1]
 
 
-@pytest.mark.parametrize("given", [{}, {"check_class": "strenght"}])
-def test_a_check_without_an_allowed_class_is_told_with_those_that_are(given: dict[str, str]) -> None:
-    texts: dict[str, Any] = {
-        "id": "c",
-        "title": "Bar",
-        "demand_label": "f",
-        "limit_label": "a",
-        "consequence": "",
-        "unit": "N",
-    }
-    [fault] = faults(bar(Check(demand="doubled", limit=3.0, **texts, **given)))
-    assert all(word in str(fault) for word in ("check c", "function", "strength", "practice", "numerical"))
+@pytest.mark.parametrize(
+    ("five", "options", "told"),
+    [
+        (("c", "strenght", "Bar", "doubled", 3.0), {}, "c has 'strenght' in the place of its class (safety, function, strength, "),
+        (("c", "Bar", "strength", "doubled", 3.0), {}, "c has 'Bar' in the place of its class"),
+        (("c", "strength", m.doubled, 3.0, "Bar"), {}, "c has m.doubled in the place of its title"),
+        ((m.doubled, 3.0, "c", "strength", "Bar"), {}, " has m.doubled in the place of its id"),
+        (("c", "strength", "Bar", True, 3.0), {}, "c has True in the place of a quantity or a number as its demand"),
+        (("c", "strength", "Bar", "doubled", ("rated",)), {}, "c has ('rated',) in the place of a quantity or a number as its limit"),
+        (("c", "strength", "Bar", "doubled"), {}, "c: missing a required argument: 'limit'"),
+        (("c", "Bar", "doubled", 3.0), {}, "c has 'Bar' in the place of its class"),
+        (("c", "strength", "Bar", "doubled", 3.0, "N"), {}, "c: too many positional arguments"),
+        (("c", "strength", "Bar", "doubled", 3.0), {"demand_lable": "f"}, "c has no option demand_lable (did you mean 'demand_label'?)"),
+    ],
+)  # fmt: skip
+def test_a_check_in_another_order_is_told_with_the_line_and_the_right_one(
+    five: tuple[Any, ...], options: dict[str, Any], told: str
+) -> None:
+    with pytest.raises(Misdeclared) as refused:
+        Check(*five, consequence="", **options)
+    place, _, text = str(refused.value).partition(": ")
+    assert place.startswith(__file__) and told in text
+    assert options or 'write Check("id", "class", "title", m.demand, m.limit, consequence="…")' in text
+
+
+def test_a_check_without_a_consequence_is_told() -> None:
+    with pytest.raises(Misdeclared, match="check c: missing a required argument: 'consequence'; write Check"):
+        Check("c", "strength", "Bar", "doubled", 3.0)  # type: ignore[call-arg]
 
 
 def test_keys_that_there_are_not_are_told_of_a_check() -> None:

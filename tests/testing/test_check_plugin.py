@@ -185,7 +185,7 @@ def test_a_plugin_that_breaks_in_a_new_process_is_told(tmp_path: Path) -> None:
 
 def test_notes_of_a_check_stand_at_its_own_line(tmp_path: Path) -> None:
     """A step has the same id here; it stands elsewhere."""
-    test = contract(tmp_path, ('limit="allowable_stress"', "limit=1e9"))
+    test = contract(tmp_path, ("m.allowable_stress,", "1e9,"))
     lines = (tmp_path / "toggle" / "plugins" / "toggle.py").read_text("utf-8").splitlines()
     line = lines.index("        Check(") + 1
     (note,) = test.tried_alone("verdicts").faults
@@ -204,8 +204,7 @@ def test_a_demand_below_zero_that_is_great_in_size_is_noted(tmp_path: Path) -> N
 
 SIGNED = (
     "    checks=(\n",
-    '    checks=(\n        Check(id="far", check_class="strength", title="Far", demand="odd", limit=40, unit="N", '
-    'demand_label="d", limit_label="l", consequence="c"),\n',
+    '    checks=(\n        Check("far", "strength", "Far", "odd", 40, consequence="c"),\n',
 )
 
 
@@ -465,7 +464,7 @@ def test_plugins_that_cannot_be_loaded_end_with_3_and_the_others_are_tried(capfd
 
 
 def test_a_declaration_that_cannot_be_is_told_with_all_its_faults(tmp_path: Path, capfd: Capture) -> None:
-    home = toggle(tmp_path, ('demand="stress"', 'demand="stres"'), ('"rate", "force")', '"rate", "forc")'))
+    home = toggle(tmp_path, ("m.stress,", "m.stres,"), ('"rate", "force")', '"rate", "forc")'))
     assert main(["check-plugin", str(home)]) == 3
     told = capfd.readouterr().out
     assert "check stress: takes stres, which nothing gives (did you mean 'stress'?)" in told and "forc" in told

@@ -161,7 +161,7 @@ def test_a_number_that_stands_for_none_is_not_noted(formula: Any) -> None:
 
 def test_a_check_whose_sides_are_exchanged_is_noted() -> None:
     mechanism = made(lambda rate: 2 * rate, BOTH)
-    right = Check(id="c", check_class="strength", title="C", demand="found", limit="allowed", unit="1/s", demand_label="d", limit_label="l",
+    right = Check("c", "strength", "C", "found", "allowed", unit="1/s", demand_label="d", limit_label="l",
                   consequence="no.")  # fmt: skip
     assert list(doubts(replace(mechanism, checks=(right,)))) == []
     (note,) = doubts(replace(mechanism, checks=(replace(right, demand="allowed", limit="found"),)))

@@ -29,8 +29,8 @@ def differences(check_class: CheckClass, each: float) -> list[str]:
         "1",
         "Error",
     )
-    check = Check(id="error", check_class=check_class, title="Error", demand="error", limit=1e-9, unit="1", demand_label="error",
-                  limit_label="accepted", consequence="it is wrong.")  # fmt: skip
+    check = Check("error", check_class, "Error", "error", 1e-9, unit="1", demand_label="error", limit_label="accepted",
+                  consequence="it is wrong.")  # fmt: skip
     rounded = Mechanism(
         kind="rounded", version="1", title="Rounded", summary="", inputs=Rounded, chapters=(chapter,), checks=(check,)
     )

@@ -329,7 +329,7 @@ GROUPS = (
     Group("steps", "Numbers and conditions", "What gives a number or a text, and what must hold. One statement declares a quantity: "
     "`chapter.ID =` what gives it, its symbol, unit, description and source, which may be left out; a formula alone stands for `value(formula)`.", (
         "Recipe", "Value", "value", "inner", "Choice", "choice", "case", "Case", "Root", "root", "Computed", "computed", "Refusal", "Require",
-        "Words", "Fact",
+        "SelfTest", "self_test", "ROUNDING", "CURVE_ROUNDING", "Words", "Fact",
     )),
     Group("curves", "Curves", "What gives a curve over an abscissa, or a number of one.", (
         "Abscissa", "abscissa", "Breakpoints", "Reduction", "reduction", "Derivative", "derivative", "Accumulated", "accumulated", "Crossings",
@@ -359,9 +359,11 @@ GROUPS = (
 TOLD = {  # names without a docstring of their own
     "AdviceWay": "A way in which a check may be made to hold: an input that is changed alone, by its key or as a `Vary`, "
     "or several keys whose inputs are changed together in one proportion.",
+    "CURVE_ROUNDING": "1e-6, the relative difference within which what is integrated or found on curves is the same but for rounding.",
     "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 2` for which it is written.",
     "Cell": "What stands in a cell of a listing: a number in SI, a text, or `None` where there is nothing.",
     "GRAVITY": "The standard acceleration of free fall, 9.80665 m/s², a `Constant`.",
+    "ROUNDING": "1e-9, the relative difference within which two numbers are the same but for rounding.",
     "Expression": "What arithmetic with quantities gives: it is printed, computes, and is checked for its dimensions. For annotations.",
     "Point": "A place in a drawing: across and upwards, in metres.",
     "Recipe": "What `value(…)`, `reduction(…)` and the like give: how a quantity comes about, before it has an id. For annotations.",

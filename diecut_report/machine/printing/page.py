@@ -70,7 +70,7 @@ class Page:
         row = self.calc[name]
         if row.shape[1] == 1:
             return float(row[0, 0])
-        return float(row[0, self._shown_part(name) if part is None else part])
+        return float(row[0, self.shown_part(name) if part is None else part])
 
     def result(self, step: Step, value: float) -> Item:
         """Return a number that a step gives as text, in its unit."""
@@ -105,7 +105,7 @@ class Page:
         place = domain.samples[:1, domain.samples.shape[1] // 8][:, None] if asked is None else asked
         return place, domain.middle_of(place, rows=FIRST)
 
-    def _shown_part(self, name: str) -> int:
+    def shown_part(self, name: str) -> int:
         """Which part of a row formulas are shown with, from 0: the asked one, or the first that has all values; 0 of a number too."""
         known = self._known_parts(name)
         names = self.calc.steps.get(self.calc.axis.get(name, ""))
@@ -207,7 +207,7 @@ class Page:
         calc, axis = self.calc, self.calc.axis.get(step.id)
         target = self.value_at(step.id, axis)
         result = self.result(step, target)
-        own = None if axis is None or axis in calc.domains else self._shown_part(step.id)
+        own = None if axis is None or axis in calc.domains else self.shown_part(step.id)
         marked = self._marks(axis, elsewhere)
 
         def value_of(name: str) -> float:
@@ -238,7 +238,7 @@ class Page:
 
     def _part_told(self, step: Step, axis: str) -> str:
         """Which of repeated parts the numbers in a row's formula are of; nothing where there is but one."""
-        names, part = self.calc.part_names.get(axis) or self._names(step), self._shown_part(step.id)
+        names, part = self.calc.part_names.get(axis) or self._names(step), self.shown_part(step.id)
         if names:
             return Phrase("Shown for: {name}.", name=phrase(names[part]))
         return Phrase("Shown for part {part}.", part=part + 1) if self.calc[step.id].shape[1] > 1 else ""

@@ -52,6 +52,7 @@ from diecut_report.mechanism.steps.result_names import (
 )
 from diecut_report.mechanism.steps.root import Root
 from diecut_report.mechanism.steps.rows import Neighbour, Part, PartNames, PartTable, Running, Total
+from diecut_report.mechanism.steps.self_test import SelfTest
 from diecut_report.mechanism.steps.series import Accumulated, Derivative
 from diecut_report.mechanism.steps.value import Value
 from diecut_report.text.phrases import Phrase

@@ -248,6 +248,8 @@ class Step:
     """Fields that name quantities, beside the formulas, each with what it may stand for; ANY of what is judged elsewhere."""
     FORMULAS: ClassVar[dict[str, Kinds]] = {}
     """Fields that are formulas, each with what it may take."""
+    MAY_LACK: ClassVar[tuple[str, ...]] = ("exists",)
+    """Those of FORMULAS that need not be given."""
     NUMBERS: ClassVar[tuple[str, ...]] = ()
     """Those of TAKES that may be a number, not a name alone."""
     is_counted: ClassVar[bool] = False  # whether how many it gives shows in calculating
@@ -266,7 +268,7 @@ class Step:
             if isinstance(part, Expression | tuple | dict) and name not in (*self.FORMULAS, "exists", *FOR_READERS):
                 object.__setattr__(self, name, ids(part))
         for name in ("exists", *self.FORMULAS):
-            if (written := getattr(self, name)) is not None or name != "exists":
+            if (written := getattr(self, name)) is not None or name not in self.MAY_LACK:
                 called = self.id if name in ("formula", "condition") else f"{self.id} ({name})"
                 object.__setattr__(self, name, as_formula(written, called))
 
@@ -276,7 +278,8 @@ class Step:
         """Yield its formulas."""
         for name, takes in self.FORMULAS.items():
             part, field = LABELS.get(name, (name, name))
-            yield StepFormula(part, field, getattr(self, name), name in OF_UNIT, takes, name == "condition")
+            if (written := getattr(self, name)) is not None:
+                yield StepFormula(part, field, written, name in OF_UNIT, takes, name == "condition")
         if self.exists is not None:
             yield StepFormula("exists", "exists", self.exists, False, ROW, True)
 

@@ -123,7 +123,8 @@ class Value(FormulaStep):
         return calc.apply(self.formula)
 
     def items(self, page: StepPrinter) -> list[Item]:
-        calc, part, axis = page.calc, formula_of(self.formula), page.calc.axis.get(self.id)
+        calc, axis = page.calc, page.calc.axis.get(self.id)
+        part = formula_of(self.shown_formula(page, elsewhere=False))
         if self.id in calc.values and calc.values[self.id].dtype == bool:
             held = bool(calc[self.id][0, 0])
             return [self.head() | answer(*page.sides(part, held), held=held)]

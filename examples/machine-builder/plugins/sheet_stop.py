@@ -24,6 +24,13 @@ impact.speed_after = m.sheet_mass * m.speed / both, "v_1", "m/s", "Speed of both
 impact.way = m.speed_after * np.sqrt(both / m.stiffness), "x", "mm", "Way of the stop", "energy"
 impact.force = m.stiffness * m.way, "F", "N", "Force of the springs"
 
+CHECKS = (
+    Check("room", "function", "Room behind the stop", m.way, m.room, limit_label="room",
+          consequence="the bar strikes the frame; take stiffer springs."),
+    Check("edge", "strength", "Edge of the sheet", m.force, m.allowable_force, source="WS 7",
+          consequence="the edge of the sheet is bent; take softer springs."),
+)  # fmt: skip
+
 MECHANISM = Mechanism(
     kind="sheet_stop",
     version="1.0",
@@ -32,32 +39,7 @@ MECHANISM = Mechanism(
     inputs=SheetStop,
     chapters=(impact,),
     key_results=("way", "force"),
-    checks=(
-        Check(
-            id="room",
-            check_class="function",
-            title="Room behind the stop",
-            demand="way",
-            limit="room",
-            unit="mm",
-            demand_label="way",
-            limit_label="room",
-            source="energy",
-            consequence="the bar strikes the frame; take stiffer springs.",
-        ),
-        Check(
-            id="edge",
-            check_class="strength",
-            title="Edge of the sheet",
-            demand="force",
-            limit="allowable_force",
-            unit="N",
-            demand_label="force",
-            limit_label="allowed",
-            source="WS 7",
-            consequence="the edge of the sheet is bent; take softer springs.",
-        ),
-    ),
+    checks=CHECKS,
     assumptions=("The sheet stays at the stop; friction below it is left out.",),
     sources=(Source("WS 7", "Works standard 7, Sheet stops."),),
 )

@@ -55,16 +55,6 @@ MECHANISM = Mechanism(
     inputs=Shares,
     chapters=(work, profile),
     checks=(
-        Check(
-            id="power",
-            check_class="strength",
-            title="Power",
-            demand="power",
-            limit="rated",
-            unit="W",
-            demand_label="power",
-            limit_label="rated",
-            consequence="turn it more slowly.",
-        ),
+        Check("power", "strength", "Power", m.power, m.rated, limit_label="rated", consequence="turn it more slowly."),
     ),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import GRAVITY, Chapter, inner, m, pick, reduction, standard_series, total
+from diecut_report.api import GRAVITY, Chapter, inner, m, pick, reduction, self_test, standard_series, total
 
 # fmt: off
 
@@ -34,8 +34,8 @@ pull.torque = (2 * net * m.pitch_radius * np.cos(m.sprocket_angle - m.half_tooth
 pull.torque_max = reduction("max", of="torque"), "M_max", "N*m", "Maximum torque"
 pull.torque_work = reduction("integral", of="torque"), "W", "J", "Work of the torque over a tooth"
 pull.work_needed = inner(2 * m.useful_tension * m.pitch), "W_u", "J", "Work of the useful pull over a pitch", "energy"
-pull.work_error = (inner(abs(m.torque_work - m.work_needed) / (2 * m.tension_max * m.pitch)),
-    "e_W", "1", "Difference of the two, relative to the work of the maximum pull")
+pull.work_error = (self_test(m.torque_work, m.work_needed, scale=2 * m.tension_max * m.pitch, check="work", title="Work balance of the torque"),
+    "e_W", "1", "Difference of the two, relative to the work of the maximum pull", "energy")
 pull.power = 2 * m.useful_tension * m.chain_speed, "P", "W", "Mean power"
 
 strength = Chapter("Strength of the chain")
