@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -54,12 +55,12 @@ class SelfTest(Value):
     def _named(self, expression: Any) -> Formula:
         return formula_of(as_formula(expression, self.id))
 
-    @property
+    @cached_property
     def _apart(self) -> Formula:
         left, right = map(_written, (self.left, self.right))
         return self._named(abs(left) if self.is_of_nothing else abs(left - right))
 
-    @property
+    @cached_property
     def _scale(self) -> Formula:
         left, right = map(_written, (self.left, self.right))
         return self._named(np.maximum(abs(left), abs(right)) if self.scale is None else _written(self.scale))
