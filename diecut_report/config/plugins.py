@@ -21,9 +21,8 @@ import tomllib
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property, partial
-from importlib import import_module, util
-from importlib.metadata import entry_points
+from functools import cached_property, lru_cache, partial
+from importlib import import_module, metadata, util
 from pathlib import Path
 from traceback import walk_tb
 from types import ModuleType
@@ -436,6 +435,18 @@ def _built_in() -> Iterator[Origin]:
 
 def _file_of_module(name: str) -> Path:
     return Path(str(sys.modules[name].__file__))
+
+
+def entry_points(group: str) -> metadata.EntryPoints:
+    """Return what installed packages announce of a group; looked up again only where a package may have come or gone."""
+    searched = tuple((path, os.stat(path).st_mtime_ns) for path in sys.path if os.path.exists(path))
+    found: metadata.EntryPoints = _all_entry_points(searched).select(group=group)
+    return found
+
+
+@lru_cache(1)
+def _all_entry_points(_searched: tuple[tuple[str, int], ...]) -> Any:
+    return metadata.entry_points()
 
 
 def _installed() -> Iterator[Origin]:

@@ -11,7 +11,7 @@ import sys
 from collections import ChainMap
 from collections.abc import Iterator
 from contextlib import suppress
-from functools import cached_property, partial
+from functools import cache, cached_property, lru_cache, partial
 from importlib import import_module
 from inspect import getclosurevars
 from pathlib import Path
@@ -121,7 +121,7 @@ def impure_faults(names: DeclaredNames) -> Iterator[Fault]:
     files = {str(file): file for file in own_files(names.mechanism)}
     for function in _functions(names.mechanism, set(files)):
         file, code = files[function.__code__.co_filename], function.__code__
-        for node in _definitions(parsed(file), code.co_firstlineno):
+        for node in _definitions(parsed(file)).get(code.co_firstlineno, ()):
             for where, what in _used(node, _scope(function)):
                 yield _fault(file, where, what, code.co_name)
             for where in _quantities(node, _scope(function)):
@@ -138,9 +138,9 @@ def impure_faults(names: DeclaredNames) -> Iterator[Fault]:
                 template = "takes {name} of the loop around it, which is the last one when it is called; write functools.partial(function, {name})"
                 subject = Phrase("function {name}", name=code.co_name)
                 yield Fault(f"{file}:{where.lineno}", subject, Phrase(template, name=where.id))
-    for file in files.values():
-        module = next((each for each in [*sys.modules.values()] if getattr(each, "__file__", "") == str(file)), None)
-        for where, what in _used_at_load(parsed(file), vars(module) if module else {}):
+    loaded = {getattr(each, "__file__", None): vars(each) for each in [*sys.modules.values()][::-1]}
+    for name, file in files.items():
+        for where, what in _used_at_load(parsed(file), loaded.get(name, {})):
             yield _fault(file, where, what, phrase("the module"))
 
 
@@ -150,14 +150,19 @@ def _of_loops(tree: ast.Module, node: ast.AST) -> Iterator[ast.Name]:
     own |= {each.id for each in ast.walk(node) if isinstance(each, ast.Name) and not isinstance(each.ctx, ast.Load)}
     given = {
         each.id
-        for loop in ast.walk(tree)
-        if isinstance(loop, ast.For) and any(each is node for each in ast.walk(loop))
+        for loop in _loops(tree)
+        if any(each is node for each in ast.walk(loop))
         for each in ast.walk(loop.target)
         if isinstance(each, ast.Name)
     } - own
     body = getattr(node, "body", node)
     for part in body if isinstance(body, list) else [body]:
         yield from (each for each in ast.walk(part) if isinstance(each, ast.Name) and each.id in given)
+
+
+@lru_cache(maxsize=512)
+def _loops(tree: ast.Module) -> list[ast.For]:
+    return [each for each in ast.walk(tree) if isinstance(each, ast.For)]
 
 
 def _quantities(node: ast.AST, scope: Scope) -> Iterator[ast.Attribute]:
@@ -233,13 +238,15 @@ def _behind(value: Any) -> Iterator[FunctionType]:
             yield from (found for each in methods if isinstance(each, METHODS) for found in _behind(each))
 
 
-def _definitions(tree: ast.Module, line: int) -> Iterator[ast.AST]:
-    """What is defined in a line: a function, from its decorator on, or the lambdas in it."""
+@lru_cache(maxsize=512)
+def _definitions(tree: ast.Module) -> dict[int, list[ast.AST]]:
+    """What is defined in each line: a function, from its decorator on, or the lambdas in it."""
+    found: dict[int, list[ast.AST]] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef | ast.Lambda):
             decorators = getattr(node, "decorator_list", [])
-            if min([node.lineno, *(each.lineno for each in decorators)]) == line:
-                yield node
+            found.setdefault(min([node.lineno, *(each.lineno for each in decorators)]), []).append(node)
+    return found
 
 
 def _scope(function: FunctionType) -> Scope:
@@ -523,10 +530,21 @@ def content(mechanism: Mechanism) -> str:
     found = hashlib.sha256(__version__.encode())
     texts = [(key.path, key.texts) for key in keys(mechanism.inputs).values()]
     found.update(repr((mechanism.kind, texts)).encode())
-    check = (file for part in ("declaration", "mechanism", "formulas") for file in (OWN / part).rglob("*.py"))
-    for file in sorted({*files(mechanism), *check}):
-        found.update(str(file).encode() + hashlib.sha256(file.read_bytes()).digest())
+    for file in sorted({*files(mechanism)}):
+        found.update(_named_content(file))
+    found.update(_own_content())
     return found.hexdigest()
+
+
+def _named_content(file: Path) -> bytes:
+    return str(file).encode() + hashlib.sha256(file.read_bytes()).digest()
+
+
+@cache
+def _own_content() -> bytes:
+    """Of the check itself, which stays as it is while it runs."""
+    own = (file for part in ("declaration", "mechanism", "formulas") for file in (OWN / part).rglob("*.py"))
+    return b"".join(map(_named_content, sorted(own)))
 
 
 def remembered(folder: str, key: str) -> bytes | None:

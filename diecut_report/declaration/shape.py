@@ -6,6 +6,7 @@ import ast
 import re
 import reprlib
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from keyword import iskeyword
 from pathlib import Path
 from typing import Any
@@ -110,8 +111,13 @@ MEANT = {"overload", "setter", "getter", "deleter", "register"}  # by which a na
 def doubled_faults(names: DeclaredNames) -> Iterator[Fault]:
     """Yield functions, classes and fields that are defined twice at one level of a file, and keys that stand twice in a table."""
     for file in sorted(file for file in files(names.mechanism) if file.suffix == ".py"):
-        yield from _twice(file, parsed(file))
-        yield from _keys_twice(file, parsed(file))
+        yield from _doubled(file, parsed(file))
+
+
+@lru_cache(maxsize=512)
+def _doubled(file: Path, tree: ast.Module) -> tuple[Fault, ...]:
+    """What stands twice in a file, which is gone through once for all that it declares."""
+    return (*_twice(file, tree), *_keys_twice(file, tree))
 
 
 def _keys_twice(file: Path, tree: ast.Module) -> Iterator[Fault]:

@@ -38,7 +38,7 @@ from diecut_report.results.model import (
 from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.text.phrases import Phrase
-from tests.config.parts.test_parts import whole
+from tests.config.parts.machines import whole
 from tests.report.made_results import check
 from tools.site.api_examples import example_of, run
 

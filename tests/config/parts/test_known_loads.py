@@ -15,8 +15,7 @@ from diecut_report.config.parts.load_cases import LoadCases, Passing
 from diecut_report.mechanics.load_cases import called
 from diecut_report.press import Press
 from diecut_report.results.drive_line import unrated
-from diecut_report.results.warm_press import WarmPress
-from tests.config.parts.machines import CORRECTED, DISCOVERY, Change, Machine, machine, sound
+from tests.config.parts.machines import CORRECTED, DISCOVERY, PRESS, Change, Machine, machine, run_of, sound
 from tests.config.parts.test_parts import calculated
 from tests.examples import every
 
@@ -36,11 +35,6 @@ def read(*changes: Change) -> dict[str, Any]:
 def told(*changes: Change) -> str:
     """What is wrong with a changed machine."""
     return changed(*changes).told
-
-
-def run_of(*changes: Change) -> Any:
-    """A changed machine with which nothing is wrong, calculated."""
-    return WarmPress(is_advised=False).calculate(sound(*changes, text=CORRECTED).config)
 
 
 def names(rows: list[dict[str, Any]]) -> list[str]:
@@ -235,7 +229,9 @@ def test_an_idle_shaft_of_the_cylinders_chains_counts_in_its_inertia() -> None:
 def test_what_a_geneva_wheel_moves_is_what_its_shafts_and_chains_have_at_it() -> None:
     """By hand: conveyor, far shaft (chains 30/18) and chains turn 120/20 times as fast as the wheel; its energy is theirs."""
     far = ("far: [2216.254, 520]", "far: [2273.084, 520]")
-    results = run_of(far, ("teeth: 30/30, chain: 12B", "teeth: 30/18, chain: 12B")).document().mechanisms
+    results = (
+        run_of(far, ("teeth: 30/30, chain: 12B", "teeth: 30/18, chain: 12B"), text=CORRECTED).document().mechanisms
+    )
 
     def inertia(shaft: str) -> float:
         return float(results[f"shafts_{shaft}_body"].outputs["inertia"].value)
@@ -410,7 +406,7 @@ def test_what_cannot_be_is_refused(changes: list[Change], words: str) -> None:
 
 @pytest.fixture(scope="module")
 def run() -> Any:
-    return run_of().calculations
+    return run_of(text=CORRECTED).calculations
 
 
 def of_cycle(calc: Any, name: str) -> Any:
@@ -483,7 +479,7 @@ ROLL = (
 def test_what_the_far_end_of_a_chain_drives_is_moved_by_all_before_it() -> None:
     """A roll behind the conveyor's far shaft: the driving sprocket pulls what the driven one takes, and moves the chain besides."""
     right = "      - {sprocket: right, at: 635, hub: 60, key: 50}\n"
-    run = run_of(*ROLL, (right, "")).calculations
+    run = run_of(*ROLL, (right, ""), text=CORRECTED).calculations
     driving, driven, line = run["shafts_conveyor_loads"], run["shafts_far_loads"], run["drive_line"]
     chain = list(line.inputs["chains.name"]).index("grippers")
     mass = line["chain_mass"][0, chain] * line["chain_travel"][0, chain] ** 2
@@ -548,7 +544,7 @@ def test_the_rim_that_is_checked_is_that_of_the_mounted_wheel(outside: str, stat
     if found.problems:  # a wheel of 1.5 m is heavier
         assert status == "fail" and "full steel body" in found.told
         return
-    checks = WarmPress(is_advised=False).calculate(found.config).checks["train"]
+    checks = PRESS.calculate(found.config).checks["train"]
     assert {each.id: each.status for each in checks if "rim" in each.id} == {"mounted_rim_speed": status}
 
 
@@ -607,7 +603,7 @@ def test_a_brake_on_the_main_shaft_loads_all_up_to_the_flywheel_with_what_the_li
 
 def test_what_a_brake_loads_is_rated_for_it_and_the_way_to_rest_follows() -> None:
     """By hand (1300 + 1095.5) · 18/87/0.97 N·m at the pinion, where the stop comes when the lines take most."""
-    machine = run_of((ON_MAIN, f"      - {BRAKE}}}\n{ON_MAIN}"))
+    machine = run_of((ON_MAIN, f"      - {BRAKE}}}\n{ON_MAIN}"), text=CORRECTED)
     values = {name: each.values for name, each in machine.calculations.items()}
     mean, peak = (values["timing"][name].item() for name in ("torque_mean", "torque_peak"))
     assert peak == pytest.approx(1095.5, abs=0.1)
@@ -706,7 +702,7 @@ def test_the_material_of_a_pair_stands_before_that_of_all_gears(tmp_path: Path) 
     press = Press.read(file, DISCOVERY)
     mesh = press.config.tree.data["mechanisms"]["meshes_main_drive"]
     assert not {"sigma_h_lim_1", "sigma_f_lim_2"} & mesh.keys() and mesh["material_1"] == "soft"
-    run = WarmPress(is_advised=False).calculate(press.config).calculations
+    run = PRESS.calculate(press.config).calculations
     assert run["meshes_main_drive"]["pitting_safety_1"].item() == pytest.approx(1.6244 * 700 / 1500, rel=1e-3)
 
 
@@ -735,7 +731,7 @@ LINE = "turns_per_sheet: 1/2, path_efficiency: {value: 0.97, basis: assumed, not
 @pytest.mark.nightly
 def test_what_the_cyclogram_loses_beyond_the_meshes_passes_the_main_shaft_too() -> None:
     """The wheel's key, the mesh on it and the cyclogram say one torque."""
-    machine = run_of()
+    machine = run_of(text=CORRECTED)
     peak, least = (machine.calculations["timing"].values[name].item() for name in ("torque_peak", "torque_min"))
     key, mesh = (machine.calculations[name].values for name in ("shafts_main_wheel_key", "meshes_main_drive"))
     assert key["torque_peak"].item() == pytest.approx(peak, rel=1e-9)

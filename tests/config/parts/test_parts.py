@@ -25,16 +25,10 @@ from diecut_report.results.press_run import Run
 from diecut_report.results.results_file import results_text
 from diecut_report.results.warm_press import WarmPress
 from diecut_report.time_limit import limited
-from tests.config.parts.machines import DISCOVERY, FILE, TEXT, Machine, machine, sound
+from tests.config.parts.machines import DISCOVERY, FILE, PRESS, TEXT, Machine, machine, run_of, sound, whole
 from tests.examples import every, few
 
 MM = 1e-3
-
-
-@cache
-def whole() -> Config:
-    """The example, read."""
-    return load_config(FILE, DISCOVERY)
 
 
 def made() -> dict[str, Any]:
@@ -487,7 +481,7 @@ SIZED = 'inertia: "${train.flywheel_inertia}"}'
     ("inertia", "status"), few([("2.6", "fail"), ("2.95", "pass"), ("3.5", "warn")], lambda each: each[1] != "warn")
 )
 def test_the_flywheel_that_is_mounted_has_the_inertia_which_the_drive_train_asks_for(inertia: str, status: str) -> None:
-    run = WarmPress(is_advised=False).calculate(sound((SIZED, f"inertia: {inertia} kg*m**2, mass: 80 kg}}")).config)
+    run = run_of((SIZED, f"inertia: {inertia} kg*m**2, mass: 80 kg}}"))
     light, heavy = (each for each in run.checks["train"] if each.id in ("flywheel", "heavy_flywheel"))
     needed = float(run.calculations["train"]["flywheel_inertia"][0, 0])
     train, consistency = run.calculations["train"], run.calculations["consistency"]
@@ -504,7 +498,7 @@ def test_the_flywheel_that_is_mounted_has_the_inertia_which_the_drive_train_asks
 def test_a_flywheel_of_quite_another_inertia_is_refused(inertia: str) -> None:
     config = sound((SIZED, f"inertia: {inertia} kg*m**2, mass: 80 kg}}")).config
     with pytest.raises(UserError, match="is less than half or more than twice") as refused:
-        WarmPress(is_advised=False).calculate(config)
+        PRESS.calculate(config)
     assert f"{FILE}:54:" in str(refused.value)
 
 
@@ -523,7 +517,7 @@ def test_the_flywheel_that_the_drive_train_sizes_is_compared_with_nothing() -> N
 def test_values_of_a_maker_are_refused_where_a_part_has_them(old: str, new: str, words: str) -> None:
     config = sound((old, new)).config
     with pytest.raises(UserError, match=re.escape(words)) as refused:
-        WarmPress(is_advised=False).calculate(config)
+        PRESS.calculate(config)
     line = TEXT[: TEXT.index(old)].count("\n") + 1
     assert f"{FILE}:{line}:" in str(refused.value)
 
