@@ -30,12 +30,14 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible, Unproven
 from diecut_report.machine.steps.run import calculate
 from diecut_report.machine.steps.soundness import is_made
+from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import Quantity, fields, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.steps import Interpolated, Lookup, Pick
 from diecut_report.quantities.formatting import told
 from diecut_report.report.rendering import Rendering
-from diecut_report.results.checks import applies, check_results, checks_of, is_of_machine, is_sized, judged
+from diecut_report.results.advice import Advisor
+from diecut_report.results.checks import applies, check_results, checks_of, holds, is_of_machine, is_sized, judged
 from diecut_report.results.document import document
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run, compute
@@ -60,6 +62,7 @@ TITLES = {
     "alone": phrase("Batch and single calculation agree"),
     "again": phrase("Same results in new processes"),
     "verdicts": phrase("Checks that can fail"),
+    "advice": phrase("Advice that helps"),
     "hostile": phrase("Extreme inputs"),
     "figures": phrase("Figures and report"),
     "languages": phrase("Texts in all languages"),
@@ -141,6 +144,39 @@ def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str
                 is_of_machine(check) | (judgement.governing(judgement.demand) == 0)
             )
             yield check.id, set(may_fail[rows].tolist()) | (set() if is_of_machine(check) else {True})
+
+
+# Checks whose advised keys help no machine in which they fail.
+
+
+MACHINES_ADVISED, ADVICE_LONGEST = 3, 10.0  # of each check; seconds after which no more are tried
+
+
+def unadvised(machine: MachineCase, seed: int) -> Iterator[tuple[str, str]]:
+    """Yield each check that names keys to be changed, of which none makes it hold in the machines, far from the example's, where it fails."""
+    tried: dict[str, int] = {}
+    helped: set[str] = set()
+    began = time.process_time()
+    for number in range(MACHINES_ADVISED):
+        varied = _varied(machine, AT_ONCE, seed + number)
+        for check, i in _first_failures(calculate(machine.mechanism, {**machine.values, **varied}, AT_ONCE)):
+            if check.id not in helped and time.process_time() - began < ADVICE_LONGEST:
+                calc = calculate(machine.mechanism, {**machine.values, **one_of(varied, i)})
+                tried[check.id] = tried.get(check.id, 0) + 1
+                helped |= {check.id} if Advisor(calc, (), (check,), holds).ways(check) else set()
+    for id in tried.keys() - helped:
+        template = "no change of the keys that advise names makes it hold, of {n} machines in which it fails; name others, or none"
+        yield id, Phrase(template, n=tried[id])
+
+
+def _first_failures(calc: Calculation) -> Iterator[tuple[Check, int]]:
+    """Each check with advice, with the first of many machines in which it fails."""
+    possible = np.array([i not in calc.flaws for i in range(AT_ONCE)])
+    for check in checks_of(calc):
+        if check.advise and is_made(calc, check):
+            judgement = judged(calc, check)
+            failing = judgement.governing(judgement.there) & ~judgement.governing(judgement.held) & possible
+            yield from ((check, int(i)) for i in np.flatnonzero(failing)[:1])
 
 
 def _strange_partners(mechanism: Mechanism, discovery: Discovery) -> Iterator[Phrase]:
@@ -355,6 +391,18 @@ class ContractTest:
         places = {check.id: check.at for check in checks_of(self.run.calculations[self.name])}
         texts = (at_place(self.mechanism, id, text, places.get(id, "")) for id, text in found)
         return rule("verdicts", message, texts, "note")
+
+    def advice(self) -> TriedRule:
+        """Note the checks whose advised keys help no machine in which they fail."""
+        message = phrase("machines in which a check fails, far from the example")
+        try:
+            found = list(unadvised(self.case, SEED))
+        except Exception:  # a plugin that cannot take arrays, as a rule before has said
+            return TriedRule("advice", "not_tried", phrase("it cannot calculate many machines at once"))
+        places = {check.id: check.at for check in checks_of(self.run.calculations[self.name])}
+        return rule(
+            "advice", message, (at_place(self.mechanism, id, text, places.get(id, "")) for id, text in found), "note"
+        )
 
     def hostile(self) -> TriedRule:
         """Try whether single extreme values give numbers, or are refused in words."""

@@ -192,6 +192,14 @@ def test_notes_of_a_check_stand_at_its_own_line(tmp_path: Path) -> None:
     assert note.startswith(f"toggle.py:{line}: stress: passes in all 400 machines")
 
 
+@pytest.mark.parametrize(("way", "found"), [("down", []), ("up", ["stress"])])
+def test_keys_whose_change_never_helps_are_noted(tmp_path: Path, way: str, found: list[str]) -> None:
+    advised = ("            consequence=", f'            advise=(Vary("travel", "{way}"),),\n            consequence=')
+    tried = contract(tmp_path, advised, ("    View,\n", "    Vary,\n    View,\n")).tried_alone("advice")
+    assert tried.status == ("note" if found else "pass")
+    assert [fault.split(": ")[1] for fault in tried.faults] == found
+
+
 def test_a_demand_below_zero_that_is_great_in_size_is_noted(tmp_path: Path) -> None:
     tried = contract(tmp_path, *odd("return -travel * 1e5"), SIGNED).tried_alone("verdicts")
     _, note = [fault for fault in tried.faults if ": far: " in fault]  # it passes in all machines, too
