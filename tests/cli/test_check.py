@@ -249,7 +249,7 @@ def test_a_calculation_that_contradicts_itself_is_an_error_and_what_refers_to_it
     assert found["summary"]["numerical"] == {"pass": 1, "fail": 1} and found["mechanisms"]["a"]["outputs"] == {}
     told = found["mechanisms"]["a"]["error"]
     assert told in capfd.readouterr().err and told.endswith(": do not use it.")
-    assert "The calculation contradicts itself, and its numbers must not be used. Balance: Rest 10" in told
+    assert "The calculation contradicts itself, and its numbers must not be used. Balance: Residual 10" in told
 
 
 # The command validate: studies too, and what else only a calculation finds, with all faults of a file at once.
