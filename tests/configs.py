@@ -8,6 +8,7 @@ from diecut_report import configs
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.results.warm_press import WarmPress
 
 PLUGINS = Path(__file__).parent / "plugins_for_tests"
 GOOD, BROKEN, LISTED = PLUGINS / "good", PLUGINS / "broken", PLUGINS / "listed"
@@ -23,6 +24,7 @@ PARTS = (
 )  # have the kinds of EXAMPLE alone
 ON_ARRAYS = [path for path in EXAMPLES if "kind: cyclogram" not in path.read_text(encoding="utf-8")]
 DISCOVERY = Discovery([GOOD])
+WARM = WarmPress(is_advised=False)  # calculates of a press only what is not as in the last few, and prints nothing
 
 HEAD = """\
 schema_version: 1

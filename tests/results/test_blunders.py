@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
 
-from diecut_report.config.loader import load_config
-from diecut_report.config.plugins import Discovery
+from diecut_report.config.loader import Config, load_config
 from diecut_report.errors import UserError
-from diecut_report.results.warm_press import WarmPress
-from tests.configs import EXAMPLE, saved
+from tests.configs import DISCOVERY, EXAMPLE, WARM, saved
 
 BLUNDERS = [  # what is typed in place of what, and words of the refusal
     ("a crank pin of 45 mm in a bearing of bore 40", ("40 mm, basis: assumed, note: bore", "45 mm, basis: assumed, note: bore"),
@@ -58,21 +57,22 @@ def changed(folder: Path, old: str, new: str) -> Path:
     return saved(folder, text.replace(old, new, 1))
 
 
-@pytest.fixture(scope="module")
-def warm() -> WarmPress:
-    """The press without a blunder, which is calculated."""
-    press = WarmPress(is_advised=False)
-    press.calculate(load_config(EXAMPLE, Discovery()))
-    return press
+@cache
+def published() -> Config:
+    """The press without a blunder."""
+    return load_config(EXAMPLE, DISCOVERY)
+
+
+def read(file: Path) -> Config:
+    """A press of which only what is unlike the published one is judged anew."""
+    return load_config(file, DISCOVERY, former=published())
 
 
 @pytest.mark.parametrize(("change", "words"), [each[1:] for each in BLUNDERS], ids=[each[0] for each in BLUNDERS])
-def test_a_blunder_is_refused_with_its_place(
-    warm: WarmPress, tmp_path: Path, change: tuple[str, str], words: str
-) -> None:
+def test_a_blunder_is_refused_with_its_place(tmp_path: Path, change: tuple[str, str], words: str) -> None:
     file = changed(tmp_path, *change)
     with pytest.raises(UserError) as refused:
-        warm.calculate(load_config(file, Discovery()))
+        WARM.calculate(read(file))
     told = [each for each in refused.value.problems if words in each.message]
     assert len(told) == 1
     assert (told[0].line or 0) > 1
@@ -81,10 +81,10 @@ def test_a_blunder_is_refused_with_its_place(
     assert told[0].file == str(file) and (key in line or f"{key}:" not in text)
 
 
-def test_a_contradiction_names_both_places(warm: WarmPress, tmp_path: Path) -> None:
+def test_a_contradiction_names_both_places(tmp_path: Path) -> None:
     file = changed(tmp_path, "module: {value: 5 mm", "module: {value: 4 mm")
     with pytest.raises(UserError) as refused:
-        warm.calculate(load_config(file, Discovery()))
+        WARM.calculate(read(file))
     lines = file.read_text(encoding="utf-8").splitlines()
     (told,) = refused.value.problems
     assert "pitch_radius: {value: 120 mm" in lines[(told.line or 0) - 1]
@@ -107,18 +107,18 @@ CUT_SMALLER = ("module: {value: 5 mm", "module: {value: 4 mm")
     ids=["the pair's radius", "another one", "as the other load has teeth, whose pair it may be"],
 )
 def test_the_teeth_that_balance_a_torque_are_those_of_its_pair(
-    warm: WarmPress, tmp_path: Path, changes: tuple[tuple[str, str], ...], is_refused: bool
+    tmp_path: Path, changes: tuple[tuple[str, str], ...], is_refused: bool
 ) -> None:
     text = EXAMPLE.read_text(encoding="utf-8")
     for old, new in (*BALANCED, *changes):
         assert old in text
         text = text.replace(old, new, 1)
-    config = load_config(saved(tmp_path, text), Discovery())
+    config = read(saved(tmp_path, text))
     if not is_refused:
-        warm.calculate(config)
+        WARM.calculate(config)
         return
     with pytest.raises(UserError) as refused:
-        warm.calculate(config)
+        WARM.calculate(config)
     (told,) = refused.value.problems
     assert "loads.0.gear.pitch_radius" in str(told.path)
     assert re.search(r"is 120 mm, but the pair main_gears, .* mechanisms\.main_gears\.module", told.message)
@@ -131,14 +131,14 @@ def test_the_teeth_that_balance_a_torque_are_those_of_its_pair(
         (("allowable_stress: {value: 1 MPa", "allowable_stress: {value: 9 MPa"), "damper"),
     ],
 )
-def test_what_is_only_unusual_warns(warm: WarmPress, tmp_path: Path, change: tuple[str, str], place: str) -> None:
-    run = warm.calculate(load_config(changed(tmp_path, *change), Discovery()))
+def test_what_is_only_unusual_warns(tmp_path: Path, change: tuple[str, str], place: str) -> None:
+    run = WARM.calculate(read(changed(tmp_path, *change)))
     check = next(each for each in run.checks[place] if each.id == "usual_values")
     assert (check.status, check.check_class) == ("warn", "practice")
     assert "usual: " in check.message and "possible: " in check.message
     assert run.summary.warn
 
 
-def test_what_is_usual_has_no_check_of_it(warm: WarmPress) -> None:
-    run = warm.calculate(load_config(EXAMPLE, Discovery()))
+def test_what_is_usual_has_no_check_of_it() -> None:
+    run = WARM.calculate(published())
     assert not [each.id for own in run.checks.values() for each in own if each.id == "usual_values"]

@@ -12,12 +12,11 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import load
 from diecut_report.errors import UserError
-from diecut_report.press import Press
 from diecut_report.results.warm_press import WarmPress
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.press_batch import calculated
 from diecut_report.study.execution.variant_rows import verdicts
-from tests.configs import EXAMPLE, saved
+from tests.configs import DISCOVERY, EXAMPLE, WARM, saved
 
 HEAD = "schema_version: 1\nproject: {title: Gears}\npress: {name: P}\nmechanisms:\n"
 MENDED_PRESS = EXAMPLE.with_name("flat_cylinder_press_mended.yaml")
@@ -33,9 +32,9 @@ def gears(**more: Any) -> dict[str, Any]:
 
 def judged(tmp_path: Path, own: dict[str, Any], check: str) -> dict[str, Any]:
     file = saved(tmp_path, HEAD + f"  a: {own!r}\n")
-    results = Press.read(file, Discovery()).calculate().results
-    (found,) = (each for each in results.mechanisms["a"].checks if each.id == check)
-    return dict(found) | {"conclusion": results.summary.conclusion}
+    run = WARM.calculate(load_config(file, DISCOVERY))
+    (found,) = (each for each in run.checks["a"] if each.id == check)
+    return dict(found) | {"conclusion": run.summary.conclusion}
 
 
 @pytest.mark.parametrize(

@@ -11,12 +11,11 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.plugins.cyclogram.kinds import TORQUES
-from diecut_report.press import Press
 from diecut_report.results.model import OpenRecord
 from diecut_report.results.open_items import DRIVEN, unrated_forces
 from diecut_report.results.press_run import compute
 from tests.config.parts.machines import FILE
-from tests.configs import EXAMPLE, GOOD, HEAD, saved
+from tests.configs import DISCOVERY, EXAMPLE, HEAD, WARM, loaded, saved
 from tests.examples import every
 
 LEVER = "  a: {kind: lever, force: 2 kN VALUE}\n"
@@ -108,7 +107,7 @@ ROWS = [
 
 
 def left(folder: Path, text: str) -> list[OpenRecord]:
-    return Press.read(saved(folder, text), Discovery([GOOD])).calculate().results.summary.open
+    return WARM.calculate(loaded(folder, text)).summary.open
 
 
 def values(folder: Path, text: str) -> dict[str, str]:
@@ -306,7 +305,7 @@ def test_each_item_has_the_owner_of_the_project(tmp_path: Path) -> None:
 
 
 def test_forces_that_no_part_takes_are_named_by_the_mechanism_that_makes_them() -> None:
-    found = Press.read(EXAMPLE, Discovery()).calculate().results.summary.open
+    found = WARM.calculate(load_config(EXAMPLE, DISCOVERY)).summary.open
     unrated = {each.path: str(each.why) for each in found if each.what == "not_rated"}
     names = ("drive", "feeder", "cross", "gripper_chain", "crank_pin", "rocker_pin")
     assert unrated.keys() == {f"mechanisms.{name}" for name in names}  # bearings take the reactions of the crankshaft
@@ -349,8 +348,7 @@ def test_a_shaft_that_no_bearing_holds_along_its_axis_is_open(tmp_path: Path) ->
     assert text.count('"6209"') == 1 and text.count('"6212"') == 1
 
     def unlocated(changed: str) -> list[str]:
-        results = Press.read(saved(tmp_path, changed), Discovery()).calculate().results
-        return [each.path for each in results.summary.open if "along its axis" in str(each.why)]
+        return [each.path for each in left(tmp_path, changed) if "along its axis" in str(each.why)]
 
     one = text.replace('"6209"', "NU209E")
     assert unlocated(one) == []

@@ -16,12 +16,14 @@ from diecut_report.errors import UserError
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.press import Press
 from diecut_report.results.document import resolved
-from diecut_report.results.press_run import Run, compute, impossible
+from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.press_run import impossible
 from diecut_report.results.usual import _values, ends_by_ratio, with_value
+from diecut_report.results.warm_press import WarmRun
 from diecut_report.standards.ranges import range_of
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
-from tests.configs import EXAMPLE
+from tests.configs import DISCOVERY, EXAMPLE, WARM
 
 CLUTCH = {
     "kind": "clutch", "torque": "500 N*m", "shoe_radius": "180 mm", "wedge_angle": "10 deg", "wedge_friction": 0.1, "shoe_friction": 0.35,
@@ -40,8 +42,8 @@ def loaded(folder: Path, **others: Any) -> Config:
     return load_config(file, Discovery())
 
 
-def run(folder: Path, **others: Any) -> Run:
-    return compute(loaded(folder, **others), lambda _: None)
+def run(folder: Path, **others: Any) -> WarmRun:
+    return WARM.calculate(loaded(folder, **others))
 
 
 def problems(folder: Path, **others: Any) -> list[Any]:
@@ -50,8 +52,8 @@ def problems(folder: Path, **others: Any) -> list[Any]:
     return refused.value.problems
 
 
-def usual(found: Run, name: str = "clutch") -> Any:
-    return next((each for each in found.results[name].checks if each.id == "usual_values"), None)
+def usual(found: WarmRun, name: str = "clutch") -> Any:
+    return next((each for each in found.checks[name] if each.id == "usual_values"), None)
 
 
 BOTH_RANGES = (
@@ -113,7 +115,7 @@ def test_all_that_is_unusual_is_one_warning_of_its_mechanism(tmp_path: Path) -> 
         words in check.message
         for words in ("shoe_friction = 0.5", "wedge_friction = 0.3", "VDI 2241", "handbooks of machine elements")
     )
-    assert found.results["clutch"].warnings == [check.message]
+    assert mechanism_results(found.calculations["clutch"], {}).warnings == [check.message]
 
 
 def test_zero_is_usual_only_where_it_is_what_holds_without_the_key(tmp_path: Path) -> None:
@@ -159,7 +161,7 @@ def test_the_resolved_configuration_keeps_the_reason(tmp_path: Path) -> None:
         assert data["mechanisms"][name]["shoe_friction"]["beyond"] == REASON
     again = tmp_path / "again.yaml"
     again.write_text(yaml.safe_dump(data, allow_unicode=True), encoding="utf-8")
-    assert usual(compute(load_config(again, Discovery()), lambda _: None), "second").status == "warn"
+    assert usual(WARM.calculate(load_config(again, DISCOVERY)), "second").status == "warn"
 
 
 def test_the_schema_of_editors_has_the_key() -> None:
@@ -227,7 +229,7 @@ def test_a_crank_that_turns_otherwise_than_once_a_sheet_is_warned_of(
 @pytest.mark.parametrize("name", ["flat_cylinder_press_mended", "flat_cylinder_elements"])
 def test_at_its_usual_ends_a_value_makes_a_ratio_that_is_one_end_of_its_row(name: str) -> None:
     config = load_config(EXAMPLE.with_name(f"{name}.yaml"), Discovery())
-    machine, tried = compute(config, lambda _: None), 0
+    machine, tried = WARM.calculate(config), 0
     for home, calculation in machine.calculations.items():
         instance, inputs = config.instances[home], flatten(machine.blocks[home])
         beside = machine.beside(instance)

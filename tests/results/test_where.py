@@ -13,9 +13,9 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.errors import UnknownName
 from diecut_report.results.mechanism import numbers
-from diecut_report.results.warm_press import WarmPress, WarmRun
+from diecut_report.results.warm_press import WarmRun
 from diecut_report.results.where import where
-from tests.configs import DISCOVERY, EXAMPLE, EXAMPLES, PARTS
+from tests.configs import DISCOVERY, EXAMPLE, EXAMPLES, PARTS, WARM
 from tests.examples import few
 
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")
@@ -23,7 +23,7 @@ KNIFE = EXAMPLE.with_name("circular_knife.yaml")
 
 @cache
 def calculated(file: Path) -> WarmRun:
-    return WarmPress(is_advised=False).calculate(load_config(file, DISCOVERY))
+    return WARM.calculate(load_config(file, DISCOVERY))
 
 
 def line_at(place: str) -> str:
