@@ -1,4 +1,4 @@
-"""Makes docs/reference/api.md, all names of ``diecut_report.api`` in one page: ``python -m tools.make_form_page``.
+"""Makes docs/reference/api.md, all names of ``diecut_report.api`` in one page, and mechanics.md: ``python -m tools.make_form_page``.
 
 The site has the same in pages, with the examples in full; this one is to be read in the repository.
 """
@@ -6,11 +6,14 @@ The site has the same in pages, with the examples in full; this one is to be rea
 from __future__ import annotations
 
 import inspect
+import pkgutil
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from diecut_report import api, testing
+from diecut_report import api, mechanics, testing
+from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.steps import Options, StepCondition
 from tools.site.api_examples import FOLDER, TYPES, example_of
 from tools.site.markup import code, plain, table
@@ -31,6 +34,7 @@ from tools.site.reference import (
 )
 
 PAGE = Path(__file__).parents[1] / "docs" / "reference" / "api.md"
+MECHANICS = PAGE.with_name("mechanics.md")
 LISTED = ("Chapter", "Steps")
 INTRODUCTION = """\
 # The author's form: all calls and their options
@@ -96,7 +100,36 @@ def pages() -> dict[Path, str]:
     text = "\n".join(lines)
     while "\n\n\n" in text:
         text = text.replace("\n\n\n", "\n\n")
-    return {PAGE: text.rstrip("\n") + "\n"}
+    return {PAGE: text.rstrip("\n") + "\n", MECHANICS: "\n".join(_mechanics()) + "\n"}
+
+
+def _mechanics() -> Iterator[str]:
+    """What the modules of shared mechanics offer: formulas, and functions that give expressions or compute."""
+    yield from (
+        "# Shared mechanics",
+        "",
+        "Made from docstrings by `python -m tools.make_form_page`. What stands in `diecut_report.mechanics`; all",
+    )
+    yield "values are SI. A formula is called with expressions or numbers; [geometry and sections](../how-to/geometry-and-sections.md) shows how."
+    for found in pkgutil.iter_modules(mechanics.__path__):
+        module = import_module(f"{mechanics.__name__}.{found.name}")
+        own = {name: each for name, each in vars(module).items() if _is_shared(name, each, module.__name__)}
+        rows = [
+            (code(_called(name, each)), plain(next(paragraphs(each)).replace("``", ""))) for name, each in own.items()
+        ]
+        if rows:
+            yield from ("", f"## `{found.name}`", "", _text(next(paragraphs(module))), "")
+            yield from table(("call", "gives"), rows)
+
+
+def _is_shared(name: str, each: Any, home: str) -> bool:
+    is_called = isinstance(each, Formula) or inspect.isfunction(each)
+    return is_called and not name.startswith("_") and each.__module__ == home
+
+
+def _called(name: str, each: Any) -> str:
+    parameters = each.parameters if isinstance(each, Formula) else inspect.signature(each).parameters
+    return f"{name}({', '.join(parameters)})"
 
 
 def _words(text: str) -> str:

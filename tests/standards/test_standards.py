@@ -125,6 +125,7 @@ def test_the_lengths_are_the_preferred_numbers_laid_over_the_decades() -> None:
     assert [v for v in lengths if 100 <= v <= 1000] == GOST_DIAMETERS
     assert [v for v in lengths if v <= 100] == [round(d / 10, 1) for d in GOST_DIAMETERS]
     assert [v for v in lengths if v >= 1000] == [10 * d for d in GOST_DIAMETERS if d <= 500]
+    assert standard_series("renard_r20_lengths").values == lengths[::2]
 
 
 def test_the_belt_pitches_are_those_of_other_tables() -> None:
@@ -228,8 +229,8 @@ def test_a_series_ascends_without_a_gap(series: StandardSeries) -> None:
 @pytest.mark.wheel
 def test_the_files_are_the_documented_ones() -> None:
     assert {form: standard_ids(form) for form in FORMS} == {
-        "values": ("din_6885_lengths", "iec_60072_ratings", "iso_54_modules", "renard_r10", "renard_r20", "renard_r40",
-                   "renard_r40_lengths"),
+        "values": ("din_6885_lengths", "iec_60072_ratings", "iso_54_modules", "renard_r10", "renard_r20",
+                   "renard_r20_lengths", "renard_r40", "renard_r40_lengths"),
         "table": ("iso_606_inner_widths", "iso_606_pin_diameters", "iso_606_pitches", "iso_606_roller_diameters", "motor_synchronous_speeds",
                   "steel_tensile_strengths", "steel_yield_strengths", "toothed_belt_pitches", "vbelt_least_diameter"),
         "by": ("iso_4184_lengths",),
