@@ -164,19 +164,15 @@ def test_what_a_comparison_cannot_take_is_told_with_line_and_key(
 
 
 BALANCE = """\
-from typing import Annotated, Any
-from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, Value, formula
+from diecut_report.api import Chapter, Inputs, Mechanism, Quantity, m
 
 class Balance(Inputs):
     up = Quantity("M_1", "N*m", "Moment up")
     down = Quantity("M_2", "N*m", "Moment down", gt=0)
 
-@formula
-def rest(up: Any, down: Any) -> Any:
-    return up - 3 * down
-
-MECHANISM = Mechanism(kind="balance", version="1", title="Balance", summary="Moments.", inputs=Balance, chapters=(
-    Chapter("Balance", steps=(Value(id="rest", symbol="M_r", unit="N*m", description="Rest", formula=rest),)),))
+chapter = Chapter("Balance")
+chapter.rest = m.up - 3 * m.down, "M_r", "N*m", "Rest"
+MECHANISM = Mechanism(kind="balance", version="1", title="Balance", summary="Moments.", inputs=Balance, chapters=(chapter,))
 """
 BALANCED = HEAD + "  a: {kind: balance, up: 0.3 N*m, down: 0.1 N*m}\n"
 STUDY = """\

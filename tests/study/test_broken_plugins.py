@@ -30,8 +30,7 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import field_validator
 
-from diecut_report.api import Chapter, FromPress, Inputs, Mechanism, Quantity, formula, samples
-from diecut_report.mechanism.steps import Abscissa, Computed, Value
+from diecut_report.api import Chapter, FromPress, Inputs, Mechanism, Quantity, abscissa, computed, formula, samples
 
 
 class Breaking(Inputs):
@@ -71,13 +70,13 @@ def never(x: Any) -> Any:
     raise LookupError("no table")
 
 
-STEP = Value(id="a", symbol="a", unit="mm", description="A", formula=twice)
-MECHANISM = Mechanism(kind="breaking", version="1", title="T", summary="S.", inputs=Breaking, chapters=(Chapter("S", steps=(STEP, {step})),))
+chapter = Chapter("S")
+chapter.a = twice, "a", "mm", "A"
+{step}
+MECHANISM = Mechanism(kind="breaking", version="1", title="T", summary="S.", inputs=Breaking, chapters=(chapter,))
 """
-VALUE = 'Value(id="b", symbol="b", unit="mm", description="B", formula={})'
-COMPUTED = (
-    'Computed(id="b", symbol="b", unit="mm", description="B", source="s", function=small, takes=("x",), method="table")'
-)
+VALUE = 'chapter.b = {}, "b", "mm", "B"'
+COMPUTED = 'chapter.b = computed(small, takes=("x",), method="table"), "b", "mm", "B", "s"'
 BASE = """\
 schema_version: 1
 project: {title: Test}
