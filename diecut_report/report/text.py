@@ -388,9 +388,9 @@ def _texts_of(
             return words.paper(text, home or kind)
         if role is TextRole.TEXT:
             return words.said(text, kind)
-        if text in names:
+        if text in names and role is not TextRole.LABEL:
             return text
-        if role is TextRole.DRAWN:  # what is not translated has at least its numbers in the language's form
+        if role in (TextRole.DRAWN, TextRole.LABEL):  # what is not translated has at least its numbers in the language's form
             return words.numbers(words.said(text, kind))
         return words.known(worded(text), kind) or words.said(text, kind)
 
@@ -402,7 +402,7 @@ def _texts_of(
 
 PAPER = re.compile(r"\d{3}")
 BRACKETS = re.compile(r"\((\[\d+\])\)")  # about the brackets of a number
-CITING = (TextRole.TEXT, TextRole.DRAWN, TextRole.SOURCE)
+CITING = (TextRole.TEXT, TextRole.DRAWN, TextRole.LABEL, TextRole.SOURCE)
 
 
 def numbered(results: ResultsRecord) -> ResultsRecord:

@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, InstanceOf, PositiveFloat, Tag
 from pydantic.json_schema import SkipJsonSchema
 
 from diecut_report.mechanism.figures import Grip
-from diecut_report.results.record import DrawnError, DrawnText, Record, always, sometimes
+from diecut_report.results.record import DrawnError, DrawnText, LabelText, Record, always, sometimes
 
 Point = Annotated[list[float], Field(min_length=2, max_length=2)]
 Numbers = list[float | None]
@@ -32,7 +32,7 @@ class SeriesRecord(Record):
     """A curve of the results in a diagram."""
 
     curve: str = always("Its id.")
-    label: DrawnText = always("What it is called there.")
+    label: LabelText = always("What it is called there.")
 
 
 class LineRecord(Record):
@@ -63,7 +63,7 @@ class SpanRecord(Record):
 
     start: float = always("Where it begins.", "from")
     end: float = always("Where it ends.", "to")
-    label: DrawnText = always("What it is called.")
+    label: LabelText = always("What it is called.")
 
 
 class VerticalRecord(Record):
@@ -84,7 +84,7 @@ class AxisRecord(Record):
 class PlotPanelRecord(Record):
     """A diagram of curves over the abscissa of a plot."""
 
-    title: DrawnText = always("What stands upwards.")
+    title: LabelText = always("What stands upwards.")
     unit: str = always("The unit in which it is shown.")
     series: list[SeriesRecord] = always("Its curves.")
     levels: list[LevelRecord] = always("Its horizontal lines.")
@@ -317,8 +317,8 @@ class FigureRecord(Record):
         "`drawing`: of the machine; `failed`: it could not be made."
     )
     id: str = always("Its id.")
-    title: DrawnText = always("Its title.")
-    caption: DrawnText = always("What is to be seen in it.")
+    title: LabelText = always("Its title.")
+    caption: LabelText = always("What is to be seen in it.")
     shows: list[str] = sometimes("The ids of the quantities that it shows.", [])
     abscissa: str = sometimes("The abscissa of a plot or a polar plot.", "")
     panels: list[Panel] = sometimes("Its diagrams, from top to bottom.", [])

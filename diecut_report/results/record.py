@@ -42,7 +42,8 @@ class TextRole(Enum):
     """What a text is to a translator."""
 
     TEXT = auto()  # a sentence or a label
-    DRAWN = auto()  # one in a figure
+    DRAWN = auto()  # one in a figure that code made: it may be the name of a part
+    LABEL = auto()  # one in a figure that its declaration says
     WORD = auto()  # a value: a number, a choice by its key, or a name, which stands as it is
     SOURCE = auto()  # where a formula stands
     PAPER = auto()  # how a work is cited
@@ -155,6 +156,7 @@ Text = Annotated[str, _Translated(TextRole.TEXT)]
 Message = Annotated[str, _Translated(TextRole.TEXT, is_message=True)]
 ErrorText = Annotated[str, _Translated(TextRole.TEXT, is_plain=True)]
 DrawnText = Annotated[str, _Translated(TextRole.DRAWN)]
+LabelText = Annotated[str, _Translated(TextRole.LABEL)]
 DrawnError = Annotated[str, _Translated(TextRole.DRAWN, is_plain=True)]
 Word = Annotated[str, _Translated(TextRole.WORD)]
 SourceText = Annotated[str, _Translated(TextRole.SOURCE)]

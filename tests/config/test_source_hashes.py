@@ -142,7 +142,7 @@ def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.Captur
 
 
 def test_results_tell_whether_the_formulas_of_a_plugin_are_sound_and_judge_them_when_it_changes(tmp_path: Path) -> None:
-    wrong = CODE.replace("return force * arm", "return force + arm")
+    wrong = CODE.replace("m.force * m.arm, ", "m.force + m.arm, ")
     for number, content in enumerate([CODE, wrong, wrong, CODE]):
         check = "failed" if content == wrong else "passed"
         folder = tmp_path / str(number)

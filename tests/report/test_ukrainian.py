@@ -200,16 +200,18 @@ def test_names_are_those_of_parts_and_of_mechanisms_that_are_taken() -> None:
 def test_a_name_that_is_a_word_of_the_catalogue_is_not_translated(plain: Data) -> None:
     """“drive” is a word of several catalogues."""
     data = plain["mechanisms"]["cylinder"]
-    data["inputs"]["lines.0.name"] = named("drive")
+    data["inputs"]["lines.0.name"], data["kind"] = named("drive"), "roller_chain"
     data["figures"] = [
-        {"id": "torque", "caption": "", "type": "plot", "title": "Torque", "panels": [{"series": [{"label": "drive"}]}]}
+        {"id": "torque", "type": "chart", "panels": [{"lines": [{"label": "drive"}]}]},
+        {"id": "declared", "type": "plot", "panels": [{"series": [{"label": "drive"}]}]},
     ]
     catalogues = Catalogues("uk")
-    catalogues.know(["cyclogram", "drive_train"])
+    catalogues.know(["cyclogram", "roller_chain"])
     one = typed({**plain, "mechanisms": {"cylinder": data}, "comparisons": {}})
     said = translated(one, catalogues).mechanisms["cylinder"]
     assert said.inputs["lines.0.name"].display.text == "drive"
-    assert said.figures[0].panels[0].series[0].label == "drive"
+    assert said.figures[0].panels[0].lines[0].label == "drive"
+    assert not said.figures[1].panels[0].series[0].label.isascii()
 
 
 def test_papers_stand_by_their_number_and_nothing_else_changes() -> None:

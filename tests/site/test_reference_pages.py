@@ -203,9 +203,10 @@ def test_each_function_and_each_role_has_a_meaning() -> None:
 def test_the_page_of_the_authors_form_is_made_of_what_there_is() -> None:
     for file, text in make_form_page.pages().items():
         assert file.read_text(encoding="utf-8") == text, "run: python -m tools.make_form_page"
-        told = set(re.findall(r"^### `(?:chapter\.)?(\w+)`", text, re.MULTILINE))
-        called = {name for name in dir(api.Steps) if inspect.isfunction(getattr(api.Steps, name)) and name[0] != "_"}
-        assert called <= told and make_form_page.MEANINGS.keys() == Options.__annotations__.keys()
+    form = make_form_page.PAGE.read_text(encoding="utf-8")
+    told = set(re.findall(r"^### `(?:chapter\.)?(\w+)`", form, re.MULTILINE))
+    called = {name for name in dir(api.Steps) if inspect.isfunction(getattr(api.Steps, name)) and name[0] != "_"}
+    assert called <= told and make_form_page.MEANINGS.keys() == Options.__annotations__.keys()
 
 
 def test_a_signature_leaves_out_nothing_that_must_be_given() -> None:

@@ -330,7 +330,7 @@ SINGLE = [  # a whole study, and the beginnings of all that is told of it
       for values, shown in (("3", "“3”"), ("[1]", "a list"), ("x", "“x”"))),
     (varied("[1]", sample="{method: table}"), ["3:1: sample.file: ", "4:1: vary: "]),
     (varied("{from: 1, to: 2}", path=GRADE),
-     ["5:23: vary.mechanisms.a.grade: is a text or a choice; give a list of values, as in [first, second]."]),
+     ["5:23: vary.mechanisms.a.grade: is a text or a choice; give a list of values, as in [fine, coarse]."]),
     (NO_BASE, ["2:7: base: there is no file pres.yaml. The base is sought from the study's folder; check its name."]),
     (NO_BASE.replace("grid", "grid, seed: 1") + "colour: red\n", ["2:7: base: ", "3:24: sample.seed: ", "7:1: colour: "]),
     (STUDY.replace("press.yaml", "study.yaml"), ["2:7: base: is this study itself; name the configuration whose inputs it varies."]),
