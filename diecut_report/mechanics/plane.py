@@ -138,7 +138,7 @@ def meet(circle: Circle, other: Circle | Line, side: str, key: Any = None) -> Me
         refuse(Phrase("side is {given}, not {sides}", given=repr(side), sides=" or ".join(map(repr, sides))))
     key = circle.radius if key is None else key
     if not isinstance(key, str) and not getattr(key, "id", ""):
-        refuse(phrase("the first radius is no input; name the one to be changed here: meet(…, key=m.length)"))
+        refuse(phrase("the first radius is not an input; name the one to be changed here: meet(…, key=m.length)"))
     return Meeting(partial(parts, 1 if side == sides[0] else -1, key))
 
 

@@ -122,7 +122,7 @@ def test_a_fault_of_a_variant_names_the_base_that_is_kept(
     out: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     plugin = (SHARES / "shares.py").read_text("utf-8")
-    saved(tmp_path, plugin.replace('"Share", gt=0, le=100)] = 5', '"Share", gt=0, le=1)] = 1'), "shares.py")
+    saved(tmp_path, plugin.replace('"Share", gt=0, le=100, default=5)', '"Share", gt=0, le=1, default=1)'), "shares.py")
     assert main(["calc", f"{out}#0", "--plugins", str(tmp_path), "--quiet"]) == 2
     warning, told = capfd.readouterr().err.splitlines()[:2]
     assert warning.startswith("warning: The source of the plugin shares is not what the study was calculated by")
