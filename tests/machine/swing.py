@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
-    Case,
     Chapter,
     Curve,
     CurveInput,
@@ -18,24 +17,21 @@ from diecut_report.api import (
     Spectrum,
     SpectrumLine,
     Text,
-    formula,
+    abscissa,
+    accumulated,
+    case,
+    choice,
+    computed,
+    crossings,
+    curve_period,
+    derivative,
+    from_curve,
+    inner,
     m,
     number,
     pi,
-)
-from diecut_report.mechanism.steps import (
-    Abscissa,
-    Accumulated,
-    Breakpoints,
-    Choice,
-    Computed,
-    Crossings,
-    CurvePeriod,
-    Derivative,
-    FromCurve,
-    Reduction,
-    Require,
-    Value,
+    reduction,
+    value,
 )
 
 LENGTH, SPEED = (("mass", "mm"),), (("mass", "m/s"),)
@@ -58,17 +54,6 @@ class Swing(Inputs):
     n_points = Quantity("N", "1", "Samples", ge=36, le=100_000, integer=True, default=48)
 
 
-passed = formula(lambda time, duration: time / duration)
-rising = formula(lambda lift, passed: 64 * lift * passed**3)
-falling = formula(lambda lift, passed: lift * np.cos(2 * pi / 3 * (passed - number(1) / 4)))
-quarter = formula(lambda duration: duration / 4)
-is_calm = formula(lambda duration, ripple: duration < 1000 * ripple)
-inverse = formula(lambda rate: 1 / rate)
-turned = formula(lambda position, lift, passed: position + 2 * lift * passed)
-level = formula(lambda position, lift: position - lift / 2)
-force = formula(lambda stiffness, position: stiffness * position)
-
-
 def between(motion: Curve, share: Any) -> Any:
     """The motion half a period after its start."""
     place = (share + 0.5) % 1
@@ -85,61 +70,47 @@ def lines() -> list[SpectrumLine]:
             for k in (1, 2)]  # fmt: skip
 
 
-OWN = Chapter(
-    "Motion by a law",
-    needs=("lift",),
-    steps=(
-        Require(id="calm", condition=is_calm, key="lift", message="of {lift} turns back too often with {stiffness}; give a longer ripple"),
-        Abscissa(id="time", symbol="t", unit="s", description="Time", period="duration"),
-        Value(id="quarter", symbol="t_4", unit="s", description="End of the rise", formula=quarter),
-        Breakpoints(id="joints", abscissa="time", places=("quarter",), every="ripple"),
-        Value(unit="1", id="passed", symbol="k", description="Share of the time", formula=passed),
-        Value(id="middle", symbol="t_m", unit="s", description="Middle of the piece", per_piece=True, output=False,
-              formula=m.time),
-        Choice(id="position", symbol="y", unit="deg", units=LENGTH, description="Position",
-               cases=(Case(rising, "it rises", m.middle < m.quarter),
-                      Case(falling, "it falls"))),
-        Value(id="turned", symbol="φ", unit="deg", units=LENGTH, description="Position that grows", formula=turned),
-        Value(id="level", symbol="y_l", unit="deg", units=LENGTH, description="Position above half the lift", output=False, formula=level),
-        Crossings(id="half_way", symbol="t_h", unit="s", description="Time at half the lift", of="level"),
-        Computed(id="work", symbol="W", unit="J", description="Work of the lift", function=work, takes=("stiffness", "lift", "grade"),
-                 method="half of stiffness times lift squared"),
-    ),
-)  # fmt: skip
+# fmt: off
 
-TAKEN = Chapter(
-    "Motion by a curve",
-    needs=("motion",),
-    steps=(
-        CurvePeriod(id="cycle", symbol="T_c", unit="s", description="Period of the motion", lacks=("rate",), given="motion",
-                    otherwise="give rate, with which it runs through"),
-        Value(id="cycle", symbol="T_c", unit="s", description="Period of the motion", needs=("rate",), formula=inverse),
-        Abscissa(id="time", symbol="t", unit="s", description="Time", period="duration"),
-        FromCurve(id="position", symbol="y", unit="deg", units=LENGTH, description="Position", given="motion", abscissa="time", start="share",
-                  lasts="cycle"),
-        FromCurve(id="grown", symbol="y_g", unit="deg", units=LENGTH, description="Position that goes on", given="motion", abscissa="time",
-                  start="share", lasts="cycle", gains=True),
-        FromCurve(id="stretched", symbol="y_s", unit="deg", units=LENGTH, description="Position over the whole time", given="motion",
-                  abscissa="time"),
-        Reduction(id="grown_top", symbol="y_g,max", unit="deg", units=LENGTH, description="Farthest that it goes on", of="grown", operation="max"),
-        Computed(id="between", symbol="y_2", unit="deg", units=LENGTH, description="Position half a period later", function=between,
-                 takes=("motion", "share"), method="the curve at half a period after its start"),
-    ),
-)  # fmt: skip
+OWN = Chapter("Motion by a law", needs=("lift",))
+OWN.require("calm", m.duration < 1000 * m.ripple, key="lift", message="of {lift} turns back too often with {stiffness}; give a longer ripple")
+OWN.time = abscissa("duration"), "t", "s", "Time"
+OWN.quarter = m.duration / 4, "t_4", "s", "End of the rise"
+OWN.breakpoints("joints", "time", "quarter", every="ripple")
+OWN.passed = m.time / m.duration, "k", "1", "Share of the time"
+OWN.middle = inner(m.time, per_piece=True), "t_m", "s", "Middle of the piece"
+OWN.position = choice(
+    case(64 * m.lift * m.passed**3, "it rises", m.middle < m.quarter),
+    case(m.lift * np.cos(2 * pi / 3 * (m.passed - number(1) / 4)), "it falls"), units=LENGTH), "y", "deg", "Position"
+OWN.turned = value(m.position + 2 * m.lift * m.passed, units=LENGTH), "φ", "deg", "Position that grows"
+OWN.level = inner(m.position - m.lift / 2, units=LENGTH), "y_l", "deg", "Position above half the lift"
+OWN.half_way = crossings(of="level"), "t_h", "s", "Time at half the lift"
+OWN.work = computed(work, takes=("stiffness", "lift", "grade"), method="half of stiffness times lift squared"), "W", "J", "Work of the lift"
 
-BOTH = Chapter(
-    "What follows from the motion",
-    steps=(
-        Derivative(id="speed", symbol="v", unit="rad/s", units=SPEED, description="Speed", source="kinematics", of="position"),
-        Derivative(id="acceleration", symbol="a", unit="rad/s**2", units=(("mass", "m/s**2"),), description="Acceleration", of="speed"),
-        Accumulated(id="area", symbol="A", unit="rad*s", units=(("mass", "m*s"),), description="Area under the position", of="position"),
-        Accumulated(id="way", symbol="s", unit="rad", units=(("mass", "m"),), description="Integral of the speed", of="speed"),
-        Value(id="force", symbol="F", unit="N*m", units=(("mass", "N"),), description="Torque or force", formula=force),
-        Reduction(id="speed_top", symbol="v_max", unit="rad/s", units=SPEED, description="Greatest speed", of="speed", operation="max"),
-        Reduction(id="force_top", symbol="F_max", unit="N*m", units=(("mass", "N"),), description="Greatest force", of="force", operation="abs_max"),
-        Reduction(id="speed_mean", symbol="v_m", unit="rad/s", units=SPEED, description="Mean speed", of="speed", operation="mean"),
-    ),
-)  # fmt: skip
+TAKEN = Chapter("Motion by a curve", needs=("motion",))
+TAKEN.cycle = (curve_period("motion", lacks=("rate",), otherwise="give rate, with which it runs through"), "T_c", "s",
+               "Period of the motion")
+TAKEN.cycle = value(1 / m.rate, needs=("rate",)), "T_c", "s", "Period of the motion"
+TAKEN.time = abscissa("duration"), "t", "s", "Time"
+TAKEN.position = from_curve("motion", abscissa="time", start="share", lasts="cycle", units=LENGTH), "y", "deg", "Position"
+TAKEN.grown = (from_curve("motion", abscissa="time", start="share", lasts="cycle", gains=True, units=LENGTH), "y_g", "deg",
+               "Position that goes on")
+TAKEN.stretched = from_curve("motion", abscissa="time", units=LENGTH), "y_s", "deg", "Position over the whole time"
+TAKEN.grown_top = reduction("max", of="grown", units=LENGTH), "y_g,max", "deg", "Farthest that it goes on"
+TAKEN.between = (computed(between, takes=("motion", "share"), method="the curve at half a period after its start", units=LENGTH), "y_2", "deg",
+                 "Position half a period later")
+
+BOTH = Chapter("What follows from the motion")
+BOTH.speed = derivative(of="position", units=SPEED), "v", "rad/s", "Speed", "kinematics"
+BOTH.acceleration = derivative(of="speed", units=(("mass", "m/s**2"),)), "a", "rad/s**2", "Acceleration"
+BOTH.area = accumulated(of="position", units=(("mass", "m*s"),)), "A", "rad*s", "Area under the position"
+BOTH.way = accumulated(of="speed", units=(("mass", "m"),)), "s", "rad", "Integral of the speed"
+BOTH.force = value(m.stiffness * m.position, units=(("mass", "N"),)), "F", "N*m", "Torque or force"
+BOTH.speed_top = reduction("max", of="speed", units=SPEED), "v_max", "rad/s", "Greatest speed"
+BOTH.force_top = reduction("abs_max", of="force", units=(("mass", "N"),)), "F_max", "N*m", "Greatest force"
+BOTH.speed_mean = reduction("mean", of="speed", units=SPEED), "v_m", "rad/s", "Mean speed"
+
+# fmt: on
 
 SPECTRUM = Spectrum(
     id="ratio", symbol="λ", description="Ratio of frequencies", values=RATIOS, lines=lines, source="made up"

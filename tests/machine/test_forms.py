@@ -242,10 +242,10 @@ def test_a_sound_mechanism_of_two_forms_passes() -> None:
 @pytest.mark.parametrize(
     ("name", "changes", "words"),
     [
-        ("force", {"unit": "N"}, "force: <lambda> gives"),
+        ("force", {"unit": "N"}, "force: its formula gives"),
         ("force", {"units": (("mass", "N*m"),)}, "declared is N*m"),
-        ("force", {"units": ()}, "force: <lambda> gives"),
-        ("position", {"units": ()}, "position: <lambda> gives"),
+        ("force", {"units": ()}, "force: its formula gives"),
+        ("position", {"units": ()}, "position: it rises gives"),
         ("speed", {"unit": "rad"}, "speed: the derivative of position gives rad/s"),
         ("speed", {"units": (("mass", "m"),)}, "speed: the derivative of position gives m/s, declared is m"),
         ("area", {"units": (("mass", "m"),)}, "area: the integral of position gives m*s"),

@@ -267,7 +267,7 @@ REFUSED = {
     ),
     "no key": (
         lambda: plane.meet(Circle((0, 0), m.rod / 2), Line((0, 0)), "ahead"),
-        "the first radius is no input; name the one to be changed",
+        "the first radius is not an input; name the one to be changed",
     ),
 }
 

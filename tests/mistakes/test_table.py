@@ -97,9 +97,10 @@ def test_a_quantity_stands_wherever_an_id_is_wanted(tmp_path: Path) -> None:
         ('needs=("allowable_torque",)', "needs=(m.allowable_torque,)"),
         ('needs=("backstop",), absent', "needs=(m.backstop,), absent"),
         ('columns=("rim_x", "rim_y")', "columns=(m.rim_x, m.rim_y)"),
+        ('Mark("press_max_at", "press_max"', "Mark(m.press_max_at, m.press_max"),
     )
     written, count = re.subn(ID, r"\1=m.\2", Mistake("none", texts, "", ()).source)
-    assert count > 15
+    assert count > 10
     (tmp_path / f"{KIND}.py").write_text(written, "utf-8")
     mechanism = Discovery([tmp_path]).mechanism(KIND)
     check_mechanism(mechanism)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 from math import cos, pi, prod, sin
-from typing import get_args
 
 import numpy as np
 import pytest
@@ -401,7 +400,7 @@ def test_a_belt_that_cannot_be_is_refused_in_words(vbelt: dict[str, str], key: s
 
 
 def test_the_sections_are_those_with_standard_lengths_and_a_least_diameter() -> None:
-    assert set(get_args(Section)) == set(standard_series_by("iso_4184_lengths")) & set(
+    assert set(Section) == set(standard_series_by("iso_4184_lengths")) & set(
         standard_table("vbelt_least_diameter").values
     )
 

@@ -17,7 +17,7 @@ from jinja2 import UndefinedError
 
 from diecut_report.api import chart_panel, line
 from diecut_report.cli.main import main
-from diecut_report.report.figures.labels import Across, Line, PanelData
+from diecut_report.report.figures.labels import Across, ChartLine, PanelData
 from diecut_report.report.pages import html
 from diecut_report.report.pages.html import SCRIPTS, folder
 from diecut_report.report.reader_data import (
@@ -331,7 +331,7 @@ def test_no_text_breaks_out_of_the_data(plain: dict[str, Any]) -> None:
 
 def test_a_line_keeps_its_jump_and_its_gap() -> None:
     pool, nan = ReaderRows(), math.nan
-    made = _line(Line(np.array([0.0, 1.0, 1.0, nan, 2.0]), np.array([1.0, 2.0, 5.0, 7.0, 6.00004]), "F_t"), pool)
+    made = _line(ChartLine(np.array([0.0, 1.0, 1.0, nan, 2.0]), np.array([1.0, 2.0, 5.0, 7.0, 6.00004]), "F_t"), pool)
     assert pool.rows[made["x"]] == [0.0, 1.0, 1.0, 1.0, 2.0]
     assert pool.rows[made["y"]] == [1.0, 2.0, 5.0, None, 6.0]
 
@@ -343,7 +343,8 @@ def test_rounding_takes_no_more_than_a_cursor_can_show_and_no_minus_stays_before
 
 
 def _diagram(x: list[float], name: str = "φ") -> PanelData:
-    return PanelData(title="T", unit="N", across=Across("Angle", name, "deg", 0.0, 2.0), lines=[Line(np.array(x), np.zeros(len(x)), "")])  # fmt: skip
+    lines = [ChartLine(np.array(x), np.zeros(len(x)), "")]
+    return PanelData(title="T", unit="N", across=Across("Angle", name, "deg", 0.0, 2.0), lines=lines)
 
 
 @pytest.mark.parametrize(("x", "readable"), [([0.0, 1.0, 2.0], True), ([0.0, 2.0, 1.0], False), ([0.0], False)])
