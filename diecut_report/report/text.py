@@ -390,7 +390,10 @@ def _texts_of(
             return words.said(text, kind)
         if text in names and role is not TextRole.LABEL:
             return text
-        if role in (TextRole.DRAWN, TextRole.LABEL):  # what is not translated has at least its numbers in the language's form
+        if role in (
+            TextRole.DRAWN,
+            TextRole.LABEL,
+        ):  # what is not translated has at least its numbers in the language's form
             return words.numbers(words.said(text, kind))
         return words.known(worded(text), kind) or words.said(text, kind)
 
