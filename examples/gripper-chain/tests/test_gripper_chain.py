@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 from gripper_chain import MECHANISM
 
-from diecut_report.declaration.formula_checks import check_mechanism
-from diecut_report.testing.machines import Refused, calculate
-from diecut_report.testing.values import MechanismFound, compare
+from diecut_report.testing import MechanismFound, Refused, calculate, check_mechanism, compare
 
 GRAVITY = 9.80665
 PRESS = {"productivity": "6000 1/h", "sheet": {"length": "700 mm", "width": "1000 mm"}}

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.declaration.formula_checks import check_mechanism
-from diecut_report.testing.machines import calculate, load
+from diecut_report.testing import calculate, check_mechanism, load
 
 STOP = load("sheet_stop", Path(__file__).parents[1] / "plugins")
 KEYS = {"sheet_mass": "200 g", "stop_mass": "300 g", "speed": "2 m/s", "stiffness": "2 N/mm", "room": "15 mm"}
